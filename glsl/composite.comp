@@ -25,11 +25,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Its format is the host's choice: written without being told.
+// The format is the host's choice: written without a format qualifier.
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[]; };
-layout(push_constant, std430) uniform Push { uint first; } push; // of the list
+layout(push_constant, std430) uniform Push { uint first; } push; // index in the list
 
 void shade_pixel(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.extent.xy)))) {
@@ -51,7 +51,7 @@ void shade_block(int tile, int block) {
 void main() {
     uint tiles = arguments[8u + 4u * NEAR + 2u * FOAM + SHEETS - 1u].w;
     uint i = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
-    // The last row of tiles may be short.
+    // The last row may have fewer tiles.
     if (i < tiles) {
         shade_block(int(list[push.first + i]), int(gl_WorkGroupID.x));
     }

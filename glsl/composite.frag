@@ -1,6 +1,6 @@
 #version 460
-// Pass `composite`, raster: shades the pixels with water of the tiles' quads, where the source
-// draws one over the screen (thesis Sec. 4.9.3).
+// Pass `composite`, raster: shades the pixels with water of the tiles' quads. The thesis draws
+// one quad over the screen (Sec. 4.9.3).
 // Reads: what shade.glsl reads. Writes: output.
 
 #include "frame.glsl"

@@ -1,13 +1,13 @@
 #version 460
-// Pass `composite`, raster: one quad a tile that holds water, where the source has one over the screen
-// (thesis Sec. 4.9.3).
+// Pass `composite`, raster: one quad per tile that holds water. The thesis has one over the screen
+// (Sec. 4.9.3).
 // Reads: tile list, levels. Writes: the quad's corners.
 
 #include "frame.glsl"
 #include "level.glsl"
 
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
-layout(push_constant, std430) uniform Push { uint first; } push; // of the list
+layout(push_constant, std430) uniform Push { uint first; } push; // index in the list
 
 void main() {
     int tile = int(list[push.first + gl_InstanceIndex]);

@@ -11,7 +11,7 @@ use crate::frame::{Lens, check_settings, check_up};
 use crate::water::MOST_COARSENING;
 use crate::water::settings::{Shadows, range};
 
-/// A frame for a renderer of a configuration; what its camera is taken apart into.
+/// Validates a frame for a renderer's configuration; returns its decomposed camera.
 pub fn frame(
     frame: &Frame<'_>,
     config: &Config,
@@ -79,7 +79,7 @@ pub fn frame(
     Lens::new(&frame.camera)
 }
 
-/// An image of the host's. `field`: its state before.
+/// Validates a host image. `field`: name of its `before`.
 pub fn image(field: &'static str, image: &HostImage) -> Result<(), Error> {
     if image.before.layout == vk::ImageLayout::UNDEFINED {
         return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
@@ -251,8 +251,8 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     blobs.ids.map_or(Ok(()), |ids| ids.check("Frame.bubbles.ids", 4, count, most))
 }
 
-/// How many the host says there are, 0 where only the GPU knows. The fields are the count and its offset's;
-/// `most`: as a configuration has it, by its name.
+/// Validates a count and returns it, or 0 if only the GPU knows it. The fields are those of the count and its
+/// offset; `most`: the configured maximum and its name.
 pub fn count(
     [field, offset_field]: [&'static str; 2],
     count: Count,
@@ -268,7 +268,7 @@ pub fn count(
     }
 }
 
-/// The slot of a step, of so many, and its seconds.
+/// Validates the slot and duration of a step.
 pub fn step(
     [slot_field, dt_field]: [&'static str; 2],
     slot: Slot,
@@ -285,7 +285,7 @@ pub fn step(
     Ok(())
 }
 
-/// An offset at which a storage buffer can be bound.
+/// Validates the offset of a storage-buffer binding.
 fn aligned(
     field: &'static str,
     offset: u64,
@@ -350,7 +350,7 @@ fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
     }
 }
 
-/// A configuration by itself; what the device lacks for it [`Offer`](crate::Offer) says.
+/// Validates a configuration by itself. [`Offer`](crate::Offer) says what the device lacks for it.
 pub fn config(config: &Config) -> Result<(), Error> {
     let bad = |field, why: String| Err(Error::bad(field, why));
     if config.extent.width == 0 || config.extent.height == 0 {

@@ -1,8 +1,8 @@
-//! Pass `composite`: writes the output, as only `lit` does else; takes the layers of all techniques.
+//! Pass `composite`: writes the output, as only `lit` does otherwise; combines the layers of all techniques.
 //!
-//! Over the tiles that hold water alone: pixels outside the fluid are not touched. Two ways with
-//! the same shading: an instance a tile in a render pass, and a compute shader that stores to the
-//! output. Thesis Sec. 3.2.3 and 4.9; see glsl/include/shade.glsl for what differs.
+//! It covers only the tiles that hold water: pixels outside the fluid are not touched. Two paths with the same
+//! shading: one instance per tile in a render pass, and a compute shader that stores to the output. Thesis Sec.
+//! 3.2.3 and 4.9; glsl/include/shade.glsl has the differences.
 
 use ash::vk;
 
@@ -24,16 +24,16 @@ use crate::water::settings::{EXIT_STEPS, Exit, Shading};
 use crate::water::split::{DISPATCHES, KINDS};
 use crate::water::{Recording, WaterLayers};
 
-/// As fast as compute on lavapipe, and open to outputs that cannot be stored to. On an H200, which hardly rasterizes, compute
-/// takes a fourteenth (docs/performance.md).
+/// As fast as compute on lavapipe, and usable with outputs that do not support storing. On an H200, which
+/// rasterizes slowly, compute takes a fourteenth of the time (docs/performance.md).
 const DEFAULT_SHADING: Shading = Shading::Raster;
 
-/// The way a configuration takes.
+/// The path that a configuration uses.
 pub fn way(config: &Config) -> Shading {
     config.composite.unwrap_or(DEFAULT_SHADING)
 }
 
-/// What every device can blend with; others may, but are read instead.
+/// Formats that every device can blend with. Others are read and blended in the shader.
 fn blends(output: vk::Format) -> bool {
     use vk::Format as F;
     matches!(
@@ -49,7 +49,7 @@ fn blends(output: vk::Format) -> bool {
     )
 }
 
-/// Colour over so much of the output as alpha says; the output's own alpha stays.
+/// Blending by alpha; the output's alpha is kept.
 fn over() -> vk::PipelineColorBlendAttachmentState {
     no_blend()
         .blend_enable(true)
@@ -59,21 +59,22 @@ fn over() -> vk::PipelineColorBlendAttachmentState {
         .dst_alpha_blend_factor(vk::BlendFactor::ONE)
 }
 
-/// What the pass takes beside the layers.
+/// Inputs of the pass besides the layers.
 pub struct Surroundings {
     /// View of the output, in the layout of [`Composite::output_use`].
     pub output: vk::ImageView,
-    /// Its framebuffer; null where there is none.
+    /// Its framebuffer, or null.
     pub target: vk::Framebuffer,
     /// The part of it that is the view.
     pub area: vk::Rect2D,
     /// The scene behind the water, sampled linearly.
     pub scene_color: Resource,
-    /// What it reflects, a cube.
+    /// The environment cube.
     pub environment: Resource,
 }
 
-/// Of each kind of tiles, in the order of the arguments of `split`. None of what the configuration rules out.
+/// A pipeline per kind of tile, in the order of the arguments of `split`; `None` for kinds that the
+/// configuration excludes.
 type Pipelines = [Option<Pipeline>; KINDS as usize];
 
 enum Path {
@@ -182,8 +183,7 @@ impl Composite {
         }
     }
 
-    /// A framebuffer for the host's output, where one is needed; it lives as long as the slot's
-    /// frame.
+    /// A framebuffer for the host's output if one is needed. It lives as long as the slot's frame.
     pub fn framebuffer(
         &self,
         gpu: &Gpu,
@@ -198,7 +198,8 @@ impl Composite {
         }
     }
 
-    /// All layers come and go as sampled by fragments, those of `diffuse` and `bubbles` by compute too.
+    /// All layers are sampled by fragment shaders before and after, those of `diffuse` and `bubbles` by compute
+    /// too.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -315,7 +316,7 @@ impl Composite {
                     // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
                         if i > 0 || coat.is_some() {
-                            // All may write the output for all that a validation layer knows.
+                            // The dispatches write disjoint tiles; this barrier only silences synchronization validation.
                             gpu.device.cmd_pipeline_barrier2(cmd, &written);
                         }
                         gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);

@@ -1,5 +1,6 @@
-//! What renderers, states, heaps, generators and maps of one device share: the host's Vulkan objects, with the pipelines,
-//! render passes and samplers that were made for one of them and serve the others.
+//! State shared by the renderers, foam states, blob simulations, generators and shore maps of one device: the
+//! host's Vulkan objects, and pipelines, render passes and samplers that were created for one of them and serve
+//! all.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -15,12 +16,12 @@ use crate::gpu::pass::Attachments;
 use crate::gpu::pipeline::{self, Made};
 use crate::gpu::requirements::Offer;
 
-/// One device, as everything that is made from it shares it: [`Renderer`](crate::Renderer)s, a [`State`](crate::State)
-/// and the like take a context. A pipeline is made once for all of them, and stays for the next that needs it, as for
-/// a [`reconfigure`](crate::Renderer::reconfigure) back and forth.
+/// What all objects of one device share: [`Renderer`](crate::Renderer)s, a [`State`](crate::State) and so on
+/// are made from a context. A pipeline is created once for all of them and kept for the next that needs it, for
+/// example when [`reconfigure`](crate::Renderer::reconfigure) switches back and forth.
 ///
-/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and all that was made from
-/// it is destroyed, whichever comes last; that must be before the host frees its device.
+/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and everything made
+/// from it is destroyed, whichever is later. This has to happen before the host destroys its device.
 #[derive(Clone)]
 pub struct Context {
     pub(crate) shared: Arc<Shared>,
@@ -28,15 +29,15 @@ pub struct Context {
 }
 
 impl Context {
-    /// Takes over what the host hands in; makes three samplers and nothing else.
+    /// Makes a context from the host's objects. Creates three samplers and nothing else.
     ///
     /// # Errors
-    /// [`Error::BadInput`] for a queue family without graphics and compute, or frames in flight that are not 1 to 8;
-    /// [`Error::Missing`] for a function that the instance or the device does not have; what Vulkan reports.
+    /// [`Error::BadInput`] for a queue family without graphics and compute, or a number of frames in flight
+    /// outside 1 to 8; [`Error::Missing`] for a function that the instance or the device lacks; Vulkan errors.
     ///
     /// # Safety
-    /// The host's handles are alive, belong together, and outlive the context with all that is made from it; what
-    /// [`Enabled`] and [`requirements`](crate::requirements) name is enabled.
+    /// The host's handles are alive, belong together, and outlive the context and everything made from it. What
+    /// [`Enabled`] claims and [`requirements`](crate::requirements) demands is enabled.
     pub unsafe fn new(host: &Host<'_>) -> Result<Self, Error> {
         check_slots(host.frames_in_flight)?;
         let shared = Arc::new(Shared::new(host)?);
@@ -70,13 +71,13 @@ fn check_slots(slots: u32) -> Result<(), Error> {
 pub struct Samplers {
     /// Nearest texel, first mip.
     pub nearest: vk::Sampler,
-    /// Linear in the texels and between the mips.
+    /// Trilinear.
     pub linear: vk::Sampler,
-    /// The same, closed on itself from left to right: for maps of all directions.
+    /// Trilinear, repeating from left to right: for maps of all directions.
     pub around: vk::Sampler,
 }
 
-/// What the clones of a context have in common.
+/// State shared by the clones of a context.
 pub struct Shared {
     /// Device functions.
     pub device: ash::Device,
@@ -84,7 +85,7 @@ pub struct Shared {
     pub enabled: Enabled,
     /// Limits of the physical device.
     pub limits: vk::PhysicalDeviceLimits,
-    /// Bytes of a buffer at most.
+    /// Maximum size of a buffer, bytes.
     pub max_buffer_size: u64,
     /// What kind of device it is: the defaults of the paths depend on it.
     pub kind: vk::PhysicalDeviceType,
@@ -198,7 +199,7 @@ impl Shared {
         Ok(())
     }
 
-    /// What the device offers to a configuration with an output of a format.
+    /// What the device supports, for an output format.
     pub fn offer(&self, output: vk::Format) -> Offer {
         Offer::of(&self.instance, self.physical_device, output)
     }
@@ -239,7 +240,7 @@ impl Drop for Shared {
     }
 }
 
-/// What is made once for each key.
+/// A cache of objects by key.
 pub struct Store<K, V>(Mutex<HashMap<K, V>>);
 
 impl<K, V> Default for Store<K, V> {

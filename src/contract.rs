@@ -1,10 +1,9 @@
-//! Every type that crosses the border between the host and the library, in the order of use: what fixes
-//! a renderer ([`Host`], [`Enabled`], [`Config`]); what a frame takes ([`Frame`] and all in it:
-//! [`HostImage`], [`Particles`], [`Camera`], [`Previous`], [`Sun`], [`Settings`]), and a step of the foam
-//! ([`Step`]); what a record leaves behind ([`Recorded`], [`Layer`], [`MemoryUse`]).
+//! Every type that crosses the border between host and library, in the order of use: what fixes a renderer
+//! ([`Host`], [`Enabled`], [`Config`]); what a frame takes ([`Frame`] and everything in it: [`HostImage`],
+//! [`Particles`], [`Camera`], [`Previous`], [`Sun`], [`Settings`]), and a step of the foam ([`Step`]); what a
+//! record leaves ([`Recorded`], [`Layer`], [`MemoryUse`]).
 //!
-//! Types alone, and what follows from one of them: `check` says what is wrong with a frame, `frame` holds
-//! the numbers derived from it.
+//! `check` validates a frame, `frame` derives numbers from it.
 
 use std::sync::{Arc, Mutex};
 
@@ -25,30 +24,31 @@ use crate::water::settings::{
     Smoothing, Splat, SprayLook, WaterSettings,
 };
 
-/// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All must outlive the context and what is made
-/// from it; none is owned by it.
+/// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All have to outlive the context and
+/// everything that is made from it. The library owns none of them.
 pub struct Host<'a> {
     /// The instance.
     pub instance: &'a ash::Instance,
     /// The physical device.
     pub physical_device: vk::PhysicalDevice,
-    /// A Vulkan 1.3 device with what [`requirements`](crate::requirements) asks for.
+    /// A Vulkan 1.3 device that meets [`requirements`](crate::requirements).
     pub device: &'a ash::Device,
-    /// Shared allocator; locked only in construction, `reconfigure`, `resize`, `collect` and
-    /// `destroy`. It must be dropped before the device is destroyed, and `Host` and the context hold it too: drop them
-    /// first, when what was made from the context is destroyed.
+    /// Shared allocator. It is locked only in construction, `reconfigure`, `resize`, `collect` and `destroy`.
+    /// It has to be dropped before the device is destroyed. `Host` and the context hold references to it: drop
+    /// them first, after everything made from the context is destroyed.
     pub allocator: Arc<Mutex<Allocator>>,
-    /// One family with graphics and compute; every command buffer handed in is of it.
+    /// A queue family with graphics and compute. Every command buffer handed in belongs to it.
     pub queue_family: u32,
     /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
     pub frames_in_flight: u32,
-    /// What the host really enabled on the device.
+    /// What the host actually enabled on the device.
     pub enabled: Enabled,
     /// A pipeline cache, or null.
     pub pipeline_cache: vk::PipelineCache,
 }
 
-/// Optional features and extensions the host enabled. False costs a path, never correctness.
+/// Optional features and extensions that the host enabled. Without one a path is unavailable; the picture stays
+/// correct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Enabled {
     /// VK_EXT_debug_utils on the instance: names and labels.
@@ -57,121 +57,124 @@ pub struct Enabled {
     pub conditional_rendering: bool,
     /// Vulkan 1.2 `drawIndirectCount`.
     pub draw_indirect_count: bool,
-    /// `largePoints`: without it the raster splats draw quads alone.
+    /// `largePoints`. Without it the raster splats draw quads only.
     pub large_points: bool,
-    /// `occlusionQueryPrecise`: without it a query only tells zero from non-zero, which is all
-    /// the termination needs.
+    /// `occlusionQueryPrecise`. Without it a query only distinguishes zero from non-zero, which suffices for
+    /// the termination.
     pub precise_occlusion_queries: bool,
-    /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`: without them diffuse particles are gone
-    /// through twice ([`foam::Splat`](crate::foam::Splat)).
+    /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater takes two passes over
+    /// its particles ([`foam::Splat`](crate::foam::Splat)).
     pub buffer_int64_atomics: bool,
 }
 
-/// What fixes memory and pipelines. Changed between records by
-/// [`reconfigure`](crate::Renderer::reconfigure).
+/// Configuration of a renderer: what fixes memory and pipelines. [`reconfigure`](crate::Renderer::reconfigure)
+/// changes it between records.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Largest size of the output's part in pixels, 1 to the device's limit of 2D images, framebuffers and viewports.
-    /// Images are made for it; a frame may be smaller ([`HostImage::rect`]). Some sizes are too much for a device
-    /// all the same, which [`Offer::check`](crate::Offer::check) says: at a [`smoothing_level`](Self::smoothing_level)
-    /// of 0 all levels of the smoothing have to find room in one image, beside or below each other (of a square, up to
-    /// two thirds of the limit; of a narrow one, any length), and what is bound at once has to be within the device's
-    /// storage-buffer range: with [`diffuse`](Self::diffuse) 32 bytes a pixel, with [`bubbles`](Self::bubbles) 4 for
-    /// each layer and one besides, and a texel of thickness 8, 16 with [`foam`](Self::foam), with two
-    /// [`sheets`](Self::sheets) 16 more.
+    /// Maximum size of the output's part in pixels, 1 to the device's limit for 2D images, framebuffers and
+    /// viewports. Images are made for it; a frame may be smaller ([`HostImage::rect`]).
+    ///
+    /// Some sizes exceed a device's other limits, which [`Offer::check`](crate::Offer::check) reports. At a
+    /// [`smoothing_level`](Self::smoothing_level) of 0 all smoothing levels have to fit in one image, beside or
+    /// below each other (for a square up to two thirds of the limit, for a narrow one any length). Buffers that
+    /// are bound at once have to fit in the storage-buffer range: 32 bytes per pixel with
+    /// [`diffuse`](Self::diffuse); 4 bytes per pixel and layer, plus 4, with [`bubbles`](Self::bubbles); 8
+    /// bytes per texel of thickness, 16 with [`foam`](Self::foam), and 16 more with two
+    /// [`sheets`](Self::sheets).
     pub extent: vk::Extent2D,
-    /// Format of the output: a colour attachment, or a storage image as
-    /// [`composite`](Self::composite) says.
+    /// Format of the output: of a colour attachment or a storage image, as [`composite`](Self::composite)
+    /// requires.
     pub output_format: vk::Format,
-    /// Most particles a frame may have.
+    /// Maximum number of particles per frame.
     pub max_particles: u32,
-    /// Longest stride of the particle streams in bytes, a multiple of 4 (default 16): with the
-    /// device's storage-buffer range it decides how many particles are processed at a time.
+    /// Maximum stride of the particle streams in bytes, a multiple of 4 (default 16). With the device's
+    /// storage-buffer range it determines how many particles are processed at a time.
     pub max_stride: u32,
     /// Resolution of the smoothing: 0 full, 1 half (default), 2 quarter.
     pub smoothing_level: u32,
-    /// Resolution of the thickness, and of all of foam: 0 full, 1 half, 2 quarter (default), 3 eighth.
-    /// Upsampled with the weights of texels on the same surface, of foam where the scene does not hide
-    /// it.
+    /// Resolution of the thickness and of surface foam: 0 full, 1 half, 2 quarter (default), 3 eighth. It is
+    /// upsampled with weights of texels on the same surface, and foam only where the scene does not hide it.
     pub thickness_level: u32,
-    /// How depth is splatted; `None`: [`Splat::Compute`] on every device and at every size, which is
-    /// faster at all that were measured (lavapipe, H200).
+    /// Path of the depth splats. `None`: [`Splat::Compute`], the fastest on lavapipe and an H200 at every size
+    /// tested.
     pub depth_splat: Option<Splat>,
-    /// How thickness, and all of foam, is splatted; `None`: as depth.
+    /// Path of the splats of thickness and surface foam. `None`: as `depth_splat`.
     pub thickness_splat: Option<Splat>,
-    /// Form of the smoothing; `None`: [`Smoothing::Tiles`] on a CPU, where it was measured to be the
-    /// fastest, [`Smoothing::Fused`] on GPUs (on an H200 half the time of tiles).
+    /// Implementation of the smoothing. `None`: [`Smoothing::Tiles`] on CPUs, where it was measured fastest,
+    /// [`Smoothing::Fused`] on GPUs (on an H200 half the time of tiles).
     pub smoothing: Option<Smoothing>,
-    /// How the water is shaded; `None`: [`Shading::Raster`] on every device. GPUs made for computing rasterize slowly: there
-    /// [`Shading::Compute`] is faster (an H200: 14 times). It writes the output as a storage image: its usage must allow that, and
-    /// its format be one that the device stores to without being told which; R16G16B16A16_SFLOAT
-    /// is nearly everywhere, those of sRGB are not. [`Offer`](crate::Offer) knows.
+    /// How water is shaded. `None`: [`Shading::Raster`] on every device. GPUs built for computing rasterize
+    /// slowly; there [`Shading::Compute`] is faster (14 times on an H200). It writes the output as a storage
+    /// image, whose usage has to allow that and whose format has to support storing without a format qualifier.
+    /// R16G16B16A16_SFLOAT nearly always does, sRGB formats do not. [`Offer`](crate::Offer) knows.
     pub composite: Option<Shading>,
-    /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first is a 128th of the picture's
-    /// height long, and each is longer than the one before by the same factor (2.2 on a wide picture), so that the last ends
-    /// at the picture's edge. A ray that meets nothing on the screen shows the environment; 0, as in the thesis, and
-    /// [`Compositing::Source`](crate::water::Compositing) show the environment alone.
+    /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first is a 128th of
+    /// the picture's height long, and lengths grow geometrically (by 2.2 on a wide picture), so that the last
+    /// ends at the picture's edge. A ray that hits nothing on the screen shows the environment. With 0, as in
+    /// the thesis, and with [`Compositing::Source`](crate::water::Compositing), only the environment is
+    /// reflected.
     pub mirror_steps: u32,
-    /// What is seen through water with air behind it. Default [`Exit::TwoInterfaces`]; with [`Exit::Straight`] the pass
-    /// `composite` is a fifth faster (lavapipe, a splash in a pool).
+    /// What is visible through water with air behind it. Default [`Exit::TwoInterfaces`]. With
+    /// [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in a pool).
     pub exit: Exit,
-    /// What of each particle is drawn. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`] draw thin water as one body, by
-    /// the pass `shape`: 92 to 96 bytes a particle more, of which the device has to bind 24 at once, and a frame of 1280×720
-    /// takes 1.1 times as long with 28 000 particles, 1.5 times with 140 000 (lavapipe); 1.0 and 1.2 times with an
-    /// [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2 and `centred` of 0.
+    /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`] merge thin
+    /// water into one body, by the pass `shape`: 92 to 96 bytes per particle more, of which the device has to
+    /// bind 24 at once. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
+    /// 140 000 (lavapipe), or 1.0 and 1.2 times with an [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2
+    /// and `centred` of 0.
     pub kernels: Kernels,
     /// Iteration rule of the smoothing.
     pub rule: Rule,
-    /// Most iterations of the smoothing, 1 to 256 (default 256, as the source).
+    /// Maximum number of smoothing iterations, 1 to 256 (default 256, as in the thesis).
     pub max_iterations: u32,
-    /// Levels coarser than [`smoothing_level`](Self::smoothing_level) that water is smoothed at where it is so
-    /// near that it would pass the most iterations: 0 to 3 (default 3: it is smooth to an eighth of the
-    /// distance). Each pixel shows the level that its distance asks for, or between two of them something of
-    /// both. For [`Rule::ConstantWidth`] alone; 0 saves up to a third of the memory of the smoothing.
+    /// Number of levels coarser than [`smoothing_level`](Self::smoothing_level) at which near water, which
+    /// would exceed the maximum number of iterations, is smoothed: 0 to 3 (default 3: water stays smooth down
+    /// to an eighth of the distance). Each pixel chooses its level by its distance, and blends between two. For
+    /// [`Rule::ConstantWidth`] only. 0 saves up to a third of the smoothing's memory.
     pub coarsening: u32,
-    /// Sheets of water that are told apart where one stands before another with air between, as a
-    /// drop before a pool: 1 as the source, or 2 (default). Each has its own thickness, the farther
-    /// one its own surface where the nearer covers it. 1 saves the passes `gaps` and `back`.
+    /// Number of water layers that are separated where one stands in front of another with air between, such as
+    /// a drop in front of a pool: 1 as in the thesis, or 2 (default). Each has its own thickness, and the
+    /// farther one its own surface where the nearer covers it. 1 saves the passes `gaps` and `back`.
     pub sheets: u32,
-    /// Foam is drawn (default: not): the passes `foam`, and the particles' water shrinks by what of
-    /// them is foam. 68 bytes a particle more.
+    /// Whether surface foam is drawn (default false): the pass `foam`. The foam part of a particle is
+    /// subtracted from its water. 68 bytes per particle more.
     pub foam: bool,
-    /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
-    /// which count for water and foam too. 32 bytes a particle more.
+    /// Whether spray is drawn (default false): the pass `spray`, for particles selected by
+    /// [`SprayLook::densities`], which then also apply to water and foam. 32 bytes per particle more.
     pub spray: bool,
-    /// Diffuse particles are drawn (spray, foam and bubbles of their own, [`Frame::diffuse`]): the passes
-    /// `splat`, `radiance`, `blur`. `None` (default): they are not. 88 bytes a pixel more.
+    /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own,
+    /// [`Frame::diffuse`]): the passes `splat`, `radiance`, `blur`. `None` (default): it is not. 88 bytes per
+    /// pixel more.
     pub diffuse: Option<DiffuseConfig>,
-    /// Blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`, and before them `near` where they are
-    /// diffuse foam's ([`BubbleConfig::hand_over`]). `None` (default): they
-    /// are not. 14½ bytes a pixel more, 4 for each layer and one besides, 64 a blob.
+    /// Whether blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`, and
+    /// `near` if they come from whitewater foam ([`BubbleConfig::hand_over`]). `None` (default): they are not.
+    /// 14½ bytes per pixel more, 4 per pixel and layer plus 4, and 64 per blob.
     pub bubbles: Option<BubbleConfig>,
-    /// Shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`. `None` (default): they
-    /// are not. 4 bytes a pixel more, and 8.7 MiB for the textures.
+    /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`.
+    /// `None` (default): they are not. 4 bytes per pixel more, and 8.7 MiB for the textures.
     pub shore: Option<ShoreConfig>,
-    /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
-    /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4
-    /// a texel.
+    /// Resolution of the baseline's surface noise, for comparison: 0 full, 1 half, 2 quarter, 3 eighth; adds
+    /// the pass `noise`. `None` (default): it is not drawn. 16 bytes per particle more, and 4 per texel.
     pub noise: Option<u32>,
-    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`], and how
-    /// the map is filtered; `None` (default): it is everywhere.
+    /// Whether the host hands in a shadow map or mask ([`Sun::shadow`]), and how the map is filtered. `None`
+    /// (default): the sun reaches everything.
     pub shadow: Option<Shadows>,
-    /// Water and foam cast shadows and caustics on the scene and foam on itself: the passes `light`,
-    /// `caustics` and `lit`, with maps of so many texels a side over [`Sun::region`], a multiple of
-    /// 16 from 16 to 4096. 36 bytes a texel, and a lit copy of the scene. With
-    /// [`diffuse`](Self::diffuse) its particles cast shadows too, on the scene, the water, foam and each
-    /// other: the pass `diffuse`, 24 bytes a texel more. `None` (default): they do not.
+    /// Whether water and foam cast shadows and caustics on the scene, and foam on itself: the passes `light`,
+    /// `caustics` and `lit`. The value is the side length of the light maps over [`Sun::region`] in texels, a
+    /// multiple of 16 from 16 to 4096. 36 bytes per texel, and a lit copy of the scene. With
+    /// [`diffuse`](Self::diffuse) whitewater also casts shadows on the scene, the water, foam and itself: the
+    /// pass `diffuse`, 24 bytes per texel more. `None` (default): nothing casts.
     pub cast: Option<u32>,
-    /// Motion vectors are made (default: not): the pass `motion` and the layer `motion`, of
-    /// [`Frame::previous`] and the particles' velocities. 12.5 bytes a pixel more (at other
-    /// [`thickness_level`](Self::thickness_level)s 48, 26, 12.5, 9.1).
+    /// Whether motion vectors are made (default false): the pass `motion` and the layer `motion`, from
+    /// [`Frame::previous`] and the particles' velocities. 12.5 bytes per pixel more (48, 26, 12.5 or 9.1 for a
+    /// [`thickness_level`](Self::thickness_level) of 0 to 3).
     pub motion: bool,
-    /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
+    /// Side length of a face of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
-    /// The output is the scene's colour image itself (default): it is copied before it is written
+    /// Whether the output is the scene's colour image (default true). It is then copied before it is written,
     /// and needs transfer-source usage.
     pub in_place: bool,
-    /// Keep the images of the intermediate layers readable after `record`.
+    /// Whether the images of intermediate layers can be read by the host after `record` (default false).
     pub keep_layers: bool,
 }
 
@@ -212,12 +215,12 @@ impl Config {
     }
 }
 
-/// A frame in flight: an index below `frames_in_flight`. Handing a slot in says that all GPU work
-/// recorded with it before is complete.
+/// A frame in flight: an index below `frames_in_flight`. Handing in a slot promises that all GPU work recorded
+/// with it before is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot(pub u32);
 
-/// An image of the host's, with its state when `record` takes it over and when it hands it back.
+/// An image of the host, with its state when `record` takes it over and when it hands it back.
 #[derive(Clone, Copy, Debug)]
 pub struct HostImage {
     /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage
@@ -232,16 +235,16 @@ pub struct HostImage {
     pub aspect: vk::ImageAspectFlags,
     /// Size in texels.
     pub extent: vk::Extent2D,
-    /// The part of the image that is the view: all of it, or a window of it for one of several
-    /// views, or for a resolution that changes from frame to frame. Barriers cover the whole image.
+    /// The part of the image that is used: all of it, a window for one of several views, or a size that changes
+    /// from frame to frame. Barriers cover the whole image.
     pub rect: vk::Rect2D,
-    /// Last use before `record`: stages and accesses to wait for, current layout.
+    /// Last use before `record`: the stages and accesses to wait for, and the current layout.
     pub before: Access,
-    /// First use after `record`, and the layout to leave the image in.
+    /// First use after `record`, with the layout in which `record` leaves the image.
     pub after: Access,
 }
 
-/// One attribute of the particles: `stride` bytes apart from `offset` on. Streams may share a
+/// One particle attribute in a buffer: a value every `stride` bytes from `offset` on. Streams may share a
 /// buffer (interleaved) or not. Little-endian 32-bit values, 4-byte aligned.
 #[derive(Clone, Copy, Debug)]
 pub struct Stream {
@@ -257,7 +260,7 @@ pub struct Stream {
 }
 
 impl Stream {
-    /// What is wrong with it, for values of so many bytes.
+    /// Validates the stream for values of `bytes` bytes.
     pub(crate) fn check(
         &self,
         field: &'static str,
@@ -292,7 +295,7 @@ impl Stream {
     }
 }
 
-/// How many particles there are.
+/// The number of particles.
 #[derive(Clone, Copy, Debug)]
 pub enum Count {
     /// Known to the host; at most [`Config::max_particles`].
@@ -307,10 +310,10 @@ pub enum Count {
     },
 }
 
-/// The host's own groups of particles for culling: `count` records of 32 bytes: first particle
-/// (u32), number of particles (u32), minimum corner (3×f32), maximum corner (3×f32) of the
-/// centres, in world space. Particles in no packet are nowhere: they are not drawn and cast no shadow. Those in packets
-/// outside the view are not drawn, and cast what of their shadow falls into it. A particle may be in one packet only.
+/// The host's own groups of particles for culling: `count` records of 32 bytes with first particle (u32),
+/// number of particles (u32), minimum and maximum corner of the centres (3×f32 each, world space). A particle
+/// may be in one packet only. Particles in no packet are not drawn and cast no shadow. Packets outside the view
+/// are not drawn, but cast shadows into it.
 #[derive(Clone, Copy, Debug)]
 pub struct Packets {
     /// A buffer with storage usage.
@@ -327,24 +330,24 @@ pub struct Particles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are dropped
     /// and counted.
     pub positions: Stream,
-    /// SPH densities (f32), (0, ∞). 0, a negative number and NaN mean that there is no sum yet, as of a particle that was
-    /// just emitted: the rest density, so that it is whole water or foam and no spray. `None`: all have that.
+    /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a
+    /// particle that was just emitted: it gets the rest density and is therefore full water or foam and no
+    /// spray. `None`: this applies to all particles.
     pub densities: Option<Stream>,
-    /// World velocities (3×f32, scene units a second), along which foam and spray are drawn, and for
-    /// motion vectors; read with [`Config::foam`], [`Config::spray`] or [`Config::motion`] alone.
-    /// `None`: at rest.
+    /// World velocities (3×f32, scene units per second), along which foam and spray are stretched, and for
+    /// motion vectors. Read with [`Config::foam`], [`Config::spray`] or [`Config::motion`] only. `None`: at
+    /// rest.
     pub velocities: Option<Stream>,
-    /// Numbers that follow the particles from frame to frame (u32), for the noise in foam and the
-    /// droplets of spray; read as the velocities, and with [`Config::noise`] for the noise on the
-    /// surface. `None`: their place.
+    /// Numbers that stay with their particle from frame to frame (u32), for the noise in foam and the droplets
+    /// of spray. Read as the velocities, and with [`Config::noise`] for the surface noise. `None`: the index is
+    /// used.
     pub ids: Option<Stream>,
-    /// How many.
+    /// Number of particles.
     pub count: Count,
-    /// Groups to cull by instead of each particle.
+    /// Groups to cull, instead of each particle.
     pub packets: Option<Packets>,
-    /// Share of each that is foam (0 water to 1 foam, NaN: water) and its age (seconds), 2×f32: what
-    /// [`State::foam`](crate::State::foam) holds, at a stride of 8. With [`Config::foam`]; `None`:
-    /// nothing is.
+    /// Foam amount (0 water to 1 foam; NaN: water) and age (seconds) of each particle, 2×f32: the content of
+    /// [`State::foam`](crate::State::foam), at a stride of 8. With [`Config::foam`]. `None`: there is no foam.
     pub foam: Option<Stream>,
     /// Last use of all these buffers before `record`; the layout is ignored. For buffers that the
     /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
@@ -371,32 +374,33 @@ impl Particles {
     }
 }
 
-/// The diffuse particles of one frame: spray, foam on the surface and bubbles under it, each by itself (Ihmsen et
-/// al. 2012). Only read.
+/// The whitewater particles of one frame: spray, foam on the surface and bubbles below it (Ihmsen et al. 2012).
+/// Only read.
 #[derive(Clone, Copy, Debug)]
 pub struct DiffuseParticles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are not drawn.
     pub positions: Stream,
-    /// What each is (u32): 0 foam, 1 spray, 2 bubble; `None`: all are foam.
+    /// Kind of each particle (u32): 0 foam, 1 spray, 2 bubble. `None`: all are foam.
     pub kinds: Option<Stream>,
-    /// Their radii (f32, scene units, (0, ∞)); `None`, and of 0 or less, [`DiffuseLook::radius`].
+    /// Radii (f32, scene units, (0, ∞)). `None`, and radii of 0 or less: [`DiffuseLook::radius`].
     pub radii: Option<Stream>,
-    /// What of its life has passed (f32, 0 new to 1 gone); `None`: all are new. Those of 1 or more are not
-    /// drawn.
+    /// Relative age (f32), 0 new to 1 gone. Particles of 1 or more are not drawn. `None`: all are new.
     pub ages: Option<Stream>,
-    /// Numbers that follow them from frame to frame (u32), for their sizes; `None`: their place.
+    /// Numbers that stay with their particle from frame to frame (u32), for the variation of sizes. `None`: the
+    /// index is used.
     pub ids: Option<Stream>,
-    /// How many.
+    /// Number of particles.
     pub count: Count,
-    /// Packets of them, with [`DiffuseConfig::packets`](crate::foam::DiffuseConfig::packets): those outside the view,
-    /// for shadows outside the light's region, are not read. Of particles with [`radii`](Self::radii) of their own the
-    /// boxes hold the whole, not the centres. [`Splat::Raster`](crate::foam::Splat::Raster) reads all of them. `None`:
-    /// each by itself.
+    /// Packets of these particles, with [`DiffuseConfig::packets`](crate::foam::DiffuseConfig::packets).
+    /// Packets outside the view, and for shadows outside the light's region, are not read. If the particles
+    /// have [`radii`](Self::radii), boxes enclose the spheres, otherwise the centres.
+    /// [`Splat::Raster`](crate::foam::Splat::Raster) reads all packets. `None`: each particle is culled on its
+    /// own.
     pub packets: Option<Packets>,
-    /// Depth of a fluid surface of the host's own, a sea say, in the camera's convention; the nearer of it and the
-    /// water's counts. Any size, only sampled by compute, another image than the scene's depth. What lies behind it is
-    /// seen with [`Submerged::Falloff`](crate::foam::Submerged::Falloff) alone: of the host's water nothing is known.
-    /// `None`: the water's surface is the only one.
+    /// Depth of a fluid surface of the host, such as a sea, in the camera's convention. The nearer of it and
+    /// the particles' water counts. Any size, sampled by compute only, an image other than the scene's depth.
+    /// Particles behind it are visible with [`Submerged::Falloff`](crate::foam::Submerged::Falloff) only,
+    /// because the host's water has no known absorption. `None`: the particles' water is the only surface.
     pub fluid_depth: Option<HostImage>,
     /// Last use of all these buffers before `record` (layout ignored).
     pub before: Access,
@@ -422,19 +426,20 @@ impl DiffuseParticles {
     }
 }
 
-/// Blobs of bubble foam of one frame (Huszár, Szécsi): balls of soap bubbles round a white core. Only read.
+/// The blobs of bubble foam of one frame: balls of soap bubbles around a white core (Huszár, Szécsi). Only
+/// read.
 #[derive(Clone, Copy, Debug)]
 pub struct Blobs {
-    /// Centre (world space) and radius of each (4×f32). NaN, infinite and huge ones, and radii of 0 or less, are not
-    /// drawn.
+    /// Centre (world space) and radius of each blob (4×f32). Entries with a non-finite or huge centre or a
+    /// radius ≤ 0 are ignored.
     pub balls: Stream,
-    /// How each is turned, from its own space to the world: quaternions (4×f32, the real part last) of any length; of
-    /// none it is not turned. `None`: none is.
+    /// Orientation of each blob, from its own space to the world: quaternions (4×f32, the real part last) of
+    /// any length; zero means identity. `None`: all are the identity.
     pub turns: Option<Stream>,
-    /// Numbers that follow them from frame to frame (u32), for which of the different blobs one is and for its films;
-    /// `None`: their place.
+    /// Numbers that stay with their blob from frame to frame (u32). They choose its variant and films. `None`:
+    /// the index is used.
     pub ids: Option<Stream>,
-    /// How many.
+    /// Number of blobs.
     pub count: Count,
     /// Last use of all these buffers before `record` (layout ignored).
     pub before: Access,
@@ -456,21 +461,23 @@ impl Blobs {
     }
 }
 
-/// Shoreline and contact foam of one frame, a coat on water. Only read.
+/// Shoreline and contact foam of one frame, an overlay on water. Only read.
 ///
-/// The scene's depth is that of what is in and under the water; where the surface itself is in it,
-/// [`bias`](Self::bias) says so.
+/// The scene's depth is that of everything in and below the water. If it contains the water's surface too, set
+/// [`bias`](Self::bias).
 #[derive(Clone, Copy, Debug)]
 pub struct Shore {
-    /// The host's water surface, which its scene shows. `None`: there is none but the strip and the particles' water.
+    /// The host's water surface, visible in its scene. `None`: foam is on the strip and the particles' water
+    /// only.
     pub surface: Option<Surface>,
-    /// Where shores are; `None`: no shoreline foam. What is no [`Shoreline::Strip`] needs a surface.
+    /// Where shores are. `None`: no shoreline foam. [`Shoreline::Map`] and [`Shoreline::Screen`] need a
+    /// surface.
     pub shoreline: Option<Shoreline>,
-    /// What takes contact foam away, over the view: one channel, 0 all to 1 nothing, any size (the source's mask); only
-    /// sampled. `None`: the web, by places in the world.
+    /// A single-channel mask over the view that suppresses contact foam: 0 completely, 1 not at all. Any size,
+    /// only sampled. `None`: the foam texture at world positions.
     pub mask: Option<HostImage>,
-    /// Metres, [0, 1000], by which what the scene's depth has may stand before the surface and count as behind it, default
-    /// 0: more where the surface is in that depth.
+    /// Depth bias in metres, [0, 1000], default 0: scene geometry up to this far in front of the surface is
+    /// treated as behind it. Increase it if the scene's depth contains the water surface.
     pub bias: f32,
 }
 
@@ -481,36 +488,36 @@ impl Shore {
     }
 }
 
-/// A water surface of the host's.
+/// A water surface of the host.
 #[derive(Clone, Copy, Debug)]
 pub enum Surface {
-    /// Level, at this height along [`Settings::up`].
+    /// A level surface at this height along [`Settings::up`].
     Level(f32),
-    /// Of any shape: its depth in the camera's convention, any size, another image than the scene's depth, only sampled.
-    /// Foam lies on it as if it were level about each point.
+    /// A surface of any shape: its depth in the camera's convention, any size, only sampled, an image other
+    /// than the scene's depth. Foam treats it as locally level.
     Depth(HostImage),
 }
 
-/// What tells shoreline foam how far from the shore a place is, as v: 0 at the sea's edge, 1 at the shore, 2 inland.
+/// Source of the shore coordinate v: 0 at the sea's edge of the foam, 1 at the shore line, 2 inland.
 #[derive(Clone, Copy, Debug)]
 pub enum Shoreline {
-    /// A mesh of the host's.
+    /// A mesh of the host with v per vertex.
     Strip(Strip),
     /// Distances in the world, for islands that move or change.
     Map(Coast),
-    /// The scene's depth alone: how deep the water is, over the slope of what is below. Shores that are hidden or not on the
-    /// screen are missing.
+    /// The scene's depth alone: the water's depth divided by the slope of the ground below. Shores that are
+    /// hidden or off the screen have no foam.
     Screen,
 }
 
-/// Triangles of the host's, three vertices each.
+/// Triangles of the host, three vertices each.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangles {
     /// Vertices (3×f32).
     pub positions: Stream,
-    /// How many there are.
+    /// Number of vertices.
     pub vertices: u32,
-    /// Which of them are the triangles' (u32), and how many these are, a multiple of three; `None`: all, in their order.
+    /// Vertex indices (u32) and their number, a multiple of three. `None`: all vertices in order.
     pub indices: Option<(Stream, u32)>,
 }
 
@@ -520,7 +527,7 @@ impl Triangles {
         self.indices.map_or(self.vertices, |(_, count)| count)
     }
 
-    /// What is wrong with them, by the names of their vertices, indices and counts.
+    /// Validates the triangles; the names are those of their vertices, indices and counts.
     pub(crate) fn check(
         &self,
         [positions, indices, count]: [&'static str; 3],
@@ -541,12 +548,12 @@ impl Triangles {
     }
 }
 
-/// A mesh round islands that foam is drawn on (*Semi-procedural foam shader*, Sec. IV).
+/// A mesh around islands that foam is drawn on (*Semi-procedural foam shader*, Sec. IV).
 #[derive(Clone, Copy, Debug)]
 pub struct Strip {
-    /// World space.
+    /// The mesh, in world space.
     pub triangles: Triangles,
-    /// Of each vertex (f32).
+    /// Shore coordinate of each vertex (f32).
     pub v: Stream,
     /// Last use of these buffers before `record` (layout ignored).
     pub before: Access,
@@ -554,7 +561,7 @@ pub struct Strip {
     pub after: Access,
 }
 
-/// Distances to the shore, as [`ShoreMap::coast`](crate::shore::ShoreMap::coast) hands them out.
+/// Distances to the shore, as returned by [`ShoreMap::coast`](crate::shore::ShoreMap::coast).
 #[derive(Clone, Copy, Debug)]
 pub struct Coast {
     pub(crate) view: vk::ImageView,
@@ -564,24 +571,24 @@ pub struct Coast {
     pub(crate) size: u32,
 }
 
-/// One step of the simulation, for [`State::record_step`](crate::State::record_step): the particles
-/// as they are after it, in any order. Only read.
+/// One simulation step, for [`State::record_step`](crate::State::record_step): the particles after it, in any
+/// order. Only read.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
     /// World-space velocities (3×f32, scene units per second).
     pub velocities: Stream,
-    /// SPH densities (f32), (0, ∞). 0, a negative number and NaN mean that there is no sum yet, as of a particle that was
-    /// just emitted: [`FoamSettings::rest_density`]. `None`: all have that.
+    /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a
+    /// particle that was just emitted: [`FoamSettings::rest_density`] is used. `None`: for all particles.
     pub densities: Option<Stream>,
-    /// Ids (u32), unique among the particles of a step and the same from step to step; not dense.
-    /// Of two with the same id the first to come keeps the state; 0xffff_ffff is never foam. `None`:
-    /// no phases, foam is a ramp of the Weber number from half the threshold to one and a half.
+    /// Ids (u32), unique within a step and constant from step to step; they need not be dense. If two particles
+    /// share an id, only one (unspecified) keeps its state. 0xffff_ffff is never foam. `None`: no state is
+    /// kept, and the foam amount is a ramp of the Weber number, from half the threshold to one and a half.
     pub ids: Option<Stream>,
-    /// How many; at most [`StateConfig::max_particles`](crate::StateConfig).
+    /// Number of particles, at most [`StateConfig::max_particles`](crate::StateConfig).
     pub count: Count,
-    /// Seconds since the step before, [0, ∞).
+    /// Seconds since the previous step, [0, ∞).
     pub dt: f32,
     /// Uniform settings.
     pub settings: &'a FoamSettings,
@@ -591,23 +598,23 @@ pub struct Step<'a> {
     pub after: Access,
 }
 
-/// One step of the fluid, for [`Generator::record_step`](crate::foam::Generator::record_step): its particles as they
-/// are after it, in any order. Only read.
+/// One fluid step, for [`Generator::record_step`](crate::foam::Generator::record_step): the fluid's particles
+/// after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
 pub struct GenerateStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// World-space centres (3×f32, scene units). Those that are not finite take no part.
+    /// World-space centres (3×f32, scene units). Non-finite ones are ignored.
     pub positions: Stream,
     /// World-space velocities (3×f32, scene units per second).
     pub velocities: Stream,
-    /// Ids (u32), the same from step to step, for the random numbers; `None`: their place.
+    /// Ids (u32), constant from step to step, for the random numbers. `None`: the index is used.
     pub ids: Option<Stream>,
-    /// How many; at most [`GenerateConfig::max_fluid`](crate::foam::GenerateConfig).
+    /// Number of particles, at most [`GenerateConfig::max_fluid`](crate::foam::GenerateConfig).
     pub count: Count,
-    /// Seconds since the step before, [0, ∞).
+    /// Seconds since the previous step, [0, ∞).
     pub dt: f32,
-    /// The step's number in the sequence, for the random numbers.
+    /// Number of the step in the sequence, for the random numbers.
     pub number: u32,
     /// Uniform settings.
     pub settings: &'a GenerateSettings,
@@ -617,8 +624,8 @@ pub struct GenerateStep<'a> {
     pub after: Access,
 }
 
-/// The view. The projection is the host's own, as used with a positive-height viewport whose row 0
-/// is the top of the image: a host that flips by a negative height negates row 1 first.
+/// The view. The projection is the host's own, as used with a viewport of positive height whose row 0 is the
+/// top of the image. A host that flips with a negative viewport height negates row 1 of its projection first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// World to eye space.
@@ -628,44 +635,44 @@ pub struct Camera {
     pub projection: Mat4,
 }
 
-/// The frame before, for motion vectors: the layer `motion`, two 32-bit floats a pixel, with
+/// The previous frame, for motion vectors: the layer `motion`, two 32-bit floats per pixel, with
 /// [`Config::motion`].
 ///
-/// Each vector is where what the pixel shows is now (the pixel's centre) less where it was in the
-/// frame before, in pixels of this frame, x to the right and y down: to reproject, look the frame
-/// before up at `uv − vector / size`. A surface point of water or foam was at its place less `dt`
-/// times the mean velocity of the particles round it; the scene stands still. Both projections are
-/// taken as they are given: jittered ones give jittered vectors. Of two frames of different sizes both
-/// count as of this one's.
+/// A vector is the position of the visible point in this frame (the pixel's centre) minus its position in the
+/// previous frame, in pixels of this frame, x to the right and y down. To reproject, sample the previous frame
+/// at `uv − vector / size`. A surface point of water or foam was previously at its position minus `dt` times
+/// the mean velocity of the particles around it. The scene is static. Both projections are used as given:
+/// jittered ones give jittered vectors. If the two frames differ in size, both are treated as having this
+/// one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Previous {
-    /// Its camera; may be of another projection, near plane or depth convention.
+    /// Its camera. It may have another projection, near plane or depth convention.
     pub camera: Camera,
-    /// Seconds from it to this one, [0, ∞). Particles count as no faster than a thousand spacings in
-    /// that time along each axis of the eye's.
+    /// Seconds from the previous frame to this one, [0, ∞). Motion is limited to a thousand spacings in that
+    /// time along each axis of eye space.
     pub dt: f32,
 }
 
-/// What is known of the sun's way to the fluid.
+/// Shadow information of the sun.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sun {
-    /// With [`Config::shadow`].
+    /// The scene's shadow on the fluid, with [`Config::shadow`].
     pub shadow: Option<Shadow>,
-    /// With [`Config::cast`]: where there is fluid that casts, and scene that it falls on.
+    /// The sphere that contains the fluid that casts and the scene that receives, with [`Config::cast`].
     pub region: Option<Region>,
 }
 
-/// The host's shadows, only sampled.
+/// The host's shadow map or mask, only sampled.
 #[derive(Clone, Copy, Debug)]
 pub struct Shadow {
-    /// [`Shadows::Map`], [`Shadows::Convolution`]: depth as the light sees the scene, of any size.
-    /// [`Shadows::Mask`]: one channel that covers the view, 1 where the sun shines on the fluid, 0
-    /// where not. Its `rect` is the part that is meant.
+    /// With [`Shadows::Map`] and [`Shadows::Convolution`]: the scene's depth from the light, any size. With
+    /// [`Shadows::Mask`]: one channel over the view, 1 where the sun shines on the fluid, 0 where not. `rect`
+    /// is the part that is used.
     pub image: HostImage,
-    /// World to the clip space of the map, standard or reversed depth (mask: not read).
+    /// World to clip space of the map, standard or reversed depth. Not read for a mask.
     pub view_projection: Mat4,
-    /// Metres towards the sun by which points are moved before they are compared (mask: not read);
-    /// about a spacing and a texel of the map.
+    /// Shadow bias in metres: points are moved towards the sun by this before the comparison. Recommended:
+    /// about a spacing plus a texel of the map. Not read for a mask.
     pub bias: f32,
 }
 
@@ -680,12 +687,12 @@ impl Shadow {
     }
 }
 
-/// A ball of the world. The light's maps show its silhouette; beside it nothing is cast.
+/// A sphere in the world. The light's maps are fitted to it; outside of it nothing is cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Region {
-    /// Its middle.
+    /// Centre, world space.
     pub center: [f32; 3],
-    /// Metres.
+    /// Radius, metres.
     pub radius: f32,
 }
 
@@ -704,35 +711,35 @@ impl Region {
     }
 }
 
-/// Everything one `record` draws.
+/// Everything that one `record` draws.
 #[derive(Clone, Copy)]
 pub struct Frame<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// Written where there is water, unchanged elsewhere. Linear, scene-referred. Its `rect` is the
-    /// frame's size, at most [`Config::extent`].
+    /// Written where there is water, unchanged elsewhere. Linear, scene-referred. Its `rect` is the frame's
+    /// size, at most [`Config::extent`].
     pub output: HostImage,
-    /// The scene behind the water, linear, only sampled. May be the image of `output`: then it is
-    /// copied first (both need transfer usage), the `rect` of `output`. Else its size may differ.
+    /// The scene behind the water, linear, only sampled. It may be the image of `output`: then the `rect` of
+    /// `output` is copied first, and the image needs transfer-source usage. Otherwise its size may differ.
     pub scene_color: HostImage,
     /// Depth of the scene in the camera's convention, only sampled. Its size may differ.
     pub scene_depth: HostImage,
     /// The particles.
     pub particles: Particles,
-    /// Diffuse particles, with [`Config::diffuse`]; `None`: there are none.
+    /// Whitewater particles, with [`Config::diffuse`]. `None`: there are none.
     pub diffuse: Option<DiffuseParticles>,
-    /// Blobs of bubble foam, with [`Config::bubbles`]; `None`: there are none but those that diffuse foam becomes
-    /// ([`BubbleConfig::hand_over`]), with which it has to be `None`.
+    /// Blobs of bubble foam, with [`Config::bubbles`]. `None`: there are none, except those that whitewater
+    /// foam turns into ([`BubbleConfig::hand_over`]), with which it has to be `None`.
     pub bubbles: Option<Blobs>,
     /// Shoreline and contact foam, with [`Config::shore`]; `None`: there is none.
     pub shore: Option<Shore>,
     /// The view.
     pub camera: Camera,
-    /// The sun's way, with [`Config::shadow`] and [`Config::cast`].
+    /// Shadow information of the sun, with [`Config::shadow`] and [`Config::cast`].
     pub sun: Sun,
-    /// The frame before, with [`Config::motion`]; `None`, as for the first: nothing moved.
+    /// The previous frame, with [`Config::motion`]. `None`, as for the first frame: nothing moved.
     pub previous: Option<Previous>,
-    /// Uniform settings.
+    /// Settings that are uniforms.
     pub settings: &'a Settings,
 }
 
@@ -743,21 +750,22 @@ impl Frame<'_> {
     }
 }
 
-/// All settings that cost nothing to change from frame to frame. Where a range has no end (∞) that is 1e12, so that products
-/// of a few are numbers.
+/// All settings that cost nothing to change from frame to frame. Where a range has no end (∞) the limit is
+/// 1e12, so that products of a few stay finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// World direction up, of any length but 0, default +y: of the horizon under which water mirrors more water, of the
-    /// level ground that [`Light::irradiance`] is of, down which soap drains, and of shores. Environments have their own
-    /// ([`Sky::up`](crate::Sky), [`Equirectangular::up`](crate::Equirectangular)), what moves its gravity.
+    /// World up direction, any length except 0, default +y. It defines the horizon below which water reflects
+    /// more water, the level ground of [`Light::irradiance`], the drainage of soap films, and shores.
+    /// Environments have their own ([`Sky::up`](crate::Sky), [`Equirectangular::up`](crate::Equirectangular)),
+    /// simulations their gravity.
     pub up: [f32; 3],
     /// Layered water.
     pub water: WaterSettings,
-    /// Foam in it.
+    /// Surface foam.
     pub foam: FoamLook,
-    /// Drops too small for the particles.
+    /// Spray of the water's particles.
     pub spray: SprayLook,
-    /// Foam of diffuse particles.
+    /// Whitewater.
     pub diffuse: DiffuseLook,
     /// Bubble foam.
     pub bubbles: BubbleLook,
@@ -765,11 +773,11 @@ pub struct Settings {
     pub shore: ShoreLook,
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
-    /// Noise on its surface.
+    /// The baseline's surface noise.
     pub noise: NoiseLook,
-    /// Light on it.
+    /// Sun and sky light.
     pub light: Light,
-    /// How many of the composite's layers are drawn, for a look at each; default all.
+    /// How many layers the composite contains, for debug views. Default: all.
     pub ladder: Ladder,
 }
 
@@ -792,10 +800,11 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The look of the thesis' demo (Bagar 2010) for particles of a spacing: its composite, colours, unit of the
-    /// thickness, foam, spray and light on foam. With it go [`Rule::Source`](crate::water::Rule) of [`Config::rule`],
-    /// [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`],
-    /// [`Config::kernels`] of [`Kernels::Spheres`], [`Config::cast`] of `None` and [`Shadows::Convolution`](crate::water::Shadows).
+    /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of
+    /// thickness, foam, spray and light on foam. It belongs with [`Rule::Source`](crate::water::Rule) as
+    /// [`Config::rule`], [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
+    /// [`Exit::Straight`], [`Config::kernels`] of [`Kernels::Spheres`], [`Config::cast`] of `None` and
+    /// [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {
         Self {
             water: WaterSettings::thesis(spacing),
@@ -814,24 +823,24 @@ impl Settings {
 }
 
 impl Light {
-    /// The same with shade as the thesis has it on foam, 0.6 of the light in the sun (Listing A.20).
+    /// The same light with the thesis' shade on foam, 0.6 of the sunlit value (Listing A.20).
     pub fn thesis(self) -> Self {
         Self { shade: self.irradiance.map(|c| 0.6 * c), ..self }
     }
 }
 
-/// The sun, and the light of the sky as the water's scattering sees it.
+/// Light of sun and sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// World direction to the sun, of any length but 0.
+    /// World direction to the sun, any length except 0.
     pub direction: [f32; 3],
-    /// Radiance factor of its highlight, linear RGB, [0, ∞).
+    /// Radiance of the sun's highlight, linear RGB, [0, ∞).
     pub color: [f32; 3],
-    /// Mean radiance of the environment, linear RGB, [0, ∞): lights what the water scatters.
+    /// Mean radiance of the environment, linear RGB, [0, ∞), which lights scattering in the water.
     pub ambient: [f32; 3],
-    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞): lights foam and spray.
+    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞), which lights foam and spray.
     pub irradiance: [f32; 3],
-    /// The same where the sun does not come, linear RGB, [0, ∞).
+    /// Irradiance of level ground in shadow, under the sky alone, linear RGB, [0, ∞).
     pub shade: [f32; 3],
 }
 
@@ -854,15 +863,14 @@ impl Light {
     }
 }
 
-/// An intermediate image after a record; the host may read it until the next record.
+/// An intermediate image after a record. The host may read it until the next record.
 #[derive(Clone, Copy, Debug)]
 pub struct Layer {
-    /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`, `motion` for
-    /// `motion.X` and `motion.Y`. `water.thickness` has a second channel with [`Config::foam`]: what of it is before the
-    /// frontmost foam. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: of
-    /// the front sheet, of the back sheet, of the window between them. A texel of `water.iterations` is 32 bits: the
-    /// iterations planned for it are the low nine, the size of their steps the other 23, in parts of the largest there
-    /// is.
+    /// Name as in the tool's EXR files: `water.depth` for `water.depth.Z`, `motion` for `motion.X` and
+    /// `motion.Y`. With [`Config::foam`] `water.thickness` has a second channel: the water in front of the
+    /// frontmost foam. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: front layer, back layer,
+    /// and the window between them. A texel of `water.iterations` has 32 bits: the low nine are the planned
+    /// iterations, the other 23 the step size relative to the largest one.
     pub name: &'static str,
     /// The image; transfer source usage.
     pub image: vk::Image,
@@ -870,83 +878,83 @@ pub struct Layer {
     pub view: vk::ImageView,
     /// Its format.
     pub format: vk::Format,
-    /// Its size; may be a reduced one. `water.surface` and `water.iterations`: of the configured
-    /// level; what is near is smoothed coarser, there and for the back sheet [`Recorded::levels`] says
-    /// what lies where.
+    /// Its size, which may be reduced. `water.surface` and `water.iterations` have the configured level; near
+    /// water is smoothed at coarser levels, and [`Recorded::levels`] says where these and the back layer lie.
     pub extent: vk::Extent2D,
     /// Its state after `record`.
     pub access: Access,
 }
 
-/// What a record left behind.
+/// What a record leaves.
 #[derive(Clone, Debug, Default)]
 pub struct Recorded {
     /// The kept layers: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
     pub layers: Vec<Layer>,
-    /// With [`Smoothing::Query`]: a buffer of that many `u32`, the samples still active in
-    /// iterations 5, 10, …, for blocks that ran (0 for others; the last block is not counted).
-    /// Transfer source; last written by a transfer.
+    /// With [`Smoothing::Query`]: a buffer of this many `u32`, the samples that were still active in iterations
+    /// 5, 10, …, for blocks that ran (0 for others; the last block is not counted). Transfer source; last
+    /// written by a transfer.
     pub active_samples: Option<(vk::Buffer, u32)>,
-    /// What became of the particles.
+    /// Particle statistics.
     pub counts: Option<ParticleCounts>,
-    /// At which resolutions the frame was smoothed.
+    /// Resolutions at which the frame was smoothed.
     pub levels: Option<SmoothingLevels>,
-    /// A buffer of 259 times four `u32`, the work of the smoothing: in the first the second word is
-    /// how many 16×16 tiles (of its texels, of all levels) hold water; the fourth word of
-    /// number i, 1 to 257, how many iteration i runs over. Transfer source; last written by a compute
-    /// shader, read as indirect arguments.
+    /// Work of the smoothing: a buffer of 259 records of four `u32`. In record 0 the second word is the number
+    /// of 16×16 tiles (of smoothing texels, all levels) that hold water. In record i, 1 to 257, the fourth word
+    /// is the number of tiles that iteration i processes. Transfer source; last written by a compute shader,
+    /// read as indirect arguments.
     pub tiles: Option<vk::Buffer>,
-    /// With [`Config::sheets`] of 2: a buffer of one `f32` for each texel of the frame's thickness,
-    /// row by row, the eye depth between the two sheets; 1e10 where there is but one. Transfer
-    /// source; last written by a compute shader, read by compute and fragment shaders.
+    /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness, row by row: the
+    /// eye depth between the two layers, 1e10 where there is only one. Transfer source; last written by a
+    /// compute shader, read by compute and fragment shaders.
     pub sheets: Option<vk::Buffer>,
-    /// With [`Kernels::Ellipsoids`]: a buffer of 24 bytes for each particle of the frame: where it is drawn (3×f32, world), and
-    /// the symmetric matrix that takes a ball of its radius to its ellipsoid, six numbers as signed fractions of 4 in 16
-    /// bits: xx, yy, zz, yz, xz, xy. Transfer source; last written by a compute shader, read by one.
+    /// With [`Kernels::Ellipsoids`]: a buffer of 24 bytes per particle: the position where it is drawn (3×f32,
+    /// world), and the symmetric matrix that maps a sphere of its radius to its ellipsoid, six signed 16-bit
+    /// fractions of 4: xx, yy, zz, yz, xz, xy. Transfer source; last written and read by compute shaders.
     pub shapes: Option<vk::Buffer>,
-    /// With [`Config::bubbles`]: a buffer of that many `u32` for each pixel of the frame, row by row: of each layer from
-    /// the front on 256 times the blob's place in the streams and its bubble, 0xffff_ffff of none; then the bits of the
-    /// most opacity (f32). Transfer source; last written by a compute shader, read by one.
+    /// With [`Config::bubbles`]: a buffer of this many `u32` per pixel of the frame, row by row. For each
+    /// layer, front to back: 256 times the blob's index in the streams plus the bubble's index, or 0xffff_ffff
+    /// for none. Then the bits of the maximum opacity (f32). Transfer source; last written and read by compute
+    /// shaders.
     pub bubbles: Option<(vk::Buffer, u32)>,
-    /// With [`Config::bubbles`]: a buffer of five `u32`, what became of the blobs: bits of the eye depth at which the
-    /// first begins and of that at which the last does (f32), how many are on the screen, how many are no balls (not
-    /// finite, no radius) and left out, how many places the tiles' lists take
-    /// ([`BubbleSort::Tiles`](crate::bubbles::BubbleSort::Tiles)). Transfer source; last written by a compute shader,
-    /// read by compute shaders.
+    /// With [`Config::bubbles`]: a buffer of five `u32`, statistics of the blobs: bits of the eye depth at
+    /// which the first begins and of that at which the last begins (f32), number on the screen, number of
+    /// invalid ones that were ignored (not finite, no radius), and total length of the tile lists
+    /// ([`BubbleSort::Tiles`](crate::bubbles::BubbleSort::Tiles)). Transfer source; last written by a compute
+    /// shader, read by compute shaders.
     pub blobs: Option<vk::Buffer>,
 }
 
-/// Where the levels of the smoothing lie in the images `water.surface` and `water.iterations`, and how near
-/// what each shows is.
+/// Layout of the smoothing levels in the images `water.surface` and `water.iterations`, and the distances at
+/// which each is shown.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct SmoothingLevels {
-    /// Four of the front sheet, each half of the one before, then three of the back sheet from the second on; of
-    /// those that are not used all is 0. A texel of a coarser one holds something where its level shows near by,
-    /// round that it is empty (1e10), farther away it may be of a frame before.
+    /// Four levels of the front layer, each half the size of the previous, then three of the back layer from
+    /// the second level on. Unused ones are zero. A texel of a coarser level is valid near where its level is
+    /// shown; around that it is empty (1e10), and farther away it may stem from an earlier frame.
     pub level: [SmoothingLevel; 7],
-    /// Size of the images, tiles a row, levels coarser than the first.
+    /// Size of the images (x, y), tiles per row, number of coarser levels.
     pub atlas: [i32; 4],
-    /// Iterations of the first level at depth 1 on the axis over a quarter of the cap; what a pixel is wide by what it
-    /// is high, squared; most difference of depth on one surface in metres; 0.
+    /// Iterations of the first level at depth 1 on the optical axis, divided by a quarter of the cap; squared
+    /// aspect of a pixel, width over height; maximum depth difference on one surface, metres; 0.
     pub near: [f32; 4],
 }
 
-/// Where one of them lies, and what its texels are.
+/// Position of one smoothing level, and its texels.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct SmoothingLevel {
     /// First texel (x, y) and size, in texels.
     pub rect: [i32; 4],
-    /// From a point of the level (texel centres at +0.5) to the slope of its ray: scale, offset.
+    /// Scale and offset from a point of the level (texel centres at +0.5) to the slope of its ray.
     pub slope: [f32; 4],
-    /// World size of a texel per depth in x and y; its edge in pixels of the output; 0.
+    /// World size of a texel per depth in x and y; its side length in pixels of the output; 0.
     pub texel: [f32; 4],
 }
 
 impl SmoothingLevels {
-    /// Which of the front sheet's levels a point at an eye depth and with the slope of its ray shows, and
-    /// how far the next one has faded in, 0 to 1. The back sheet shows the same, at least the second.
+    /// The front layer's level that is shown at an eye depth, for the slope of its ray, and how far the next
+    /// level has faded in, 0 to 1. The back layer shows the same level, but at least the second.
     pub fn shown(&self, depth: f32, slope: [f32; 2]) -> (usize, f32) {
         let [iterations, shape, ..] = self.near;
         let foreshortened = 1.0 + slope[0].powi(2) + (1.0 + slope[1].powi(2)) * shape;
@@ -962,15 +970,14 @@ impl SmoothingLevels {
     }
 }
 
-/// Buffers that say what became of the particles, 256 bytes for each of `chunks`: word 0 and 5 are
-/// the small and the large sprites, word 18 the particles dropped for NaN or infinite positions,
-/// word 19 those set aside as spray (0 in `front`). Transfer source; last written by a compute
-/// shader, read as indirect arguments.
+/// Buffers with particle statistics, 256 bytes per chunk. Words 0 and 5 are the number of small and of large
+/// sprites, word 18 the particles dropped for non-finite positions, word 19 those classified as spray (0 in
+/// `front`). Transfer source; last written by a compute shader, read as indirect arguments.
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleCounts {
     /// Particles on the screen.
     pub all: vk::Buffer,
-    /// Those that can show; depth was splatted from them.
+    /// Particles that can be visible, from which depth is splatted.
     pub front: vk::Buffer,
     /// Number of chunks.
     pub chunks: u32,
@@ -979,8 +986,8 @@ pub struct ParticleCounts {
 /// Device memory in use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemoryUse {
-    /// Bytes of images; depends on the extent and the levels.
+    /// Bytes of images; depends on extent and levels.
     pub images: u64,
-    /// Bytes of buffers; depends on the most particles.
+    /// Bytes of buffers; depends on the maximum number of particles.
     pub buffers: u64,
 }

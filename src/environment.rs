@@ -1,6 +1,5 @@
-//! The environment that water reflects: an equirectangular image of the host's, or the built-in
-//! sky, as a cube with mips. Filled by [`record_environment`](crate::Renderer::record_environment),
-//! once per environment.
+//! The environment that water reflects: an equirectangular image of the host, or the built-in sky, as a cube
+//! map with mips. [`record_environment`](crate::Renderer::record_environment) fills it once per environment.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -20,25 +19,26 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
-/// Where the environment comes from.
+/// Source of the environment.
 #[derive(Clone, Copy, Debug)]
 pub enum EnvironmentSource {
     /// The built-in clear sky.
     Sky(Sky),
-    /// An image of the host's, only sampled.
+    /// An image of the host, only sampled.
     Equirectangular(Equirectangular),
 }
 
-/// A clear sky by single scattering in air and a thin haze (Nishita et al. 1993; optical depth of the haze 0.1; to 4 % of its
-/// integral) and a fitted term for the light that scatters more often: on level ground the sky gives a fifth of all light under
-/// a sun at 35°. Over grey ground that fades in from the horizon down to −0.12. Without the sun's disc.
+/// A clear sky: single scattering in air and thin haze (Nishita et al. 1993; optical depth of the haze 0.1;
+/// accurate to 4 % of the integral), plus a fitted term for multiple scattering. With the sun at 35° the sky
+/// gives a fifth of the light on level ground. Below the horizon grey ground fades in, completely from −0.12
+/// (the direction's component along up) on. The sun's disc is not included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sky {
     /// World direction to the sun, unit length.
     pub sun: [f32; 3],
-    /// World direction up, of any length but 0, default +y: as a frame's [`Settings::up`](crate::Settings::up).
+    /// World up direction, any length except 0, default +y, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
-    /// Irradiance of the sun above the air in the unit of the output, [0, ∞), default 20.
+    /// Irradiance of the sun outside the atmosphere in the unit of the output, [0, ∞), default 20.
     pub intensity: f32,
 }
 
@@ -49,22 +49,23 @@ impl Default for Sky {
     }
 }
 
-/// An equirectangular image: row 0 up, its middle column along world −z, its right quarter along +x; left and right edge
-/// meet along +z. Where another direction than +y is up that is turned with it: with z up the middle column lies along +y,
-/// x stays (with x up its right quarter along +y, the middle column along +z).
+/// An equirectangular image. Row 0 is up. For +y up its middle column lies along world −z, its right quarter
+/// along +x; left and right edge meet along +z. For another up direction the image turns with it: for z up the
+/// middle column lies along +y and x stays; for x up the right quarter lies along +y and the middle column
+/// along +z.
 #[derive(Clone, Copy, Debug)]
 pub struct Equirectangular {
-    /// Linear radiance. Its format must be good for linear filtering.
+    /// Linear radiance. The format has to support linear filtering.
     pub image: HostImage,
-    /// The same picture without the sun, where the sun that [`Light`](crate::Light) tells of is in it; default `None`:
-    /// it is not. Light that foam gathers from all around comes of this one, so that the sun, which is added to it with
-    /// its shadows, is not counted twice; mirrored is `image`.
+    /// The same picture without the sun, if `image` contains the sun that [`Light`](crate::Light) describes.
+    /// Default `None`: it does not. Diffuse light is gathered from this one, so that the sun, which is added
+    /// with its shadows, is not counted twice. Reflections show `image`.
     pub without_sun: Option<HostImage>,
-    /// Factor on the radiance, default 1; the product is cut at 65 000.
+    /// Factor on the radiance, default 1. The product is clamped to 65 000.
     pub scale: f32,
-    /// Right-handed turn of the image about up in radians: where +y is up, what lay along −z moves towards −x.
+    /// Right-handed rotation of the image around up, radians: for +y up, what was along −z moves towards −x.
     pub turn: f32,
-    /// World direction up, of any length but 0, as a frame's [`Settings::up`](crate::Settings::up).
+    /// World up direction, any length except 0, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
 }
 
@@ -114,7 +115,7 @@ fn axes(up: [f32; 3]) -> [Vec3; 3] {
 }
 
 impl EnvironmentSource {
-    /// What is wrong with it.
+    /// Validates the source.
     pub(crate) fn check(&self) -> Result<(), Error> {
         match self {
             Self::Sky(sky) => check_up("Sky.up", sky.up),
@@ -123,9 +124,9 @@ impl EnvironmentSource {
     }
 }
 
-/// Edge of the irradiance without its border.
+/// Side length of the irradiance map without its border.
 const IRRADIANCE: u32 = 32;
-/// Most of the environment's faces that it is gathered from.
+/// Maximum side length of the faces that irradiance is gathered from.
 const COARSE: u32 = 16;
 
 /// The cube between its passes: read by any shader.
@@ -138,16 +139,16 @@ pub struct Environment {
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
-    /// The cube without the sun and its faces, for [`Irradiance::Sampled`], where that is how foam is lit. Its first level is
-    /// asked; SwiftShader fills the seams of a cube when it blits its mips, not when compute has written it.
+    /// The cube without the sun and its faces, for [`Irradiance::Sampled`]. Its first level is sampled;
+    /// SwiftShader fills the seams of a cube when it blits mips, not when compute writes it.
     sunless: Option<(Image, Owned<vk::ImageView>)>,
-    /// The sun is in the cube last recorded, and not in that one.
+    /// Whether the sun is in the cube recorded last, and not in the one without the sun.
     apart: bool,
-    /// For explicit levels: without the last, whose seams SwiftShader never writes but filters over.
+    /// View for explicit levels: without the last one, whose seams SwiftShader never writes but filters across.
     pub levels: Owned<vk::ImageView>,
     mips: u32,
     gather: Pipeline,
-    /// What a surface gathers of it, over 2π: RGBA16F, octahedral with a border of a texel.
+    /// Irradiance divided by 2π: RGBA16F, octahedral with a border of one texel.
     pub irradiance: Image,
 }
 
@@ -201,12 +202,12 @@ impl Environment {
         })
     }
 
-    /// Foam asks it at its samples' directions.
+    /// Whether foam samples it in the directions of its occlusion samples.
     pub fn is_sampled(config: &Config) -> bool {
         config.diffuse.is_some_and(|foam| foam.irradiance == Irradiance::Sampled)
     }
 
-    /// A first, black environment, so that a frame may sample it.
+    /// Records a black environment, so that frames can sample it.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         let change = |from, to| {
             let barriers: Vec<_> =
@@ -230,7 +231,7 @@ impl Environment {
         self.images().map(|image| image.size).sum()
     }
 
-    /// What foam gathers at its samples' directions.
+    /// The cube that foam samples.
     pub fn gathered(&self) -> &Image {
         match &self.sunless {
             Some((image, _)) if self.apart => image,
@@ -270,7 +271,7 @@ impl Environment {
         recorded
     }
 
-    /// The cube and its mips of the built-in sky.
+    /// Cube and mips of the built-in sky.
     fn record_sky(
         &self,
         gpu: &Gpu,
@@ -292,7 +293,7 @@ impl Environment {
         Ok(())
     }
 
-    /// The same of an image, scaled and turned as the map says.
+    /// Cube and mips of an image, scaled and rotated.
     fn record_map(
         &self,
         gpu: &Gpu,
@@ -306,7 +307,7 @@ impl Environment {
         Ok(())
     }
 
-    /// The cube of an image without the sun, where foam asks it at its samples' directions.
+    /// Cube of an image without the sun, if foam samples it.
     fn record_sunless(
         &self,
         gpu: &Gpu,
@@ -322,7 +323,7 @@ impl Environment {
         Ok(())
     }
 
-    /// Faces of an image of the host's.
+    /// Fills the faces from an image of the host.
     fn fill_with(
         &self,
         gpu: &Gpu,
@@ -345,7 +346,7 @@ impl Environment {
         Ok(())
     }
 
-    /// What is in the cube goes, and its faces are written next.
+    /// Discards the cube's contents; its faces are written next.
     fn begin_cube(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> (u32, Resource) {
         gpu.barriers(cmd, &[access::image(&self.cube, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
         (0, Resource::Storage(self.faces.handle))
@@ -381,7 +382,7 @@ impl Environment {
         Ok(())
     }
 
-    /// Each mip is a blit of the one before.
+    /// Blits each mip from the previous one.
     fn record_mips(&self, gpu: &Gpu, cmd: vk::CommandBuffer, cube: &Image) {
         let mip_barrier = |mip: u32, count: u32, before, after| {
             let mut barrier = access::image(cube, before, after);

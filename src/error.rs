@@ -2,8 +2,9 @@
 
 use ash::vk;
 
-/// Everything that can go wrong at the border. Bad input is found before the first command is
-/// recorded; after any other error the host discards the command buffer it handed in.
+/// Everything that can go wrong at the border between host and library. [`BadInput`](Self::BadInput) is found
+/// before the first command is recorded. After any other error the host discards the command buffer that it
+/// handed in.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {
@@ -14,21 +15,21 @@ pub enum Error {
         /// Its result.
         result: vk::Result,
     },
-    /// Device memory could not be had.
+    /// Device memory could not be allocated.
     Allocation {
         /// Name of the image or buffer.
         name: String,
         /// The allocator's reason.
         source: gpu_allocator::AllocationError,
     },
-    /// The device or what the host enabled lacks something the configuration needs.
+    /// The device lacks, or the host did not enable, something that the configuration needs.
     Missing {
         /// The feature, extension, limit or format use.
         what: String,
         /// What it is needed for, and what to do.
         why: String,
     },
-    /// A field of what the host handed in is out of its range.
+    /// An input field is out of its range.
     BadInput {
         /// The field, as in `Frame.camera.projection`.
         field: &'static str,
@@ -42,7 +43,7 @@ impl Error {
         Self::BadInput { field, why: why.into() }
     }
 
-    /// True when the device is gone: nothing but dropping everything helps.
+    /// Whether the device is lost. Then everything has to be dropped.
     pub fn is_device_lost(&self) -> bool {
         matches!(self, Self::Vulkan { result, .. } if *result == vk::Result::ERROR_DEVICE_LOST)
     }

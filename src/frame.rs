@@ -1,5 +1,5 @@
-//! Numbers derived once per frame and written to the slot's uniform buffer: depth linearisation,
-//! slopes of the pixels' rays, frustum planes, settings in the units the shaders want.
+//! Values derived once per frame and written to the slot's uniform buffer: depth linearisation, slopes of the
+//! pixels' rays, frustum planes, settings in the shaders' units.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
@@ -184,7 +184,7 @@ pub fn reduced(extent: vk::Extent2D, level: u32) -> vk::Extent2D {
     }
 }
 
-/// A perspective projection taken apart.
+/// A decomposed perspective projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Eye space looks down −z with this view (a +z host's view is mirrored).
@@ -200,7 +200,7 @@ pub struct Lens {
 }
 
 impl Lens {
-    /// Takes a camera apart, or says why it cannot be drawn.
+    /// Decomposes a camera, or says why it cannot be drawn.
     pub fn new(camera: &Camera) -> Result<Self, Error> {
         let (field_view, field) = ("Frame.camera.view", "Frame.camera.projection");
         if !camera.view.is_finite() || camera.view.determinant().abs() < 1e-12 {
@@ -250,15 +250,14 @@ impl Lens {
         [of(full.width, self.p.x), of(full.height, self.p.y)]
     }
 
-    /// Device depth of nothing: of the far end.
+    /// Device depth of the far end.
     pub fn nothing(&self) -> f32 {
         // Eye depth of device depth 1: the near plane's where depth is reversed.
         let eye = self.linear.0 / (1.0 + self.linear.1);
         if eye > 0.0 && eye < 1.001 * self.near { 0.0 } else { 1.0 }
     }
 
-    /// Inward planes of the frustum in eye space (xyz·p + w ≥ 0 inside); a plane that is not
-    /// there lets everything pass.
+    /// Inward planes of the frustum in eye space (xyz·p + w ≥ 0 inside). An absent plane accepts everything.
     fn planes(&self) -> [[f32; 4]; 6] {
         let side = |x: f32, y: f32, z: f32| {
             let n = glam::Vec3::new(x, y, z).normalize();
@@ -499,20 +498,20 @@ impl FrameUniforms {
     }
 }
 
-/// What has changed since the frame before.
+/// Changes since the previous frame.
 struct Since {
-    /// The lens of then.
+    /// The previous lens.
     lens: Lens,
-    /// From eye space to that of then, less the identity.
+    /// Eye space to the previous eye space, minus the identity.
     eye: [[f32; 4]; 4],
-    /// Of P₀₀, P₁₁, P₂₀, P₂₁.
+    /// Change of P₀₀, P₁₁, P₂₀, P₂₁.
     lens_change: [f32; 4],
     /// Seconds.
     dt: f32,
 }
 
 impl Since {
-    /// Nothing, where no frame before is known. Its camera was checked.
+    /// Zero change if there is no previous frame. Its camera is already checked.
     fn new(lens: &Lens, frame: &Frame<'_>) -> Self {
         let before = frame.previous.and_then(|p| Some((Lens::new(&p.camera).ok()?, p.dt)));
         let (then, dt) = before.unwrap_or((*lens, 0.0));
@@ -528,14 +527,14 @@ impl Since {
     }
 }
 
-/// Radiance of foam of an albedo: its bubbles face all ways, together as level ground.
+/// Radiance of foam with an albedo: its bubbles face all directions, on average as level ground.
 fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
     let [r, g, b] = light.irradiance.map(|c| c * std::f32::consts::FRAC_1_PI);
     [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
 }
 
-/// Mean of `(1 − x^n)^m` over the unit disc, `∫ 2x (1 − x^n)^m dx`: 1 − 2/(n + 2) of m = 1, else a sum over x = 1 − s³, in
-/// which all of it is smooth.
+/// Mean of `(1 − x^n)^m` over the unit disc, `∫ 2x (1 − x^n)^m dx`: 1 − 2/(n + 2) for m = 1, otherwise a sum
+/// over x = 1 − s³, for which the integrand is smooth.
 fn falloff_mean(n: f32, m: f32) -> f32 {
     let (n, m) = (f64::from(n), f64::from(m));
     if m == 1.0 {
@@ -552,7 +551,8 @@ fn falloff_mean(n: f32, m: f32) -> f32 {
     (sum / f64::from(steps)) as f32
 }
 
-/// The sun's irradiance on what faces it, over 2π: of level ground's, where the sun stands not too low.
+/// The sun's irradiance on a surface that faces it, divided by 2π: from that of level ground, if the sun is not
+/// too low.
 pub fn sun_on(settings: &Settings) -> [f32; 4] {
     let light = &settings.light;
     let height = settings.upward().dot(light.toward()).max(0.1);
@@ -560,14 +560,14 @@ pub fn sun_on(settings: &Settings) -> [f32; 4] {
     light_vector([part(0), part(1), part(2)].map(|e| e * 0.5 * std::f32::consts::FRAC_1_PI))
 }
 
-/// Two level axes where this is up: x and z where that is y.
+/// The two level axes for an up direction: x and z for y.
 pub fn level_axes(up: Vec3) -> [Vec3; 2] {
     let first = if up.x.abs() < 0.9 { Vec3::X } else { Vec3::Y };
     let east = (first - up * up.dot(first)).normalize();
     [east, east.cross(up)]
 }
 
-/// A direction up, of any length but 0.
+/// Validates an up direction.
 pub fn check_up(field: &'static str, up: [f32; 3]) -> Result<(), Error> {
     match Vec3::from(up).try_normalize() {
         Some(_) => Ok(()),
@@ -575,7 +575,7 @@ pub fn check_up(field: &'static str, up: [f32; 3]) -> Result<(), Error> {
     }
 }
 
-/// Where water begins and is whole, and where spray ends; droplets of a particle.
+/// Density limits of water and spray, and the number of droplets per particle.
 fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
     let (water, spray) = (&settings.water, &settings.spray);
     let own = [water.density_threshold, water.density_full, water.density_threshold];
@@ -601,8 +601,7 @@ fn spray_color(spray: &SprayLook, light: &Light) -> [f32; 4] {
     [r, g, b, f32::from(u8::from(spray.additive))]
 }
 
-/// Metres that the thickness of foam is a multiple of: a power of two, so that 32-bit sums up to
-/// 4096 spacings are exact.
+/// Quantum of the foam thickness in metres: a power of two, so that 32-bit sums up to 4096 spacings are exact.
 pub fn foam_step(spacing: f32) -> f32 {
     spacing.log2().floor().exp2() / 2048.0
 }
@@ -611,13 +610,13 @@ fn with([x, y, z, _]: [f32; 4], w: f32) -> [f32; 4] {
     [x, y, z, w]
 }
 
-/// Clip space to places in an image.
+/// Clip space to image coordinates.
 const TO_PLACE: Mat4 = Mat4::from_cols_array(&[
     0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.5, 0.0, 1.0,
 ]);
 
-/// Of the two phases of the foam's pattern: how much there is of each, so that their sum varies as one does; how far
-/// it is carried, of half a period, -1 to 1; where in the noise it begins, anew each time.
+/// For the two phases of the foam's pattern: weights, such that the variance of their sum is constant;
+/// displacement relative to half a period, -1 to 1; origin in the noise, new in each period.
 fn pattern_phases(look: &FoamLook) -> ([f32; 2], [f32; 2], [f32; 2]) {
     let cycles = look.time / f64::from(look.pattern_period);
     let [one, other] = [0.0, 0.5].map(|late| {
@@ -635,7 +634,7 @@ fn pattern_phases(look: &FoamLook) -> ([f32; 2], [f32; 2], [f32; 2]) {
     )
 }
 
-/// Light in shade over that in the sun; foam's extinction of sunlight.
+/// Ratio of shade to sunlight; foam's extinction of sunlight.
 fn shade(light: &Light, foam: &FoamLook) -> [f32; 4] {
     let part = |i: usize| {
         let whole = light.irradiance[i];
@@ -644,7 +643,7 @@ fn shade(light: &Light, foam: &FoamLook) -> [f32; 4] {
     [part(0), part(1), part(2), foam.shadow]
 }
 
-/// Index of refraction: facing the surface Schlick's reflectance is ((n - 1)/(n + 1))^2.
+/// Index of refraction: Schlick's reflectance at normal incidence is ((n - 1)/(n + 1))^2.
 fn index(water: &WaterSettings) -> f32 {
     match water.fresnel {
         Fresnel::Schlick { f0 } => {
@@ -655,8 +654,8 @@ fn index(water: &WaterSettings) -> f32 {
     }
 }
 
-/// Share of an even sky's light that a surface lets in. The mean of Schlick's reflectance is F0 + (1 - F0)/21, of the other
-/// form bias + 2 scale/((p + 1)(p + 2)).
+/// Share of uniform sky light that the surface transmits. The mean of Schlick's reflectance is F0 + (1 -
+/// F0)/21, of the thesis' form bias + 2 scale/((p + 1)(p + 2)).
 fn comes_in(water: &WaterSettings) -> f32 {
     let mean = match water.fresnel {
         Fresnel::Schlick { f0 } => f0 + (1.0 - f0) / 21.0,
@@ -667,13 +666,13 @@ fn comes_in(water: &WaterSettings) -> f32 {
     (1.0 - mean).clamp(1.0e-3, 1.0)
 }
 
-/// Share of diffuse light inside that leaves.
+/// Share of diffuse light inside the water that leaves it.
 fn leaves(water: &WaterSettings) -> f32 {
     let n = index(water);
     (comes_in(water) / (n * n)).max(1.0e-3)
 }
 
-/// Uniforms `bed` and `bed_light`: what a surface does to the light of what lies under it.
+/// Uniforms `bed` and `bed_light`: effect of the surface on the light of the ground below.
 fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let per_light = |e: f32| std::f32::consts::PI / e.max(1.0e-9);
     let [r, g, b] = light.irradiance.map(per_light);
@@ -699,9 +698,9 @@ fn light_vector(c: [f32; 3]) -> [f32; 4] {
     [c[0], c[1], c[2], 0.0]
 }
 
-/// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders know of absorption, scattering, and a light that is scattered
-/// once: a turbid medium is one that does nothing but scatter, in the light that is its own. Of that `medium_b`'s last says
-/// what share is scattered, and goes by the sun and the slope of the surface.
+/// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders know absorption, single scattering and its light.
+/// A turbid medium is passed as one that only scatters, in its own light. The last component of `medium_b` is
+/// then the share of light that is scattered, which depends on the sun and the slope of the surface.
 fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]) {
     match water.medium {
         Medium::Physical { absorption: a, scattering: s } => {
@@ -724,8 +723,8 @@ fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]
     }
 }
 
-/// Diffuse reflectance of a half space that absorbs and scatters so much a metre (van de Hulst 1980), below a surface that
-/// a share of its light leaves; radiance, without what is mirrored on its way in and out.
+/// Diffuse reflectance of a half space with this absorption and scattering per metre (van de Hulst 1980), below
+/// a surface that transmits the share `leaves`; without the surface's own reflection.
 fn reflectance(absorption: f32, scattering: f32, leaves: f32) -> f32 {
     let extinction = absorption + scattering;
     if extinction <= 0.0 {
@@ -736,7 +735,7 @@ fn reflectance(absorption: f32, scattering: f32, leaves: f32) -> f32 {
     leaves * bare / (1.0 - (1.0 - leaves) * bare)
 }
 
-/// Checks the settings' ranges; the message names the field.
+/// Validates the settings; the message names the field.
 pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error> {
     let at_least = |field, value: f32, least: f32| {
         if value >= least && value <= GREATEST {

@@ -18,7 +18,7 @@ pub fn depth_layout(image: &HostImage) -> vk::ImageLayout {
     }
 }
 
-/// How the scene's depth is used here.
+/// How the passes use the scene's depth.
 pub fn depth_use(layout: vk::ImageLayout, spray: bool) -> Access {
     let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
     // Bound to its vertices too, in place of what tells where the sun does not come.
@@ -26,7 +26,7 @@ pub fn depth_use(layout: vk::ImageLayout, spray: bool) -> Access {
     Access { layout, ..sampled }
 }
 
-/// How the host's images are used here.
+/// How the passes use the host's images.
 pub struct Uses {
     /// The output is the scene's colour too.
     pub in_place: bool,
@@ -42,7 +42,7 @@ pub struct Uses {
 }
 
 impl Uses {
-    /// What reads or writes the output first.
+    /// The first use of the output.
     pub fn output_first(&self) -> Access {
         match (self.in_place, self.lit) {
             (true, true) => Light::SCENE_USE,
@@ -51,13 +51,13 @@ impl Uses {
         }
     }
 
-    /// What reads the host's own image of the scene.
+    /// The first use of the host's scene image.
     fn scene_first(&self) -> Access {
         if self.lit { Light::SCENE_USE } else { self.scene }
     }
 }
 
-/// How a shadow map or mask is used here.
+/// How the passes use a shadow map or mask.
 fn shadow_use(image: &HostImage, convolved: bool) -> Access {
     let shading = FRAGMENT_SAMPLED.and(access::VERTEX_SAMPLED);
     let sampled = access::COMPUTE_SAMPLED;
@@ -86,8 +86,7 @@ pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
     Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
 }
 
-/// What tells where the sun does not come; the scene's depth and the frame's numbers stand in for what
-/// is not read.
+/// Shadow resources of the sun; scene depth and frame uniforms stand in for unused ones.
 pub fn sunlight(
     frame: &Frame<'_>,
     (light, convolving, bubbles): (Option<&Light>, Option<&Convolving>, Option<&Bubbles>),

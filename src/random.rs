@@ -7,7 +7,7 @@ pub fn pcg(value: u32) -> u32 {
     (word >> 22) ^ word
 }
 
-/// Uniform numbers in [0, 1), of a hash of a counter.
+/// Uniform numbers in [0, 1): the hash of a counter.
 pub struct Random {
     seed: u32,
     counter: u32,

@@ -30,34 +30,34 @@ use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
 use crate::shore::{Given, Shore, ShoreUniforms};
 use crate::water::{Beside, Recording, STREAM_USE, Water, buffers_of, shape_sets};
 
-/// Where the frame's levels begin in a slot's uniform buffer: no device asks for more between two.
+/// Offset of the smoothing levels in a slot's uniform buffer; 256 is the largest alignment that a device may
+/// require.
 const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
 
-/// Where the numbers of bubble foam do.
+/// Offset of the uniforms of bubble foam.
 const BUBBLES: usize = (LEVELS + size_of::<SmoothingLevels>()).next_multiple_of(256);
 
-/// And those of shoreline and contact foam.
+/// Offset of the uniforms of shoreline and contact foam.
 const SHORE: usize = (BUBBLES + size_of::<BubbleUniforms>()).next_multiple_of(256);
 
-/// What one frame in flight owns.
+/// State of one frame in flight.
 struct SlotState {
     descriptors: Descriptors,
     timer: Timer,
     uniforms: Buffer,
-    /// The output's framebuffer of the frame recorded last.
+    /// Framebuffer of the output of the last recorded frame.
     framebuffer: Option<Owned<vk::Framebuffer>>,
-    /// The environment was recorded with the slot since it came back: its sets must stay.
+    /// Whether the environment was recorded with the slot since it came back: then its sets have to stay.
     has_environment: bool,
 }
 
-/// Draws particle water into a host's frame. One per view; see the crate's documentation for the
-/// contract.
+/// Draws particle water into a host's frame. One per view. The crate documentation has the contract.
 pub struct Renderer {
     gpu: Arc<Gpu>,
     config: Config,
     slots: Vec<SlotState>,
     retired: RetireList,
-    /// False while a resize has failed half-way.
+    /// False after a resize has failed half-way.
     whole: bool,
     water: Water,
     composite: Composite,
@@ -67,15 +67,15 @@ pub struct Renderer {
     bubbles: Option<Bubbles>,
     shore: Option<Shore>,
     environment: Environment,
-    /// Copy of the scene's colour, when it is the output itself.
+    /// Copy of the scene's colour, if it is the output itself.
     scene_copy: Option<Image>,
 }
 
 impl Renderer {
-    /// Makes all memory for a configuration, and the pipelines that its context does not have yet.
+    /// Makes all memory for a configuration, and the pipelines that the context does not have yet.
     ///
     /// # Errors
-    /// Bad configuration, missing features, no memory, and what Vulkan reports.
+    /// Bad configuration, missing features, no memory; Vulkan errors.
     pub fn new(context: &Context, config: &Config) -> Result<Self, Error> {
         check::config(config)?;
         context.shared.offer(config.output_format).check(config)?;
@@ -111,12 +111,13 @@ impl Renderer {
         })
     }
 
-    /// Records the first contents of what is read before it is written, and what bubble foam is made of. Once, before
-    /// the first `record`; again where `reconfigure` says so.
+    /// Records the initial contents of resources that are read before they are written, and the precomputed
+    /// data of bubble foam. Once, before the first `record`; again if `reconfigure` returns true.
     ///
     /// # Safety
-    /// `cmd` is recording outside a render pass and is submitted before any `record`. It is no slot's: until a frame
-    /// that was recorded after it has come back, its work is complete before `resize` and `reconfigure`.
+    /// `cmd` is recording outside a render pass and is submitted before any `record`. It belongs to no slot:
+    /// before `resize` and `reconfigure` its work has to be complete, which a frame recorded after it and come
+    /// back proves.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         self.environment.record_setup(&self.gpu, cmd);
         if let Some(bubbles) = &self.bubbles {
@@ -127,13 +128,14 @@ impl Renderer {
         }
     }
 
-    /// Records the web of shoreline and contact foam from an image of the host's, in place of the built-in one until the
-    /// next [`record_setup`](Self::record_setup): one channel, 1 where foam is first and 0 where it is last, that closes on
-    /// itself; any size, its `rect` is what is taken ([`shore::texture::from_pattern`](crate::shore::texture::from_pattern)
-    /// makes it of a pattern).
+    /// Records an image of the host as the foam texture of shoreline and contact foam. It replaces the built-in
+    /// one until the next [`record_setup`](Self::record_setup). One channel, 1 where foam appears first and 0
+    /// where it appears last, seamless, any size; `rect` is the part that is used.
+    /// [`shore::texture::from_pattern`](crate::shore::texture::from_pattern) makes such an image from a
+    /// pattern.
     ///
     /// # Errors
-    /// No [`Config::shore`], a bad image or slot; what Vulkan reports.
+    /// No [`Config::shore`], a bad image or slot; Vulkan errors.
     ///
     /// # Safety
     /// As [`record_environment`](Self::record_environment), among whose four it counts.
@@ -156,7 +158,7 @@ impl Renderer {
     /// Records the environment that the water reflects, once per environment.
     ///
     /// # Errors
-    /// What Vulkan reports; a bad slot, or no direction up.
+    /// Vulkan errors; a bad slot, or no direction up.
     ///
     /// # Safety
     /// As [`record`](Self::record), with which it may share a slot and a command buffer if it
@@ -196,8 +198,8 @@ impl Renderer {
         unsafe { self.record_frame(cmd, frame, None) }.map(|(recorded, _)| recorded)
     }
 
-    /// [`record`](Self::record), where the smoothing may be ended by the host's look at the
-    /// queries; also returns the command buffer that was recorded last.
+    /// As [`record`](Self::record), optionally with the smoothing ended by the host, which reads the queries
+    /// back. Also returns the command buffer that was recorded last.
     pub(crate) unsafe fn record_frame<'a>(
         &'a mut self,
         cmd: vk::CommandBuffer,
@@ -382,9 +384,9 @@ impl Renderer {
         Ok((recorded, cmd))
     }
 
-    /// Times of the slot's last finished frame, pass by pass; empty before there is one. Never
-    /// waits: while the frame is still running these are the times of the one before. Best read
-    /// after the slot's fence, before its next record.
+    /// Times of the slot's last finished frame, pass by pass; empty before the first. Never waits: while a
+    /// frame is still running, these are the times of the one before. Best read after the slot's fence and
+    /// before its next record.
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
@@ -392,8 +394,8 @@ impl Renderer {
         }
     }
 
-    /// Says that the slot has come back: frees what `resize` and `reconfigure` retired and no frame in flight uses any
-    /// more.
+    /// Reports that the slot has come back. Frees what `resize` and `reconfigure` replaced and no frame in
+    /// flight uses any more.
     ///
     /// # Safety
     /// All GPU work that was recorded with the slot is complete, or will never be submitted.
@@ -405,7 +407,7 @@ impl Renderer {
         self.gpu.bury();
     }
 
-    /// Says that the command buffer recorded last with this slot was thrown away.
+    /// Reports that the command buffer recorded last with this slot was discarded.
     ///
     /// # Safety
     /// As [`collect`](Self::collect): that command buffer will never be submitted, and what was recorded with the slot
@@ -418,7 +420,7 @@ impl Renderer {
         unsafe { self.collect(slot) };
     }
 
-    /// Retired objects that still wait for their slots.
+    /// Number of retired objects that still wait for their slots.
     pub fn retired(&self) -> usize {
         self.retired.len()
     }
@@ -459,9 +461,9 @@ impl Renderer {
         self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
-    /// Changes the configuration: makes what it needs anew and retires what it replaces. Legal with
-    /// frames in flight. Returns true when the environment or what bubble foam is made of was made anew too: then
-    /// [`record_setup`](Self::record_setup) and, as it empties the environment,
+    /// Changes the configuration: creates what it needs and retires what it replaces. Legal with frames in
+    /// flight. Returns true if the environment or the precomputed data of bubble foam was recreated. Then
+    /// [`record_setup`](Self::record_setup) and, because the environment is empty,
     /// [`record_environment`](Self::record_environment) are due before the next record.
     ///
     /// # Errors
@@ -497,8 +499,8 @@ impl Renderer {
         Ok(due)
     }
 
-    /// What a configuration needs anew: the environment only where its size changes, or whether foam asks for it at its
-    /// samples' directions.
+    /// Creates the parts that a configuration needs. The environment is recreated only if its size or its use
+    /// by foam changes.
     fn make_parts(
         &self,
         config: &Config,
@@ -537,10 +539,10 @@ impl Renderer {
         memory
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);
@@ -570,7 +572,7 @@ impl Renderer {
         self.gpu.offer(config.output_format).check(config)
     }
 
-    /// Everything that can be wrong with a frame.
+    /// Validates a frame.
     fn check_frame(&self, frame: &Frame<'_>) -> Result<Lens, Error> {
         if !self.whole {
             return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
@@ -579,7 +581,7 @@ impl Renderer {
     }
 }
 
-/// What any change of the configuration makes anew.
+/// Parts that every change of the configuration recreates.
 struct Parts {
     water: Water,
     composite: Composite,
@@ -592,7 +594,7 @@ struct Parts {
 }
 
 impl Parts {
-    /// `before`: what there was until now, of which what still fits is kept.
+    /// `before`: the previous parts, of which those that still fit are kept.
     fn new(
         gpu: &Gpu,
         config: &Config,
@@ -648,7 +650,7 @@ impl SlotState {
         })
     }
 
-    /// A few sets a pass, and those of the splats for every chunk of particles.
+    /// Number of descriptor sets: a few per pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
@@ -661,7 +663,7 @@ impl SlotState {
             + diffuse_sets(&gpu.limits, config)
     }
 
-    /// The slot's earlier work is complete: its sets and its framebuffer can go.
+    /// Begins a frame. The slot's earlier work is complete, so its sets and framebuffer are freed.
     fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
         self.framebuffer = None;
         // Framebuffers alone: what holds memory is dropped by `collect`, which buries it.
@@ -672,7 +674,7 @@ impl SlotState {
         self.descriptors.reset(gpu)
     }
 
-    /// The same for the environment, which may share the slot with the frame after it.
+    /// Begins an environment, which may share the slot with the following frame.
     fn begin_environment(&mut self, gpu: &Gpu) -> Result<(), Error> {
         if std::mem::replace(&mut self.has_environment, true) {
             return Ok(());
@@ -681,7 +683,7 @@ impl SlotState {
     }
 }
 
-/// The layers that a frame of this size leaves to the host.
+/// The layers of a frame of this size, for the host.
 fn kept(
     config: &Config,
     water: &Water,
@@ -702,8 +704,8 @@ fn kept(
     layers
 }
 
-/// Pass `scene`: the output's scene to a copy that can be sampled while the output is drawn to.
-/// The output comes in TRANSFER_SRC_OPTIMAL and leaves as `composite` wants it.
+/// Pass `scene`: copies the scene from the output, so that it can be sampled while the output is written. The
+/// output is in TRANSFER_SRC_OPTIMAL before, and in the state that `composite` expects after.
 fn copy_scene(r: &mut Recording<'_>, output: &HostImage, copy: &Image, uses: &Uses) {
     let scope = r.begin(c"scene");
     let (gpu, cmd) = (r.gpu, r.cmd);

@@ -1,4 +1,4 @@
-//! What a body of water remembers from step to step, whoever looks at it.
+//! State of a body of water that outlives a frame and is shared by its views.
 
 use std::sync::Arc;
 
@@ -13,12 +13,12 @@ use crate::gpu::descriptors::Descriptors;
 use crate::gpu::timing::{Timer, Timing};
 use crate::water::Classify;
 
-/// What fixes the memory of a [`State`].
+/// Configuration of a [`State`]: what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateConfig {
-    /// Most particles a step may have.
+    /// Maximum number of particles per step.
     pub max_particles: u32,
-    /// Longest stride of the streams in bytes, a multiple of 4 (default 16).
+    /// Maximum stride of the streams in bytes, a multiple of 4 (default 16).
     pub max_stride: u32,
 }
 
@@ -34,26 +34,26 @@ struct StateSlot {
     timer: Timer,
 }
 
-/// The memory of one body of water: foam phases by particle id. Views share it; each step of the
-/// simulation moves it on once.
+/// Surface-foam state of one body of water: foam phases by particle id. Views share it; each simulation step
+/// advances it once.
 pub struct State {
     gpu: Arc<Gpu>,
     config: StateConfig,
     classify: Classify,
     slots: Vec<StateSlot>,
-    /// The odd table holds the state.
+    /// Whether the odd table holds the state.
     odd: bool,
-    /// Nothing was recorded yet: the tables hold anything.
+    /// Whether nothing was recorded yet, so the tables are undefined.
     fresh: bool,
     /// The last step, until it is abandoned: its slot, and whether it was the first.
     last: Option<(Slot, bool)>,
 }
 
 impl State {
-    /// Makes pipelines and memory: 60 bytes a particle and 8 for its foam.
+    /// Makes pipelines and memory: 60 bytes per particle, and 8 for its foam.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(context: &Context, config: &StateConfig) -> Result<Self, Error> {
         if config.max_particles == 0 {
             return Err(Error::bad("StateConfig.max_particles", "zero; it sizes the buffers"));
@@ -93,7 +93,7 @@ impl State {
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command; after any other error discard
-    /// the command buffer and tell with [`abandon`](Self::abandon).
+    /// the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
     /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
@@ -121,7 +121,7 @@ impl State {
         Ok(())
     }
 
-    /// Records that all particles are water again. The steps before are over: none can be taken back.
+    /// Records a reset: all particles are water again. Earlier steps can no longer be reverted.
     ///
     /// # Safety
     /// As [`record_step`](Self::record_step).
@@ -135,9 +135,9 @@ impl State {
         self.classify.size()
     }
 
-    /// Records a copy of the state after the last step into a buffer of the host's, from which
-    /// [`record_restore`](Self::record_restore) brings it back, here or in another run with the
-    /// same configuration: a sequence goes on as if it had not been cut.
+    /// Records a copy of the state after the last step into a buffer of the host.
+    /// [`record_restore`](Self::record_restore) restores it, here or in another run with the same
+    /// configuration, and the sequence continues as if it had not been interrupted.
     ///
     /// # Safety
     /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a
@@ -149,7 +149,7 @@ impl State {
         self.classify.record_copy(&self.gpu, cmd, self.odd, (to, offset), true);
     }
 
-    /// Records a copy of a saved state back. The steps before are over: none can be taken back.
+    /// Records the restoration of a saved state. Earlier steps can no longer be reverted.
     ///
     /// # Safety
     /// As [`record_save`](Self::record_save), with transfer-source usage.
@@ -158,8 +158,8 @@ impl State {
         self.classify.record_copy(&self.gpu, cmd, self.odd, (from, offset), false);
     }
 
-    /// Foam (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its
-    /// order. Transfer source; last written by a compute shader, then free to be read.
+    /// Foam amount (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its order.
+    /// Transfer source; last written by a compute shader, then free to be read.
     pub fn foam(&self) -> vk::Buffer {
         self.classify.foam.handle
     }
@@ -172,8 +172,8 @@ impl State {
         }
     }
 
-    /// Says that the step recorded last, with this slot, was thrown away: the state is that before
-    /// it. Earlier steps cannot be taken back; [`record_restore`](Self::record_restore) can.
+    /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before
+    /// it. Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore).
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();
@@ -189,17 +189,17 @@ impl State {
         self.classify.memory()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);
         gpu.destroy();
     }
 
-    /// Everything that can be wrong with a step.
+    /// Validates a step.
     fn check(&self, step: &Step<'_>) -> Result<(), Error> {
         check::step(["Step.slot", "Step.dt"], step.slot, self.slots.len(), step.dt)?;
         step.settings.check()?;

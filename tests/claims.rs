@@ -1,7 +1,7 @@
 //! Claims of the documentation, measured on a Vulkan device (`docs/smoothing.md`).
 //!
 //! `WHITEWATER_SLOW=1`: the whole table too, printed as Markdown (with `--nocapture`).
-//! `WHITEWATER_PICTURE=FILE.png`: the picture too.
+//! `WHITEWATER_PICTURE=FILE.jpg`: the picture too.
 #![allow(clippy::unwrap_used)] // a test may
 
 #[path = "claims/bed.rs"]

@@ -1,5 +1,5 @@
 #version 460
-// Pass `blobs`, first part: nothing in any cell.
+// Pass `blobs`, first part: clears all cells.
 // Reads: nothing. Writes: range, cells, spans.
 
 #include "frame.glsl"

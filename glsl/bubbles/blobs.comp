@@ -1,7 +1,7 @@
 #version 460
-// Pass `blobs`: the border, and lists of blobs for every tile and slice of depth, front to back (the source draws a
-// billboard each). Three goes: to eye space, and how far they lie; how many there are in a cell; which. Between the last
-// two the numbers become sums of all before each, after them those up to each.
+// Pass `blobs`: lists of blobs per tile and depth slice, front to back (the paper draws a billboard each). Three
+// dispatches: blobs to eye space, with their depth range; counts per cell; entries. Between the last two the counts
+// become exclusive prefix sums, and after the last one inclusive ones.
 // Reads: the host's streams, count. Writes: blobs, range, cells, spans, list.
 
 #include "frame.glsl"
@@ -21,21 +21,21 @@ layout(set = 0, binding = 6, std430) buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 7, std430) buffer Range { BlobRange range; };
 layout(set = 0, binding = 8, std430) buffer Cells { uint cells[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };
-// Of a tile the first slice with a blob, and after the last.
+// First depth slice with a blob, and the end, for each tile.
 layout(set = 0, binding = 10, std430) buffer Spans { uint spans[]; };
 
 layout(push_constant, std430) uniform Push {
-    uint ball_word; // of the first blob
+    uint ball_word; // word of the first blob
     uint ball_stride; // in words
     uint turn_word;
-    uint turn_stride; // 0: none is turned
+    uint turn_stride; // 0: no rotations
     uint id_word;
-    uint id_stride; // 0: their place
-    uint most;      // from the host, or the most there may be
+    uint id_stride; // 0: the index is the id
+    uint most;      // number from the host, or the capacity
     uint from_gpu;
 } push;
 
-// From the world to the blob's space, of the host's that turns it the other way.
+// Rotation from the world to the blob's space; the host's goes the other way.
 vec4 turn_of(uint index) {
     vec4 q = vec4(0.0, 0.0, 0.0, 1.0);
     if (push.turn_stride > 0u) {
@@ -48,11 +48,11 @@ vec4 turn_of(uint index) {
     return turned_back(q);
 }
 
-// By how much of its radius one is drawn at a distance, so that no blob is smaller than is told: of those beyond only a
-// share is left, by random numbers of their own, grown so that they cover as much in the mean (Cook et al. 2007). Whoever
-// goes shrinks before; the mean of the squares knows that.
+// Factor on a blob's radius by its distance, so that no blob is smaller than the limit. Of the blobs beyond, a
+// random subset is kept and enlarged so that the mean coverage stays the same (Cook et al. 2007). Blobs shrink
+// before they vanish; the mean of the squares includes that.
 float merged(float radius, float distance_, uint id) {
-    const float FADES = 0.5; // over this much of the share
+    const float FADES = 0.5; // range of the fade, relative to the kept fraction
     float pixels = radius / max(distance_ * frame.texel.x, 1.0e-20);
     float size = pixels / max(bubbly.sun_mirror.w, 1.0e-20);
     float share = clamp(size * size, 1.0e-12, 1.0);
@@ -66,13 +66,13 @@ float merged(float radius, float distance_, uint id) {
     return left * inversesqrt(mean);
 }
 
-// To the eye, and which of them is drawn.
+// Transforms a blob to eye space and decides whether it is drawn.
 void place(uint index) {
     uint at = push.ball_word + index * push.ball_stride;
     vec4 ball = vec4(balls[at], balls[at + 1u], balls[at + 2u], balls[at + 3u]);
     Blob blob = Blob(vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0, 0.0, 0.0, 1.0), 0u, 0u, -1.0, 0u);
     bool good = all(lessThan(abs(ball), vec4(1.0e18))) && ball.w > 0.0;
-    // An empty place is no fault.
+    // An empty entry is no error.
     if (!good && any(notEqual(ball, vec4(0.0)))) {
         atomicAdd(range.dropped, 1u);
     }
@@ -80,7 +80,7 @@ void place(uint index) {
     blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
     ball.w *= merged(ball.w, length(centre), blob.id);
     good = good && ball.w > 0.0;
-    // One that the eye is in has no bounds on the screen; the near plane cuts it away.
+    // A blob around the eye has no bounds on the screen; the near plane clips it.
     blob.ball = good ? vec4(mat3(frame.world) * centre, ball.w) : blob.ball;
     if (good && in_frustum(centre, ball.w)) {
         blob.nearest = max(-centre.z - ball.w, 0.0);
@@ -94,7 +94,7 @@ void place(uint index) {
     blobs[index] = blob;
 }
 
-// First and last tile it may be in.
+// First and last tile that it may touch.
 bool tiles_of(Blob blob, out ivec4 span) {
     vec4 slopes;
     span = ivec4(0, 0, ivec2(bubbly.tiles.xy) - 1);
@@ -112,7 +112,7 @@ void main() {
     uint index = gl_GlobalInvocationID.x;
     uint here = push.from_gpu == 1u ? min(count, push.most) : push.most;
     if (index >= here) {
-        // All that there may be are drawn, where they are drawn.
+        // Entries up to the capacity are drawn, so clear the unused ones.
         if (GO == 0u && index < push.most) {
             blobs[index].ball = vec4(0.0, 0.0, 0.0, -1.0);
             blobs[index].nearest = -1.0;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `cast`: how far along the light the first blob lies, in the map of the light's region: blobs are balls to it.
-// Theirs is no coloured shadow as the water's: a core is opaque.
+// Pass `cast`: shadow map of the blobs: distance along the light to the first one, each a ball. Blob shadows are grey,
+// not coloured as the water's: a core is opaque.
 // Reads: blobs. Writes: light's blobs, by atomics.
 
 #include "frame.glsl"
@@ -9,11 +9,12 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
-// Bits of floats that are not less than 0.
+// Bits of non-negative floats.
 layout(set = 0, binding = 4, r32ui) uniform uimage2D front;
 layout(push_constant, std430) uniform Push { uint most; } push;
 
-// What of a blob casts: films beyond let the light through, and are not in their own core's shade.
+// Radius within which a blob casts a shadow: the films outside let light through, and must not lie in their own
+// core's shadow.
 const float CORE = 0.78;
 
 void main() {
@@ -24,7 +25,7 @@ void main() {
     vec4 ball = blobs[index].ball;
     ball.w *= CORE;
     int edge = imageSize(front).x;
-    // Of this map, and of the light's own.
+    // Width of a texel of this map, and of the light's own map.
     float texel = frame.light_map.y * frame.light_map.x / float(edge);
     vec3 at = (frame.to_light * vec4(mat3(frame.view) * ball.xyz, 1.0)).xyz;
     vec2 middle = at.xy * float(edge);

@@ -1,9 +1,8 @@
 #version 460
-// Pass `core`: the picture of small bubbles that a blob's inside shows, once per renderer (Huszar, Szecsi, Sec. 4.4,
-// which has it drawn by an artist): cells round scattered points (Worley, A Cellular Texture Basis Function, 1996) on the
-// sphere, three sizes of them, brighter along their seams.
-// Reads: nothing. Writes: core (RGBA16F), octahedral with a border: xyz how far the normal leans, w brightness, 1 in
-// the mean.
+// Pass `core`: texture of small bubbles inside a blob, once per renderer (Huszar, Szecsi, Sec. 4.4, where an artist
+// draws it): cellular noise on the sphere (Worley, A Cellular Texture Basis Function, 1996) of three sizes, brighter
+// along the seams.
+// Reads: nothing. Writes: core (RGBA16F), octahedral with a border: xyz tilt of the normal, w brightness with mean 1.
 
 #include "octahedral.glsl"
 #include "random.glsl"
@@ -15,7 +14,7 @@ layout(push_constant, std430) uniform Push {
     uint seed;
 } push;
 
-// From a place to the nearest point of cells of size 1, and how much farther the second is.
+// Vector to the nearest feature point (cells of size 1), and how much farther the second nearest is.
 vec4 nearest_point(vec3 p, uint seed) {
     ivec3 cell = ivec3(floor(p));
     vec3 best = vec3(0.0);
@@ -47,7 +46,7 @@ void main() {
     float part = 1.0;
     for (uint octave = 0u; octave < 3u; ++octave) {
         vec4 near = nearest_point(direction * cells, pcg(push.seed + octave));
-        // Round like a bubble, with a bright seam where two meet and dark beside it.
+        // Round like a bubble, with a bright seam between two bubbles and darkness beside it.
         float seam = 1.0 - smoothstep(0.0, 0.18, near.w);
         float round_ = clamp(1.0 - dot(near.xyz, near.xyz), 0.0, 1.0);
         lean += part * 0.6 * near.xyz;
@@ -55,6 +54,6 @@ void main() {
         cells *= 2.1;
         part *= 0.6;
     }
-    // A fifth is what they add in the mean.
+    // Subtract the mean of what was added, a fifth.
     imageStore(core, texel, vec4(lean, clamp(brightness - 0.2, 0.2, 1.8)));
 }

@@ -1,19 +1,19 @@
 #version 460
-// Pass `film`: what a soap film reflects, by the cosine and the film's thickness, once per renderer (Huszar, Szecsi,
-// GPU-supported bubble and foam rendering, Sec. 3.1). Airy's formula with the phase of the refracted ray; the print has
-// the angle outside, and a sine of the whole phase, whose maxima come at half their thickness.
-// Of three wavelengths, as the source, or of the spectrum.
-// Reads: nothing. Writes: table (RGBA16F), the cosine 0 to 1 across, the thickness from 0 on down.
+// Pass `film`: reflectance of a soap film by cosine and thickness, once per renderer (Huszar, Szecsi, GPU-supported
+// bubble and foam rendering, Sec. 3.1). Airy's formula with the phase of the refracted ray. The print has the angle
+// outside the film and the sine of the full phase, whose maxima lie at half their thickness.
+// For three wavelengths, as in the paper, or the whole spectrum.
+// Reads: nothing. Writes: table (RGBA16F), x: cosine 0 to 1, y: thickness from 0.
 
 #include "film.glsl"
 #include "spectrum.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 0: three lines, 1: the spectrum.
+// 0: three spectral lines, 1: the whole spectrum.
 layout(constant_id = 0) const uint SPECTRAL = 1;
 layout(constant_id = 1) const uint KIND = 0;
 
-// Representative of red, green and blue.
+// Wavelengths for red, green and blue in nm.
 const vec3 LINES = vec3(610.0, 550.0, 465.0);
 
 layout(set = 0, binding = 0, rgba16f) uniform writeonly image2D table;
@@ -40,7 +40,7 @@ void main() {
             sum += weight * film_reflectance(at.x, push.index, thickness, wavelength, KIND);
             all_light += weight;
         }
-        // Colours beyond Rec. 709's are cut.
+        // Colours outside Rec. 709 are clipped.
         color = clamp(sum / all_light, 0.0, 1.0);
     } else {
         for (int i = 0; i < 3; ++i) {

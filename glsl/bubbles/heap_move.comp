@@ -1,8 +1,8 @@
 #version 460
-// Pass `heap`, move: what acts on a blob, and where it goes (Huszar, Szecsi, Sec. 6: neighbours pull each other when
-// near and push when nearer, gravity, solids; on the CPU there). Forces come from a potential, so that a heap left to
-// itself has less energy from step to step; they grow and end without a jump. What has too little beside it splits in
-// two, of which one shrinks as the other grows.
+// Pass `heap`, move: forces on a blob and its motion (Huszar, Szecsi, Sec. 6, on the CPU: attraction of near
+// neighbours, repulsion of nearer ones, gravity, solids). Forces derive from a potential, so the energy of a closed
+// system decreases from step to step; they begin and end continuously. A blob with too little around it splits in two,
+// one of which shrinks as the other grows.
 // Reads: heaped, buckets, solids, field. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "heap.glsl"
@@ -23,15 +23,15 @@ layout(set = 0, binding = 8, std430) readonly buffer Solids { Solid solids[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Field { float field[]; };
 layout(set = 0, binding = 10, std430) buffer Growths { Growth growths[]; };
 
-// Of a ball's moment of inertia: 1 / (2/5).
+// Inverse of a ball's factor of inertia: 1 / (2/5).
 const float ROUND = 2.5;
 
 struct Pushed {
-    vec3 speed; // change of velocity a second
+    vec3 speed; // acceleration
     vec3 spin;
 };
 
-// What another blob does.
+// Force of another blob.
 Pushed pushed_by(Heaped own, Heaped other) {
     Pushed none = Pushed(vec3(0.0), vec3(0.0));
     vec3 to = other.ball.xyz - own.ball.xyz;
@@ -42,7 +42,7 @@ Pushed pushed_by(Heaped own, Heaped other) {
     if (far >= reach) {
         return none;
     }
-    // Of two in one place the one with the lower number goes up.
+    // Of two blobs in one place, the one with the lower number moves up.
     bool lower = floatBitsToUint(own.drift.w) < floatBitsToUint(other.drift.w);
     vec3 n = far > 1.0e-6 * sum ? to / far : vec3(0.0, lower ? -1.0 : 1.0, 0.0);
     float part = (reach - far) / (reach - rest);
@@ -53,7 +53,7 @@ Pushed pushed_by(Heaped own, Heaped other) {
     float parting = dot(slip, n);
     float near = min(part, 1.0);
     vec3 across = push.damping.y * near * (slip - parting * n);
-    // The same force on both: by their masses.
+    // The same force on both, divided by their masses.
     float a = own.ball.w * own.ball.w * own.ball.w;
     float b = other.ball.w * other.ball.w * other.ball.w;
     float share = 2.0 * b / (a + b);
@@ -61,7 +61,7 @@ Pushed pushed_by(Heaped own, Heaped other) {
                   share * ROUND / own.ball.w * cross(n, across));
 }
 
-// Distance from a solid, and the way out of it.
+// xyz: direction out of a solid; w: distance from it.
 vec4 solid_at(Solid solid, vec3 place) {
     if (solid.place.w < 0.5) {
         return vec4(solid.place.xyz, dot(solid.place.xyz, place) - solid.size.w);
@@ -76,7 +76,7 @@ vec4 solid_at(Solid solid, vec3 place) {
     return vec4(turned(solid.turn, n), beside > 0.0 ? beside : most);
 }
 
-// The same of the field: between its points, and how it grows; beyond its box nothing is there.
+// The same for the distance field: interpolated value and gradient; outside its box there is nothing.
 vec4 field_at(vec3 place) {
     vec3 at = (place - push.field.xyz) / push.field.w;
     vec3 last = vec3(push.field_size.xyz) - 1.0;
@@ -99,7 +99,7 @@ vec4 field_at(vec3 place) {
     return vec4(steep > 0.0 ? sum.xyz / steep : vec3(0.0, 1.0, 0.0), sum.w);
 }
 
-// A solid pushes as it is pressed, and holds what slides by as much.
+// A solid pushes in proportion to the penetration; friction is proportional to that.
 void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     float deep = push.solid.x * ball.w - solid.w;
     if (deep <= 0.0) {
@@ -113,14 +113,15 @@ void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     vec3 slip = speed - dot(speed, n) * n + cross(spin, -ball.w * n);
     slip -= dot(slip, n) * n;
     float fast = length(slip);
-    // What stops it where it touches: it rolls then.
+    // At most what stops the point of contact: then it rolls.
     float held = min(push.damping.w * gained, fast / (1.0 + ROUND));
     vec3 change = fast > 0.0 ? -held / fast * slip : vec3(0.0);
     speed += change;
     spin += ROUND / ball.w * cross(-n, change);
 }
 
-// What a blob touches: the volumes of blobs, where they and solids lie, the way out of the last of these.
+// What a blob touches: volume of the neighbours, direction towards neighbours and solids, direction out of the
+// last solid.
 struct Company {
     float volume;
     vec3 lean;
@@ -149,8 +150,8 @@ void lies_on(inout Company company, Heaped own, vec4 solid) {
     }
 }
 
-// Where the other half of a blob grows: by its number, beside what it touches, so that they become a clump; not into
-// solids.
+// Direction in which the other half of a blob grows: random by its number, beside what it touches, so that clumps
+// form, and not into solids.
 vec3 way_apart(Heaped own, Company company) {
     uint number = pcg(floatBitsToUint(own.drift.w) ^ 0x70617274u);
     float up = float(number >> 8) / 8388608.0 - 1.0;
@@ -159,13 +160,14 @@ vec3 way_apart(Heaped own, Company company) {
     float far = length(company.lean);
     vec3 to = far > 0.0 ? company.lean / far : vec3(0.0);
     vec3 across = any_ - dot(any_, to) * to;
-    // At some 65 degrees from it: of three of a size each touches both others.
+    // At about 65 degrees from it: then three blobs of one size touch each other.
     vec3 way = across / max(length(across), 0.01) + 0.45 * to;
     way -= 2.0 * min(dot(way, company.ground), 0.0) * company.ground;
     return way / max(length(way), 0.01);
 }
 
-// A blob with too little beside it for some time splits, as often as there is room for its halves.
+// A blob with too few neighbours for some time splits, as often as there are entries for its halves. Returns its
+// radius.
 float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec3 spin) {
     float dt = push.solid.z;
     Growth growth = growths[index];
@@ -195,7 +197,7 @@ float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec
 
 void main() {
     uint k = gl_GlobalInvocationID.x;
-    // What is no blob is not in the grid.
+    // Invalid blobs are not in the grid.
     if (k >= buckets[push.buckets - 1u]) {
         return;
     }
@@ -210,7 +212,7 @@ void main() {
         uint end = min(buckets[bucket], j + MOST_IN_BUCKET);
         while (j < end) {
             Heaped other = heaped[j];
-            // Cells share buckets.
+            // Several cells share a bucket.
             if (j != k && all(equal(heap_cell(other.ball.xyz), next))) {
                 beside(company, own, other);
                 Pushed by = pushed_by(own, other);
@@ -223,7 +225,7 @@ void main() {
     float wet = clamp((push.water.x - own.ball.y + own.ball.w) / (2.0 * own.ball.w), 0.0, 1.0);
     vec3 pull = push.gravity.xyz * (1.0 - wet / push.water.y);
     vec3 speed = own.drift.xyz + dt * (sum.speed + pull);
-    // Water holds it more than air does.
+    // Drag is stronger in water than in air.
     speed /= 1.0 + dt * mix(push.gravity.w, 8.0, wet);
     vec3 spin = (own.spin.xyz + dt * sum.spin) / (1.0 + dt * push.gravity.w);
     for (uint i = 0u; i < push.field_size.w; ++i) {
@@ -236,7 +238,7 @@ void main() {
         lies_on(company, own, solid);
         touch(solid, own.ball, speed, spin);
     }
-    // No farther in a step than would miss what it passes.
+    // Limit the distance per step, so that it does not pass through anything.
     float most = own.ball.w / dt;
     speed *= min(most / max(length(speed), 1.0e-20), 1.0);
     uint index = floatBitsToUint(own.spin.w);

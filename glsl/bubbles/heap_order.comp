@@ -1,6 +1,6 @@
 #version 460
-// Pass `heap`, order: the blobs of a bucket in the order of their ids, whichever came first: sums over them are the same
-// in every run. Of a bucket the first few are enough: of blobs heaped on one spot sorting all would hang a device.
+// Pass `heap`, order: sorts the blobs of each bucket by id, so that sums over them are the same in every run. Only the
+// first few of a bucket are sorted: with all blobs on one spot a full sort would hang a device.
 // Reads: balls, drifts, spins, ids, buckets. Writes: order, heaped.
 
 #include "heap.glsl"
@@ -22,7 +22,7 @@ void main() {
     }
     uint begin = bucket > 0u ? buckets[bucket - 1u] : 0u;
     uint end = buckets[bucket];
-    // Behind the first of them, which alone are looked at, the rest lie anyhow.
+    // Only the first ones are read, so the rest need no order.
     uint sorted_end = min(end, begin + MOST_IN_BUCKET);
     for (uint i = begin; i < end; ++i) {
         uint own = order[i];

@@ -1,6 +1,6 @@
 #version 460
-// Pass `heap`, grid: how many blobs a bucket of cells has, and which. Between the two goes the numbers become sums of
-// all before each, after them those up to each.
+// Pass `heap`, grid: counts the blobs of each bucket, then enters them. Between the two dispatches the counts become
+// exclusive prefix sums, and after the second inclusive ones.
 // Reads: balls. Writes: buckets, order.
 
 #include "heap.glsl"
@@ -15,7 +15,7 @@ layout(set = 0, binding = 6, std430) writeonly buffer Order { uint order[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    // What is no blob is not in the grid.
+    // Invalid blobs are not in the grid.
     if (i >= push.blobs || balls[i].w <= 0.0) {
         return;
     }

@@ -1,6 +1,6 @@
 #version 460
-// Pass `heap`, set: blobs as the host has them, at rest or as fast as it says. What is no blob has no radius, nor have the
-// places for halves.
+// Pass `heap`, set: initial blobs from the host, at rest or with its velocities. Invalid blobs and the slots of future
+// halves get radius 0.
 // Reads: the host's streams. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "growth.glsl"
@@ -22,13 +22,13 @@ layout(push_constant, std430) uniform Push {
     uint ball_word;
     uint ball_stride;
     uint turn_word;
-    uint turn_stride;  // 0: none is turned
+    uint turn_stride;  // 0: no rotations
     uint id_word;
-    uint id_stride;    // 0: their place
+    uint id_stride;    // 0: the index is the id
     uint drift_word;
     uint drift_stride; // 0: at rest
     uint blobs;
-    uint all;          // with those for halves
+    uint all;          // capacity, with entries for halves
 } push;
 
 void main() {

@@ -1,7 +1,7 @@
 #version 460
-// Pass `impostor`: blobs as cube maps of their outermost surface, once per renderer (Huszar, Szecsi, Sec. 4.2, 4.3):
-// all six faces of all blobs in one dispatch, where the source has a geometry shader. Two maps: how far from the middle
-// it lies, and which bubble's it is.
+// Pass `impostor`: cube maps of the blobs' outermost surface, once per renderer (Huszar, Szecsi, Sec. 4.2, 4.3): all
+// six faces of all blobs in one dispatch, where the paper uses a geometry shader. Two maps: distance from the centre,
+// and index of the bubble.
 // Reads: bubbles. Writes: distances (R32F), ids (bytes).
 
 #include "cube.glsl"
@@ -11,15 +11,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint IDS = 0;
 
 layout(set = 0, binding = 0, r32f) uniform writeonly image2DArray distances;
-// Four texels a word.
+// Four texels per word.
 layout(set = 0, binding = 1, std430) writeonly buffer Ids { uint ids[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Bubbles { vec4 bubbles[]; };
 layout(push_constant, std430) uniform Push {
-    uint count; // of a blob
-    uint size;  // of a face
+    uint count; // bubbles per blob
+    uint size;  // texels per edge of a face
 } push;
 
-// How far the surface is along a direction, and whose it is; where there is none the bubble that is nearest to it.
+// Distance of the surface in a direction, and its bubble; without a surface, the bubble nearest to the direction.
 float outermost(vec3 direction, uint first, out uint id) {
     float best = 0.0;
     float nearest = -2.0;

@@ -1,7 +1,7 @@
 #version 460
-// Pass `near`: diffuse foam near the eye becomes blobs (Akinci et al. 2013 gives foam seen from near up; blobs by Huszar,
-// Szecsi). A particle's blob grows as its sprite goes. Two goes over the particles: how many there are at each distance;
-// then those for which there is room, as blobs in the world.
+// Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs (Akinci et al. 2013 draw no foam there;
+// blobs by Huszar, Szecsi): a particle's blob grows as its sprite shrinks. Two dispatches over the particles: a
+// histogram of their distances, then the blobs for which there are slots.
 // Reads: positions, kinds, radii, ages, ids, arguments, hand-over. Writes: numbers; count, balls, turns, blob ids.
 
 #include "frame.glsl"
@@ -13,7 +13,7 @@
 #include "near_blob.glsl"
 
 layout(local_size_x = 64) in;
-// 0: how many. 1: which.
+// 0: count. 1: list.
 layout(constant_id = 0) const uint GO = 0;
 
 layout(push_constant, std430) uniform Push {
@@ -29,7 +29,7 @@ layout(push_constant, std430) uniform Push {
     uint id_stride;
     uint chunk_first;
     uint chunk;
-    uint room; // blobs there may be
+    uint room; // capacity of blobs
 } push;
 
 #include "diffuse_streams.glsl"
@@ -41,7 +41,7 @@ layout(set = 0, binding = 9, std430) writeonly buffer Turns { vec4 turns[]; };
 layout(set = 0, binding = 10, std430) writeonly buffer BlobIds { uint blob_ids[]; };
 layout(set = 0, binding = 12, std430) buffer Count { uint count; };
 
-// Some turn, each number's own.
+// A random rotation from the id.
 vec4 turn_of(uint id) {
     vec4 q = vec4(uniform_of(1u, id, 0u), uniform_of(1u, id, 1u), uniform_of(1u, id, 2u), uniform_of(1u, id, 3u)) - 0.5;
     return dot(q, q) > 1.0e-4 ? normalize(q) : vec4(0.0, 0.0, 0.0, 1.0);
@@ -54,7 +54,7 @@ void main() {
     }
     vec4 world = diffuse_world(i);
     Diffuse p = diffuse_whole(i, world);
-    // In both goes the very same.
+    // Counting and listing must compute exactly the same value.
     precise float distance_ = length(p.centre);
     uint ring = ring_of(distance_);
     bool near = may_be_blob(p, distance_);
@@ -68,7 +68,7 @@ void main() {
         uint slot = atomicAdd(count, 1u);
         if (slot < push.room) {
             uint id = diffuse_id(i);
-            // As much of the picture as the sprite gives up.
+            // The blob takes over the area that the sprite loses.
             float part = sqrt(1.0 - kept_of(p));
             balls[slot] = vec4(world.xyz, frame.diffuse_light.w * p.radius * p.life * part);
             turns[slot] = turn_of(id);

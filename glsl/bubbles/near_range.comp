@@ -1,6 +1,6 @@
 #version 460
-// Pass `near`, between its goes: up to which distance there is room. Where there is not for all, sprites take over nearer
-// by, all of them: what is lost at the far end is no blob's half.
+// Pass `near`, between its dispatches: the distance up to which there are enough slots. If there are too few, the
+// cross-fade moves nearer for all particles, so that no blob is cut off half-way.
 // Reads: numbers. Writes: hand-over.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `peel` by tiles: the nearest blobs of each pixel, and the most opacity of all (Huszar, Szecsi, Sec. 5, which draws
-// all once a layer and once more). Here once: a pixel goes through its tile's blobs, slice by slice from the front, keeps
-// the nearest, and ends where nothing behind can change it.
+// Pass `peel` by tiles: the nearest blobs of each pixel, and the maximum opacity of all (Huszar, Szecsi, Sec. 5, which
+// draws all once per layer and once more). Here in one pass: a pixel walks its tile's blobs slice by slice from the
+// front, keeps the nearest, and stops where nothing behind can change the result.
 // Reads: blobs, range, cells, spans, list, scene depth, what blob.glsl reads. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"
@@ -19,7 +19,7 @@ layout(set = 0, binding = 4, std430) readonly buffer Range { BlobRange range; };
 layout(set = 0, binding = 5, std430) readonly buffer Cells { uint cells[]; };
 layout(set = 0, binding = 6, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 12, std430) readonly buffer Spans { uvec2 spans[]; };
-// Of a pixel its layers, front to back, then the most opacity.
+// For each pixel its layers, front to back, then the greatest opacity.
 layout(set = 0, binding = 7, std430) writeonly buffer Layers { uint layers[]; };
 layout(set = 0, binding = 11, r32f) uniform writeonly image2D bubble_depth;
 
@@ -30,7 +30,7 @@ void main() {
     }
     WorldRay ray = world_ray(ray_slope(vec2(pixel) + 0.5, frame.slope));
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
-    // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+    // With a reversed infinite depth, infinity is 1/0, or negative by rounding.
     scene = scene > 0.0 ? min(scene, EMPTY) : EMPTY;
     float depths[LAYERS];
     uint found[LAYERS];
@@ -45,7 +45,7 @@ void main() {
     uvec2 span = spans[tile.y * bubbly.tiles.x + tile.x];
     uint slice = span.x;
     bool done = span.x >= span.y;
-    // Loops ask at their end: lavapipe runs what follows a break once more.
+    // Loops have their condition at the end: lavapipe runs what follows a break once more.
     while (!done) {
         uint cell = cell_of(slice, tile);
         uint place = cell > 0u ? min(cells[cell - 1u], bubbly.tiles.w) : 0u;
@@ -58,7 +58,8 @@ void main() {
                 float depth = seen.depth;
                 float opacity = seen.opacity;
                 uint layer = layer_of(index, seen.id);
-                // Of two at one depth the one with the lower number, whatever their order in the list.
+                // Of two layers at the same depth, the one with the lower number comes first, whatever their
+                // order in the list.
                 for (uint i = 0u; i < LAYERS; ++i) {
                     bool nearer = depth < depths[i] || (depth == depths[i] && layer < found[i]);
                     vec2 farther = nearer ? vec2(depths[i], opacities[i]) : vec2(depth, opacity);
@@ -80,12 +81,12 @@ void main() {
         for (uint i = 0u; i < LAYERS; ++i) {
             behind *= 1.0 - opacities[i];
         }
-        // Whatever is still to come could not plug a hole that can be seen.
+        // No layer still to come could plug a visible hole.
         bool hidden = min(through, behind) < HIDDEN || bubbly.mirror.w < 0.5;
         bool full = depths[LAYERS - 1u] <= begin && hidden;
         done = slice >= span.y || full || begin >= scene;
     }
-    // Which bubble it is to the last pixel, of those that are kept.
+    // Find the exact bubble of the layers that are kept.
     uint at = BY_ID == 1u ? 0u : LAYERS;
     while (at < LAYERS && found[at] != NO_LAYER) {
         found[at] = exact_layer(blobs[found[at] >> 8], ray, found[at], depths[at]);

@@ -13,14 +13,13 @@ void main() {
     Seen seen = seen_here();
     uint own = layer_of(blob_index, seen.id);
     uvec2 last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).xy;
-    // Of those at one depth the one with the lower number comes first, which is drawn first, then the next. Where the layer
-    // before is empty so is this one.
+    // Layers at the same depth are ordered by number. If the previous layer is empty, so is this one.
     float nearer = uintBitsToFloat(last.x);
     bool behind = last.y != NO_LAYER && (seen.depth > nearer || (seen.depth == nearer && own > last.y));
     if (push.layer > 0u && !behind) {
         discard;
     }
     found = uvec2(floatBitsToUint(seen.depth), own);
-    // Of all its digits, below 1.
+    // Scaled by a power of two to below 1, which keeps all digits.
     gl_FragDepth = seen.depth * exp2(-40.0);
 }

@@ -1,5 +1,5 @@
 #version 460
-// Pass `peel`, what a draw has found goes where the tiles' way puts it.
+// Pass `peel`, raster path: copies the result of a draw to where the tiled path stores it.
 // Reads: layer or opacity, blobs, what blob.glsl reads. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"
@@ -16,7 +16,7 @@ layout(set = 0, binding = 4) uniform usampler2D drawn;
 layout(set = 0, binding = 5) uniform sampler2D opacity;
 layout(set = 0, binding = 7, std430) writeonly buffer Layers { uint layers[]; };
 layout(set = 0, binding = 11, r32f) uniform writeonly image2D bubble_depth;
-// LAYERS: the opacity.
+// Index of the layer; LAYERS for the opacity.
 layout(push_constant, std430) uniform Push { uint layer; } push;
 
 void main() {

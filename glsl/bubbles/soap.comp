@@ -1,8 +1,9 @@
 #version 460
-// Pass `soap`: what the blobs of a pixel look like, its layers front to back (Huszar, Szecsi, Sec. 4.4 and 5): the film
-// before, the wall between two bubbles, the core, the film behind, each over what lies behind it. Water before a layer takes
-// of its light, and adds its own to as much as the layer hides: so what is behind all layers is left as it is, water or not.
-// Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, what blob.glsl and sunlight.glsl read.
+// Pass `soap`: shades the blobs of a pixel, front to back (Huszar, Szecsi, Sec. 4.4 and 5). Each layer composites
+// front film, wall, core and back film. Water in front of a layer attenuates it and adds its own light in proportion
+// to the layer's opacity, so the background behind all layers keeps its value, in water or not.
+// Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, what blob.glsl and sunlight.glsl
+// read.
 // Writes: bubbles (RGBA16F), premultiplied.
 
 #include "frame.glsl"
@@ -32,7 +33,7 @@ layout(set = 0, binding = 11) uniform sampler2D irradiance;
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D bubbles_image;
 layout(set = 0, binding = 14) uniform sampler2D thickness;
 
-// What a film reflects of each colour.
+// Reflectance of a film per colour channel.
 vec3 film_at(float cosine, float thickness) {
     vec2 size = vec2(textureSize(film_table, 0));
     vec2 at = vec2(clamp(cosine, 0.0, 1.0), clamp(thickness, 1.0, bubbly.film.w) / bubbly.film.w);
@@ -43,7 +44,7 @@ float fraction_of(uint hash) {
     return float(pcg(hash) >> 8) * (1.0 / 16777216.0);
 }
 
-// Its thickness in nm: each bubble's own, uneven, thinner on top, where it drains from (Sec. 3.1).
+// Film thickness in nm: different for each bubble, uneven, and thinner on top, where it drains (Sec. 3.1).
 float film_thickness(uint number, vec3 place, float high) {
     float own = 2.0 * fraction_of(number) - 1.0;
     float uneven = gradient_noise(place + 64.0 * fraction_of(number + 1u));
@@ -54,17 +55,17 @@ struct Look {
     Blob blob;
     BlobRay ray;
     vec3 seen;     // direction of the ray, world
-    float pixels;  // of a radius of the blob's
-    vec3 sun;      // how much of it comes here
+    float pixels;  // per radius of the blob
+    vec3 sun;      // visibility of the sun
 };
 
 vec3 to_world(Look look, vec3 v) {
     return turned(turned_back(look.blob.turn), v);
 }
 
-// What a film sends to the eye, and in `back` what share it keeps back of what is behind it. Of a sphere of some
-// pixels' radius, which widens the cone that a pixel sees by it. `open`: how much of its surroundings are the
-// environment's, the rest is foam.
+// Light that a film sends to the eye; `back` is the fraction that it withholds of the light from behind. The
+// radius of the sphere in pixels widens the cone of a pixel. `open` is the fraction of the surroundings that
+// is environment; the rest is foam.
 vec3 film_light(Look look, vec3 normal, float radius, float thickness, float open, vec3 foam, out vec3 back) {
     vec3 n = to_world(look, normal);
     float cosine = dot(n, look.seen);
@@ -78,7 +79,7 @@ vec3 film_light(Look look, vec3 normal, float radius, float thickness, float ope
     return bubbly.mirror.x * back * mix(foam, light, open);
 }
 
-// Light of the core where it is seen at a place, behind a bubble's normal.
+// Light of the core at a point, seen behind a bubble with this normal.
 vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     vec3 at = normalize(mix(normalize(past), -normal, bubbly.core.z));
     vec4 pattern = textureLod(core_map, octahedral_texture_place(at, textureSize(core_map, 0)), 0.0);
@@ -86,16 +87,17 @@ vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     vec3 n = normalize(mix(normal, round_, bubbly.core.w) + shown * pattern.xyz);
     n = to_world(look, n);
     vec3 sky = textureLod(irradiance, octahedral_texture_place(n, textureSize(irradiance, 0)), 0.0).rgb;
-    // Foam is soft: it is lit beyond where it is turned away.
+    // Foam scatters light: it is lit also where it is turned away a little.
     float facing = dot(n, mat3(frame.world) * frame.sun_direction.xyz);
     vec3 light = sky + bubbly.sun.rgb * look.sun * max((facing + 0.4) / 1.4, 0.0);
-    // Between bubbles it is darker; where they are too small to be seen, as light as they are in the mean.
+    // It is darker between bubbles. Where they are too small to be seen, it has the mean brightness.
     float crease = mix(0.81, mix(0.77, 1.07, smoothstep(0.6, 1.0, length(past))), fine);
     return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
 }
 
-// The first wall on a way through a bubble, `at` where it is crossed: whose it is beside that one's, NO_BUBBLE where there is
-// none. The source takes what its search finds next, and can miss one.
+// The first wall on a path through a bubble: the number of the bubble on its other side (NO_BUBBLE if there
+// is none), and the position `at` on the path. The paper takes the next wall that its search finds, and can
+// miss one.
 uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
     uint other = NO_BUBBLE;
     at = way.y;
@@ -105,7 +107,7 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
         uint number = words.x & 0xffu;
         vec4 b = bubble_of(look.blob.template_, number);
         vec2 ends;
-        // It lies in both.
+        // The wall lies in both bubbles.
         bool meets = ball_hits(look.ray.origin, look.ray.direction, b, ends) && ends.y > way.x && ends.x < at;
         if (meets && number != id) {
             float t = wall_hit(wall_between(a, b), a, b, look.ray.origin, look.ray.direction, way.x);
@@ -119,8 +121,8 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
     return other;
 }
 
-// A blob, and what it leaves of what is behind it.
-// `opacity`: of its core as the pass before knows it, and behind a wall.
+// Light of a blob's layer, and its transmittance `through`. `opacity`: of the core as pass `peel` knows it,
+// and behind a wall.
 vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 opacity) {
     BlobRay ray = look.ray;
     vec2 way = ray.span;
@@ -144,7 +146,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     if (BY_ID == 1u) {
         normal = (met - middle) / radius;
     } else {
-        // Of the surface |p| = d(p / |p|), from how d changes across it.
+        // Normal of the surface |p| = d(p / |p|), from the differences of d across it.
         uint which = look.blob.template_;
         vec3 axis = abs(round_.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
         vec3 side = 0.03 * normalize(cross(round_, axis));
@@ -153,15 +155,15 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
         float b = distance_at(which, round_ + other) - distance_at(which, round_ - other);
         normal = normalize(round_ - (a * side + b * other) / (2.0 * 0.03 * 0.03 * length(met)));
     }
-    // Bubbles too small to be seen are a rough white ball, a ball too small is what of it faces the eye: their mean, not one
-    // of their points.
+    // Bubbles too small to be seen are a rough white ball, and a ball too small is its visible side: the mean
+    // of their light instead of that of one point.
     float pixels = radius * look.pixels;
     float fine = smoothstep(0.7, 3.0, pixels);
     vec3 ball = normalize(mix(-ray.direction, round_, smoothstep(0.7, 3.0, look.pixels)));
     normal = normalize(mix(ball, normal, fine));
     uint number = pcg(look.blob.id * 977u + id);
     float high = dot(to_world(look, normal), frame.up.xyz);
-    // Colours of films of many thicknesses make white, as those of a thick one.
+    // The colours of many film thicknesses mix to white, the colour of a thick film.
     float thick = mix(bubbly.film.w, film_thickness(number, 2.5 * met / radius, high), fine);
 
     vec3 core = core_light(look, past, normal, ball, fine);
@@ -187,7 +189,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
         vec3 more = film_light(look, across, pixels, own, 0.4, core, kept);
         light += fine * through * more;
         through *= 1.0 - fine * kept;
-        // On into the other bubble.
+        // Continue in the other bubble.
         vec2 ends;
         ball_hits(ray.origin, ray.direction, b, ends);
         middle = ends.y > way.y ? b.xyz : middle;
@@ -198,7 +200,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     opacity.y = solid;
     light += through * solid * core;
     through *= 1.0 - solid;
-    // The film behind, from within.
+    // The film behind, seen from inside.
     vec3 behind = normalize(past - middle);
     vec3 kept;
     float far = film_thickness(number, 2.5 * past / radius, dot(to_world(look, behind), frame.up.xyz));
@@ -207,7 +209,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     return light;
 }
 
-// Metres of water along z at a pixel: between the texels about it that have some.
+// Metres of water along z at a pixel, interpolated between the texels with water.
 float water_at(vec2 pixel) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
@@ -237,7 +239,7 @@ void main() {
     vec3 color = vec3(0.0);
     vec3 left = vec3(1.0);
     vec3 body = vec3(0.0);
-    // Where the water begins, and how much there is, without air that may lie between.
+    // Depth of the water's surface, and metres of water behind it, without possible air between.
     float surface = texelFetch(water_depth, pixel, 0).x;
     float room = surface < EMPTY && frame.target.z >= FRONT_WATER ? water_at(vec2(pixel) + 0.5) : 0.0;
     float metres = 0.0;
@@ -275,13 +277,14 @@ void main() {
         color += through_medium(left * light, left * (1.0 - through), metres).rgb;
         left *= through;
         ++i;
-        // Behind what is opaque nothing is seen.
+        // Nothing is visible behind opaque layers.
         bool open = max(left.r, max(left.g, left.b)) > HIDDEN;
         more = open && i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
     }
     float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
-    // Holes between the layers are as opaque as anything there is (Sec. 5): of the layers themselves as they turned out, and
-    // else what lies farther, where `peel` looks that far. By half precision, where it was blended.
+    // Holes between the layers are as opaque as the layers themselves turned out (Sec. 5), or as what lies
+    // farther, if `peel` looked that far. The comparison allows for half precision, in which that was
+    // blended.
     most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
     float plug = bubbly.mirror.w > 0.5 ? max(most - covered, 0.0) : 0.0;
     color += through_medium(plug * body, vec3(plug), metres).rgb;

@@ -1,6 +1,6 @@
 #version 460
 // Pass `environment`: an equirectangular image (row 0 up; the middle column looks along -z)
-// into the cube's first mip, four samples a texel. Ours: the source's cube is given (thesis Sec. 4.9).
+// into the cube's first mip, four samples per texel. (The thesis starts from a given cube, Sec. 4.9.)
 // Reads: the host's image. Writes: environment (RGBA16F), all faces.
 
 #include "cube.glsl"
@@ -9,16 +9,16 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba16f) uniform writeonly image2DArray environment;
 layout(set = 0, binding = 1) uniform sampler2D equirect;
 layout(push_constant, std430) uniform Push {
-    vec4 east; // world directions: the x of where y is up
+    vec4 east; // world direction of the environment's x axis
     vec4 up;
     uint size;
     float scale;
-    float turn; // radians about up
+    float turn; // rotation about the up axis in radians
 } push;
 
 const float PI = 3.14159265;
 
-// The image's middle column looks along -z, its right quarter along +x.
+// The middle column of the image is -z, the middle of its right half is +x.
 vec2 equirect_uv(vec3 d) {
     float longitude = atan(d.x, -d.z) + push.turn;
     return vec2(fract(longitude / (2.0 * PI) + 0.5), acos(clamp(d.y, -1.0, 1.0)) / PI);

@@ -1,6 +1,6 @@
 #version 460
-// Pass `environment`: what a surface gathers of the environment, over 2 pi: a half of one that is 1 everywhere, as
-// the samples it stands for (Akinci et al. 2013, Sec. 2.4.2).
+// Pass `environment`: irradiance divided by 2 pi, so that a constant environment of 1 gives one half, as the samples
+// that it replaces (Akinci et al. 2013, Sec. 2.4.2).
 // Reads: environment. Writes: irradiance (RGBA16F), octahedral with a border.
 
 #include "cube.glsl"
@@ -10,8 +10,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba16f) uniform writeonly image2D irradiance;
 layout(set = 0, binding = 1) uniform samplerCube environment;
 layout(push_constant, std430) uniform Push {
-    uint size;   // of the irradiance without its border
-    uint coarse; // of the environment's mip that is read
+    uint size;   // size of the irradiance without its border
+    uint coarse; // mip level of the environment that is read
     float mip;
 } push;
 
@@ -26,12 +26,12 @@ void main() {
     for (int i = 0; i < 6 * n * n; ++i) {
         ivec3 from = ivec3(i % n, i / n % n, i / (n * n));
         vec3 direction = cube_direction(from, n);
-        // Solid angle of a texel, up to what is the same for all.
+        // Solid angle of a texel, up to a constant factor.
         vec2 place = (vec2(from.xy) + 0.5) / float(n) * 2.0 - 1.0;
         float angle = pow(1.0 + dot(place, place), -1.5);
         vec3 light = textureLod(environment, direction, push.mip).rgb;
         sum += angle * vec4(max(dot(direction, normal), 0.0) * light, 1.0);
     }
-    // Over all directions, not the half of them: twice.
+    // The weights cover all directions, hence the factor 2.
     imageStore(irradiance, texel, vec4(min(2.0 * sum.rgb / sum.w, 65000.0), 1.0));
 }

@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba16f) uniform writeonly image2DArray environment;
 layout(push_constant, std430) uniform Push {
     vec4 sun;   // direction to it (y up), its irradiance
-    vec4 east;  // world directions: the x of where y is up
+    vec4 east;  // world direction of the environment's x axis
     vec4 up;
     uint size;
 } push;

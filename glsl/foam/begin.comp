@@ -1,26 +1,26 @@
 #version 460
-// Pass `splat`, first part: nothing in any pixel but the depths of scene and fluid, which particles ask for many
-// times (Akinci et al. 2013, passes 1 and 2); the dispatches that the particles need.
+// Pass `splat`, first part: clears all pixels and stores the depths of scene and fluid, which particles read many
+// times (Akinci et al. 2013, passes 1 and 2); computes the dispatches over the particles.
 // Reads: scene depth, water depth, the host's fluid's, count. Writes: words, arguments.
 
 #include "frame.glsl"
 #include "diffuse_words.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-// Of a pixel two.
+// Two per pixel.
 layout(set = 0, binding = 1, std430) writeonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
-// Of each chunk its groups, or the corners and instances of its quads; and its particles.
+// For each chunk its workgroups (or vertices and instances of its quads) and its number of particles.
 layout(set = 0, binding = 5, std430) writeonly buffer Arguments { uvec4 arguments[]; };
-// The host's own fluid, in the camera's convention.
+// Depth of the host's own fluid, in the camera's convention.
 layout(set = 0, binding = 6) uniform sampler2D fluid_depth;
 
 layout(push_constant, std430) uniform Push {
-    vec4 fluid_at;   // its texels a pixel, of none 0, and the first of them
-    ivec2 fluid_end; // after the last
-    uint count;      // from the host, or the most there may be
+    vec4 fluid_at;   // its texels per pixel (0: none) and its first texel
+    ivec2 fluid_end; // end of its texels
+    uint count;      // number from the host, or the capacity
     uint from_gpu;
     uint chunks;
     uint chunk_size;
@@ -41,7 +41,7 @@ void main() {
     if (all(lessThan(pixel, ivec2(frame.extent.xy)))) {
         float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
         float fluid = texelFetch(water_depth, pixel, 0).x;
-        // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+        // With a reversed infinite depth, infinity is 1/0, or negative by rounding.
         scene = scene > 0.0 ? min(scene, EMPTY) : EMPTY;
         if (push.fluid_at.x > 0.0) {
             ivec2 texel = ivec2((vec2(pixel) + 0.5) * push.fluid_at.xy + push.fluid_at.zw);

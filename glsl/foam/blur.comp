@@ -1,14 +1,14 @@
 #version 460
-// Pass `blur`: takes the noise of the samples from light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along
-// rows and then along columns, not across gaps in depth.
+// Pass `blur`: removes the sampling noise of light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along rows and
+// then along columns, not across depth gaps.
 // Reads: tiles with foam, foam depth, foam normal with its search radius, light and shadow. Writes: the same, blurred.
 
 #include "frame.glsl"
 #include "foam_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 1: each pixel of a block of four by four has a part of the samples, and all are put together, however small the
-// particles and whatever lies between them.
+// 1: each pixel of a 4x4 block holds a part of the samples, and all are combined, however small the particles and
+// whatever lies between them.
 layout(constant_id = 1) const uint FAST = 0;
 const float BLOCK = FAST == 1u ? 4.0 : 0.0;
 layout(set = 0, binding = 1) uniform sampler2D occluders;
@@ -17,8 +17,8 @@ layout(set = 0, binding = 3) uniform sampler2D radiance;
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D blurred;
 layout(push_constant, std430) uniform Push { ivec2 step; } push;
 
-// Pixels to either side at most. Of a wider blur those at the least odd step that is enough: of each block of four by four
-// all take their turns, and a Gaussian of at least eleven numbers to a side is told by them.
+// Most pixels read on each side. A wider blur reads every n-th pixel, with the least odd n that suffices: an odd
+// step visits all positions of the 4x4 blocks, and at least eleven values per side represent a Gaussian.
 const int MOST = 32;
 
 void main() {
@@ -37,7 +37,7 @@ void main() {
     float radius = max(frame.diffuse_color.w * 0.5 * first * frame.extent.y, BLOCK);
     // Two radii of the particle.
     float gap = max(2.0 * search / abs(frame.projection.y), 2.0 * BLOCK * abs(frame.slope.y)) * depth;
-    // How far the picture goes before the pixel and after it.
+    // Number of pixels before and after this one.
     int at = pixel.x * push.step.x + pixel.y * push.step.y;
     int last = (size.x - 1) * push.step.x + (size.y - 1) * push.step.y;
     ivec2 ends = ivec2(at, last - at);

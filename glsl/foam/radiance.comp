@@ -1,12 +1,11 @@
 #version 460
-// Pass `radiance`: how much less light comes to the foam of a pixel for what stands round it, and what of the
-// environment's it gathers (Akinci et al. 2013, Sec. 2.4; pass 6). Occlusion in as many spheres as there are
-// passes, each wider, of points that all pixels share.
-// The sun's light and its shadows, which the source has not, are ours. So is the normal of what is smaller than a
-// pixel, whose middle hits a sphere where chance will have it: lit by that far foam is salt and pepper. It is where
-// the same samples find the space open, so that a plume is lit as the body that it is.
-// Reads: tiles with foam, foam depth and intensity beside the depths of fluid and scene, foam normal, points, irradiance,
-// environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
+// Pass `radiance`: ambient occlusion and environment light of the foam of each pixel (Akinci et al. 2013, Sec. 2.4;
+// pass 6). Occlusion is sampled in one sphere per pass, each larger, with points that all pixels share.
+// Not in the paper: the sun's light and shadows, and the normal of particles smaller than a pixel. A pixel's centre
+// hits an arbitrary point of such a sphere, and shading by its normal makes far foam look like salt and pepper.
+// Instead the normal is where the same samples find open space, so a plume is lit as one body.
+// Reads: tiles with foam, foam depth and intensity beside the depths of fluid and scene, foam normal, points,
+// irradiance, environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
 
 #include "frame.glsl"
 #include "falloff.glsl"
@@ -18,35 +17,37 @@
 #include "foam_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 1: the environment is asked at the points' directions, as in the source; 0: once, filtered before.
+// 1: look up the environment in the directions of the points, as in the paper; 0: look it up once,
+// prefiltered.
 layout(constant_id = 0) const uint SAMPLED = 0;
-// 1: each pixel of a block has a sixteenth of all points, and `blur` puts them together. Each sixteenth by itself
-// finds half of a half space hidden, whatever its slope: foam that is alone is not helped by its neighbours' points.
-// As many whatever the spheres' size, so that foam does not change with the distance.
+// 1: each pixel of a 4x4 block uses a sixteenth of the points, and `blur` combines them. Each sixteenth by
+// itself finds half of a half space hidden, whatever its slope, because isolated foam gets no help from its
+// neighbours' points. The number does not depend on the size of the spheres, so that foam does not change
+// with the distance.
 layout(constant_id = 1) const uint FAST = 0;
-// Points of all sixteen.
+// Points of all sixteen pixels.
 const float FAST_SAMPLES = 320.0;
 
 layout(set = 0, binding = 1) uniform sampler2D occluders;
-// With the search radius.
+// xyz: normal; w: search radius.
 layout(set = 0, binding = 2, rgba16f) uniform image2D normals;
-// Points of a unit sphere, and how much each counts. FAST: of each pair that lies opposite each other the one.
+// Points of a unit sphere, and their weights. FAST: one of each pair of opposite points.
 layout(set = 0, binding = 3, std430) readonly buffer Points { vec4 points[]; };
-// Octahedral, with a border of a texel.
+// Octahedral, with a border of one texel.
 layout(set = 0, binding = 4) uniform sampler2D irradiance;
 layout(set = 0, binding = 5) uniform samplerCube environment;
-// Light, shadow.
+// rgb: light; a: shadow.
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D radiance;
 
-// What a direction to the eye counts beside that to where it is open: haze has no side.
+// Weight of the direction to the eye beside the open direction. Haze has no open direction.
 const float TO_EYE = 0.02;
 
-// How much of a sample is hidden, over the most it may be: occluders that are too far before it don't count. And
-// however far they are.
+// x: occlusion of a sample, at most 1, without occluders that are too far before it. y: the same with
+// occluders at any distance.
 vec2 hidden(vec4 there, float depth, float reach) {
     vec3 opacity = vec3(there.y, frame.diffuse_opacity.xy);
     vec3 before = depth - there.xzw;
-    // No more than 1: what is not there is so far behind that its square is beyond what a number holds.
+    // Clamped to 1: an empty layer is so far behind that the square overflows.
     vec3 near = clamp(1.0 - before / reach, 0.0, 1.0);
     opacity = mix(vec3(0.0), opacity, greaterThan(before, vec3(0.0)));
     return min(vec2(dot(near * near, opacity), dot(vec3(1.0), opacity)), 1.0);
@@ -60,12 +61,12 @@ vec4 point_of(uint i) {
     return vec4((i & 1u) == 0u ? one.xyz : -one.xyz, one.w);
 }
 
-// Points of the sphere of a pass, so many pixels wide: the first of them, and after the last.
+// First point of a pass, and the end, for a sphere with this radius in pixels.
 uvec2 samples_of(float pixels, ivec2 pixel, uint pass) {
     if (FAST == 1u) {
         uint count = 2u * max(uint(min(frame.diffuse_samples.y, FAST_SAMPLES)) / 32u, 1u);
-        // Runs of the sequence, each of which fills the sphere; those of neighbours lie far from each other in it, and
-        // those of a pixel's passes: three spheres are told by three times the points.
+        // Runs of the sequence, each of which fills the sphere. The runs of neighbouring pixels, and those of a
+        // pixel's passes, are far apart in the sequence, so that three spheres have three times the points.
         uvec2 p = uvec2(pixel);
         uint x = p.x ^ p.y;
         uint run = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
@@ -76,13 +77,13 @@ uvec2 samples_of(float pixels, ivec2 pixel, uint pass) {
     return uvec2(0u, uint(clamp(count, frame.diffuse_samples.x, frame.diffuse_samples.y) + 0.5));
 }
 
-// Search radius of a pass, in half heights of the picture.
+// Search radius of a pass in half heights of the picture.
 float search_of(float foam, uint pass) {
     return foam * (frame.diffuse_search.x + frame.diffuse_search.y * float(pass));
 }
 
-// The environment's light over the hemisphere of a normal, 1/2 of one that is 1 everywhere: of a few directions by
-// what their own cosines come to.
+// Environment light over the hemisphere of a normal: 1/2 for an environment of 1. With few directions the sum
+// is normalized by their own cosines.
 vec3 gathered(vec3 normal, uvec2 run) {
     if (SAMPLED == 0u) {
         vec2 at = octahedral_texture_place(normal, textureSize(irradiance, 0));
@@ -111,10 +112,10 @@ void main() {
     }
     vec4 with = imageLoad(normals, pixel);
     vec3 position = vec3(ray_slope(vec2(pixel) + 0.5, frame.slope) * depth, -depth);
-    float metres = depth / abs(frame.projection.y); // of half the picture's height
+    float metres = depth / abs(frame.projection.y); // per half height of the picture
     uint passes = uint(frame.diffuse_search.z);
     vec3 sum = vec3(0.0);
-    // Of what is hidden however far, and of all, the same times the points.
+    // Sums of the points' vectors: weighted by occlusion at any distance, and unweighted.
     vec3 dark = vec3(0.0);
     vec3 whole = vec3(0.0);
     for (uint pass = 1u; pass <= passes; ++pass) {
@@ -138,23 +139,24 @@ void main() {
         }
     }
     vec2 parts = sum.z > 0.0 ? sum.xy / sum.z : vec2(0.0);
-    // What is hidden lies to one side: that much less than its part of all lies to the other.
+    // The open direction: the direction in which there is less occlusion than in the mean.
     vec3 open = parts.y * whole - dark + vec3(0.0, 0.0, max(TO_EYE * sum.z, 1.0e-6));
     float told = told_of(0.5 * with.w * frame.extent.y);
     vec3 facing = mix(mat3(frame.world) * normalize(open), with.xyz, told);
-    // Two that are opposite have no mean.
+    // Two opposite vectors have no mean.
     vec3 normal = dot(facing, facing) > 1.0e-6 ? normalize(facing) : with.xyz;
     if (told < 1.0) {
         imageStore(normals, pixel, vec4(normal, with.w));
     }
-    // The environment is without the sun. Foam is soft: it is lit beyond where it is turned away.
+    // The environment does not contain the sun. Foam scatters light: it is lit also where it is turned away a
+    // little.
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.diffuse_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
-    // The directions of the first sphere's points, also where no sphere is asked for.
+    // The directions of the first sphere's points, even if there are no passes.
     uvec2 first = samples_of(0.5 * search_of(with.w, 1u) * frame.extent.y, pixel, 1u);
     vec3 light = gathered(normal, first) + sun;
     float share = parts.x * frame.diffuse_opacity.z;
-    // pow() of 0 is NaN on some drivers.
+    // pow() of 0 is NaN with some drivers.
     float shadow = (share > 0.0 ? pow(share, frame.diffuse_opacity.w) : 0.0) + frame.diffuse_shadow.w;
     imageStore(radiance, pixel, vec4(light, clamp(shadow, 0.0, 1.0)));
 }

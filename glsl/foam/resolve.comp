@@ -7,7 +7,7 @@
 #include "intensity.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-// Of a pixel two.
+// Two per pixel.
 layout(set = 0, binding = 1, std430) readonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D occluders;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly image2D thickness;

@@ -1,7 +1,7 @@
 #version 460
-// Pass `splat`: the frontmost of the diffuse particles and their thickness (Akinci et al. 2013, Sec. 2.1 and 2.2;
-// passes 3 and 4), an invocation a particle. Depth, unlike in water, is not smoothed: that would take from the
-// occlusion. The second time over what goes with the frontmost: its search radius and normal.
+// Pass `splat`: depth of the frontmost whitewater particle and thickness of all (Akinci et al. 2013, Sec. 2.1 and 2.2;
+// passes 3 and 4), one invocation per particle. Unlike water, depth is not smoothed: that would weaken the occlusion.
+// The second dispatch writes the frontmost particle's attributes: search radius and normal.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
@@ -12,14 +12,14 @@
 #include "diffuse_words.glsl"
 
 layout(local_size_x = 64) in;
-// 0: depth and thickness. 1: what goes with the depth.
+// 0: depth and thickness. 1: the attributes of the frontmost particle.
 layout(constant_id = 0) const uint FRONTMOST = 0;
 
 #include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 
-// Of a pixel two. One declaration for what is read at once and what is added word by word: two of the same memory may be taken
-// for two memories.
+// Two per pixel. One declaration for both whole reads and atomics on words, because a driver may take two
+// declarations for different memory.
 layout(set = 0, binding = 6, std430) buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
 
@@ -38,7 +38,7 @@ void splat(ivec2 pixel, Sprite s) {
     float depth = -p.centre.z - w * p.radius;
     uint bits = floatBitsToUint(depth);
     uint at = words_of(pixel);
-    // It may be old by the time that it is used: then an atomic is for nothing, or the next particle's.
+    // The value may be outdated when it is used: then the atomic has no effect, or the next particle does it.
     uvec4 head = words[at / 4u];
     uint front = head[FRONT];
     if (FRONTMOST == 1u) {
@@ -50,7 +50,7 @@ void splat(ivec2 pixel, Sprite s) {
     if (!(bits < head[SCENE])) {
         return;
     }
-    // Most lose: a read is cheaper than an atomic.
+    // Most particles lose the comparison: a read is cheaper than an atomic.
     if (bits < front) {
         atomicMin(WORD(at + FRONT), bits);
     }

@@ -9,8 +9,8 @@
 #include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 
-layout(location = 0) flat out vec4 sprite;    // depth of its middle, radius, life, kind
-layout(location = 1) flat out vec4 footprint; // middle in pixels, 1 over its half-axes
+layout(location = 0) flat out vec4 sprite;    // depth of its centre, radius, life, kind
+layout(location = 1) flat out vec4 footprint; // centre in pixels, 1 / half-axes
 layout(location = 2) flat out vec2 parts;
 
 void main() {

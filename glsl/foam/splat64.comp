@@ -1,6 +1,7 @@
 #version 460
-// Pass `splat` in one go, where there are atomics of 64 bits (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4):
-// the depth of the frontmost and, below it in the word, what goes with it. The same as of splat.comp in two.
+// Pass `splat` in one dispatch, with 64-bit atomics (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4): the depth
+// of the frontmost and, in the lower bits of the word, its attributes. Same result as the two dispatches of
+// splat.comp.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
 
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -18,10 +19,10 @@ layout(local_size_x = 64) in;
 #include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 
-// The words of diffuse_words.glsl. One declaration for what is read and what is added: two of the same memory may be taken for
-// two memories.
+// The words of diffuse_words.glsl. One declaration for both reads and atomics, because a driver may take two
+// declarations for different memory.
 struct Pixel {
-    uint64_t front; // with the frontmost, below its depth
+    uint64_t front; // depth of the frontmost in the high word, its attributes in the low word
     uint scene;
     uint fluid;
     uvec4 sums;
@@ -48,7 +49,8 @@ void splat(ivec2 pixel, Sprite s) {
     if (!(bits < pixels[own].scene)) {
         return;
     }
-    // Most lose: a read is cheaper than an atomic. It may be old by the time that it is used, and then an atomic is for nothing.
+    // Most particles lose the comparison: a read is cheaper than an atomic. The value may be outdated when it is
+    // used; then the atomic has no effect.
     if (bits <= uint(pixels[own].front >> 32)) {
         atomicMin(pixels[own].front, uint64_t(bits) << 32 | with_of(s.search, place, w));
     }

@@ -1,6 +1,6 @@
 #version 460
-// Pass `splat` by quads, second go (Akinci et al. 2013, Sec. 2.2; pass 4): thickness, by blending.
-// Reads: words. Writes: what is before the fluid, behind it, and that by how far.
+// Pass `splat` by quads, second draw (Akinci et al. 2013, Sec. 2.2; pass 4): thickness, by additive blending.
+// Reads: words. Writes: thickness in front of the fluid, behind it, and the latter times its distance behind.
 
 #include "frame.glsl"
 #include "falloff.glsl"
@@ -14,6 +14,6 @@ void main() {
     Met m = meet();
     float amount = diffuse_amount(m.p, m.f, m.rr);
     vec3 all = diffuse_shares(amount, m.depth, uintBitsToFloat(words[m.at + FLUID]));
-    // Whole steps, as of compute: up to 256 their sums are exact in any order.
+    // Whole steps, as in the compute path: up to 256, sums are exact in any order.
     shares = vec4(floor(all * STEPS + 0.5) / STEPS, 0.0);
 }

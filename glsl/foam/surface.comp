@@ -1,7 +1,7 @@
 #version 460
-// Pass `radiance`, first part: the fluid that stands round foam is the smoothed surface, not its spheres, whose bumps
-// would shade it. Particles were told by the spheres, which are there before the smoothing and its tiles are.
-// Not in the source, whose fluid surface is a host's.
+// Pass `radiance`, first part: replaces the fluid's depth by the smoothed surface, because the bumps of its spheres
+// would occlude foam. `splat` uses the spheres, which exist before the smoothing and its tiles.
+// Not in the paper, whose fluid surface is given.
 // Reads: depth, smoothed, levels, foam depth and intensity beside the depths of fluid and scene. Writes: these.
 
 #include "frame.glsl"
@@ -18,7 +18,7 @@ void main() {
         return;
     }
     vec4 there = imageLoad(occluders, pixel);
-    // A fluid of the host's is as it is.
+    // The host's own fluid is not smoothed.
     if (there.z < EMPTY && there.z == texelFetch(depth, pixel, 0).x) {
         there.z = smoothed_at(vec2(pixel) + 0.5, there.z);
         imageStore(occluders, pixel, there);

@@ -1,6 +1,6 @@
 #version 460
-// Pass `radiance`, second part: the tiles of 8x8 pixels in which there is foam. Most of a picture has none, and a group that
-// finds none costs a CPU a good part of one that does. An invocation has a tile.
+// Pass `radiance`, second part: lists the 8x8 tiles that contain foam. Most of a picture has none, and on a CPU an
+// empty group costs a good part of a full one. One invocation per tile.
 // Reads: foam depth. Writes: tiles.
 
 #include "frame.glsl"
@@ -12,7 +12,7 @@ layout(set = 0, binding = 1) uniform sampler2D occluders;
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;
     vec2 texel = 1.0 / vec2(textureSize(occluders, 0));
-    // What lies beyond the picture may be among it: it is asked again.
+    // This may include texels outside the picture: pixels are tested again.
     vec4 nearest = vec4(EMPTY);
     for (uint i = 0u; i < 16u; ++i) {
         uvec2 four = 8u * tile + 2u * uvec2(i & 3u, i >> 2) + 1u;

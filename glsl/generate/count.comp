@@ -1,6 +1,6 @@
 #version 460
-// Pass `grid`: how many particles there are in each bucket.
-// Reads: counts, positions, velocities. Writes: buckets; wanted and potentials, none of any yet.
+// Pass `grid`: number of particles in each bucket.
+// Reads: counts, positions, velocities. Writes: buckets; clears wanted and potentials.
 
 #include "random.glsl"
 #include "fluid.glsl"

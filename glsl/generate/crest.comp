@@ -1,6 +1,6 @@
 #version 460
-// Pass `crest`: how much the surface bends where it moves outwards, and with it how many diffuse particles the
-// fluid's are to make (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
+// Pass `crest`: wave-crest potential (curvature where the surface moves outwards), and from all potentials the number
+// of whitewater particles to emit (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
 // Reads: the grid, normals, potentials. Writes: potentials, rates, wanted.
 
 #include "random.glsl"
@@ -13,15 +13,15 @@ layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCount
 layout(set = 0, binding = 5, std430) readonly buffer Normals { vec4 normals[]; };
 layout(set = 0, binding = 6, std430) buffer Potentials { vec4 potentials[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Wanted { uint wanted[]; };
-// In the grid's order: shares of the most a second.
+// In the grid's order: fraction of the largest rate per second.
 layout(set = 0, binding = 8, std430) writeonly buffer Rates { float rates[]; };
 
 // Cosine of the angle to the normal within which a crest moves.
 const float ALONG = 0.6;
-// Of a particle in a step.
+// Most whitewater particles per fluid particle and step.
 const float MOST_MADE = 64.0;
 
-// Of convex neighbours alone: those that lie below the surface's plane here.
+// Curvature from convex neighbours only: those below the tangent plane.
 uint bend(vec3 position, vec3 normal) {
     uint sum = 0u;
     for (int c = 0; c < 27; ++c) {

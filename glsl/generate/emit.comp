@@ -1,14 +1,14 @@
 #version 460
-// Pass `emit`: new diffuse particles, in a cylinder along the way of each particle of the fluid in the step
-// (Ihmsen et al. 2012, Sec. 3.2). In the order of the fluid's particles they take the slots that are free. Those of a
-// snapshot come anywhere within a spacing of its particle, as old as the moment that they are of.
-// Reads: the grid, normals or stages, wanted (how many are before each), free. Writes: diffuse particles.
+// Pass `emit`: new whitewater particles, in a cylinder along the path of each fluid particle in the step (Ihmsen et
+// al. 2012, Sec. 3.2). They take the free slots in the order of the fluid's particles. In a snapshot they are placed
+// within a spacing of the particle, with the age of their moment.
+// Reads: the grid, normals or stages, wanted (exclusive prefix sum), free. Writes: whitewater particles.
 
 #include "random.glsl"
 #include "generate.glsl"
 
 layout(local_size_x = 64) in;
-// 1: of a snapshot.
+// 1: for a snapshot.
 layout(constant_id = 0) const uint SNAPSHOT = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { GenerateCounts counts; };
@@ -41,7 +41,7 @@ void visit(uint i) {
     }
     vec3 velocity = motions[i].velocity;
     float speed = length(velocity);
-    // What is at rest may lie where foam came to.
+    // A particle at rest may emit too, where foam has come to it: then around the up axis.
     vec3 ahead = speed > 0.0 ? velocity / speed : vec3(0.0, 1.0, 0.0);
     float way = SNAPSHOT == 0u ? push.dt * speed : speed > 0.0 ? push.spacing : 0.0;
     vec3 x;
@@ -49,9 +49,9 @@ void visit(uint i) {
     axes_of(ahead, x, y);
     uint seed = step_seed();
     uint id = places[i].id;
-    // Of what is about it the particle that makes it is one, as it is in the steps after.
+    // The particle that emits it counts as a neighbour, as in later steps.
     uint kind = kind_of(uint(uintBitsToFloat(normals[i].w)) + 1u);
-    // The random numbers before are the stages'.
+    // Earlier random numbers belong to the stages.
     uint random = SNAPSHOT == 0u ? 1u : 32u;
     uint stage = 0u;
     uint of_stage = normals[i].x & MOST_OF_STAGE;
@@ -62,7 +62,7 @@ void visit(uint i) {
         }
         --of_stage;
         uint order = first + k;
-        // A difference: the sum of slots and of what is to be made may be beyond 32 bits.
+        // As a difference, because the sum of slots and new particles may overflow 32 bits.
         uint beyond = order - min(order, counts.free);
         if (order >= counts.free && beyond >= push.most - min(counts.high, push.most)) {
             return;
@@ -70,7 +70,7 @@ void visit(uint i) {
         uint slot = order < counts.free ? free_slots[order] : counts.high + beyond;
         float radius = 0.5 * push.spacing * sqrt(uniform_of(seed, id, 4u * k + random));
         float along = way * uniform_of(seed, id, 4u * k + random + 1u);
-        // Less half a turn: sines are exact only there.
+        // Shifted by half a turn: sines are exact only near 0.
         float turn = 6.28318531 * (uniform_of(seed, id, 4u * k + random + 2u) - 0.5);
         vec3 off = -radius * (cos(turn) * x + sin(turn) * y);
         float age = 0.0;
@@ -80,7 +80,7 @@ void visit(uint i) {
             age = seconds / mix(least, push.life_most, uniform_of(seed, id, 4u * k + random + 3u));
         }
         particles[slot] = Diffuse(places[i].position + off + along * ahead, age);
-        // Files hold numbers of 31 bits.
+        // Files hold ids of 31 bits.
         drifts[slot] = Drift(velocity + off, pcg(id + pcg(4u * k + random + 3u + pcg(seed))) >> 1);
         kinds[slot] = kind;
     }

@@ -1,5 +1,5 @@
 #version 460
-// Pass `emit`, last part: what there is now.
+// Pass `emit`, last part: final counts.
 // Reads: counts. Writes: counts.
 
 #include "random.glsl"

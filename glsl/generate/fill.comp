@@ -1,6 +1,6 @@
 #version 460
-// Pass `grid`, last part: the particles by their buckets. Of one they come in any order.
-// Reads: counts, positions, velocities, ids. Writes: buckets (where each begins, then where it ends), places, motions.
+// Pass `grid`, last part: enters the particles in their buckets, in any order within a bucket.
+// Reads: counts, positions, velocities, ids. Writes: buckets (begin of each, then its end), places, motions.
 
 #include "random.glsl"
 #include "fluid.glsl"

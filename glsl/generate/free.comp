@@ -1,6 +1,6 @@
 #version 460
-// Pass `advance`, last part: the free slots, in their order.
-// Reads: diffuse particles, gone (how many are before each). Writes: free.
+// Pass `advance`, last part: lists the free slots in order.
+// Reads: whitewater particles, gone (exclusive prefix sum). Writes: free.
 
 #include "random.glsl"
 #include "generate.glsl"

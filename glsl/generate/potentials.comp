@@ -1,6 +1,6 @@
 #version 460
-// Pass `potentials`: how much air the water traps round each particle, its energy, and the normal of the surface
-// (Ihmsen et al. 2012, Sec. 3.1).
+// Pass `potentials`: trapped-air potential and kinetic energy of each particle, and the surface normal (Ihmsen et al.
+// 2012, Sec. 3.1).
 // Reads: the grid. Writes: normals, potentials.
 
 #include "random.glsl"
@@ -10,13 +10,13 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCounts counts; };
-// Of those at the surface, else 0; and the number of neighbours.
+// xyz: normal of a particle at the surface, else 0. w: number of neighbours.
 layout(set = 0, binding = 5, std430) writeonly buffer Normals { vec4 normals[]; };
-// In the order of the step: trapped air, wave crest, energy, neighbours.
+// In the order of the step: trapped air, wave crest, energy, number of neighbours.
 layout(set = 0, binding = 6, std430) writeonly buffer Potentials { vec4 potentials[]; };
 
-// How far, of the sum of the weights, the neighbours' middle is from a particle at the surface: in a flat
-// one it is 0.3, inside 0.
+// Least distance of the neighbours' weighted mean, per sum of weights, for a particle at the surface: on a flat
+// surface it is 0.3, inside 0.
 const float AT_SURFACE = 0.15;
 
 void visit(uint i) {
@@ -38,7 +38,7 @@ void visit(uint i) {
             float weight = 1.0 - d / support();
             vec3 slower = velocity - motions[j].velocity;
             float speed = length(slower);
-            // As speed times the cosine's part, so that no zero vector is normalised.
+            // Computed as speed minus a projection, so that no zero vector is normalized.
             float air = d > 0.0 ? (speed - dot(slower, from) / d) * weight : 0.0;
             trapped += uint(clamp(air / speed_step(), 0.0, MOST_STEPS) + 0.5);
             away += ivec3(round(from / support() * (weight * STEPS)));

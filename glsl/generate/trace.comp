@@ -1,7 +1,7 @@
 #version 460
-// Pass `trace`, of a snapshot: how many of the diffuse particles that a steady flow made in one life lie at each particle of
-// the water, by what the water made where it came from. Ihmsen et al. 2012 have sequences alone; of a single frame nothing
-// but its own flow is known.
+// Pass `trace`, snapshots only: number of whitewater particles that a steady flow would have left at each water
+// particle, from the emission at the places where its water came from. Ihmsen et al. 2012 simulate sequences only; a
+// single frame has nothing but its own flow.
 // Reads: the grid, rates. Writes: stages (in place of normals), wanted.
 
 #include "random.glsl"
@@ -11,7 +11,7 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCounts counts; };
-// The fourth word is the number of neighbours' and stays.
+// The fourth word is the number of neighbours and is kept.
 layout(set = 0, binding = 5, std430) buffer Stages { uvec4 stages[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Rates { float rates[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Wanted { uint wanted[]; };
@@ -23,7 +23,7 @@ float rate_of(uint j) {
 #include "generate_water.glsl"
 #include "generate_stages.glsl"
 
-// What is left of foam of an age: it lives for any time between the least and the most.
+// Fraction of foam of an age that is left: lifetimes are uniform between the least and the greatest.
 float left_of(float seconds) {
     float rest = push.life_most - seconds;
     return seconds < push.life_least ? 1.0 : clamp(rest / max(push.life_most - push.life_least, 1.0e-20), 0.0, 1.0);

@@ -1,5 +1,5 @@
 #version 460
-// Passes `grid`, `advance`, `emit` and `blobs`, sums of all before each: of each number.
+// Passes `grid`, `advance`, `emit` and `blobs`, exclusive prefix sum, last part: within each block.
 // Reads: counts, blocks, values. Writes: values.
 
 #include "scan.glsl"

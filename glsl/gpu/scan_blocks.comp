@@ -1,6 +1,6 @@
 #version 460
-// Passes `grid`, `advance`, `emit` and `blobs`, sums of all before each: of the blocks, by one group.
-// Reads: counts, blocks. Writes: blocks, the sum of all in counts.
+// Passes `grid`, `advance`, `emit` and `blobs`, exclusive prefix sum, second part: over the blocks, by one group.
+// Reads: counts, blocks. Writes: blocks, the total in counts.
 
 #include "scan.glsl"
 

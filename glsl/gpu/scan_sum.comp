@@ -1,5 +1,5 @@
 #version 460
-// Passes `grid`, `advance`, `emit` and `blobs`, sums of all before each: the sum of each block.
+// Passes `grid`, `advance`, `emit` and `blobs`, exclusive prefix sum, first part: the sum of each block.
 // Reads: counts, values. Writes: blocks.
 
 #include "scan.glsl"

@@ -23,12 +23,12 @@ float noise(vec3 p) {
     return 2.0 * mix(y.x, y.y, f.x) - 1.0;
 }
 
-// What of a wave of this frequency survives a footprint of this width.
+// Amplitude of a wave with this frequency after filtering with a footprint of this width.
 float kept(float width, float frequency) {
     return 1.0 - smoothstep(0.25, 0.9, width * frequency);
 }
 
-// Octaves of noise that fade as the footprint grows over them.
+// Octaves of noise; each fades out as the footprint grows beyond it.
 float octaves(vec3 p, float frequency, int count, float width) {
     float sum = 0.0;
     float amplitude = 0.5;

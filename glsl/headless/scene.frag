@@ -39,15 +39,15 @@ layout(push_constant, std430) uniform Push {
     vec4 turn;      // rotation of the mesh's frame (quaternion)
     vec4 origin;    // origin of the mesh's frame (world)
     vec4 color;     // base colour, roughness
-    vec4 pattern;   // size, height of the tiles' band (m); or how high sand reaches above the sea; z: 1 of the backdrop,
-                    // the sun on which is baked as well
+    vec4 pattern;   // size, height of the tiles' band (m) or of the beach above the sea; z: 1 for the backdrop,
+                    // whose visibility of the sun is baked
 } push;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-layout(location = 3) in vec4 light;  // share of the sky that is seen; sunlight off other surfaces
-layout(location = 4) in vec4 around; // albedo of the other surfaces that are seen; bulge, or the backdrop's share of the sun
+layout(location = 3) in vec4 light;  // visible fraction of the sky; sunlight bounced off other surfaces
+layout(location = 4) in vec4 around; // albedo of the visible other surfaces; bulge, or the backdrop's visibility of the sun
 
 layout(location = 0) out vec4 color;
 
@@ -68,7 +68,7 @@ vec3 turn(vec3 v) {
     return v + 2.0 * cross(q, cross(q, v) + push.turn.w * v);
 }
 
-// Share of the footprint that is covered by lines of this width at the integers.
+// Fraction of the footprint covered by lines of this width at the integers.
 float lines(float x, float width, float footprint) {
     footprint = max(footprint, 1.0e-4);
     vec2 ends = x + 0.5 * width + vec2(-0.5, 0.5) * footprint;
@@ -76,7 +76,7 @@ float lines(float x, float width, float footprint) {
     return clamp((covered.y - covered.x) / footprint, 0.0, 1.0);
 }
 
-// Glazed tiles with grout, each of its own shade; one row of them a dark band.
+// Glazed tiles with grout, each with its own shade; one row is a dark band.
 Surface tiles(vec2 q, vec2 footprint, float height) {
     float size = push.pattern.x;
     q /= size;
@@ -89,7 +89,7 @@ Surface tiles(vec2 q, vec2 footprint, float height) {
     float shade = hash(ivec3(id, 7)) - 0.5;
     float hue = hash(ivec3(id, 31)) - 0.5;
     vec3 tile = push.color.rgb * (1.0 + one * (0.34 * shade + vec3(-0.14, 0.0, 0.09) * hue));
-    // The glaze runs off the edges and pools in the middle.
+    // The glaze is thin at the edges and thick in the middle.
     vec2 in_tile = abs(fract(q) - 0.5) * 2.0;
     tile *= 1.0 - one * 0.10 * pow(max(in_tile.x, in_tile.y), 4.0);
     if (floor(height / size) == floor(push.pattern.y / size)) {
@@ -103,7 +103,7 @@ Surface tiles(vec2 q, vec2 footprint, float height) {
     return s;
 }
 
-// Sawn boards along x: fibres, knots' swirl, a dark gap between boards.
+// Sawn boards along x: fibres, swirls around knots, a dark gap between boards.
 Surface planks(vec3 p, vec3 n, vec2 footprint, float width) {
     float size = push.pattern.x;
     bool end = n.x > max(n.y, n.z);
@@ -131,7 +131,7 @@ Surface concrete(vec3 p, vec3 n, float width) {
     float cloud = octaves(p, 1.7, 4, width);
     float grain = octaves(p + 31.0, 55.0, 2, width);
     float streak = n.y < 0.5 ? octaves(vec3(p.x, 0.12 * p.y, p.z) + 7.0, 9.0, 2, width) : 0.0;
-    // Bubbles at the formwork: one in some cells of 4 cm.
+    // Air bubbles at the formwork: one in some of the 4 cm cells.
     ivec3 cell = ivec3(floor(p * 25.0));
     vec3 place = vec3(hash(cell), hash(cell + 101), hash(cell + 211));
     float size = 0.02 + 0.14 * place.x * place.x;
@@ -201,7 +201,7 @@ Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
     return s;
 }
 
-// Rock: clouds, clefts, lichen on what looks up; dark where the sea wets it.
+// Rock: clouds, clefts, lichen on surfaces that face up; dark where the sea wets it.
 Surface rock(vec3 p, vec3 n, float width, float height) {
     float cloud = octaves(p, 0.45, 4, width);
     float cleft = octaves(p + 3.0 * cloud, 1.1, 3, width);
@@ -236,12 +236,12 @@ Surface leaves(vec3 p, vec3 n, float width) {
     return s;
 }
 
-// Masses of leaves: twigs that face all ways, dark gaps between them, each bush of its own green.
+// Masses of leaves: twigs in all directions, dark gaps between them, each bush with its own green.
 Surface foliage(vec3 p, vec3 n, float width) {
     float mass = octaves(p + 3.0, 0.35, 2, width);
     float twig = octaves(p + 61.0, 2.6, 3, width);
     vec3 leaf = vec3(octaves(p, 11.0, 2, width), octaves(p + 41.0, 11.0, 2, width), octaves(p + 83.0, 11.0, 2, width));
-    // Gaps finer than a pixel average out to a darker, even green.
+    // Gaps finer than a pixel average to a darker, uniform green.
     float deep = smoothstep(0.0, 0.5, -1.1 * leaf.x - 0.8 * twig + 0.12 * (1.0 - kept(width, 11.0)));
     Surface s;
     s.albedo = push.color.rgb * (1.0 + 0.35 * mass + 0.6 * twig + 1.3 * leaf.y);
@@ -252,11 +252,11 @@ Surface foliage(vec3 p, vec3 n, float width) {
     return s;
 }
 
-// Grass: stripes that the mower has laid to and fro, patches that are dry or lush, tufts.
+// Grass: stripes from mowing to and fro, patches that are dry or lush, tufts.
 Surface lawn(vec3 p, float width) {
     float broad = octaves(p + 5.0, 0.09, 3, width);
     float patches = octaves(p + 29.0, 0.9, 3, width);
-    // Seen from low tufts stand before one another: as fine as the footprint is narrow.
+    // From a low eye tufts hide one another, so their scale follows the narrow axis of the footprint.
     float tuft = octaves(vec3(p.x, 0.0, p.z), 9.0, 3, 0.6 * width);
     float laid = lines(p.x / (2.0 * push.pattern.x) + 0.04 * broad, 0.5, width / (2.0 * push.pattern.x)) - 0.5;
     vec3 lush = push.color.rgb;
@@ -269,14 +269,14 @@ Surface lawn(vec3 p, float width) {
     return s;
 }
 
-// Sand with ripples, bent and broken, coarser sand in their troughs; a pebble in some cells.
+// Sand with bent and broken ripples, coarser sand in their troughs, a pebble in some cells.
 Surface ripples(vec3 p, float width) {
     Surface s = sand(p, width);
     float size = push.pattern.x;
     vec2 bend = vec2(octaves(p, 0.35 / size, 2, width), octaves(p + 37.0, 0.35 / size, 2, width));
     float phase = 6.2832 * ((0.35 * p.x + p.z) / size + 1.6 * bend.x);
     float height = kept(width, 1.0 / size) * smoothstep(-0.35, 0.25, octaves(p + 91.0, 0.13 / size, 2, width) + 0.1);
-    // Steep to the lee.
+    // Steeper on the lee side.
     float slope = cos(phase + 0.5 * sin(phase));
     s.albedo *= 1.0 - 0.10 * height * (1.0 - sin(phase));
     s.tilt += 0.38 * height * slope * vec3(0.35, 0.0, 1.0) + vec3(0.2 * bend.y, 0.0, 0.0);
@@ -291,14 +291,14 @@ Surface ripples(vec3 p, float width) {
     return s;
 }
 
-// Sand to some height above the sea, then grass, rock where it is steep; weed and stones on the bottom.
+// Sand up to a height above the sea, then grass, and rock where it is steep; weed and stones on the sea bed.
 Surface island(vec3 p, vec3 n, float width, float height) {
     float beach = push.pattern.x;
     Surface s = sand(p, width);
     float broad = octaves(p + 5.0, 0.06, 4, width);
     float patches = octaves(p + 29.0, 0.22, 4, width);
     float fine = octaves(p + 47.0, 1.3, 3, width);
-    // Sand that the sea has wet.
+    // Sand wetted by the sea.
     float damp = SEA == WATER ? 1.0 - smoothstep(0.08, 0.30, height + 0.12 * broad + 0.05 * patches) : 0.0;
     s.albedo *= mix(vec3(1.0), vec3(0.66, 0.62, 0.57), damp);
     vec3 weed = vec3(0.060, 0.070, 0.035) * (1.0 + 0.8 * fine);
@@ -322,13 +322,13 @@ Surface island(vec3 p, vec3 n, float width, float height) {
     return s;
 }
 
-// Share of the sun that arrives: a 5×5 tent by nine bilinear comparisons (Castaño 2013, as in The
-// Witness), about as wide as the sun's own penumbra a metre behind an edge. Smooth, so no noise.
+// Visibility of the sun: a 5×5 tent filter with nine bilinear comparisons (Castaño 2013, as in The Witness),
+// about as wide as the sun's penumbra a metre behind an edge. It is smooth and needs no noise.
 float sunlight(vec3 at, vec3 facing) {
     float slope = 1.0 - max(dot(facing, scene.sun_direction.xyz), 0.0);
     vec3 lifted = at + facing * scene.shadow_texel.z * (1.0 + 2.5 * slope);
     vec4 s = scene.shadow * vec4(lifted, 1.0);
-    // Behind everything that casts a shadow depth ends, and the border is lit.
+    // Beyond all shadow casters the depth ends; the border is lit.
     float depth = min(s.z, 1.0);
     vec2 uv = s.xy / scene.shadow_texel.xy;
     vec2 base = floor(uv + 0.5);
@@ -352,7 +352,7 @@ float sunlight(vec3 at, vec3 facing) {
     return sum / 144.0;
 }
 
-// Irradiance on the sea at a place, of the sun and a share of the sky.
+// Irradiance on the sea at a point: sun, and a fraction of the sky.
 vec3 lava_light(vec2 place, float sky_seen) {
     vec3 at = vec3(place.x, scene.sea.x, place.y);
     vec3 up = vec3(0.0, 1.0, 0.0);
@@ -363,20 +363,21 @@ vec3 lava_light(vec2 place, float sky_seen) {
 void main() {
     vec3 to_eye = scene.eye.xyz - position;
     vec3 v = normalize(to_eye);
-    // Derivatives before any branch. Winding is not trusted: the face looks to the eye.
+    // Derivatives come before any branch. The winding is not reliable: the face is taken to look towards the
+    // eye.
     vec3 px = dFdx(position);
     vec3 py = dFdy(position);
     vec3 face = cross(px, py);
     face = dot(face, face) > 0.0 ? normalize(face) : v;
     face = dot(face, v) < 0.0 ? -face : face;
     vec3 n = normalize(normal);
-    // (Leaves are lit as the crown that they are of.)
+    // Leaves keep the normal of their crown.
     n = PATTERN != FOLIAGE && dot(n, face) < 0.0 ? -n : n;
-    // How far under the sea, and what of the pixel is.
+    // Depth under the sea, and the fraction of the pixel that is under water.
     float depth = SEA != 0u ? max(scene.sea.x - position.y, 0.0) : 0.0;
     float under = SEA != 0u ? clamp((scene.sea.x - position.y) / max(fwidth(position.y), 1.0e-6) + 0.5, 0.0, 1.0) : 0.0;
 
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     int wet = under > 0.0 && over_sea() ? 1 : 0;
     Surf sea;
     vec3 shown_at = position;
@@ -389,7 +390,7 @@ void main() {
     vec3 step_x = scene.air.y * unturn(px);
     vec3 step_y = scene.air.y * unturn(py);
     vec3 footprint3 = abs(step_x) + abs(step_y);
-    // Between the short and the long axis of the footprint: neither noise nor fog.
+    // Between the short and the long axis of the footprint, a compromise between noise and blur.
     float width = 1.2 * sqrt(length(step_x) * length(step_y));
     vec3 axis = abs(unturn(face));
 
@@ -434,23 +435,24 @@ void main() {
     vec3 l = scene.sun_direction.xyz;
     float n_l = max(dot(n, l), 0.0);
     if (PATTERN == FOLIAGE || PATTERN == LAWN) {
-        // Leaves and blades face all ways, and are lit through.
+        // Leaves and blades face all directions and transmit light.
         n_l = max(0.30 + 0.70 * dot(n, l), 0.0);
     }
     float n_v = max(dot(n, v), 1.0e-3);
     vec3 sun = vec3(0.0);
     if (n_l > 0.0) {
-        // From the smooth surface that is meant: its facets do not shadow one another.
+        // Measured from the smooth surface that the facets approximate, so that facets do not shadow one another.
         bool backdrop = push.pattern.z > 0.5;
         vec3 lifted = position + n * 1.5 * (backdrop ? 0.0 : max(around.w, 0.0));
         sun = scene.sun_color.rgb * n_l * sunlight(lifted, face);
         sun *= backdrop ? clamp(around.w, 0.0, 1.0) : 1.0;
     }
     vec3 up = sky_irradiance(vec3(0.0, 1.0, 0.0));
-    // At a pixel's centre outside of its triangle the baked light may be extrapolated below zero.
+    // Where a pixel's centre lies outside of its triangle, interpolation may extrapolate the baked light
+    // below zero.
     float sky_seen = clamp(light.x, 0.0, 1.0);
     vec3 sky = sky_seen * sky_irradiance(n);
-    // What is around sees about half of the sky itself.
+    // Surrounding surfaces see about half of the sky themselves.
     vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around.rgb, 0.0) * up;
     for (int i = 0; SEA == WATER && i < wet; ++i) {
         sun *= sun_under(position, depth);
@@ -464,7 +466,7 @@ void main() {
 
     vec3 matt = c;
 
-    // Dielectric highlights of sun and sky.
+    // Specular reflection of sun and sky.
     float alpha = max(s.roughness * s.roughness, 0.02);
     vec3 h = normalize(v + l);
     float n_h = max(dot(n, h), 0.0);
@@ -477,12 +479,12 @@ void main() {
     float f = 0.04 + (max(1.0 - s.roughness, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
     vec3 mirrored = reflect(-v, n);
     vec3 seen = mix(c, textureLod(environment, mirrored, lod).rgb, sky_seen * sky_seen);
-    // Leaves and blades turn away from a flat view, and hide one another there.
+    // At grazing angles leaves and blades turn away and hide one another.
     float gloss = PATTERN == FOLIAGE || PATTERN == LAWN ? 0.2 : 1.0;
     c += gloss * f * (1.0 - 0.5 * s.roughness) * seen;
 
     if ((PART == GROUND || push.pattern.z > 0.5) && scene.air.x > 0.0) {
-        // The horizon's colour, from where the ray goes.
+        // The horizon's colour in the direction of the ray.
         vec3 level = normalize(vec3(-v.x, max(-v.y, 0.02), -v.z));
         float clear = exp(-length(to_eye) * scene.air.x);
         c = mix(textureLod(environment, level, 2.0).rgb, c, clear);
@@ -492,7 +494,7 @@ void main() {
         c = mix(c, textureLod(environment, -v, 2.0).rgb, smoothstep(scene.ground.z, scene.ground.w, away));
     }
     for (int i = 0; i < wet; ++i) {
-        // What is in water shines little.
+        // Under water there is little specular reflection.
         vec3 lit = SEA == LAVA ? lava_light(sea.place.at, sky_seen) : up;
         c = mix(c, sea_over(matt, depth, lit, sea), under);
     }

@@ -7,19 +7,19 @@ const int WAVES = 18;
 layout(set = 0, binding = 0, std140) uniform Scene {
     mat4 clip;          // world to clip space
     mat4 shadow;        // world to the shadow map's uv and depth
-    vec4 eye;           // position of the eye (world); w: device depth of nothing
-    vec4 ray_x;         // a pixel's ray (world) is ray_z + ndc.x · ray_x + ndc.y · ray_y; w: ndc of a pixel
-    vec4 ray_y;         // w: ndc of a pixel
+    vec4 eye;           // eye position (world); w: cleared value of the device depth
+    vec4 ray_x;         // a pixel's ray (world) is ray_z + ndc.x · ray_x + ndc.y · ray_y; w: ndc per pixel
+    vec4 ray_y;         // w: ndc per pixel
     vec4 ray_z;
-    vec4 sun_direction; // to the sun (world); w: 1 where the ground hides the sky's lower half
-    vec4 sun_color;     // irradiance on a surface that faces the sun; w: radiance of the disc over it, 0 where the picture shows it
-    vec4 shadow_texel;  // uv, world size of a texel of the shadow map, height of the ground
-    vec4 ground;        // centre x and z, where the ground begins and ends to fade into the sky
-    vec4 air;           // one over the length of the haze, 0: clear; metres of procedural surfaces a world unit
-    vec4 sea;           // level, length of its largest waves or of a plate of lava, unused, way of the sun's light a metre down
-    vec4 absorption;    // of water, 1/m; w: variance of all the waves' slopes
-    vec4 scattering;    // of water, 1/m; w: share of the loop that has passed (lava)
-    vec4 lava;          // radiance where it is hottest; w: 1 where it loops
-    vec4 flow;          // of lava: where to, x and z; how far it is, and how far it was or will be a loop away
-    vec4 waves[WAVES];  // of water: radians a metre along x and z, height, phase
+    vec4 sun_direction; // direction to the sun (world); w: 1 if the ground hides the sky's lower half
+    vec4 sun_color;     // irradiance on a surface that faces the sun; w: radiance of the disc over it, 0 if a picture shows it
+    vec4 shadow_texel;  // texel of the shadow map in uv and in world units, height of the ground
+    vec4 ground;        // centre x and z, distances at which the ground begins and ends to fade into the sky
+    vec4 air;           // 1 / length of the haze, 0: clear; metres per world unit for procedural surfaces
+    vec4 sea;           // level, length of the largest waves or of a plate of lava, unused, path of sunlight per metre of depth
+    vec4 absorption;    // of water, 1/m; w: variance of the slopes of all waves
+    vec4 scattering;    // of water, 1/m; w: fraction of the loop that has passed (lava)
+    vec4 lava;          // radiance of the hottest parts; w: 1 if it loops
+    vec4 flow;          // of lava: direction x and z; distance flown, and the same one loop before or after
+    vec4 waves[WAVES];  // of water: wave number along x and z in rad/m, amplitude, phase
 } scene;

@@ -12,15 +12,15 @@ const uint LAVA = 2;
 layout(constant_id = 3) const uint SEA = 0;
 
 const float REFRACTION = 1.333;
-const float MIRRORED = 0.02037; // at normal incidence
-const float DIFFUSE = 1.2;      // what the sky's light goes down a metre under water
+const float MIRRORED = 0.02037; // reflectance at normal incidence
+const float DIFFUSE = 1.2;      // mean path of skylight per metre of depth under water
 
-// Whether the eye is above it: one below sees no sea.
+// Whether the eye is above the sea; from below it is not drawn.
 bool over_sea() {
     return SEA != 0u && scene.eye.y > scene.sea.x;
 }
 
-// Where the pixel's ray meets a level plane; how that goes on a pixel across and a pixel down.
+// Intersection of the pixel's ray with a level plane, and its change per pixel across and down.
 struct Place {
     vec2 at;
     vec2 across;
@@ -32,7 +32,7 @@ vec3 pixel_ray() {
     return scene.ray_z.xyz + ndc.x * scene.ray_x.xyz + ndc.y * scene.ray_y.xyz;
 }
 
-// The ray goes down.
+// The ray must go down.
 Place place_at(vec3 ray, float height) {
     float along = (height - scene.eye.y) / ray.y;
     vec2 slant = ray.xz / ray.y;
@@ -41,15 +41,15 @@ Place place_at(vec3 ray, float height) {
     return Place(scene.eye.xz + along * ray.xz, x.xz - x.y * slant, y.xz - y.y * slant);
 }
 
-// What of a wave a pixel shows, which sees the mean over a bell of so many pixels' deviation.
+// Amplitude of a wave after filtering with a Gaussian of `deviation` pixels.
 float shown(vec2 wave, Place place, float deviation) {
     float x = dot(wave, place.across);
     float y = dot(wave, place.down);
     return exp(-0.5 * deviation * deviation * (x * x + y * y));
 }
 
-// Few sines make a lattice: slow ones, each bent by those before, delay each wave otherwise, and make patches of rough
-// water and of smooth.
+// A sum of few sines looks like a lattice. Slow sines, each displaced by those before, shift the phase of
+// each wave differently, which makes patches of rough and of smooth water.
 vec3 unrest(vec2 at) {
     vec2 q = at / scene.sea.y;
     vec2 way = vec2(0.94, 0.34);
@@ -67,17 +67,17 @@ vec3 unrest(vec2 at) {
     return vec3(sum, 1.0 + 0.3 * gust);
 }
 
-// Phase of a wave at a place.
+// Phase of a wave at a point.
 float phase(int i, vec2 at, vec3 unrest) {
     vec4 wave = scene.waves[i];
     float turn = 2.1 * float(i);
-    // The short ones as much for their length.
+    // Short waves are shifted as much relative to their length.
     float more = 1.0 + 0.5 * float(i);
     return dot(wave.xy, at) + wave.w + more * (unrest.x * cos(turn) + unrest.y * sin(turn));
 }
 
-// The surface in a pixel: the ray to it and where it meets it; its slope as the pixel sees it, and the variance of what
-// it does not show: along x, along z, of both.
+// The surface at a pixel: its ray and the intersection; the filtered slope; and the variance of the slopes
+// too fine for the pixel: along x, along z, both.
 struct Surf {
     vec3 ray;
     Place place;
@@ -94,7 +94,7 @@ Surf surf() {
     s.hidden = vec3(0.0);
     if (SEA == WATER) {
         vec3 unrest = unrest(s.place.at);
-        // Of what is shorter than the footprint's short axis nothing shows.
+        // Waves shorter than the footprint's short axis are not visible.
         vec3 square = vec3(dot(s.place.across, s.place.across), dot(s.place.down, s.place.down), dot(s.place.across, s.place.down));
         float least = max(0.5 * (square.x + square.y) - length(vec2(0.5 * (square.x - square.y), square.z)), 0.0);
         for (int i = 0; i < WAVES; ++i) {
@@ -112,7 +112,7 @@ Surf surf() {
     return s;
 }
 
-// How far aside what is so far under water shows by the waves. Patterns are moved by it, edges are not.
+// Sideways displacement by the waves of what lies `depth` under water. Patterns move with it; edges do not.
 vec3 wobble(Surf s, float depth) {
     vec2 aside = (1.0 - 1.0 / REFRACTION) * depth * s.slope;
     return vec3(aside.x, 0.0, aside.y);
@@ -122,7 +122,7 @@ float fresnel(float cosine) {
     return MIRRORED + (1.0 - MIRRORED) * pow(1.0 - cosine, 5.0);
 }
 
-// The mean over slopes of a variance.
+// Mean of the Fresnel reflectance over slopes with a variance.
 float rough_fresnel(float cosine, float variance) {
     float deviation = sqrt(variance);
     return MIRRORED
@@ -133,14 +133,14 @@ vec3 extinction() {
     return scene.absorption.rgb + scene.scattering.rgb;
 }
 
-// Bright where the waves gather the sun's light, by how they bend a bundle of its rays, mean about 1.
+// Caustics: brightness by how the waves converge a bundle of the sun's rays; mean about 1.
 float caustics(vec3 at, float depth) {
     vec3 ray = pixel_ray();
     if (ray.y >= 0.0) {
         return 1.0;
     }
     Place place = place_at(ray, at.y);
-    // Where the sun's light that arrives here came in.
+    // Where the sunlight that arrives here passed the surface.
     place.at = at.xz + depth * scene.sea.w / REFRACTION * scene.sun_direction.xz;
     float bent = depth * (1.0 - 1.0 / REFRACTION);
     vec3 unrest = unrest(place.at);
@@ -149,10 +149,10 @@ float caustics(vec3 at, float depth) {
     for (int i = 0; i < WAVES; ++i) {
         vec4 wave = scene.waves[i];
         float square = dot(wave.xy, wave.xy);
-        // The sun's disc, and what has long been past its focus, are blurs.
+        // The sun's disc, and being far beyond the focus, blur the caustics.
         float focus = bent * wave.z * square;
         float blurred = exp(-4.0e-6 * depth * depth * square) / (1.0 + 28.0 * focus * focus);
-        // Where the waves end the last few would make a lattice.
+        // The shortest waves are faded out: the last few would look like a lattice.
         blurred *= 1.0 - smoothstep(0.4, 1.0, float(i) / float(WAVES));
         float kept = shown(wave.xy, place, 1.2) * blurred;
         float part = bent * wave.z * kept * unrest.z;
@@ -163,7 +163,7 @@ float caustics(vec3 at, float depth) {
     return (1.0 + 0.35 * variance) / (area + 0.35 * variance);
 }
 
-// What of the sun's light arrives so far under water, and of the sky's.
+// Fractions of sunlight and of skylight that arrive at a depth under water.
 vec3 sun_under(vec3 at, float depth) {
     float entering = 1.0 - fresnel(max(scene.sun_direction.y, 0.0));
     return entering * exp(-extinction() * depth * scene.sea.w) * caustics(at, depth);
@@ -173,9 +173,9 @@ vec3 sky_under(float depth) {
     return exp(-extinction() * depth * DIFFUSE);
 }
 
-// What is mirrored, from above the horizon.
+// Reflected environment, from above the horizon.
 vec3 mirror(vec3 n, vec3 v, float variance) {
-    // Of the slopes that one cannot see those towards the eye are seen more of.
+    // Of the slopes too fine for the pixel, those towards the eye are more visible.
     float lean = variance / max(v.y, 2.0 * sqrt(variance) + 1.0e-4);
     n = normalize(n + lean * normalize(vec3(v.x, 1.0e-4, v.z)));
     vec3 r = reflect(-v, n);
@@ -185,38 +185,38 @@ vec3 mirror(vec3 n, vec3 v, float variance) {
     return textureLod(environment, r, lod).rgb;
 }
 
-// The sun in facets of all slopes (Cox and Munk 1954).
+// The sun's reflection in facets of all slopes (Cox and Munk 1954).
 vec3 glint(vec2 slope, vec3 hidden, vec3 v) {
     vec3 l = scene.sun_direction.xyz;
     vec3 h = normalize(v + l);
     if (l.y <= 0.0 || h.y <= 0.0) {
         return vec3(0.0);
     }
-    // The disc's own width, and ripples too small for the sum.
+    // The width of the disc, and ripples too small for the sum.
     vec2 variance = hidden.xy + 4.0e-6 + 0.01 * scene.absorption.w;
     vec2 off = -h.xz / h.y - slope;
     float determinant = variance.x * variance.y - hidden.z * hidden.z;
     float square = (variance.y * off.x * off.x + variance.x * off.y * off.y - 2.0 * hidden.z * off.x * off.y) / determinant;
     float density = exp(-0.5 * square) / (2.0 * PI * sqrt(determinant));
-    // Facets hide each other from an eye that is low.
+    // From a low eye, facets hide each other.
     float seen = v.y + 0.6 * sqrt(variance.x + variance.y);
     float h2 = h.y * h.y;
     return scene.sun_color.rgb * fresnel(max(dot(v, h), 0.0)) * density / (4.0 * h2 * h2 * seen);
 }
 
-// Water over what is so far below its surface.
+// Water over a surface `depth` below its own.
 vec3 water(vec3 under, float depth, Surf s) {
     vec3 v = -normalize(s.ray);
     vec3 n = normalize(vec3(-s.slope.x, 1.0, -s.slope.y));
     float variance = s.hidden.x + s.hidden.y;
-    // As it goes on under a level surface.
+    // Cosine of the refracted ray, under a level surface.
     float down = sqrt(1.0 - (1.0 - v.y * v.y) / (REFRACTION * REFRACTION));
     float path = depth / down;
     vec3 lost = extinction();
     vec3 up_light = sky_irradiance(vec3(0.0, 1.0, 0.0));
     float sun_cosine = max(scene.sun_direction.y, 0.0);
     vec3 entering = up_light + scene.sun_color.rgb * sun_cosine * (1.0 - fresnel(sun_cosine));
-    // Of light that goes down and is scattered alike in all directions.
+    // Light that goes down and is scattered equally in all directions.
     vec3 rate = lost * (1.0 + down * scene.sea.w);
     vec3 sum = (1.0 - exp(-rate * path)) / max(rate, 1.0e-9);
     vec3 c = under * exp(-lost * path) + scene.scattering.rgb * entering * scene.sea.w / (4.0 * PI) * sum;
@@ -224,12 +224,12 @@ vec3 water(vec3 under, float depth, Surf s) {
     return (1.0 - f) * c + f * mirror(n, v, variance) + glint(s.slope, s.hidden, v);
 }
 
-// Places of a plate's middle: one in each cell.
+// Centre of a plate: one per cell.
 vec2 plate_middle(ivec2 cell) {
     return 0.15 + 0.7 * vec2(hash(ivec3(cell, 41)), hash(ivec3(cell, 43)));
 }
 
-// How far it is to the next plate's border, in cells; a number of the plate.
+// Distance to the border with the next plate, in cells, and a random number of the plate.
 vec2 plate(vec2 p) {
     ivec2 cell = ivec2(floor(p));
     vec2 f = fract(p);
@@ -258,12 +258,12 @@ vec2 plate(vec2 p) {
     return vec2(border, hash(ivec3(cell + own, 47)));
 }
 
-// How hot lava is, 0 to 1, and how bright its crust.
+// Temperature of lava, 0 to 1, and brightness of its crust.
 vec2 lava_heat(vec2 at, float drift, float width) {
     vec2 towards = scene.flow.xy;
     vec2 q = vec2(dot(at, towards) - drift, dot(at, vec2(-towards.y, towards.x))) / scene.sea.y;
     width /= scene.sea.y;
-    // Drawn out along the way it goes.
+    // Stretched along the flow.
     vec3 large = vec3(0.35 * q.x, 0.8 * q.y, 3.0);
     vec2 warp = vec2(octaves(vec3(q, 5.0), 0.7, 3, width), octaves(vec3(q, 11.0), 0.7, 3, width));
     float streaks = octaves(large + vec3(0.5 * warp, 0.0), 0.8, 4, width);
@@ -279,30 +279,32 @@ vec2 lava_heat(vec2 at, float drift, float width) {
     return vec2(clamp(heat, 0.0, 1.0), crust);
 }
 
-// Lava, opaque; `lit`: irradiance on it.
+// Lava, opaque. `lit`: irradiance on it.
 vec3 lava(Place place, vec3 lit) {
     float width = 1.2 * sqrt(length(place.across) * length(place.down));
     vec2 heat = lava_heat(place.at, scene.flow.z, width);
     if (scene.lava.w > 0.0) {
-        // Two goes of it, of which each comes and goes: the end of the loop is its beginning.
+        // Two copies of the flow are cross-faded, so that the end of the loop equals its beginning.
         vec2 other = lava_heat(place.at, scene.flow.w, width);
         heat = mix(heat, other, scene.scattering.w);
     }
-    // It glows red first.
+    // Red begins to glow at the lowest temperature.
     vec3 glow = scene.lava.rgb * pow(vec3(heat.x), vec3(1.8, 3.0, 5.0));
     return glow + 0.035 * max(heat.y, 0.1) * (1.0 - heat.x) * lit / PI;
 }
 
-// The sea over what is seen so far below its level; `lit`: irradiance on it, of which lava makes use.
+// The sea over what lies `depth` below its level. `lit`: irradiance on it, used for lava.
 vec3 sea_over(vec3 under, float depth, vec3 lit, Surf s) {
     vec3 c = SEA == WATER ? water(under, depth, s) : lava(s.place, lit);
-    // Far away it fades into the sky at the horizon, and earlier than the ground does: it has less to show.
+    // Far away the sea fades into the sky at the horizon, and earlier than the ground, because it has less
+    // detail.
     vec3 horizon = textureLod(environment, vec3(s.ray.x, 0.0, s.ray.z), 2.0).rgb;
     float away = distance(s.place.at, scene.eye.xz) / scene.ground.w;
     return mix(c, horizon, max(1.0 - exp(-7.0 * away * away / (0.1 + away)), smoothstep(0.2, 1.0, away)));
 }
 
-// Irradiance of lava on what stands over it: a guess by height and slope alone, as if it were below everywhere.
+// Irradiance from lava on what stands over it: an estimate from height and slope alone, as if lava were below
+// everywhere.
 vec3 lava_glow(float height, vec3 n) {
     vec3 mean = scene.lava.rgb * vec3(0.60, 0.26, 0.06);
     return PI * mean * (0.5 - 0.42 * n.y) * exp(-max(height, 0.0) / scene.sea.y);

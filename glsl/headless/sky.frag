@@ -9,7 +9,7 @@
 #include "../headless/light.glsl"
 #include "../headless/sea.glsl"
 
-layout(set = 0, binding = 5) uniform samplerCube backdrop; // the environment with all that is in it
+layout(set = 0, binding = 5) uniform samplerCube backdrop; // the full environment
 
 layout(location = 0) in vec3 ray;
 layout(location = 0) out vec4 color;
@@ -17,13 +17,13 @@ layout(location = 0) out vec4 color;
 void main() {
     vec3 d = normalize(ray);
     vec3 c = textureLod(backdrop, d, 0.0).rgb;
-    // The end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     int wet = over_sea() && d.y < 0.0 ? 1 : 0;
     for (int i = 0; i < wet; ++i) {
-        // Bottomless.
+        // Without a bottom.
         c = sea_over(c, 1.0e6, sky_irradiance(vec3(0.0, 1.0, 0.0)), surf());
     }
-    // acos of a cosine near one is noise in 32 bits; the chord is not.
+    // From the chord: acos of a cosine near 1 is imprecise in 32 bits.
     float angle = 2.0 * asin(min(0.5 * length(d - scene.sun_direction.xyz), 1.0));
     const float radius = 0.00465; // 0.533 degrees across
     float edge = max(fwidth(angle), 1.0e-5);

@@ -1,6 +1,6 @@
-// Shape of an ellipsoid: a symmetric matrix that takes the unit ball, times the particle's radius, to it (of Yu and Turk 2013,
-// Eq. 16, the inverse of G without 1/h). Six numbers of 16 bits, whose steps move its surface by less than a 5000th of the
-// radius. Needs nothing.
+// Shape of an ellipsoid: the symmetric matrix that maps the unit sphere times the particle's radius to it (Yu and Turk
+// 2013, Eq. 16, the inverse of G without 1/h). Six 16-bit numbers, whose steps move the surface by less than a 5000th
+// of the radius. Needs nothing.
 
 // None of them is larger: of ratio 8, the largest axis of a flat or long one of the sphere's volume.
 const float MOST_AXIS = 4.0;

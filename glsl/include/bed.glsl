@@ -1,5 +1,5 @@
-// The scene under water, as dark as the water makes it (Lekner and Dorf 1988, "Why some things are darker when wet", with
-// the light that water takes; not in the thesis).
+// Darkening of the scene under water (Lekner and Dorf 1988, "Why some things are darker when wet", with the water's
+// absorption; not in the thesis).
 // Needs frame.glsl, medium.glsl, and of shade.glsl a sheet and its ladder. Reads: nothing.
 
 // Colour of what lies under a sheet, from its colour when dry. The surface lets 1 - F of the incoming light in. Of the light
@@ -14,7 +14,7 @@ vec3 under_water(Sheet sheet, vec3 dry) {
     vec3 sky = exp(-extinction * (frame.bed.y * sheet.down));
     vec3 sun = exp(-extinction * (frame.bed.z * sheet.down));
     vec3 lit = (1.0 - frame.shade.rgb) * sheet.sun;
-    // Pass `lit` took the sun's part already.
+    // Pass `lit` has already applied the sun's part.
     vec3 came = frame.shade.rgb * sky + lit * sun * frame.bed_light.w;
     came /= max(frame.shade.rgb + (CAST == 1u ? lit * sun : lit), vec3(1.0e-9));
     vec3 albedo = clamp(dry * frame.bed_light.rgb, 0.0, 1.0);

@@ -12,11 +12,11 @@ layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
 
 layout(location = 0) flat in uint blob_index;
 
-// Discards behind the scene.
+// Discards fragments behind the scene.
 Seen seen_here() {
     Seen seen = blob_seen(blobs[blob_index], world_ray(ray_slope(gl_FragCoord.xy, frame.slope)));
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
-    // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+    // With a reversed infinite depth, infinity is 1/0, or negative by rounding.
     scene = scene > 0.0 ? min(scene, EMPTY) : EMPTY;
     if (seen.depth >= scene) {
         discard;

@@ -3,23 +3,24 @@
 
 // 0: by the distance impostor, 1: by bubble ids.
 layout(constant_id = 30) const uint BY_ID = 1;
-// Of the search along a ray.
+// Steps of the search along a ray.
 layout(constant_id = 31) const uint STEPS = 10;
-// Bubbles of a blob.
+// Number of bubbles per blob.
 layout(constant_id = 32) const uint BUBBLES = 227;
-// Edge of a face of the ids.
+// Edge of a face of the id map, in texels.
 layout(constant_id = 33) const uint ID_EDGE = 128;
 
 layout(set = 0, binding = 8, std430) readonly buffer Bubbles { vec4 bubbles[]; };
 layout(set = 0, binding = 9) uniform sampler2DArray blob_distances;
-// Four texels a word.
+// Four texels per word.
 layout(set = 0, binding = 10, std430) readonly buffer BlobIds { uint blob_ids[]; };
-// Of each bubble sixteen that it intersects, a byte each; itself where there are fewer.
+// For each bubble, the numbers of sixteen that it intersects, a byte each; its own number where there are
+// fewer.
 layout(set = 0, binding = 13, std430) readonly buffer Neighbours { uvec4 neighbours[]; };
 
 const uint NO_BUBBLE = 0xffffffffu;
 
-// Where a ray of unit direction meets a ball: along it; false where it does not.
+// Where a ray with unit direction intersects a ball; false if it does not.
 bool ball_hits(vec3 origin, vec3 direction, vec4 ball, out vec2 hits) {
     vec3 to = ball.xyz - origin;
     float along = dot(to, direction);
@@ -40,12 +41,14 @@ vec4 bubble_of(uint template_, uint id) {
     return bubbles[template_ * BUBBLES + id];
 }
 
-// Of a blob's bubbles, as they are made: a shell that hexagons cover, and how far they stand out of it (blob.rs).
+// Mean radius of a blob's bubbles as generated: hexagons cover a shell, and the bubbles stand out of it
+// (blob.rs).
 float mean_radius() {
     return 1.0 / (0.2625 * sqrt(float(BUBBLES)) + 1.45);
 }
 
-// Distance of the surface from the middle, between texels; across an edge that of the edge.
+// Distance of the surface from the blob's centre in a direction, interpolated; across a cube edge, that of
+// the edge.
 float distance_at(uint template_, vec3 direction) {
     int size = textureSize(blob_distances, 0).x;
     vec3 place = cube_place(direction);
@@ -61,21 +64,22 @@ float distance_at(uint template_, vec3 direction) {
     return mix(rows.x, rows.y, f.y);
 }
 
-// What a ray meets first of a blob.
+// First hit of a ray with a blob.
 struct BlobHit {
-    float t;    // less than 0: nothing
-    float past; // where it leaves that bubble again
-    uint id;    // of the bubble; NO_BUBBLE where it is not known
+    float t;    // less than 0: no hit
+    float past; // where the ray leaves that bubble
+    uint id;    // of the bubble; NO_BUBBLE if not known
 };
 
-// By bubble ids: the bubbles that show in the directions of points along the ray. Any that holds the first one will do,
-// and so any nearer that a later point finds before it is reached.
+// With bubble ids: tests the bubbles that are visible in the directions of points along the ray. The first
+// bubble that contains its point will do, unless a later point finds a nearer one before it is reached.
 BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
     BlobHit hit = BlobHit(-1.0, -1.0, NO_BUBBLE);
     float step = (span.y - span.x) / float(STEPS);
     uint last = NO_BUBBLE;
     uint i = 0u;
-    // Asked at the top: one driver takes what a loop that asks at its end leaves behind from the last lane's turn.
+    // The condition is at the top of the loop: with it at the end, one driver takes values of the last lane's
+    // iteration.
     bool more = true;
     while (more) {
         float t = span.x + (float(i) + 0.5) * step;
@@ -96,7 +100,7 @@ uvec4 neighbours_of(uint template_, uint id) {
     return neighbours[template_ * BUBBLES + id];
 }
 
-// The same among those beside what was found: the maps know no more of an edge than where its texel lies.
+// Tests the neighbours of the bubble found, because the maps locate an edge only to a texel.
 BlobHit among_neighbours(uint template_, vec3 origin, vec3 direction, BlobHit hit, float from) {
     BlobHit best = hit;
     uvec4 words = neighbours_of(template_, hit.id);
@@ -113,10 +117,9 @@ BlobHit among_neighbours(uint template_, vec3 origin, vec3 direction, BlobHit hi
     return best;
 }
 
-// By distances: where the ray first comes inside the surface. Looked for in even steps to where it is nearest to the
-// middle, then between two of them by the place where the difference would be 0 (regula falsi, Illinois form). The
-// source turns the ray round so that its search (Szirmay-Kalos et al. 2005) ends on the near side; this one begins
-// there.
+// With distances: the first point where the ray is inside the surface. The search takes uniform steps to the
+// point nearest to the centre, then regula falsi (Illinois variant) between two of them. The paper reverses
+// the ray so that its search (Szirmay-Kalos et al. 2005) ends on the near side; this one begins there.
 BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span) {
     const uint COARSE = 8u;
     float middle = clamp(-dot(origin, direction), span.x, span.y);
@@ -128,7 +131,7 @@ BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span)
     uint i = 0u;
     do {
         ++i;
-        // A little past the middle: rays that only graze it.
+        // A little beyond the centre, for rays that only graze the blob.
         to = mix(span.x, 0.5 * (middle + span.y) , float(i) / float(COARSE));
         p = origin + to * direction;
         inside = length(p) - distance_at(template_, p);
@@ -151,14 +154,14 @@ BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span)
             was = still;
             from = still ? at : from;
             to = still ? to : at;
-            // An end that stays twice counts half.
+            // An end that stays twice is weighted by half (Illinois).
             outside = still ? here : (again ? 0.5 * outside : outside);
             inside = still ? (again ? 0.5 * inside : inside) : here;
             ++i;
         } while (i < max(STEPS, COARSE + 1u));
     }
     hit.t = max(0.5 * (from + to), 0.0);
-    // The mean chord of a bubble of the mean size: which one it is is not known.
+    // Mean chord of a bubble of mean size, because it is not known which bubble was hit.
     hit.past = hit.t + 4.0 / 3.0 * mean_radius();
     return hit;
 }

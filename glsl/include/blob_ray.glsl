@@ -1,27 +1,27 @@
 // A blob on the ray of a pixel. Needs frame.glsl, bubbles.glsl, blob.glsl.
 
-// What of the light behind is too little to matter.
+// Transmittance below which the light behind does not matter.
 const float HIDDEN = 1.0 / 256.0;
 
-// Number of a blob and of its bubble, for a later look; of none.
+// No layer. A layer holds the number of a blob and of its bubble.
 const uint NO_LAYER = 0xffffffffu;
 
 uint layer_of(uint blob, uint bubble) {
     return blob << 8 | (bubble & 0xffu);
 }
 
-// A ray in the blob's space, of unit direction.
+// A ray with unit direction in the blob's space.
 struct BlobRay {
     vec3 origin;
     vec3 direction;
-    float scale;    // of a way along it to eye depth
-    vec2 span;      // where it is in the bounding ball, not behind the near plane
+    float scale;    // eye depth per length along the ray
+    vec2 span;      // the part in the bounding ball, not before the near plane
 };
 
 // A pixel's ray along the world's axes.
 struct WorldRay {
-    vec3 direction; // unit
-    float scale;    // of a way along it to eye depth
+    vec3 direction; // unit vector
+    float scale;    // eye depth per length along the ray
 };
 
 WorldRay world_ray(vec2 slope) {
@@ -30,7 +30,7 @@ WorldRay world_ray(vec2 slope) {
     return WorldRay(along * inverse, inverse);
 }
 
-// Where it is in a blob's bounding ball, not behind the near plane; false where it is not.
+// The part of the ray in a blob's bounding ball, not before the near plane; false if there is none.
 bool in_blob(Blob blob, WorldRay ray, out vec2 span) {
     bool meets = ball_hits(vec3(0.0), ray.direction, blob.ball, span);
     span.x = max(span.x, frame.depth.z / ray.scale);
@@ -43,15 +43,15 @@ BlobRay blob_ray(Blob blob, WorldRay ray, vec2 span) {
                    blob.ball.w * ray.scale, span * inverse);
 }
 
-// How opaque the core is behind a point where the ray leaves its bubble (Sec. 4.4).
+// Opacity of the core behind the point where the ray leaves its bubble (Sec. 4.4).
 float core_opacity(vec3 past) {
     return 1.0 - smoothstep(bubbly.core.x, bubbly.core.y, length(past));
 }
 
-// What a pixel sees of a blob.
+// What a pixel shows of a blob.
 struct Seen {
     float depth;   // EMPTY: nothing
-    float opacity; // of its core
+    float opacity; // of the core
     uint id;       // of the bubble
 };
 
@@ -59,7 +59,7 @@ Seen blob_seen(Blob blob, WorldRay world) {
     Seen seen = Seen(EMPTY, 0.0, NO_BUBBLE);
     vec2 span;
     bool meets = in_blob(blob, world, span);
-    // Loops of one turn: a CPU goes through what a branch skips.
+    // Loops with one iteration instead of branches, for CPU drivers (docs/performance.md).
     while (meets) {
         BlobRay ray = blob_ray(blob, world, span);
         BlobHit hit = blob_hit(blob.template_, ray.origin, ray.direction, ray.span);
@@ -72,7 +72,7 @@ Seen blob_seen(Blob blob, WorldRay world) {
     return seen;
 }
 
-// The layer with the bubble that is there to the last pixel, and its depth.
+// The layer with the bubble that is exactly at the pixel, and its depth.
 uint exact_layer(Blob blob, WorldRay world, uint layer, inout float depth) {
     vec2 span;
     in_blob(blob, world, span);

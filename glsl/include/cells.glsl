@@ -2,7 +2,7 @@
 // unit of length, and `buckets`.
 
 ivec3 cell_of(vec3 position) {
-    // One product, whoever asks: in one pass and the other the same cell.
+    // `precise`, so that all passes compute the same cell.
     precise vec3 at = position * push.cells;
     return ivec3(floor(at));
 }

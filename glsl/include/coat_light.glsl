@@ -1,4 +1,4 @@
-// What foam on the scene's water reflects. Needs frame.glsl.
+// Light reflected by foam on the scene's water. Needs frame.glsl.
 
 // In all light; less by `lost` where none of the sun's comes there.
 struct CoatLight {

@@ -1,10 +1,10 @@
-// Contact foam: the more the nearer what is behind the surface lies (Lettier, Foam). Needs shore.glsl, and
+// Contact foam: the closer the scene is behind the surface, the more foam (Lettier, Foam). Needs shore.glsl, and
 // shoreline.glsl for the web. Reads: the host's mask.
 
 layout(set = 0, binding = 30) uniform sampler2D contact_mask;
 
-// How far the point behind is from the surface's, both of one ray; where it is none, far. So it is by heights on a ray that does
-// not go down: what is behind is not below.
+// Distance of the scene's point from the surface's on the same ray; large if there is none. The vertical measure
+// is also large on a ray that does not go down, because what is behind is then not below.
 float contact_distance(vec3 ray, float z, float scene) {
     float far = scene > 0.0 ? scene - z : EMPTY;
     if (shore.contact.w == 0.0) {
@@ -18,7 +18,7 @@ float eased(float x) {
     return x * x / (2.0 * (x * x - x) + 1.0);
 }
 
-// The pattern at a place of the surface, 0 to 1, its change a pixel to the right and down.
+// The pattern at a point of the surface, 0 to 1, and its change per pixel to the right and down.
 vec3 pattern_at(vec2 pixel, vec2 p, mat2 across) {
     float scale = shore.contact_mask.x;
     float level = level_of(sqrt(abs(determinant(across))) * scale * shore.web.z);
@@ -32,7 +32,7 @@ vec3 pattern_at(vec2 pixel, vec2 p, mat2 across) {
     return pattern;
 }
 
-// How much foam there is: far is the distance over the depth of foam.
+// Coverage of contact foam. far: distance divided by the foam's depth.
 float contact_foam(float far, float pattern) {
     return eased((1.0 - clamp(far, 0.0, 1.0)) * mix(1.0, clamp(pattern, 0.0, 1.0), shore.contact.z));
 }

@@ -1,20 +1,20 @@
 // Per-chunk counters that are draw and dispatch arguments at once (src/water/cull.rs).
 
 struct Counts {
-    uint small;           // points: vertexCount. Small sprites, from the front of the list
+    uint small;           // points: vertexCount. Small sprites, at the front of the list
     uint points_instances;
     uint points_vertex;
     uint points_instance;
     uint quads_vertices;  // quads: vertexCount = 4
-    uint large;           // instanceCount. Large sprites, from the back of the list
+    uint large;           // instanceCount. Large sprites, at the back of the list
     uint quads_vertex;
     uint quads_instance;
     uint small_groups[3]; // dispatch over the small sprites
     uint large_groups[3]; // dispatch over the large sprites
     uint cull_groups[3];  // dispatch over the particles of this chunk
-    uint particles;       // how many those are
+    uint particles;       // number of those
     uint dropped;         // NaN or infinite
-    uint spray;           // under the density threshold
+    uint spray;           // particles below the density threshold
     uint foam_vertices;   // foam: vertexCount = 4
     uint foam;            // instanceCount
     uint foam_vertex;

@@ -13,8 +13,8 @@ struct Derivatives {
     bool has_xy;
 };
 
-// Central differences. No smoothing across silhouettes: an axis with a one-sided difference over
-// the falloff has no derivatives at all.
+// Central differences. Nothing is smoothed across silhouettes: an axis with a one-sided difference over the
+// falloff has no derivatives.
 Derivatives derivatives(Stencil s, float falloff, bool mixed) {
     Derivatives z;
     vec4 off = abs(s.axis - s.z);
@@ -40,8 +40,8 @@ Derivatives derivatives(Stencil s, float falloff, bool mixed) {
     return z;
 }
 
-// The source's step (thesis Sec. 2.5.3, Eqs. 2.10-2.16 with their misprints mended; van der Laan
-// et al. 2009; mixed derivative dropped as in Listing A.13): z - epsilon 2H, c = (C_x, C_y).
+// The thesis' step (Sec. 2.5.3, Eqs. 2.10-2.16 with their misprints corrected; van der Laan et al. 2009;
+// without the mixed derivative, as in Listing A.13): z - epsilon 2H, c = (C_x, C_y).
 float source_step(Stencil s, vec2 c, float falloff, float epsilon) {
     Derivatives z = derivatives(s, falloff, false);
     precise float cx2 = c.x * c.x;
@@ -57,10 +57,10 @@ float source_step(Stencil s, vec2 c, float falloff, float epsilon) {
     return moved;
 }
 
-// Mean curvature flow of the surface P = (slope, -1) z itself, from its two fundamental forms:
-// the width smoothed along the surface is the same at every distance, slant and place in the
-// image. (The source's D leaves the ray's slope out: right on the optical axis only, and planes
-// creep away.) g: signed slope per pixel. kappa: square pixels of diffusion, facing.
+// Mean curvature flow of the surface P = (slope, -1) z from its two fundamental forms, so that the width
+// smoothed along the surface does not depend on distance, slant or position in the image. (The thesis' D
+// leaves the ray's slope out: it is correct only on the optical axis, and planes drift away.) g: signed slope
+// per pixel. kappa: diffusion in square pixels for a surface that faces the eye.
 float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     Derivatives z = derivatives(s, falloff, true);
     precise float ww = 1.0 + slope.x * slope.x + slope.y * slope.y;
@@ -71,11 +71,11 @@ float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     precise float h = ww * z.y * z.y + gy * (2.0 * slope.y * z.y + gy);
     precise float bend = 2.0 / s.z;
     precise float l = z.xx - bend * z.x * z.x;
-    // Without z_xy there is no M: half of it would bend a plane.
+    // Without z_xy there is no M at all: half of it would bend a plane.
     precise float mixed = z.xy - bend * z.x * z.y;
     precise float m = z.has_xy ? mixed : 0.0;
     precise float n = z.yy - bend * z.y * z.y;
-    // e h - f f, as the squared length of the normal: a sum of squares, that never cancels to 0.
+    // e h - f f as the squared length of the normal: a sum of squares, which cannot cancel to 0.
     precise float nx = gy * z.x;
     precise float ny = gx * z.y;
     precise float nz = gx * gy + gx * slope.y * z.y + gy * slope.x * z.x;

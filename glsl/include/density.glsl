@@ -1,8 +1,9 @@
-// What the density says of a particle: spray or bulk (thesis Sec. 4.9.5 cuts hard). Needs frame.glsl.
+// Classification of a particle by its density: spray or bulk (thesis Sec. 4.9.5 has a hard threshold). Needs
+// frame.glsl.
 
 // From 0, all spray, to 1, all of it water or foam, over a range of densities.
 float risen(float full, float density) {
-    // Never of equal ends, which GLSL leaves open.
+    // The edges are never equal: GLSL leaves that undefined.
     float end = max(full, frame.density.x * 1.000001 + 1.0e-6);
     return smoothstep(frame.density.x, end, density);
 }

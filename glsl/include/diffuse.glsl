@@ -1,18 +1,17 @@
-// What a diffuse particle is on the screen, for every way to draw it (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc
-// that faces the eye with the depth of a sphere. Small ones are widened to where no pixel's middle can miss them, and
-// their light is kept exactly: what all pixels get together does not depend on where between them the particle
-// lies, so that far foam does not sparkle. Not in the source.
+// Screen footprint of a whitewater particle, for every path (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc that faces
+// the camera, with the depth of a sphere. Not in the paper: small ones are widened until no pixel centre can miss
+// them, with their total light preserved exactly at any sub-pixel position, so that far foam does not sparkle.
 // Needs frame.glsl, falloff.glsl.
 
 const uint FOAM = 0u;
 const uint SPRAY = 1u;
 const uint BUBBLE = 2u;
 
-// 0: shapes, lives and sizes are the source's, and its falloff below the surface is not asked for. A CPU goes through what
-// a branch passes over.
+// 0: shapes, lifetimes and sizes are the paper's, and its falloff below the surface is off. A specialization
+// constant, because a CPU driver runs the branch that is skipped.
 layout(constant_id = 3) const uint SHAPED = 1;
 
-// What is left of its light at an age (Eq. 1 with b = 1; the source: n = 2, m = 0.4).
+// Remaining light at an age (Eq. 1 with b = 1; in the paper n = 2, m = 0.4).
 float life_of(float age) {
     float x = max(age, 0.0);
     if (SHAPED == 1u) {
@@ -25,17 +24,18 @@ struct Diffuse {
     vec3 centre;  // eye space
     float radius;
     uint kind;
-    float life;   // 1 to 0 with its age; 0 is not drawn
+    float life;   // 1 to 0 with the age; 0 is not drawn
 };
 
-// Of a particle with such attributes; a radius that is none is the default one.
+// A particle with these attributes. A radius that is 0, negative or not finite means the default.
 Diffuse diffuse_of(vec3 position, uint kind, float radius, float age, uint id) {
     Diffuse p;
     p.centre = (frame.view * vec4(position, 1.0)).xyz;
-    // NaN and infinity reach no footprint: what is not finite lies behind the eye, and is drawn by none.
+    // A centre that is not finite is moved behind the eye, where no path draws it.
     p.centre = all(lessThan(abs(p.centre), vec3(EMPTY))) ? p.centre : vec3(0.0, 0.0, EMPTY);
     p.kind = kind;
-    // The source: between a fifth and the whole, so that they look irregular, and of bubbles half of it.
+    // As in the paper, radii vary between a fifth and the whole, for an irregular look; bubbles have half of
+    // it.
     uint size = (SHAPED == 1u ? id % uint(frame.diffuse_life.z) : id % 5u) + 1u;
     float bubble = SHAPED == 1u ? frame.diffuse_life.w : 0.5;
     p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.diffuse.x) / float(size) * (kind == BUBBLE ? bubble : 1.0);
@@ -44,13 +44,13 @@ Diffuse diffuse_of(vec3 position, uint kind, float radius, float age, uint id) {
     return p;
 }
 
-// The numbers of a kind.
+// Parameters of a kind.
 vec4 shape_of(uint kind) {
     return frame.diffuse_shapes[kind == SPRAY ? 1 : kind == BUBBLE ? 2 : 0];
 }
 
-// By the square of the distance from the middle, 0 to 1 (Fig. 5). The source: 1 - x^1.5, x^2 or 1 - x^2.25, by roots, which
-// cost less than a power.
+// Profile of the thickness by the squared distance from the centre, 0 to 1 (Fig. 5). The paper's are 1 -
+// x^1.5, x^2 and 1 - x^2.25, here with roots, which are faster than powers.
 float diffuse_shape(uint kind, float rr) {
     if (SHAPED == 1u) {
         vec4 shape = shape_of(kind);
@@ -62,7 +62,7 @@ float diffuse_shape(uint kind, float rr) {
     return kind == BUBBLE ? rr : 1.0 - (kind == SPRAY ? root * fourth : rr * sqrt(fourth));
 }
 
-// Its mean over the disc.
+// Mean of the profile over the disc.
 float diffuse_mean(uint kind) {
     if (SHAPED == 1u) {
         return shape_of(kind).z;
@@ -70,36 +70,37 @@ float diffuse_mean(uint kind) {
     return kind == SPRAY ? 1.0 - 2.0 / 3.5 : kind == BUBBLE ? 0.5 : 1.0 - 2.0 / 4.25;
 }
 
-// Least half-axis in pixels: over half a pixel's diagonal.
+// Least half-axis in pixels: more than half a pixel's diagonal.
 const float LEAST_REACH = 0.75;
 
-// How much of a particle so many pixels wide is told by its shape.
+// Weight of a particle's own profile, by its radius in pixels.
 float told_of(float pixels) {
     return smoothstep(1.0, 2.0, pixels);
 }
 
 struct Footprint {
     vec2 middle;  // in pixels
-    vec2 scale;   // 1 over its half-axes in pixels, along the eye's axes
-    ivec4 box;    // pixels whose middles may lie in it, also beside the frame
-    uint covered; // a bit for each of four by four pixels from the box's first on: which do; of a larger one 0
-    float own;    // part of it that is its own shape; the rest is q = 1 - rr
-    float even;   // what q is multiplied by
+    vec2 scale;   // 1 / half-axes in pixels, along the eye's axes
+    ivec4 box;    // pixels whose centres may lie in it, also outside the frame
+    uint covered; // a bit for each of 4x4 pixels from the box's first on that it covers; 0 for a larger box
+    float own;    // weight of its own profile; the rest is q = 1 - rr
+    float even;   // factor of q
 };
 
-// Pixels of a side of a box that `covered` tells of.
+// Largest side in pixels of a box that `covered` describes.
 const int COVERED = 4;
 const vec4 MIDDLES = vec4(0.5, 1.5, 2.5, 3.5);
 
-// Blocks of so many by so many pixels that a footprint is summed over at most. Only one that is under two pixels high or
-// wide has more than one: a row or two, of pixels that are far from square.
+// Most blocks of 4x4 pixels over which a footprint is summed. Only a footprint less than two pixels high or
+// wide has more than one block: a row or two, where pixels are far from square.
 const int MOST_BLOCKS = 8192;
 
 bool is_small(ivec4 box) {
     return all(lessThan(box.zw - box.xy, ivec2(COVERED)));
 }
 
-// Square of the distance from the middle to that of a pixel, 0 to 1; its place in the disc, along the eye's axes.
+// Squared distance of a pixel's centre from the middle, 0 to 1, and its position in the disc along the eye's
+// axes.
 float diffuse_place(Footprint f, ivec2 pixel, out vec2 place) {
     place = (vec2(pixel) + 0.5 - f.middle) * f.scale;
     return dot(place, place);
@@ -109,10 +110,10 @@ uvec4 bits_of(bvec4 which, uint first) {
     return mix(uvec4(0u), uvec4(1u, 2u, 4u, 8u) << first, which);
 }
 
-// Of a kind, whose disc has a middle and half-axes in pixels.
+// The footprint of a disc with this centre and half-axes in pixels.
 Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     Footprint f;
-    reach = max(reach, vec2(1.0e-12)); // of the tiniest, far off, nothing is left
+    reach = max(reach, vec2(1.0e-12)); // far away, nothing is left of the tiniest
     vec2 wide = reach * max(1.0, LEAST_REACH / min(reach.x, reach.y));
     f.middle = clamp(middle, vec2(-1.0e6), vec2(1.0e6));
     f.scale = sign(frame.slope.xy) / wide;
@@ -121,7 +122,7 @@ Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     f.own = told_of(min(wide.x, wide.y));
     f.covered = 0u;
     bool small = is_small(f.box);
-    // Counted beforehand: a loop up to the box's end has none for some bits.
+    // The number of blocks is computed in advance: for some values a loop up to the box's end would not end.
     ivec2 blocks = clamp(f.box.zw - f.box.xy, ivec2(0), ivec2(COVERED * MOST_BLOCKS - 1)) / COVERED + 1;
     int left = small ? 1 : f.own < 1.0 ? min(blocks.x * blocks.y, MOST_BLOCKS) : 0;
     float sum = 0.0;
@@ -150,21 +151,22 @@ Footprint footprint_of(Diffuse p) {
     return footprint_at(middle, p.radius / (depth * frame.texel.xy), p.kind);
 }
 
-// What a pixel gets of its thickness, at such a square of the distance.
+// Thickness that a pixel gets, at this squared distance.
 float diffuse_amount(Diffuse p, Footprint f, float rr) {
     return p.life * (f.even * (1.0 - rr) + f.own * diffuse_shape(p.kind, rr));
 }
 
-// Where that goes: before the fluid's surface, behind it, and that by how far. Depths along z.
+// Splits the thickness: before the fluid's surface, behind it, and the latter weighted by depth. Depths along
+// z.
 vec3 diffuse_shares(float amount, float depth, float fluid) {
     float behind = fluid < EMPTY ? depth - fluid : 0.0;
-    // The source's falloff, where no water of ours takes the light.
+    // The paper's falloff, used where our water does not absorb the light.
     if (SHAPED == 1u && frame.diffuse.w > 0.0) {
         return vec3(amount * falloff(behind, frame.diffuse_below.x, frame.diffuse_below.y, frame.diffuse_below.z), 0.0, 0.0);
     }
     float spacing = frame.particle.y;
     float far = max(behind, 0.0);
-    // smoothstep, with a division that is the same in all pixels.
+    // smoothstep with a division that is the same in all pixels.
     float t = min(far * (1.0 / spacing), 1.0);
     float under = amount * t * t * (3.0 - 2.0 * t);
     return vec3(amount - under, under, under * far / (far + spacing));

@@ -1,4 +1,4 @@
-// How many diffuse particles there are in a chunk. Needs of the push constants what names them here. Reads: count.
+// Number of whitewater particles in a chunk. Needs the push constants that it names. Reads: count.
 
 uint own_of(uint chunk) {
     uint all = push.from_gpu == 1u ? min(count, push.count) : push.count;

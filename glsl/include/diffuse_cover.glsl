@@ -1,26 +1,27 @@
-// An invocation a particle, or a group for each of the host's packets; then a group for each large one, which the first
-// left in a list: no barriers, which a CPU pays for in every invocation. What includes it says what a particle is there
-// (a Sprite with a Diffuse p and a Footprint f, by sprite_at), which pixels of a box there are (inside), what it does to
-// a pixel (splat), and whether anything of a sphere may come to one (shows); it binds arguments. Needs
-// diffuse_streams.glsl. Reads: arguments, packets, list. Writes: list.
+// Traversal of whitewater particles: one invocation per particle, or a group per host packet; then a group per large
+// particle, which the first dispatch left in a list. There are no barriers, which are expensive on a CPU. The includer
+// defines a particle (a Sprite with a Diffuse p and a Footprint f, by sprite_at), the pixels of a box that exist
+// (inside), the operation on a pixel (splat), and whether a sphere can contribute at all (shows); it binds arguments.
+// Needs diffuse_streams.glsl. Reads: arguments, packets, list. Writes: list.
 
 // 1: a group for each packet.
 layout(constant_id = 1) const uint PACKETS = 0;
-// 1: a group for each particle in the list.
+// 1: one workgroup per particle in the list of large ones.
 layout(constant_id = 2) const uint LARGE = 0;
 
 layout(set = 0, binding = 9, std430) readonly buffer HostPackets { uint packets[]; };
-// Of each chunk the groups to dispatch (4 words, the last: how many large ones there are), then those that have room.
+// For each chunk: workgroups to dispatch (4 words, the last is the number of large particles), then the
+// particles that fit.
 layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
 
 #include "packets.glsl"
 
-// Pixels of a box that an invocation does by itself; also where the list is full.
+// Largest number of pixels of a box that one invocation handles alone; it also does so when the list is full.
 const int SMALL = 256;
 const uint ROOM = 16384u;
-const uint LIST = ROOM + 4u; // words of a chunk's
+const uint LIST = ROOM + 4u; // words per chunk
 
-// Of the chunk, none from the last on.
+// A particle of the chunk, if it lies before `past`.
 void cover_one(uint i, uint past) {
     if (i >= past) {
         return;
@@ -31,7 +32,7 @@ void cover_one(uint i, uint past) {
     bool small = is_small(s.f.box);
     uint covered = 0u;
     if (small) {
-        // The box's columns, of each row four bits, and its rows.
+        // Columns of the box as four bits per row, and its rows.
         ivec2 first = clamp(box.xy - s.f.box.xy, 0, COVERED);
         ivec2 past = clamp(box.zw - s.f.box.xy + 1, first, ivec2(COVERED));
         uint columns = (1u << past.x) - (1u << first.x);
@@ -39,20 +40,20 @@ void cover_one(uint i, uint past) {
         covered = s.f.covered & columns * 0x1111u & rows;
     }
     int left = small ? bitCount(covered) : size.x * size.y;
-    // The end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     for (bool done = left <= SMALL; !done; done = true) {
         uint head = LIST * push.chunk;
         uint slot = atomicAdd(list[head + 3u], 1u);
         if (slot < ROOM) {
-            // An atomic: the synchronization check takes a plain store for one of the large ones' dispatches too, which
-            // have the shader and not the branch.
+            // An atomic, because synchronization validation takes a plain store as one of the dispatch for large
+            // particles too: that shares the shader, but not this branch.
             atomicExchange(list[head + 4u + slot], i);
             atomicMax(list[head], slot + 1u);
             left = 0;
         }
     }
-    // One loop: lanes with boxes of other shapes end with the largest, not with the widest and the highest. Of small ones
-    // the pixels that are covered, one after the other: of most it is one or two of four.
+    // One loop: lanes with boxes of different shapes finish with the largest box, not with the widest and the
+    // highest. For small boxes only covered pixels are visited: mostly one or two of four.
     ivec2 at = box.xy;
     for (; left > 0; --left) {
         int bit = findLSB(covered);
@@ -63,7 +64,7 @@ void cover_one(uint i, uint past) {
     }
 }
 
-// All of the group.
+// A large particle, with all invocations of the workgroup.
 void cover_large(uint i) {
     Sprite s = sprite_at(i);
     ivec4 box = inside(s.f.box);

@@ -1,4 +1,4 @@
-// Where a chunk's streams begin, of the pass `splat`. Of a stream that is not there the stride is 0.
+// Offsets of a chunk's streams in pass `splat`. An absent stream has a stride of 0.
 
 layout(push_constant, std430) uniform Push {
     uint position_word;

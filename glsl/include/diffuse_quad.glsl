@@ -1,4 +1,4 @@
-// A diffuse particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, diffuse.glsl, diffuse_words.glsl.
+// A whitewater particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, diffuse.glsl, diffuse_words.glsl.
 // Reads: words.
 
 layout(set = 0, binding = 6, std430) readonly buffer Words { uint words[]; };
@@ -11,13 +11,13 @@ struct Met {
     Diffuse p;
     Footprint f;
     uint at;     // words of the pixel
-    vec2 place;  // in the disc
-    float w;     // before it, in radii
-    float rr;    // square of the distance from the middle
+    vec2 place;  // position in the disc
+    float w;     // distance before the centre plane, in radii
+    float rr;    // squared distance from the centre
     float depth;
 };
 
-// Discards where it is not seen.
+// Discards fragments that are not visible.
 Met meet() {
     Met m;
     ivec2 pixel = ivec2(gl_FragCoord.xy);

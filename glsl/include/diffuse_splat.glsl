@@ -1,4 +1,4 @@
-// Diffuse particles in the picture, for the passes that add them up in its words. Needs frame.glsl, diffuse_streams.glsl,
+// Accumulation of whitewater particles in the words of each pixel. Needs frame.glsl, diffuse_streams.glsl,
 // diffuse_words.glsl, frustum.glsl, and WORD(at), one of the words. Reads: words. Writes: words.
 
 struct Sprite {
@@ -16,19 +16,20 @@ ivec4 inside(ivec4 box) {
     return ivec4(max(box.xy, ivec2(0)), min(box.zw, ivec2(frame.extent.xy) - 1));
 }
 
-// Whether a sphere of particles' middles may show any. Behind the far plane they lie behind the scene.
+// Whether a particle with its centre in this sphere may be visible. Beyond the far plane, particles are hidden by
+// the scene.
 bool shows(vec3 middle, float reach) {
     vec3 centre = (frame.view * vec4(middle, 1.0)).xyz;
-    // The largest of its own accord, and the widest that what is less than a pixel is made.
+    // The largest radius of a particle, plus the widest to which sub-pixel particles are enlarged.
     float wider = frame.diffuse.x + LEAST_REACH * max(frame.texel.x, frame.texel.y) * (length(centre) + reach);
     return in_frustum(centre, reach + wider);
 }
 
-// All in one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not
-// they have something to add. What comes to a word that is half full is taken out again.
+// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether
+// or not they add anything. What would go to a word that is half full is taken out again.
 void add(uint word, uvec3 steps) {
     do {
-        // Nothing is never too much: it would be taken out, as nothing again, for ever.
+        // A zero must not count as too much: it would be taken out again for ever.
         bool over = atomicAdd(WORD(word), steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
         word += over ? 0u : 1u;
@@ -38,7 +39,7 @@ void add(uint word, uvec3 steps) {
     } while (any(notEqual(steps, uvec3(0u))));
 }
 
-// What it adds to a pixel's thickness, at such a place in it.
+// Adds to the thickness of a pixel at this squared distance from the centre.
 void thicken(uint at, Diffuse p, Footprint f, float rr, float depth, float fluid) {
     float amount = diffuse_amount(p, f, rr);
     vec3 shares = diffuse_shares(amount, depth, fluid);

@@ -1,6 +1,6 @@
-// The host's streams of diffuse particles, as a pass that splats them binds a chunk of each.
-// Needs frame.glsl, falloff.glsl, diffuse.glsl, hand_over.glsl, and of the push constants where the streams begin and their strides:
-// 0 of one that is not there. Reads: positions, kinds, radii, ages, ids.
+// The host's streams of whitewater particles, as a pass that splats them binds a chunk of each.
+// Needs frame.glsl, falloff.glsl, diffuse.glsl, hand_over.glsl, and push constants with offsets and strides (0 for an
+// absent stream). Reads: positions, kinds, radii, ages, ids.
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Kinds { uint kinds[]; };
@@ -15,19 +15,19 @@ vec4 diffuse_world(uint i) {
     return vec4(position, push.age_stride > 0u ? uintBitsToFloat(ages[push.age_word + i * push.age_stride]) : 0.0);
 }
 
-// Its number.
+// Its id.
 uint diffuse_id(uint i) {
     return push.id_stride > 0u ? ids[push.id_word + i * push.id_stride] : push.chunk_first + i;
 }
 
-// All of it, though blobs may stand for it.
+// The whole particle, also where blobs replace it.
 Diffuse diffuse_whole(uint i, vec4 world) {
     uint kind = push.kind_stride > 0u ? kinds[push.kind_word + i * push.kind_stride] : 0u;
     float radius = push.radius_stride > 0u ? uintBitsToFloat(radii[push.radius_word + i * push.radius_stride]) : 0.0;
     return diffuse_of(world.xyz, kind, radius, world.w, diffuse_id(i));
 }
 
-// What of it is a sprite's.
+// The part of the particle that is drawn as a sprite.
 Diffuse diffuse_at(uint i, vec4 world) {
     Diffuse p = diffuse_whole(i, world);
     p.life *= kept_of(p);

@@ -1,7 +1,7 @@
-// What diffuse particles leave in each pixel, next to each other: what goes with the frontmost, bits of its depth (the
-// two are a word of 64 bits, whose least is the frontmost's), bits of the scene's and the fluid's depths, and sums in
-// whole steps of what is before the fluid, behind it, and that by how far. The last is room: a pixel is 32 bytes, which
-// lie in one sector of a GPU's memory.
+// Words of each pixel that whitewater particles accumulate, next to each other: attributes of the frontmost, bits of
+// its depth (these two form a 64-bit word, whose minimum is the frontmost's), bits of the scene's and the fluid's
+// depths, and fixed-point sums of the thickness in front of the fluid, behind it, and the latter times its distance.
+// The last word is padding: a pixel has 32 bytes, one memory sector of a GPU.
 // Needs frame.glsl.
 
 const uint WITH = 0u;
@@ -11,22 +11,23 @@ const uint FLUID = 3u;
 const uint SUMS = 4u;
 const uint WORDS = 8u;
 
-// Steps of a thickness of 1.
+// Fixed-point steps per thickness of 1.
 const float STEPS = 65536.0;
-// From here on nothing is added: no number of particles on one spot is too many.
+// Nothing is added beyond this, so that any number of particles may lie on one spot.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 pixel) {
     return WORDS * (uint(pixel.y) * uint(frame.extent.x) + uint(pixel.x));
 }
 
-// Search radius of a sphere with its middle at an eye-space depth, in the upper 16 bits: no more than a half can hold.
+// Search radius of a sphere with its centre at an eye-space depth, as a half float in the upper 16 bits, clamped
+// to its range.
 uint search_of(float radius, float z) {
     return packHalf2x16(vec2(0.0, min(radius * abs(frame.projection.y) / z, 60000.0)));
 }
 
-// Beside it the normal towards the eye where the sphere is met, (place, w), as the diamond |x| + |y| <= 1 turned to a
-// square, in two times 8 bits. It is turned to the world once a pixel, not once a particle.
+// Adds the sphere's normal (place, w), which faces the eye, in two times 8 bits: the diamond |x| + |y| <= 1
+// rotated to a square. The rotation to the world is done per pixel, not per particle.
 uint with_of(uint search, vec2 place, float w) {
     place /= abs(place.x) + abs(place.y) + w;
     ivec2 bits = ivec2(vec2(place.x + place.y, place.x - place.y) * 127.0 + 127.5);

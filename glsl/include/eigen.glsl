@@ -1,10 +1,10 @@
-// Eigenvalues and eigenvectors of a symmetric matrix by Jacobi's rotations (Golub and Van Loan 2013, Sec. 8.5): as many of
-// them whatever the matrix, so that none keeps a device. Needs nothing.
+// Eigenvalues and eigenvectors of a symmetric matrix by a fixed number of Jacobi rotations (Golub and Van Loan 2013,
+// Sec. 8.5), so that no matrix hangs a device. Needs nothing.
 
 // Turns the axes p and q so that a_pq is 0; r is the third.
 void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout float qr, inout vec3 p, inout vec3 q) {
     float d = qq - pp;
-    // The smaller of both angles. Of a diagonal one that is a multiple of the identity 0, not 0 / 0.
+    // The smaller of both angles; 0 instead of 0 / 0 for a multiple of the identity.
     float t = (d < 0.0 ? -2.0 : 2.0) * pq / max(abs(d) + sqrt(d * d + 4.0 * pq * pq), 1.0e-30);
     float c = inversesqrt(1.0 + t * t);
     float s = t * c;
@@ -19,8 +19,8 @@ void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout 
     p = turned;
 }
 
-// Of (xx, yy, zz) and (yz, xz, xy): the values, the vectors as columns. Three sweeps bring the
-// off-diagonal elements below single precision; one more is to spare.
+// Eigenvalues, and eigenvectors as columns, of the symmetric matrix (xx, yy, zz), (yz, xz, xy). Three sweeps
+// bring the off-diagonal elements below single precision; the fourth is a reserve.
 vec3 eigen(vec3 diagonal, vec3 off, out mat3 vectors) {
     vec3 x = vec3(1.0, 0.0, 0.0);
     vec3 y = vec3(0.0, 1.0, 0.0);

@@ -1,19 +1,18 @@
-// What of a particle is drawn: its sphere, or an ellipsoid (Yu and Turk 2013) under a perspective: footprint, exact hit and
-// the sprite of its thickness. In lists of ellipsoids the entry after a sphere's holds its shape. Needs frame.glsl,
-// sphere.glsl.
+// A drawn particle: its sphere, or an ellipsoid (Yu and Turk 2013), in perspective: footprint, exact intersection,
+// thickness sprite. In lists of ellipsoids the entry after a sphere's holds its shape. Needs frame.glsl, sphere.glsl.
 
 #include "axes.glsl"
 
 // 1: ellipsoids.
 layout(constant_id = 15) const uint ELLIPSOIDS = 0;
-// Entries of a list (vec4) a particle takes.
+// Number of vec4 entries per particle in a list.
 const uint ENTRIES = 1u + ELLIPSOIDS;
 
 struct Ellipsoid {
     vec4 sphere;  // eye-space centre; radius
-    mat3 axes;    // takes a sphere of that radius to it; as all below of ellipsoids alone
-    mat3 inverse; // what takes it to that sphere
-    vec3 centre;  // there
+    mat3 axes;    // maps a sphere of that radius to the ellipsoid; like all below, for ellipsoids only
+    mat3 inverse; // maps the ellipsoid to that sphere
+    vec3 centre;  // centre in that space
 };
 
 Ellipsoid ellipsoid_of(vec4 sphere, vec4 shape) {
@@ -26,16 +25,18 @@ Ellipsoid ellipsoid_of(vec4 sphere, vec4 shape) {
     return e;
 }
 
-// Entry of a list. LIST is its name there.
+// A particle of the list LIST.
 #define ellipsoid_in(LIST, INDEX) \
     ellipsoid_of(LIST[ENTRIES * (INDEX)], LIST[ENTRIES * (INDEX) + ELLIPSOIDS])
 
-// Its square in the dual sense: a plane with the unit normal n touches it at the distance sqrt(n.B n) from the centre.
+// Matrix B of the dual form: the distance from the centre of the tangent plane with unit normal n is sqrt(n.B
+// n).
 mat3 ellipsoid_dual(Ellipsoid e, float radius) {
     return (radius * radius) * (e.axes * e.axes);
 }
 
-// As sphere_bounds: a plane through the eye, x = s depth, touches it where (c_x - s depth)^2 = (1, s).B (1, s).
+// As sphere_bounds: a plane through the eye, x = s depth, is tangent where (c_x - s depth)^2 = (1, s).B (1,
+// s).
 bool ellipsoid_bounds(Ellipsoid e, out vec4 bounds) {
     if (ELLIPSOIDS == 0u) {
         return sphere_bounds(e.sphere.xyz, e.sphere.w, bounds);
@@ -49,7 +50,7 @@ bool ellipsoid_bounds(Ellipsoid e, out vec4 bounds) {
     }
     vec2 square = vec2(b[0].x, b[1].y);
     vec2 mixed = b[2].xy;
-    // Of two positive forms the difference, not of fourth powers of the depth.
+    // The difference of two positive forms, which avoids fourth powers of the depth.
     vec2 root = square * (d * d) + 2.0 * c * d * mixed + c * c * b[2].z - (square * b[2].z - mixed * mixed);
     vec2 reach = sqrt(max(root, vec2(0.0)));
     vec2 middle = c * d + mixed;
@@ -57,16 +58,16 @@ bool ellipsoid_bounds(Ellipsoid e, out vec4 bounds) {
     return true;
 }
 
-// Eye depth of its nearest point.
+// Eye depth of the nearest point.
 float ellipsoid_nearest(Ellipsoid e) {
     if (ELLIPSOIDS == 0u) {
         return -e.sphere.z - e.sphere.w;
     }
-    // Rounding must not put it behind a hit: 1.0e-5 of the root, and of the depth.
+    // Rounding must not put it behind a hit: tolerance 1.0e-5 of the root and of the depth.
     return -e.sphere.z * (1.0 - 1.0e-5) - 1.00001 * sqrt(ellipsoid_dual(e, e.sphere.w)[2].z);
 }
 
-// As sphere_hit: what is a multiple of the ray is so too where it is a sphere.
+// As sphere_hit.
 float ellipsoid_hit(vec2 slope, Ellipsoid e, float near) {
     if (ELLIPSOIDS == 0u) {
         return sphere_hit(slope, e.sphere.xyz, e.sphere.w, near);
@@ -74,21 +75,22 @@ float ellipsoid_hit(vec2 slope, Ellipsoid e, float near) {
     return ray_hit(e.inverse * vec3(slope, -1.0), e.centre, e.sphere.w, near);
 }
 
-// The longest that it reaches from its centre, or somewhat more, in its radius.
+// An upper bound of the longest half-axis, in units of the radius.
 float ellipsoid_reach(Ellipsoid e) {
     vec3 rows = abs(e.axes[0]) + abs(e.axes[1]) + abs(e.axes[2]);
     return max(rows.x, max(rows.y, rows.z));
 }
 
-// The sprite of a thickness: what its shadow along the ray through its centre is in the plane of the centre, an ellipse.
+// The thickness sprite: the ellipse that the ellipsoid's shadow along the ray through its centre makes in the
+// plane of the centre.
 struct Disc {
-    vec3 conic;   // (xx, xy, yy) of the form that is rho^2
-    vec2 reach;   // half of the box round it
+    vec3 conic;   // (xx, xy, yy) of the quadratic form rho^2
+    vec2 reach;   // half of its bounding box
     float area;   // product of the half-axes
 };
 
-// Of an ellipsoid with so many times its radius. No half-axis is less than a pixel: with its amplitude over `area` it
-// holds the same volume.
+// The disc of an ellipsoid scaled by `scale`. No half-axis is less than a pixel; dividing the amplitude by
+// `area` keeps the volume.
 Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
     mat3 b = ellipsoid_dual(e, scale * e.sphere.w);
     float depth = -e.sphere.z;
@@ -106,7 +108,7 @@ Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
         yy = least;
         xy = 0.0;
     } else if (squares.y < least) {
-        // The shorter one alone: by the projector on it.
+        // Widen the shorter axis only, with the projector on it.
         float more = (least - squares.y) / (squares.x - squares.y);
         vec3 onto = vec3(squares.x - xx, -xy, squares.x - yy) * more;
         xx += onto.x;
@@ -121,7 +123,7 @@ Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
     return disc;
 }
 
-// rho^2 of the point where the ray meets the plane of the sprite's centre.
+// rho^2 at the point where the ray meets the plane of the sprite's centre.
 float disc_rho2(vec2 slope, vec3 centre, vec3 conic) {
     vec2 off = slope * -centre.z - centre.xy;
     return off.x * (conic.x * off.x + 2.0 * conic.y * off.y) + conic.z * off.y * off.y;

@@ -1,23 +1,24 @@
-// Where the ray that the front surface refracts ends (Wyman 2005, "An Approximate Image-Space Approach for Interactive
-// Refraction"; not in the thesis): on the scene, where that lies under the water, and behind the water's far surface, where
-// there is air behind it. Differs: the far surface is the front one and as much deeper as the water is
-// thick, with the slope of both; a march over the screen finds the scene.
-// Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness, scene
-// colour and depth, environment.
+// End of the ray that the front surface refracts (Wyman 2005, "An Approximate Image-Space Approach for Interactive
+// Refraction"; not in the thesis): on the scene where it is under the water, or behind the water's far surface where
+// air follows. Differs: the far surface is the front one offset by the thickness, with the slopes of both; the scene
+// is found by a screen-space march.
+// Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness,
+// scene colour and depth, environment.
 
-// How much of the sky is seen by way of the far surface, where that bends the ray to it. Water in the air ripples finer than
-// its particles tell: the rest comes straight on. (All of it: saturated blue blots on every crown and drop.)
+// Weight of the sky seen through the far surface. Water in the air has ripples finer than its particles, so
+// the rest of the light comes straight through. With weight 1 there are saturated blue blots on every crown
+// and drop.
 const float BENT = 0.5;
 
-// Light that comes into the front sheet from behind it.
+// Light that enters the front sheet from behind.
 struct Exit {
-    float kept; // of what is seen of the scene through what else is behind
+    float kept; // transmittance for the scene behind
     vec3 free;  // all other light
     vec3 scene;
     float path; // metres through the sheet
 };
 
-// The slope of the thickness, per pixel of the picture.
+// Slope of the thickness, per pixel.
 vec2 thickness_slope(vec2 pixel) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     vec2 middle = floor(h + 0.5);
@@ -29,11 +30,11 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
-// The same of the sheet that a surface belongs to, alone: what lies behind the air is no part of it.
+// The same for the front sheet alone, without what lies behind the air.
 vec2 sheet_slope(vec2 pixel, float front) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 middle = ivec2(floor(h + 0.5));
-    mat3 own; // a column a row of texels
+    mat3 own; // one column per row of texels
     for (int y = 0; y < 3; ++y) {
         for (int x = 0; x < 3; ++x) {
             ivec2 texel = clamp(middle + ivec2(x, y) - 1, ivec2(0), ivec2(frame.thick_extent.xy) - 1);
@@ -45,17 +46,18 @@ vec2 sheet_slope(vec2 pixel, float front) {
     return spline_slope(h - vec2(middle), own[0], own[1], own[2]) / frame.thick_extent.z;
 }
 
-// The ray from the eye as it goes on in the water, a unit vector.
+// Direction of the refracted view ray in the water, a unit vector.
 vec3 into_water(Sheet sheet) {
     vec3 v = normalize(-sheet.at);
     float ratio = frame.up.w;
-    // A normal of a ripple may be turned away.
+    // The normal of a ripple may point away from the eye.
     float facing = max(dot(sheet.normal, v), 0.0);
     return ratio * (sheet.normal * facing - v) - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
 }
 
-// From a pixel to where the ray that a sheet refracts meets the scene under it: as far as the scene lies below the surface
-// where the ray was last found to end, begun straight behind. What stands before the water is not under it.
+// Offset from a pixel to where the refracted ray meets the scene under the sheet. Fixed-point iteration from
+// straight behind: the ray goes as deep as the scene lies below the surface at the last end point. Objects
+// before the water are skipped.
 const int BED_LOOKS = 3;
 vec2 bed_offset(Sheet sheet, vec2 pixel) {
     vec3 inside = into_water(sheet);
@@ -73,7 +75,7 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
     return at - pixel;
 }
 
-// behind: the scene's colour as the front surface alone refracts it. covers: the sheet is the front one of two.
+// behind: scene colour with the front surface's refraction alone. covers: the sheet is the front one of two.
 Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);
@@ -85,7 +87,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers)
     far.z += sheet.thick;
     vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
     vec2 thicker = vec2(0.0);
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     bool apart = SHEETS == 2u && covers;
     bool alone = !apart;
     while (apart) {
@@ -111,10 +113,10 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers)
 
     Met met = march(from, along, int(EXIT));
     vec3 world = mat3(frame.world) * along;
-    // What leaves downwards and meets nothing that is seen: as if it went straight on.
+    // A ray that leaves downwards and meets no visible scene counts as unrefracted.
     float sky = BENT * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     float thrown = total ? 0.0 : fresnel(outer);
-    // Thin films are what they are by their front; of what lies under water there is no air.
+    // Thin films have no far surface of their own, and water on the scene has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, 0.25 * frame.particle.x, sheet.thick);
     vec3 seen = met.share * scene_at(met.at) + (1.0 - met.share - sky) * behind;
     result.free = air * ((1.0 - thrown) * sky * textureLod(environment, world, 0.0).rgb
@@ -126,7 +128,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers)
     return result;
 }
 
-// With all that does not come through what is behind.
+// The light that enters the sheet, from the colour c behind it.
 vec3 opened(Exit e, vec3 c) {
     return c * e.kept + e.free;
 }

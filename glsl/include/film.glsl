@@ -1,5 +1,4 @@
-// Thin-film interference of a soap film with air on both sides: what share of the light it sends back (Airy). Needs
-// nothing.
+// Thin-film interference of a soap film in air: its reflectance (Airy). Needs nothing.
 
 // How an interface reflects. Exact: both polarisations by themselves; Schlick: his approximation of their mean; the
 // source: 1 - cos.
@@ -12,7 +11,7 @@ float film_refracted(float cosine, float n) {
     return sqrt(max(1.0 - (1.0 - cosine * cosine) / (n * n), 0.0));
 }
 
-// What one face reflects, of light polarised across and along the plane of incidence.
+// Amplitude that one face reflects, for polarization perpendicular and parallel to the plane of incidence.
 vec2 film_face(float cosine, float n, uint kind) {
     float inside = film_refracted(cosine, n);
     if (kind == FRESNEL_EXACT) {
@@ -29,8 +28,8 @@ vec2 film_face(float cosine, float n, uint kind) {
     return vec2(mix(normal * normal, 1.0, square * square * out_of));
 }
 
-// Square of the sine of half the phase between the light from the two faces, of a film and light of so many
-// nanometres. By its series over a quarter of a turn: devices promise sines to 2^-11 only.
+// sin^2 of half the phase between the light from the two faces of a film. By the series over a quarter of a turn,
+// because devices guarantee sines to 2^-11 only.
 float film_phase(float cosine, float n, float thickness, float wavelength) {
     float turns = 2.0 * n * thickness * film_refracted(cosine, n) / wavelength;
     float x = 3.14159265 * (turns - floor(turns + 0.5));
@@ -40,7 +39,7 @@ float film_phase(float cosine, float n, float thickness, float wavelength) {
     return sine * sine;
 }
 
-// Share of unpolarised light that is reflected: never more than all of it, but by the source's form, which is cut.
+// Reflectance for unpolarized light, at most 1. The paper's form can exceed that and is clamped.
 float film_reflectance(float cosine, float n, float thickness, float wavelength, uint kind) {
     float phase = film_phase(cosine, n, thickness, wavelength);
     vec2 face = film_face(cosine, n, kind);
@@ -49,7 +48,7 @@ float film_reflectance(float cosine, float n, float thickness, float wavelength,
     }
     vec2 back = 4.0 * face * phase;
     vec2 through = 1.0 - face;
-    // Along the film both are 0.
+    // At grazing incidence both are 0.
     vec2 share = back / max(back + through * through, 1.0e-20);
     return 0.5 * (share.x + share.y);
 }

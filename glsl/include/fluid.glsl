@@ -15,9 +15,9 @@ layout(push_constant, std430) uniform Push {
     uint velocity_word;
     uint velocity_stride;
     uint id_word;
-    uint id_stride;       // 0: no ids, the number in the step instead
+    uint id_stride;       // 0: no ids, the index in the step instead
     uint chunk_first;
-    uint chunk;           // most particles of it
+    uint chunk;           // most particles of the chunk
     float spacing;
     float cells;
     uint buckets;
@@ -25,7 +25,7 @@ layout(push_constant, std430) uniform Push {
 
 #include "cells.glsl"
 
-// What is not finite, or far beyond any scene, has no cell.
+// Particles that are not finite, or far beyond any scene, do not take part.
 bool takes_part(uint i, out vec3 position, out vec3 velocity) {
     uint at = push.position_word + i * push.position_stride;
     position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);

@@ -1,27 +1,28 @@
-// A particle's foam as a sprite (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which turns
-// into a disc that faces the eye where it is slow or moves along the view. Needs frame.glsl.
+// Sprite of a particle's surface foam (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which changes to a
+// disc facing the camera where it is slow or moves along the view. Needs frame.glsl.
 
 struct FoamSprite {
-    vec4 centre;   // eye space; foam, 0 to 1
-    vec4 velocity; // eye space; age in seconds
-    vec4 rest;     // bits of the id; share of the sun's light
+    vec4 centre;   // eye-space position; foam, 0 to 1
+    vec4 velocity; // eye-space velocity; age in seconds
+    vec4 rest;     // w: logarithm of the pattern at its centre; xyz: gradient of that per metre
     vec4 pattern;  // w: logarithm of how much more there is of it in its middle; xyz: how that grows a metre
 };
 
-// Sprites to a workgroup of the compute path.
+// Sprites per workgroup of the compute path.
 const uint FOAM_GROUP = 64u;
-// Half-axis across the motion in drawn radii. That of the depth shrinks with the last of the foam; else
-// it is the thickness', which ends softly: a narrower one cuts it off (the source has 2 to 3).
+// Half-axis across the motion in drawn radii. The depth's half-axis shrinks as the foam ends. That of the
+// thickness does not, because its profile ends softly, and a narrower one would cut it off. (The thesis has 2
+// to 3.)
 const float FOAM_AXIS = 2.0;
-// Least half-axis of the thickness in texels: a narrower one would come and go between their middles. As it
-// is wider it is thinner.
+// Least half-axis of the thickness in texels: narrower sprites would come and go between texel centres. Wider
+// ones are thinner in proportion.
 const float LEAST_FOAM_AXIS = 1.5;
-// Cells of the noise to a half-axis.
+// Noise cells per half-axis.
 const float NOISE_CELLS = 1.6;
-// Least that a sprite counts as turned towards the eye: seen from its edge it would be endless.
+// Least cosine of a sprite towards the eye: seen from its edge it would be infinitely thick.
 const float LEAST_FACING = 0.2;
 
-// Unit vectors along the motion and across it; how far it is stretched, 0 to 1.
+// Unit vectors along and across the motion; returns the stretch, 0 to 1.
 float foam_axes(FoamSprite sprite, out vec3 along, out vec3 across) {
     vec3 v = normalize(sprite.centre.xyz);
     float speed = length(sprite.velocity.xyz);

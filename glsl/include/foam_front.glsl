@@ -2,7 +2,7 @@
 
 layout(set = 0, binding = 7) uniform sampler2D foam_depth;
 
-// Its depth; EMPTY where there is none.
+// Depth of the foam; EMPTY without foam.
 float foam_at(ivec2 texel) {
     return texelFetch(foam_depth, texel, 0).x;
 }

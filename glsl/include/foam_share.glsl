@@ -1,10 +1,10 @@
-// How much of the water is before the frontmost foam: T_wf of the source (thesis Sec. 3.2.2), which asks
-// once a particle (Listing A.14). Needs frame.glsl.
+// Share of the water in front of the frontmost foam: T_wf of the thesis (Sec. 3.2.2), which decides it per particle
+// (Listing A.14). Needs frame.glsl.
 
 // 1: there may be foam.
 layout(constant_id = 9) const uint FOAM = 0;
 
-// Share of a sprite whose centre lies at a depth.
+// Fraction of a sprite with its centre at a depth that lies before the foam.
 float share_before(float z, float foam) {
     float spacing = frame.particle.y;
     return foam < EMPTY ? 1.0 - smoothstep(-0.5 * spacing, 0.5 * spacing, z - foam) : 1.0;

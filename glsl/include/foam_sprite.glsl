@@ -9,19 +9,19 @@ struct FoamPlane {
     vec3 centre;
     vec3 e1;     // unit vectors along its axes
     vec3 e2;
-    vec2 axes;   // half-axes
+    vec2 axes;   // half-axes, metres
     vec3 normal;
-    float texel; // width of one at its centre
+    float texel; // width of a texel at its centre
 };
 
-// What tears it: a noise of its own, or the finest octave of the pattern.
+// The noise that tears the sprite: its own, or the finest octave of the pattern.
 struct FoamNoise {
-    vec3 place;  // in its middle
-    vec3 along;  // how that goes on to its half-axes
+    vec3 place;  // at its centre
+    vec3 along;  // change to the end of its half-axes
     vec3 across;
-    vec3 coarse; // logarithm of the pattern in its middle, and what it gains to its half-axes
-    vec2 torn;   // strength of the noise; share of the sun's light
-    uint chance; // that it is rounded up by
+    vec3 coarse; // logarithm of the pattern at its centre, and its change to the end of the half-axes
+    vec2 torn;   // strength of the noise; visibility of the sun
+    uint chance; // for stochastic rounding
 };
 
 FoamPlane foam_plane(FoamSprite sprite, bool thick) {
@@ -36,8 +36,9 @@ FoamPlane foam_plane(FoamSprite sprite, bool thick) {
     return plane;
 }
 
-// Metres along z in its middle. As a thickness sprite of water: the integral over the picture's plane is the volume.
-// A slope's square holds z^2 / (n . (slope, 1)) of the sprite's area: n . centre / z, which off the axis is not n.z.
+// Metres along z at its centre. As for thickness sprites, the integral over the image plane is the volume.
+// The square of a slope contains z^2 / (n . (slope, 1)) of the sprite's area: n . centre / z, which off the
+// axis is not n.z.
 float foam_amount(FoamSprite sprite, FoamPlane plane) {
     float facing = max(abs(dot(plane.normal, plane.centre) / plane.centre.z), LEAST_FACING);
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
@@ -52,7 +53,7 @@ FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
     uint id = floatBitsToUint(sprite.rest.x);
     FoamNoise noise;
     if (has_pattern()) {
-        // Each phase has half of the sprites: in each texel there are some of both.
+        // Each of the two phases has half of the sprites, so that each texel has some of both.
         uint phase = pcg(id) >> 31;
         float width = frame.particle.y * frame.foam_octaves.x * OCTAVES[2];
         mat3 turn = mat3(frame.world);
@@ -77,20 +78,20 @@ FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
     return noise;
 }
 
-// What it adds where a ray meets it: to all foam, to the layer right behind the frontmost, to what of that the
-// sun lights, and by how far behind the frontmost it lies. Whole steps, their sums are exact, in any order; all rounded
-// alike, so that none is more than what it is a part of.
-// before: metres to the scene.
+// What the sprite adds at a ray: to all foam; to the layer right behind the frontmost; to the sunlit part of
+// that; and weighted by the distance behind the frontmost. All in whole steps, so that sums are exact in any
+// order, and rounded with the same number, so that a part is never more than the whole. before: metres to the
+// scene.
 vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
     float noise = own.torn.x * gradient_noise(own.place + own.along * place.x + own.across * place.y);
     amount *= thickness_kernel(dot(place, place));
     amount *= has_pattern() ? exp(own.coarse.x + dot(own.coarse.yz, place) + noise) : max(1.0 + noise, 0.0);
-    // It sinks into the scene softly: a sprite that the scene cuts would end in steps of the texels.
+    // The sprite fades into the scene: a hard cut would show the texels as steps.
     amount *= min(before / (0.5 * frame.particle.y), 1.0);
-    // The layer ends softly, within a spacing: what passes its end would pop.
+    // The layer ends softly within a spacing, so that foam does not pop when it passes the end.
     float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
     float first = front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0;
-    // Bounded, so that steps can hold its sum, and led by what is near, which hides the rest.
+    // Bounded, so that steps can hold the sum, and weighted towards near foam, which hides the rest.
     float behind = max(depth - front - frame.particle.y, 0.0);
     float far = behind / (behind + frame.particle.y);
     return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + rounding_up(own.chance, texel));

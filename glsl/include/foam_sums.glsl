@@ -1,12 +1,12 @@
-// What the compute path of foam has of each texel, next to each other: sums in whole steps of all foam, of what
-// in the front layer the sun does not light, of all by how far behind the frontmost it lies, and of what is behind
-// the front layer. Of many sprites all but the first are none, and not added.
+// Words of each texel in the compute path of surface foam, next to each other: fixed-point sums of all foam, of the
+// shadowed part of the front layer, of all foam times its distance behind the frontmost, and of the foam behind the
+// front layer. For most sprites all but the first are zero and not added.
 
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;
 
-// Bits of the depth of the frontmost, of the scene's where there is none before it, and of the scene's. Positive
-// floats order as their bits do.
+// Bits of the depth of the frontmost foam (that of the scene if there is none before it), and of the scene.
+// Positive floats have the order of their bits.
 const uint FRONT = 0u;
 const uint SCENE = 1u;
 const uint ALL = 2u;
@@ -15,9 +15,9 @@ const uint FAR = 3u + LIT;
 const uint LATE = 4u + LIT;
 const uint WORDS = 5u + LIT;
 
-// No sum is more: single precision holds all whole numbers up to it. It is 4096 spacings of foam or more.
+// Largest sum: single precision represents all integers up to it. It is at least 4096 spacings of foam.
 const uint FULL = 16777216u;
-// From here on nothing is added: room is left for what 85 thousand invocations may be adding at once.
+// Nothing is added beyond this. It leaves room for what 85 thousand invocations may be adding at the same time.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 texel) {

@@ -1,17 +1,17 @@
-// The texels of the foam about a pixel. Its images are of the thickness' resolution; what of them the
-// scene hides is told a pixel, so that its outlines are sharp. Needs frame.glsl.
+// The foam texels around a pixel. Foam has the resolution of the thickness; occlusion by the scene is resolved per
+// pixel, so its outlines are sharp. Needs frame.glsl.
 
 struct FoamTexels {
-    ivec4 at;     // the first and the last of the four
-    vec4 weights; // bilinear, 0 of those whose foam the scene hides; row by row
-    vec4 shown;   // the same, and 0 where there is none
-    vec4 z;       // depth of the frontmost foam in each that shows some, else EMPTY
-    float depth;  // the least
+    ivec4 at;     // the first and the last of the four texels
+    vec4 weights; // bilinear, row by row; 0 where the scene hides the foam
+    vec4 shown;   // the same, and 0 for texels without foam
+    vec4 z;       // depth of the frontmost foam, EMPTY where none is visible
+    float depth;  // the least of them
 };
 
-// scene: its eye depth at the pixel (its centre, at +0.5), 0 or less of nothing.
+// scene: eye depth of the scene at the pixel (its centre is at +0.5), 0 or less without a scene.
 FoamTexels foam_texels(sampler2D foam_depth, vec2 pixel, float scene) {
-    // Inside the frame, which the image may be larger than.
+    // Clamp to the frame: the image may be larger.
     vec2 h = clamp(pixel / frame.thick_extent.z - 0.5, vec2(0.0), frame.thick_extent.xy - 1.0);
     vec2 base = floor(h);
     vec2 f = h - base;
@@ -20,19 +20,19 @@ FoamTexels foam_texels(sampler2D foam_depth, vec2 pixel, float scene) {
     foam.at.zw = min(foam.at.xy + 1, ivec2(frame.thick_extent.xy) - 1);
     foam.weights = vec4(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4(1.0 - f.y, 1.0 - f.y, f.y, f.y);
     vec4 z = textureGather(foam_depth, (base + 1.0) / vec2(textureSize(foam_depth, 0))).wzxy;
-    // Foam at the scene, seen along it: that of a texel may lie farther than the scene in another of its
-    // pixels.
+    // Where foam lies on the scene at a grazing angle, a texel's foam may be farther than the scene in
+    // another of its pixels, so one spacing is tolerated.
     float end = scene > 0.0 ? min(scene + frame.particle.y, EMPTY) : EMPTY;
     bvec4 seen = lessThan(mix(vec4(EMPTY), z, greaterThan(foam.weights, vec4(0.0))), vec4(end));
     foam.shown = mix(vec4(0.0), foam.weights, seen);
-    // Where foam is least its depth has none.
+    // Texels with thickness but no depth (very little foam) keep their weight.
     foam.weights = mix(foam.shown, foam.weights, greaterThanEqual(z, vec4(EMPTY)));
     foam.z = mix(vec4(EMPTY), z, seen);
     foam.depth = min(min(foam.z.x, foam.z.y), min(foam.z.z, foam.z.w));
     return foam;
 }
 
-// One of them.
+// The i-th of the four texels.
 ivec2 foam_texel(FoamTexels foam, int i) {
     return ivec2((i & 1) == 0 ? foam.at.x : foam.at.z, (i & 2) == 0 ? foam.at.y : foam.at.w);
 }

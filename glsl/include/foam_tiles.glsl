@@ -1,11 +1,11 @@
-// Tiles of 8x8 pixels in which there is foam of diffuse particles, and the dispatch over them, a group each. Needs frame.glsl.
+// Tiles of 8x8 pixels in which there is foam of whitewater particles, and the dispatch over them, a group each. Needs frame.glsl.
 // Reads, writes: tiles.
 
 // Groups in x, y, z, how many tiles there are; the tiles, numbered row by row.
 layout(set = 0, binding = 9, std430) buffer Tiles { uint tiles[]; };
 
 const uint FIRST_TILE = 4u;
-const uint MOST_GROUPS = 65535u; // of a dispatch, in each direction
+const uint MOST_GROUPS = 65535u; // limit of a dispatch, on each axis
 
 uint tiles_across() {
     return (uint(frame.extent.x) + 7u) / 8u;
@@ -18,7 +18,7 @@ void add_tile(uvec2 tile) {
     atomicMax(tiles[1], 1u + slot / MOST_GROUPS);
 }
 
-// The invocation's pixel, in the tile of its group; whether there is one.
+// The invocation's pixel in the tile of its workgroup; false if there is none.
 bool tile_pixel(out ivec2 pixel) {
     uint slot = gl_WorkGroupID.y * MOST_GROUPS + gl_WorkGroupID.x;
     bool listed = slot < tiles[3];

@@ -1,4 +1,4 @@
-// Numbers of the frame (src/frame.rs writes them). Pixel coordinates have their centres at +0.5
+// Values of the frame (src/frame.rs writes them). Pixel coordinates have their centres at +0.5
 // and row 0 on top; eye space looks down -z; depth is the positive eye depth.
 // Reads: the frame's block.
 
@@ -11,69 +11,69 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 depth;         // device depth z -> x / (z + y); near, far
     vec4 planes[6];     // inward planes of the frustum, eye space
     vec4 extent;        // full width, height; reduced width, height
-    vec4 thick_extent;  // thickness width, height; its pixels' size; 0
+    vec4 thick_extent;  // thickness width, height; size of its texels in pixels; 0
     vec4 slope;         // full pixel -> slope: scale xy, offset zw
     vec4 thick_slope;   // thickness pixel -> slope
     vec4 texel;         // C_x C_y: world size of a pixel per depth; 0 0
-    vec4 scene_depth;   // pixels of the scene's depth per full pixel, size of its part
-    vec4 scene_color;   // the same of its colour
-    vec4 scene_origin;  // first pixel of the part: of the scene's depth, of its colour
-    vec4 target;        // first pixel of the part of the output; rung of the ladder
+    vec4 scene_depth;   // scene-depth texels per pixel, size of the used part
+    vec4 scene_color;   // the same for the scene's colour
+    vec4 scene_origin;  // first texel of the used part: of the scene's depth, of its colour
+    vec4 target;        // first pixel of the used part of the output; layers of the debug view
     vec4 particle;      // drawn radius, spacing, half-axis and amplitude of a thickness sprite
-    vec4 density;       // nothing but spray below, full radius above, no spray above; droplets a particle
-    vec4 smoothing;     // width, depth falloff, most iterations, fixed count
+    vec4 density;       // only spray below x, full radius above y, no spray above z; droplets per particle
+    vec4 smoothing;     // width, depth falloff, maximum iterations, fixed count
     vec4 medium_a;      // physical: absorption; source: base colour; w: 1 = source
     vec4 medium_b;      // physical: scattering; source: falloff
     vec4 fresnel;       // bias, scale, power
     vec4 surface;       // refraction, specular, shininess, border threshold
     vec4 sun_direction; // eye space
     vec4 sun_color;
-    vec4 ambient;       // w: 1 = composed as the source does
+    vec4 ambient;       // w: 1 = the thesis' composite
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
-    vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
-    vec4 foam_pattern;  // its strength; that of the lace, its cells in metres; half its period in seconds
-    vec4 foam_octaves;  // spacings of its first octave; where its two phases begin in the noise; how much its shape lights it
-    vec4 foam_phases;   // how much there is of each; how far it is carried, of half a period, -1 to 1
-    vec4 foam_back;     // radiance of little foam, and of much; w: step of its thickness
-    vec4 foam_front;    // w: power of the other rule, or 0
+    vec4 foam_noise;    // amplitude, cells per second; relief; thickness below which foam fades
+    vec4 foam_pattern;  // strength of the pattern, of the lace; cells of the lace in metres; half the pattern's period in seconds
+    vec4 foam_octaves;  // spacings per cell of the first octave; origins of the two phases in the noise; strength of shape lighting
+    vec4 foam_phases;   // weights of the two phases; displacement of each relative to half a period, -1 to 1
+    vec4 foam_back;     // radiance of thin foam; w: quantum of the thickness
+    vec4 foam_front;    // radiance of thick foam; w: exponent of the thesis' rule, or 0
     vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak
     vec4 spray_color;   // radiance; w: 1 = added
-    vec4 spray_cloud;   // optical depth and half-axis of mist; seconds of motion that droplets lie apart
+    vec4 spray_cloud;   // optical depth and half-axis of mist; seconds of motion that droplets are spread over
     mat4 shadow;        // eye -> the host's shadow map: place in it 0 to 1, depth
     mat4 to_light;      // eye -> the light's maps: place in them 0 to 1, metres along the light
     vec4 shadow_map;    // bias in metres; 1, or -1 where depth is reversed
     vec4 shadow_rect;   // first texel and size of the part of the shadow map or mask
-    vec4 light_map;     // edge of the maps in texels, of a texel in metres; smoothing in metres
-    vec4 shade;         // light in shade over that in the sun; foam's extinction of sunlight
-    vec4 lit_color;     // as scene_color and its origin, of what `lit` reads
+    vec4 light_map;     // side length of the maps in texels, of a texel in metres; smoothing in metres
+    vec4 shade;         // shade relative to sunlight; foam's extinction of sunlight
+    vec4 lit_color;     // as scene_color and its origin, for the image that `lit` reads
     vec4 lit_origin;
-    vec4 shadow_linear; // depth z of the shadow map -> (x z + y) / (z z + w), even away from the light
-    vec4 shadow_basis;  // its Fourier basis: size in texels, the map's texels a texel, edge of a page
+    vec4 shadow_linear; // depth d of the shadow map -> (x d + y) / (z d + w), linear along the light
+    vec4 shadow_basis;  // its Fourier basis: size in texels, map texels per texel, side length of a page
     vec4 shadow_filter; // half the box in texels, scale, offset, ramp
     vec4 shadow_weight[4]; // of the terms
-    mat4 before;        // eye -> eye of the frame before, less the identity
-    vec4 before_lens;   // its P00 P11; its near plane; device depth of nothing in this frame
-    vec4 lens_change;   // P00 P11 P20 P21 less those of the frame before
-    vec4 motion;        // seconds since it per spacing; a spacing
-    vec4 noise;         // height of 1 in metres, foam; falloff a metre below the surface, half-axis
-    vec4 noise_image;   // width, height of the surface noise; its texels' size; cells a metre
+    mat4 before;        // eye -> previous eye, minus the identity
+    vec4 before_lens;   // previous P00 P11; its near plane; device depth of the far end in this frame
+    vec4 lens_change;   // P00 P11 P20 P21 minus the previous ones
+    vec4 motion;        // seconds since the previous frame per spacing; spacing
+    vec4 noise;         // height of 1 in metres, foam; falloff per metre below the surface, half-axis
+    vec4 noise_image;   // width, height of the surface noise; size of its texels in pixels; cells per metre
     vec4 noise_color;   // radiance of its foam
-    vec4 diffuse;       // radius of a diffuse particle without one; nearer and farther end of where blobs take over, 0: nowhere; 1 = the source's falloff below the surface
+    vec4 diffuse;       // default radius of a whitewater particle; near and far end of the cross-fade to blobs, 0: none; 1 = the paper's falloff below the surface
     vec4 diffuse_below; // that falloff: metres, exponents
-    vec4 diffuse_light; // binary logarithm of the intensity's half, its exponent; 1 = mixed as the source does; radius of a blob in its particle's
-    vec4 diffuse_search; // spheres of the occlusion: first, more a pass, passes, samples a cubic pixel
-    vec4 diffuse_samples; // least and most; reach of occluders in radii, or less than 0 in metres
+    vec4 diffuse_light; // log2 of the intensity's half, its exponent; 1 = the paper's mixing; radius of a blob relative to its particle
+    vec4 diffuse_search; // occlusion spheres: first radius, increment per pass, passes, samples per cubic pixel
+    vec4 diffuse_samples; // minimum and maximum samples; reach of occluders in radii, or, negative, in metres
     vec4 diffuse_opacity; // of fluid and solids; scale and exponent of the shadow
-    vec4 diffuse_shadow; // what of a shadow takes light; its offset
-    vec4 diffuse_color; // albedo, twice and by its scale; radius of the blur in that of the first sphere
-    vec4 diffuse_shapes[3]; // of foam, spray, bubbles: exponents of the shape, its mean over the disc
-    vec4 diffuse_life;  // exponents of the lifetime; sizes there are; radius of a bubble in what it would be
-    vec4 diffuse_sun;   // the sun's light on what faces it, over 2 pi
+    vec4 diffuse_shadow; // colour that a shadow removes; its offset
+    vec4 diffuse_color; // 2 albedo scale; radius of the blur relative to the first sphere
+    vec4 diffuse_shapes[3]; // foam, spray, bubbles: exponents of the shape, its mean over the disc
+    vec4 diffuse_life;  // exponents of the fade; number of sizes; relative radius of a bubble
+    vec4 diffuse_sun;   // the sun's irradiance on a surface that faces it, over 2 pi
     vec4 shore_color;   // radiance of shoreline foam; its opacity
-    vec4 contact_color; // of contact foam; what of it is light on it
+    vec4 contact_color; // radiance of contact foam; its lit share
     vec4 up;            // world, unit length; w: 1/n of the water
-    vec4 bed;           // of the light that is thrown up inside, what leaves; ways of the sky's and the sun's light a metre down; 1/n, or 0: dry
-    vec4 bed_light;     // pi over the irradiance; what comes in of the sun's light over what does of the sky's
+    vec4 bed;           // share of upward light that leaves the water; path of sky and sun light per metre of depth; 1/n, or 0: dry
+    vec4 bed_light;     // pi over the irradiance; transmittance of sunlight relative to skylight
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -1,13 +1,13 @@
-// The slices of depth in which pass `gaps` looks for air, in spacings. Neighbours in water are a
-// spacing apart, in its thinner parts one and a half; two and a half are air.
+// Depth slices of pass `gaps`, in spacings. Neighbours in water are one spacing apart, in thin parts one and a half;
+// two and a half are air.
 
 const float SLICE = 0.5;
-// What a sphere marks before and behind its centre.
+// Range marked before and behind a sphere's centre.
 const float REACH = 0.75;
-// What it marks beside its silhouette, less half a cell: all within a spacing of the cell's middle.
-// Else a cell much smaller than the spheres looks through between those of one body.
+// Range marked beside a sphere's silhouette, less half a cell: all within a spacing of the cell's centre.
+// Otherwise a cell much smaller than the spheres would see through between spheres of one body.
 const float BESIDE = 0.35;
-// Slices that are more than a drop: one sphere marks four at most.
+// Number of slices that is more than a drop: one sphere marks at most four.
 const int BODY = 6;
-// Spheres of less than this, in drawn radii, are drops that fly: of themselves they are no sheet, and many would fill the air.
+// Spheres below this, in drawn radii, are flying drops: they do not form a layer, and many of them would fill the air.
 const float DROP = 0.6;

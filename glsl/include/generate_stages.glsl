@@ -1,8 +1,8 @@
-// Of a snapshot: moments of the longest life of foam before it, at which the water on its way to a particle is looked at,
-// the nearer the closer. Needs generate.glsl, random.glsl.
+// Moments of a snapshot, spread over the longest lifetime of foam, at which the water on its way to a particle is
+// evaluated; denser towards the present. Needs generate.glsl, random.glsl.
 
 const uint STAGES = 15u;
-// Diffuse particles of a moment at most: six bits.
+// Most whitewater particles per moment: six bits.
 const uint MOST_OF_STAGE = 63u;
 
 // Seconds before the snapshot.
@@ -16,7 +16,7 @@ float seconds_of(uint stage) {
     return push.life_most * float(2u * stage + 1u) / float(STAGES * STAGES);
 }
 
-// Where its number is: five to a word.
+// Position of its number: five per word.
 uint shift_of(uint stage) {
     return 6u * (stage % 5u);
 }

@@ -1,12 +1,12 @@
-// What the passes share that make diffuse particles.
+// Types shared by the passes that emit whitewater.
 
 struct GenerateCounts {
-    uint high;   // slots of diffuse particles that were ever used: first, drawing starts from it
-    uint fluid;  // particles of the step
-    uint sorted; // of them those that take part
-    uint free;   // of the used slots those whose particle is gone
-    uint made;   // in the step
-    uint lost;   // for want of slots, in all
+    uint high;   // number of whitewater slots ever used; first, because drawing reads it
+    uint fluid;  // fluid particles of the step
+    uint sorted; // of those, the ones that take part
+    uint free;   // free slots among the used ones
+    uint made;   // created in this step
+    uint lost;   // in total, not created because no slot was free
 };
 
 #include "place.glsl"

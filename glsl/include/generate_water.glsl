@@ -1,10 +1,10 @@
-// The water at a place: its mean of the particles about it. Needs neighbours.glsl, and rate_of(j): the share of the most
-// diffuse particles a second that one of the water's makes, 0 to 1. Reads: the grid.
+// The water at a point: the mean of the particles around it. Needs neighbours.glsl, and rate_of(j): the emission rate
+// of water particle j relative to the maximum, 0 to 1. Reads: the grid.
 
 struct Water {
-    vec3 velocity;   // 0 where there is none
+    vec3 velocity;   // 0 without water
     float rate;      // likewise
-    uint neighbours; // of its particles those that are there
+    uint neighbours; // number of its neighbours that are present
     bool any;
 };
 

@@ -6,12 +6,12 @@ vec3 noise_phase(uint id) {
     return vec3(h) * (1.0 / 16777216.0);
 }
 
-// What a lattice point's coordinates count in its hash, primes of xxHash. Products by these, joined and mixed
-// once, in the place of a table of permutations asked thrice (Perlin 2002): few multiplications.
+// Factors of a lattice point's coordinates in its hash: primes of xxHash. The combined products are mixed once,
+// instead of three look-ups in a permutation table (Perlin 2002), which takes few multiplications.
 const uvec3 LATTICE = uvec3(0x9E3779B1u, 0x85EBCA77u, 0xC2B2AE3Du);
 
-// Of one of the twelve directions to the edges of a cube. Selections, not branches: within loops SwiftShader
-// took minutes and gigabytes to compile those.
+// Gradient along one of the twelve directions to the edges of a cube. With selections instead of branches, which
+// SwiftShader took minutes and gigabytes to compile within loops.
 float lattice_gradient(uint joined, vec3 off) {
     uint h = ((joined ^ (joined >> 15)) * 0x27D4EB2Fu) >> 28;
     float u = mix(off.y, off.x, h < 8u);
@@ -19,13 +19,13 @@ float lattice_gradient(uint joined, vec3 off) {
     return mix(u, -u, (h & 1u) != 0u) + mix(v, -v, (h & 2u) != 0u);
 }
 
-// Along x, of a row whose part of the hash is known.
+// Noise of a row along x, whose part of the hash is given.
 float row_noise(uint x, uint row, vec3 off, float fade) {
     return mix(lattice_gradient(x ^ row, off),
                lattice_gradient((x + LATTICE.x) ^ row, off - vec3(1.0, 0.0, 0.0)), fade);
 }
 
-// The same with how it grows a cell: xyz, w the noise.
+// xyz: gradient per cell; w: the noise.
 vec4 gradient_noise_slope(vec3 p) {
     vec3 cell = floor(p);
     vec3 f = p - cell;
@@ -48,7 +48,7 @@ vec4 gradient_noise_slope(vec3 p) {
     return sum;
 }
 
-// Mean 0, within 1.23 of it.
+// Gradient noise with mean 0, between -1.23 and 1.23.
 float gradient_noise(vec3 p) {
     vec3 cell = floor(p);
     vec3 f = p - cell;

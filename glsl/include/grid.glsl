@@ -12,8 +12,8 @@
 layout(set = 0, binding = 1, std430) readonly buffer Ends { uint ends[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Places { Place places[]; };
 
-// No more of a bucket are looked at: particles heaped on one spot must not hang a device. Of water there
-// are eight in a cell of two spacings.
+// Most particles read per bucket: particles heaped on one spot must not hang a device. Water has eight per cell
+// of two spacings.
 const uint MOST_IN_BUCKET = 256u;
 
 #include "cells.glsl"
@@ -28,7 +28,7 @@ uvec2 range_of(ivec3 cell) {
     return uvec2(begin, min(ends[bucket], begin + MOST_IN_BUCKET));
 }
 
-// Cells share buckets.
+// Several cells share a bucket.
 bool in_cell(vec3 position, ivec3 cell) {
     return all(equal(cell_of(position), cell));
 }

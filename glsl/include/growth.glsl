@@ -1,15 +1,15 @@
-// How a blob grows or shrinks, as one of the halves of what was one. Needs nothing.
+// Growth and shrinking of a blob that is one half of a split one. Needs nothing.
 
 struct Growth {
-    float goal;   // radius when they have parted
-    float parted; // 0 to 1: they have
-    float alone;  // seconds with too little beside it
-    uint halved;  // how often; with CHILD: it is the half that grows
+    float goal;   // final radius after the halves have separated
+    float parted; // progress of the separation, 0 to 1
+    float alone;  // seconds with too few neighbours
+    uint halved;  // number of halvings; with CHILD: this is the half that grows
 };
 
 const uint CHILD = 0x100u;
 
-// Both have the volume of the whole at every time.
+// Together, both halves have the volume of the whole at any time.
 float radius_of(Growth growth) {
     float p = growth.parted;
     float whole = p < 1.0 ? pow(2.0 - p * p * p, 1.0 / 3.0) : 1.0;

@@ -1,11 +1,11 @@
-// Where blobs take over from sprites of diffuse particles. Needs nothing.
+// Distances at which blobs replace sprites of whitewater. Needs nothing.
 
-// Distances that are told apart.
+// Bins of the distance histogram.
 const uint RINGS = 1024u;
 
 struct HandOver {
-    float near;  // nearer than that there are blobs alone
-    float far;   // farther sprites alone; 0: nowhere are blobs
-    uint rings;  // those that have room
+    float near;  // nearer than this, only blobs
+    float far;   // farther than this, only sprites; 0: no blobs anywhere
+    uint rings;  // rings within the capacity
     uint blobs;
 };

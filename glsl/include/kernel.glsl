@@ -9,15 +9,15 @@ float thickness_kernel(float rho2) {
     return rho2 > 1.0 ? 0.0 : sqrt(1.0 - rho2) * exp(-2.0 * rho2);
 }
 
-// rho^2 of the point where the ray meets the plane of the sprite's centre.
+// rho^2 at the point where the ray meets the plane of the sprite's centre.
 float thickness_rho2(vec2 slope, vec3 centre, float inverse_axis) {
     vec2 off = (slope * -centre.z - centre.xy) * inverse_axis;
     return dot(off, off);
 }
 
-// Half-axis that is drawn for a sprite at a depth, and what its amplitude is divided by: one
-// narrower than a pixel is widened to it and holds the same volume, so that far water neither
-// sparkles nor vanishes between the pixel centres.
+// Half-axis with which a sprite at a depth is drawn, and the factor by which its amplitude is divided. A sprite
+// narrower than a pixel is widened to a pixel and keeps its volume, so that far water neither sparkles nor
+// vanishes between pixel centres.
 float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
     float least = depth * max(abs(slope.x), abs(slope.y));
     float drawn = max(axis, least);
@@ -25,16 +25,16 @@ float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
     return drawn;
 }
 
-// Metres of a sum: its low word and its carries.
+// Converts a sum (low word and carries) to metres.
 float metres(uvec2 sum) {
     return (float(sum.y) * 4294967296.0 + float(sum.x)) * (frame.particle.w / UNITS);
 }
 
-// Water in the window per water where there is no boundary: more than enough for one sheet.
+// Value of the window without a boundary: more than enough water for one sheet.
 const float ONE_SHEET = 1.0e6;
 
-// What a sprite's centre at a depth adds to: front sheet, back sheet, the window between them, whose
-// water says that they are one.
+// Shares with which a sprite at a depth adds to the front sheet, the back sheet and the window between them.
+// Water in the window means that both are one sheet.
 vec3 sheet_shares(float z, float boundary) {
     if (boundary >= EMPTY) {
         return vec3(1.0, 0.0, ONE_SHEET);

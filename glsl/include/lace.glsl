@@ -1,36 +1,37 @@
-// The lace of foam: bubbles of unlike sizes, between which its threads run, and by which thin foam is torn open. A power
-// diagram of spheres, of three sizes (Worley 1996 has distances to points), drawn about by the slope of a gradient noise,
-// that lies in the world, told at each pixel, and that the foam carries along as pattern.glsl has it. Not in the source, whose thin foam is a veil.
+// Lace: bubbles of different sizes, between which foam forms threads, and which tear thin foam open. A power diagram
+// of spheres of three sizes (Worley 1996 has distances to points), warped by the slope of a gradient noise, in world
+// space, evaluated per pixel, and advected with the foam as in pattern.glsl. Not in the thesis, whose thin foam is a
+// veil.
 // Needs frame.glsl, gradient_noise.glsl, foam_drift.glsl. Reads: drift.
 
 layout(set = 0, binding = 33, std430) readonly buffer Drift { int drift[]; };
 
-// Radii in cells, from the least to the largest, and how far a middle lies from its cell's. So eight cells hold all that
-// reach a place: 0.5 + 0.5 - 0.3 is the largest.
+// Least and largest radius in cells, and largest distance of a centre from the centre of its cell. Eight
+// cells hold all bubbles that reach a point: 0.5 + 0.5 - 0.3 is the largest radius.
 const vec2 BUBBLE_RADII = vec2(0.5, 0.7);
 const float BUBBLE_STRAY = 0.3;
-// Of large, middling and small bubbles: their cells, where those begin, and what they count.
+// Large, medium and small bubbles: size of their cells, offset of the cells, weight.
 const vec3 BUBBLE_CELLS = vec3(1.0, 0.4, 0.16);
 const vec3 BUBBLE_BEGIN = vec3(0.0, 31.7, 77.3);
 const vec3 BUBBLE_PART = vec3(0.5, 0.32, 0.18);
-// What they count in the mean, as they do where cells are less than a pixel and a half wide.
+// Mean of their sum, used where cells are less than 1.5 pixels wide.
 const float BUBBLE_MEAN = 0.232;
-// Cells of the noise to the large bubbles', by how many of those its slope draws them, and what it counts itself.
+// Noise cell in cells of the large bubbles, displacement by the noise's slope in the same unit, and weight of
+// the noise itself.
 const float DRAWN_CELL = 2.6;
 const float DRAWN = 0.3;
 const float RAGGED = 0.3;
-// Median of what closes a place, and the scale of the logistic distribution next to its own: of a hidden share a tenth to
-// nine tenths that much closes, within 0.065.
+// The amount that closes a point: its median, and the scale of the logistic distribution nearest to the
+// actual one. For coverages of 0.1 to 0.9 the error is at most 0.065.
 const vec2 CLOSES = vec2(0.21, 0.115);
-// Half the way in that over which a thread ends, at least and for each cell of a pixel.
+// Half the width over which a thread ends: at least, and per cell of a pixel.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
 
-// Cells from the world's origin, half of them to each side, after which they begin again: single precision holds their
-// parts.
+// Period of the cells, centred on the world's origin, so that single precision resolves their fractions.
 const float LACE_WRAP = 65536.0;
 
-// How far inside of a bubble a place is, beyond the wall to the next: 0 on walls and between all, 1 in the middle of the
-// largest by itself.
+// How far a point lies inside a bubble, beyond the wall to the next: 0 on walls and between all bubbles, 1 at
+// the centre of the largest bubble if it is alone.
 float bubbles_at(vec3 p) {
     p -= 0.5;
     vec3 cell = floor(p);
@@ -52,8 +53,8 @@ float bubbles_at(vec3 p) {
     return (deepest.x - deepest.y) / (BUBBLE_RADII.y * BUBBLE_RADII.y);
 }
 
-// How much foam it takes to close a place, in cells of the large bubbles that are so many pixels wide: little on a thread,
-// most in the middle of a hole.
+// Amount of foam that closes a point given in cells of the large bubbles, which are `pixels` wide: small on a
+// thread, largest at the centre of a hole.
 float lace_at(vec3 place, float pixels) {
     vec4 noise = gradient_noise_slope(place / DRAWN_CELL);
     place += DRAWN * noise.xyz;
@@ -66,7 +67,7 @@ float lace_at(vec3 place, float pixels) {
     return closes;
 }
 
-// Velocity in the world of the foam about a pixel.
+// World velocity of the foam at a pixel.
 vec3 drift_at(vec2 pixel) {
     vec2 at = pixel / DRIFT_CELL;
     ivec2 base = ivec2(at);
@@ -81,8 +82,8 @@ vec3 drift_at(vec2 pixel) {
     return sum.x > 0.0 ? sum.yzw * (frame.particle.y / (DRIFT_STEPS * sum.x)) : vec3(0.0);
 }
 
-// Share of a pixel that threads hide, where smooth foam hides a share of it: of a place in cells, of so many pixels, that
-// is carried by so many cells in half a period. Two phases have their parts as those of the pattern.
+// Coverage of a pixel by threads, where smooth foam would cover `hidden`. The point is in cells that are
+// `pixels` wide; foam carries it by `way` cells in half a period. Two phases are blended as in the pattern.
 float laced(float hidden, vec3 place, vec3 way, float pixels) {
     float much = CLOSES.x + CLOSES.y * log(max(hidden, 1.0e-6) / max(1.0 - hidden, 1.0e-6));
     float ends = max(THREAD_ENDS.x, THREAD_ENDS.y / pixels);
@@ -90,7 +91,7 @@ float laced(float hidden, vec3 place, vec3 way, float pixels) {
     for (int i = 0; i < 2; ++i) {
         float part = frame.foam_phases[i];
         vec3 at = place - way * frame.foam_phases[2 + i] + frame.foam_octaves[1 + i];
-        // An end of a loop, not a branch: a CPU runs branches whole.
+        // A loop instead of a branch, for CPU drivers (docs/performance.md).
         for (bool any = part > 0.0; any; any = false) {
             closes += part * (lace_at(at, pixels) - CLOSES.x);
         }

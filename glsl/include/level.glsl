@@ -1,33 +1,34 @@
-// The resolutions of the smoothing. A pixel shows the one that its distance asks for: of the front sheet up to four,
-// each half of the one before, of the back sheet up to three from the second on. All lie in the smoothing images and
-// the plan, apart by whole tiles. Needs frame.glsl. Reads: levels.
+// The resolutions of the smoothing. A pixel selects one by its distance: up to four of the front layer, each half of
+// the one before, and up to three of the back layer, from the second on. All lie in the smoothing images and the plan,
+// separated by whole tiles. Needs frame.glsl. Reads: levels.
 
 struct Level {
-    ivec4 rect;  // in the images: first texel, size; of what is not used 0
-    vec4 slope;  // texel of the level, from its own corner -> slope: scale xy, offset zw
-    vec4 texel;  // C_x C_y: world size of a texel per depth; its edge in full pixels; 0
+    ivec4 rect;  // in the images: first texel, size; 0 if unused
+    vec4 slope;  // texel of the level (from its corner) to slope: scale xy, offset zw
+    vec4 texel;  // C_x C_y: world size of a texel per depth; width of a texel in full-resolution pixels; 0
 };
 
 const uint LEVELS = 7u;
-const uint BACK = 4u; // the first of the back sheet
+const uint BACK = 4u; // the first level of the back sheet
 
 layout(set = 0, binding = 7, std140) uniform Levels {
     Level level[7];
-    ivec4 atlas; // size of the images; tiles a row; levels coarser than the first
-    // Iterations of the first level at depth 1 on the axis, over a quarter of the cap; (C_x / C_y)^2 ; falloff; 0.
+    ivec4 atlas; // size of the images; tiles per row; number of levels coarser than the first
+    // Iterations of the first level at depth 1 on the axis, divided by a quarter of the limit; (C_x / C_y)^2;
+    // falloff; 0.
     vec4 near;
 } levels;
 
-// The coarser levels' tiles that hold something near enough.
-const uint MOST_GROUPS = 65535u; // of a dispatch, in each direction
+// The tiles of coarser levels that contain something near enough to need them.
+const uint MOST_GROUPS = 65535u; // limit of a dispatch, on each axis
 
 struct Marked {
-    uint groups[3]; // of a dispatch over them, a tile each
+    uint groups[3]; // dispatch over them, one workgroup per tile
     uint count;
     uint needed;    // the coarsest level needed in the frame
 };
 
-// The level that a texel of the images belongs to; LEVELS: none.
+// The level that a texel of the images belongs to; LEVELS if none.
 uint level_of(ivec2 texel) {
     uint own = LEVELS;
     for (uint i = 0u; i < LEVELS; ++i) {
@@ -38,20 +39,21 @@ uint level_of(ivec2 texel) {
     return own;
 }
 
-// Off the axis a pixel sees the surface foreshortened, flat pixels are nearer to each other in y: more,
-// smaller steps keep the smoothing stable.
+// Off the axis the surface is foreshortened, and pixels that are wider than high lie closer to each other in
+// y: more and smaller steps keep the smoothing stable.
 float foreshortened(vec2 slope) {
     return 1.0 + slope.x * slope.x + (1.0 + slope.y * slope.y) * levels.near.y;
 }
 
-// The iterations of the first level at a depth, over a quarter of the cap. From 1 on the next level fades in, from
-// 2 on it is alone, until at 4 the one after it begins: a level coarser needs a quarter of the iterations.
+// Iterations of the first level at a depth, divided by a quarter of the limit. From 1 on the next level fades
+// in, from 2 on it is alone, and at 4 the one after it begins: each coarser level needs a quarter of the
+// iterations.
 float nearness(float z, vec2 slope) {
     return levels.near.x * foreshortened(slope) / (z * z);
 }
 
-// The level that a point shows, and how far the next one has faded in. By the distance, not by time: a
-// frame looks the same however it was come to.
+// The level at a point, and how far the next one has faded in. It depends on distance and not on time, so
+// that a frame does not depend on those before.
 uint shown_level(float near, out float fade) {
     float doubled = log2(max(near, 1.0));
     float level = floor(0.5 * doubled);

@@ -1,4 +1,4 @@
-// Pass `lit`: the scene with what water and foam do to the sunlight on it. Not in the source.
+// Pass `lit`: the scene with the shadows and caustics of water and foam. Not in the thesis.
 // Needs frame.glsl, sunlight.glsl. Reads: scene colour and depth, caustics, the light's maps.
 
 #include "filtered.glsl"
@@ -7,10 +7,11 @@ layout(set = 0, binding = 1) uniform sampler2D scene_color;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D caustics;
 
-// The sun is no point, and no surface as smooth as ours: what is gathered is spread.
+// Limit of the concentration: the sun is not a point and no surface is as smooth as ours, so focused light is
+// spread.
 const float MOST_GATHERED = 3.0;
 
-// Light of the caustics at a point, over what comes without water.
+// Light of the caustics at a point, relative to that without water.
 float caustics_at(LightTexels t) {
     float sum = 0.0;
     float below = 0.0;
@@ -18,7 +19,7 @@ float caustics_at(LightTexels t) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
         vec4 thick = texelFetch(light_thickness, texel, 0);
-        // Far behind the water it is spread by the sun's width: even again.
+        // Far behind the water the sun's width spreads it, and it is uniform again.
         float far = max(t.depth - thick.z / max(thick.x, 1.0e-9) - 0.5 * thick.x, 0.0);
         float sharp = 1.0 / (1.0 + far / (8.0 * frame.particle.y));
         below += weight * sharp * before_depth(thick, t.depth).x / max(thick.x, 1.0e-9);
@@ -27,7 +28,7 @@ float caustics_at(LightTexels t) {
     return t.inside ? mix(1.0, min(sum, MOST_GATHERED), below) : 1.0;
 }
 
-// Colour of a pixel (its centre, at +0.5), filtered as the scene's size is.
+// Colour at a pixel (its centre is at +0.5), filtered if the scene's size differs.
 vec4 lit_at(vec2 pixel) {
     vec4 color = filtered(scene_color, pixel * frame.lit_color.xy, frame.lit_origin.xy, frame.lit_color.zw);
     float z = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
@@ -36,7 +37,7 @@ vec4 lit_at(vec2 pixel) {
     }
     vec3 eye = z * vec3(ray_slope(pixel, frame.slope), -1.0);
     vec3 change = through_fluid(eye) * caustics_at(light_texels(eye)) - 1.0;
-    // Only what the sun gives can be lost, and only where it comes.
+    // Only sunlight can be lost, and only where it arrives.
     vec3 sun = (1.0 - frame.shade.rgb) * past_scene(eye, pixel);
     return vec4(color.rgb * (1.0 + sun * change), color.a);
 }

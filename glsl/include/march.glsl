@@ -1,43 +1,45 @@
-// Where a ray from the water meets the scene, marched on the screen against the scene's depth (McGuire and Mara 2014,
-// "Efficient GPU Screen-Space Ray Tracing"; not in the thesis). Differs: steps that grow, each by the same factor, from a
-// share of the picture's height to where the ray leaves the view; a secant at the end. No length of its own: steps are
-// parts of the picture, and what is taken for the scene's front is as deep as a step of the ray and a part of the depth.
+// Screen-space ray march against the scene's depth (McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing";
+// not in the thesis). Differs: steps grow by a constant factor, from a fraction of the picture's height to where the
+// ray leaves the view; a secant step at the end. There is no absolute length: steps are fractions of the picture, and
+// the assumed thickness of the scene is a step of the ray plus a fraction of the depth.
 // Needs frame.glsl. Reads: scene depth (the includer's).
 
 struct Met {
     vec2 at;     // pixels
-    float share; // how much of what is there is seen: 0 nowhere, less near the view's edge
+    float share; // visible fraction: 0 for no hit, fading near the view's edge
 };
 
-// First step, over the height; end of a ray, over its depth: a ray to the eye ends before it.
+// First step in heights of the picture, and length of a ray in multiples of its depth. A ray towards the eye
+// ends before it.
 const float MARCH_FIRST = 1.0 / 128.0;
 const float MARCH_FAR = 64.0;
-// How far behind the scene's front a ray still meets it: so many of its steps in depth, and a part of the depth there. Asked
-// of a whole step, and again of the last part of one: what stands before the ray, alone, does not come nearer to it.
+// How far behind the scene's front a ray still hits it: this many of its steps in depth, plus this fraction
+// of the depth. Checked for the whole step and again for its last part, because an object before the ray
+// alone does not come nearer to it.
 const float MARCH_STEEP = 2.0;
 const float MARCH_DEEP = 1.0 / 32.0;
-// Where what is met fades, over the height.
+// Distance from the view's edge over which hits fade, in heights of the picture.
 const float MARCH_FADE = 1.0 / 16.0;
 
-// The scene's depth in a pixel, EMPTY where there is none.
+// Eye depth of the scene at a pixel; EMPTY without a scene.
 float met_depth(vec2 pixel) {
     float z = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
-    // What is cleared lies at the far plane, to a rounding.
+    // A cleared depth lies at the far plane, up to rounding.
     return z > 0.0 && z < 0.9999 * frame.depth.w ? z : EMPTY;
 }
 
-// A place in eye space on the screen: pixels, one over its depth.
+// Projects an eye-space point: pixels, and 1/depth.
 vec3 on_screen(vec3 eye) {
     return vec3((eye.xy / -eye.z - frame.slope.zw) / frame.slope.xy, -1.0 / eye.z);
 }
 
-// Of a ray from a place before the scene, of a unit direction, in so many steps: 0 finds nothing.
+// Marches from a point before the scene along a unit vector; with 0 steps there is no hit.
 Met march(vec3 from, vec3 along, int steps) {
     float reach = MARCH_FAR * -from.z;
     reach = min(reach, along.z > 0.0 ? 0.75 * -from.z / along.z : reach);
     vec3 a = on_screen(from);
     vec3 way = on_screen(from + along * reach) - a;
-    // As far as the view goes.
+    // Clip the ray to the view.
     vec2 edge = mix(vec2(0.5), frame.extent.xy - 0.5, greaterThan(way.xy, vec2(0.0)));
     vec2 ends = (edge - a.xy) / mix(way.xy, vec2(1.0e-6), lessThan(abs(way.xy), vec2(1.0e-6)));
     float whole = clamp(min(ends.x, ends.y), 0.0, 1.0);
@@ -65,7 +67,7 @@ Met march(vec3 from, vec3 along, int steps) {
         before = z;
         next = min(next * growth, whole);
     }
-    // Halved twice, then straight between the two depths that are left.
+    // Two bisection steps, then a secant step.
     for (int i = 0; i < 2 && met; ++i) {
         float middle = 0.5 * (low + high);
         vec3 p = a + way * middle;
@@ -79,7 +81,7 @@ Met march(vec3 from, vec3 along, int steps) {
     float scene = 1.0 / (a.z + way.z * high) - high_gap;
     float deep = abs(1.0 / (a.z + way.z * high) - 1.0 / (a.z + way.z * low));
     met = met && high_gap <= MARCH_STEEP * deep + MARCH_DEEP * scene;
-    // Before nothing, and before the first step, there is no line: where it is met then.
+    // Without a scene before the hit, or in the first step, there is no secant: take the hit itself.
     float part = low > 0.0 && low_gap > -0.5 * EMPTY ? low_gap / (low_gap - high_gap) : 1.0;
     Met result;
     result.at = a.xy + way.xy * mix(low, high, part);

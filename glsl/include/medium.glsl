@@ -6,11 +6,11 @@ const float FOAM_TOO = 2.0;
 const float FRONT_WATER = 3.0;
 const float WHOLE = 4.0;
 
-// Of a light that covers a share of each colour, premultiplied by it: its colour behind so many metres of water, with the
-// water's own light before that share; and what of it comes through, of all channels together, to the source its weight
-// of what is behind. lit: how much of the water's own light there is.
+// Light behind `path` metres of water. The light is premultiplied by `share`, its coverage per channel; the water
+// adds its own light before that share, scaled by `lit`. w: mean transmittance (with the thesis' medium, the
+// weight of what is behind).
 vec4 through_medium(vec3 light, vec3 share, float path, vec3 lit) {
-    // One exponential for both: a CPU runs branches whole.
+    // One exponential for both media: a CPU driver executes both sides of a branch.
     bool source = frame.medium_a.w > 0.5;
     vec3 extinction = frame.medium_a.rgb + frame.medium_b.rgb;
     vec4 kept = exp(-(source ? frame.medium_b : vec4(extinction, 0.0)) * path);
@@ -28,14 +28,14 @@ vec4 through_medium(vec3 background, float path, vec3 lit) {
     return through_medium(background, vec3(1.0), path, lit);
 }
 
-// Of a turbid medium's own light what there is on a surface, over that on level ground in the sun: as a matte one has it, by
-// the sun's share and its slope. What it emits is the same everywhere. n, up: of unit length, eye space; sun: the share of
-// its light that comes there.
+// Light that a turbid medium scatters at a surface, relative to level ground in the sun: as for a matte surface,
+// by its slope and the visibility of the sun. What it emits is the same everywhere. n, up: unit vectors in eye
+// space; sun: visibility of the sun.
 vec3 lit_on(vec3 n, vec3 up, float sun) {
     vec3 to = frame.sun_direction.xyz;
     float facing = sun * max(dot(n, to), 0.0) / max(dot(up, to), 0.05);
     vec3 lit = mix(vec3(facing), vec3(1.0), frame.shade.rgb);
-    // Where there is no surface it is as level ground.
+    // Without a surface it is as for level ground.
     float scattered = dot(n, n) > 0.5 && frame.medium_a.w < 0.5 ? frame.medium_b.w : 0.0;
     return mix(vec3(1.0), lit, scattered);
 }

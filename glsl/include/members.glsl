@@ -1,5 +1,5 @@
-// Which of a chunk's particles the host's packets hold, a bit each: those in no packet are nowhere (thesis Sec. 4.3). What
-// includes this has push.packets, 1 where there are packets, and defines MEMBERS as its binding. Reads: members.
+// Which of a chunk's particles are in host packets, one bit each; particles in no packet do not exist (thesis Sec.
+// 4.3). The includer has push.packets, 1 with packets, and defines MEMBERS as its binding. Reads: members.
 
 layout(set = 0, binding = MEMBERS, std430) readonly buffer Members { uint members[]; };
 

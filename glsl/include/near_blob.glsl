@@ -1,4 +1,4 @@
-// Which of the diffuse particles may become blobs of bubble foam. Needs frame.glsl, diffuse.glsl, hand_over.glsl,
+// Which whitewater particles can become blobs of bubble foam. Needs frame.glsl, diffuse.glsl, hand_over.glsl,
 // frustum.glsl.
 
 // Whether one does where there is room: off the screen there are none.

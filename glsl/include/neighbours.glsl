@@ -1,4 +1,4 @@
-// The fluid's particles by the cells of a grid, for the passes that make diffuse particles, and how they move. Needs
+// The fluid's particles by the cells of a grid, for the passes that make whitewater particles, and how they move. Needs
 // generate.glsl, random.glsl.
 // Reads: the grid (where buckets end, places, motions).
 

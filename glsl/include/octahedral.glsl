@@ -1,12 +1,12 @@
-// All directions on a square, so that they can be sampled as any image: an octahedron's upper half in the
-// middle, the lower one folded out to the corners (Meyer et al. 2010). With a border of a texel, which repeats
-// what lies across the edge: no seam, and no filter across faces is asked of a driver.
+// Octahedral map of all directions to a square: the upper half in the middle, the lower one folded out to the corners
+// (Meyer et al. 2010). A border of one texel repeats the texels across the edge, so that no seam appears and no driver
+// needs to filter across faces.
 
 vec2 octahedral_signs(vec2 p) {
     return mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
 }
 
-// Direction at a place, -1 to 1; a little past an edge that across it.
+// Direction at a position, -1 to 1. Slightly outside, the direction across the edge.
 vec3 octahedral_direction(vec2 p) {
     p = abs(p.x) > 1.0 ? vec2(2.0 * octahedral_signs(p).x - p.x, -p.y) : p;
     p = abs(p.y) > 1.0 ? vec2(-p.x, 2.0 * octahedral_signs(p).y - p.y) : p;
@@ -15,13 +15,13 @@ vec3 octahedral_direction(vec2 p) {
     return normalize(d);
 }
 
-// Place of a direction, of any length but 0.
+// Position of a direction of any length but 0.
 vec2 octahedral_place(vec3 d) {
     vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
     return d.z < 0.0 ? (1.0 - abs(p.yx)) * octahedral_signs(p) : p;
 }
 
-// The same in an image of so many texels, 0 to 1, of which the outermost are its border.
+// The same in an image of this size, 0 to 1, whose outermost texels are a border.
 vec2 octahedral_texture_place(vec3 d, ivec2 texels) {
     vec2 at = (0.5 * octahedral_place(d) + 0.5) * (vec2(texels) - 2.0) + 1.0;
     return at / vec2(texels);

@@ -2,13 +2,14 @@
 // particle, how many, least and greatest corner of the box of their centres. Reads: packets.
 
 struct Packet {
-    uint first; // of the chunk's particles
+    uint first; // first particle, in the chunk
     uint past;
-    vec3 middle; // of its box, in the world
-    float reach; // of the box from there
+    vec3 middle; // centre of its box in the world
+    float reach; // radius of the box around it
 };
 
-// The part of a packet that lies in a chunk of so many particles; in 32 bits, so clamped before it is added.
+// The part of a packet that lies in a chunk with `count` particles. Clamped before the addition, to stay in 32
+// bits.
 Packet packet_at(uint i, uint chunk_first, uint count) {
     uint at = 8u * i;
     uint first = max(packets[at], chunk_first);

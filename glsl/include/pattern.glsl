@@ -1,25 +1,26 @@
-// The pattern of foam: thick here and thin there by a noise in space that the foam carries along, and that begins
-// anew before neighbours have carried it far apart, in two phases that fade into each other (flow maps, Vlachos 2010;
-// Neyret 2003). Not in the source, in which each sprite has a noise of its own: many over each other are a mist. Coarse
-// octaves are a sprite's, the finest is looked up at each texel. Needs frame.glsl, gradient_noise.glsl.
+// Clumping noise of foam, advected with it: a noise in space that restarts before neighbours have stretched it, in two
+// cross-fading phases (flow maps, Vlachos 2010; Neyret 2003). Not in the thesis, where each sprite has its own noise
+// and many overlapping ones average to a mist. Coarse octaves are evaluated per sprite, the finest per texel. Needs
+// frame.glsl, gradient_noise.glsl.
 
 // Width of a cell of the coarse octaves and of the finest to the first's, their heights.
 const vec3 OCTAVES = vec3(1.0, 0.53, 0.23);
 const vec3 HEIGHTS = vec3(1.0, 0.7, 1.1);
-// Mean of the square of the noise.
+// Mean square of the noise.
 const float VARIANCE = 0.073;
-// Most of the logarithm in a sprite's middle, and on the way to its rim: one by itself is no disc.
+// Limit of the logarithm at a sprite's centre, and of its change to the rim: otherwise a single sprite would show
+// as a disc.
 const float MOST_PATTERN = 1.0;
-// Widths of the first octave from the world's origin, half of them to each side, after which they begin again: single
-// precision holds their parts.
+// Period in widths of the first octave, centred on the world's origin, so that single precision resolves their
+// fractions.
 const float WRAP = 65536.0;
 
-// Cells of less than a texel cannot be told from each other; those of two are seen whole. In metres.
+// Weight of a pattern with cells of this width (metres): 0 below one texel, 1 from two texels.
 float told_apart(float cell, float texel) {
     return smoothstep(1.0, 2.0, cell / texel);
 }
 
-// Where a point is in a phase of an octave, for one that moves so.
+// Position of a point in a phase of an octave, given its velocity.
 vec3 pattern_place(vec3 position, vec3 velocity, uint phase, uint octave) {
     float width = frame.particle.y * frame.foam_octaves.x;
     vec3 place = position / width;
@@ -28,7 +29,8 @@ vec3 pattern_place(vec3 position, vec3 velocity, uint phase, uint octave) {
     return (place - way + frame.foam_octaves[1u + phase]) / OCTAVES[octave];
 }
 
-// Of the coarse octaves: w the logarithm of how much more foam there is, xyz how that grows a metre. 1 more in the mean.
+// Coarse octaves of the pattern. w: logarithm of the factor on foam, with mean 1 of the factor; xyz: gradient of
+// the logarithm per metre.
 vec4 coarse_pattern(vec3 position, vec3 velocity, float texel) {
     vec4 sum = vec4(0.0);
     float square = 0.0;

@@ -1,4 +1,4 @@
-// A particle of the fluid, as the grid of neighbours has it: what is of it. Needs nothing.
+// A fluid particle as stored in the neighbour grid. Needs nothing.
 
 struct Place {
     vec3 position;

@@ -1,16 +1,16 @@
-// What one pixel of the smoothing does, in 32 bits: iterations (9 bits, low) and step (23 bits), fixed
-// before the first one, where the source asks in each (thesis Listing A.12).
-// The step is kept as a share of the largest there can be: kappa of 1/4 for ConstantWidth, epsilon
-// of 0.053 r for Source and Fixed.
+// Plan of one smoothing pixel in 32 bits: iterations (9 bits, low) and step (23 bits), fixed before the first
+// iteration, where the thesis decides in each (Listing A.12).
+// The step is relative to the largest possible one: kappa of 1/4 for ConstantWidth, epsilon of 0.053 r for Source and
+// Fixed.
 
 const uint RULE_SOURCE = 0u;
 const uint RULE_CONSTANT_WIDTH = 1u;
 const uint RULE_FIXED = 2u;
 
-const float SOURCE_STEP = 0.053;  // of r (thesis, demo: 0.05 at particle size 0.9375)
-const float SOURCE_RADIUS = 4.8;  // r_w of r
-const float MOST_KAPPA = 0.25;    // bound of the explicit step's stability
-const float MORE = 2.0;           // iterations more: at the bound a checkerboard stays for good
+const float SOURCE_STEP = 0.053;  // in units of r (thesis' demo: 0.05 at particle size 0.9375)
+const float SOURCE_RADIUS = 4.8;  // r_w in units of r
+const float MOST_KAPPA = 0.25;    // stability limit of the explicit step
+const float MORE = 2.0;           // more iterations: at the limit a checkerboard never decays
 
 uint plan_count(uint plan) {
     return plan & 511u;

@@ -7,7 +7,7 @@ uint pcg(uint v) {
     return (w >> 22) ^ w;
 }
 
-// Uniform in [0, 1), of a seed, a particle and a counter; exact in 24 bits.
+// Uniform in [0, 1) from a seed, a particle and a counter; exact in 24 bits.
 float uniform_of(uint seed, uint id, uint n) {
     return float(pcg(id + pcg(n + pcg(seed))) >> 8) * (1.0 / 16777216.0);
 }

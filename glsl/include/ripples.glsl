@@ -6,7 +6,7 @@ layout(constant_id = 14) const uint NOISE = 0;
 
 layout(set = 0, binding = 20) uniform sampler2D surface_noise;
 
-// Noise of a texel, and the depth of its surface: none beyond the picture.
+// Noise of a texel and the depth of its surface; no surface outside the picture.
 vec2 ripple_texel(ivec2 texel) {
     bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(frame.noise_image.xy)));
     texel = clamp(texel, ivec2(0), ivec2(frame.noise_image.xy) - 1);
@@ -14,7 +14,7 @@ vec2 ripple_texel(ivec2 texel) {
     return vec2(texelFetch(surface_noise, texel, 0).x, inside ? z : 2.0 * EMPTY);
 }
 
-// Rise a texel, to those of the two neighbours that are on its surface.
+// Slope per texel, from those of the two neighbours that lie on its surface.
 float ripple_rise(vec2 before, vec2 here, vec2 after, float threshold) {
     bool has_before = abs(here.y - before.y) <= threshold;
     bool has_after = abs(after.y - here.y) <= threshold;
@@ -22,15 +22,15 @@ float ripple_rise(vec2 before, vec2 here, vec2 after, float threshold) {
     return has_before && has_after ? 0.5 * sum : sum;
 }
 
-// A texel with its four neighbours: its noise and that rise in x and y, times a weight if it lies on the
-// surface of a depth; the weight.
+// From a texel and its four neighbours: noise and its slope in x and y, times `weight` if the texel lies on the
+// surface of this depth; w: the weight.
 vec4 ripple_part(vec2 here, vec2 left, vec2 right, vec2 above, vec2 below, float weight, vec2 surface) {
     vec2 rise = vec2(ripple_rise(left, here, right, surface.y), ripple_rise(above, here, below, surface.y));
     return abs(here.y - surface.x) <= surface.y ? weight * vec4(here.x, rise, 1.0) : vec4(0.0);
 }
 
-// The noise at a pixel, and its rise a pixel in x and y: of the texels around it that lie on the surface
-// of its own depth, with bilinear weights.
+// The noise at a pixel and its slope per pixel in x and y. Bilinear over the texels around it that lie on the
+// surface of its own depth.
 vec3 ripple_at(vec2 pixel, float front, float threshold) {
     vec2 h = pixel / frame.noise_image.z - 0.5;
     ivec2 base = ivec2(floor(h));
@@ -55,19 +55,19 @@ vec3 ripple_at(vec2 pixel, float front, float threshold) {
     return sum.w > 0.0 ? sum.xyz / (sum.w * vec3(1.0, vec2(frame.noise_image.z))) : vec3(0.0);
 }
 
-// The normal of the surface with the height on it (Blinn 1978; from derivatives on the screen, Mikkelsen
-// 2010): metres of height against metres of surface, whatever the distance and the resolution. The
-// baseline adds the image's own derivatives to the normal, whose strength goes with both.
+// Normal of the surface with the height added (bump mapping, Blinn 1978; from screen-space derivatives, Mikkelsen
+// 2010): metres of height per metre of surface, independent of distance and resolution. The thesis' program adds
+// the image's derivatives to the normal, whose strength depends on both.
 vec3 rippled(vec3 n, vec3 px, vec3 py, vec2 rise) {
     vec2 height = frame.noise.x * rise;
     vec3 along_x = cross(py, n);
     float area = dot(px, along_x);
     vec3 turned = abs(area) * n - sign(area) * (height.x * along_x + height.y * cross(n, px));
-    // The same bits where there is none.
+    // Exactly the same bits without noise.
     return any(notEqual(height, vec2(0.0))) ? normalize(turned) : n;
 }
 
-// Light that the baseline's foam adds: grey, by the noise's magnitude (thesis Sec. 2.5.3).
+// Light of the thesis' foam: grey, by the magnitude of the noise (thesis Sec. 2.5.3).
 vec3 ripple_foam(float noise) {
     return frame.noise_color.rgb * min(frame.noise.y * abs(noise), 1.0);
 }

@@ -1,29 +1,28 @@
-// Sums of all that is before each of many numbers, in place: the sums of blocks, of the blocks before
-// each, of the numbers before each (Blelloch 1990). No sum is more than MOST_SUM: it stays there, where sums that wrap would
-// begin anew and send what is placed by them to wrong places.
+// In-place exclusive prefix sum in three dispatches: sums of blocks, prefix sum of those, prefix sum within each block
+// (Blelloch 1990). Sums saturate at MOST_SUM: a wrapped sum would start again and place entries at wrong positions.
 // Reads: counts, blocks. Writes: counts, blocks.
 
 const uint SCAN_GROUP = 256u;
-// Numbers of an invocation, and of a block.
+// Numbers per invocation, and per block.
 const uint SCAN_EACH = 4u;
 const uint SCAN_BLOCK = SCAN_GROUP * SCAN_EACH;
 
 layout(push_constant, std430) uniform Push {
     uint most;  // numbers
-    uint count; // the word of Counts that says how many there are, or NONE: all
+    uint count; // the word of Counts with their number, or NONE for all
     uint total; // the word of Counts that gets the sum of all
 } push;
 
 const uint NONE = 0xffffffffu;
 
-// Twice that still fits, and so does that and some millions more.
+// Limit of sums: twice this fits into 32 bits, and so does this plus some millions.
 const uint MOST_SUM = 0x7fffffffu;
 
 uint plus(uint a, uint b) {
     return min(a + b, MOST_SUM);
 }
 
-// Of any number.
+// A number, clamped.
 uint counted(uint value) {
     return min(value, MOST_SUM);
 }
@@ -37,7 +36,7 @@ uint numbers() {
 
 shared uint sums[2][SCAN_GROUP];
 
-// Sum of what the invocations of the group before this one hold, and of all.
+// Sum over the preceding invocations of the workgroup, and over all.
 uint sum_before(uint own, out uint all) {
     uint local = gl_LocalInvocationIndex;
     uint at = 0u;
@@ -50,7 +49,7 @@ uint sum_before(uint own, out uint all) {
     }
     uint before = local > 0u ? sums[at][local - 1u] : 0u;
     all = sums[at][SCAN_GROUP - 1u];
-    // Before they are written again.
+    // Wait before they are written again.
     barrier();
     return before;
 }

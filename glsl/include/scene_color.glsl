@@ -1,21 +1,21 @@
-// Colour of the scene, with the foam that lies on its water as a coat. Needs frame.glsl.
+// Colour of the scene, with the foam overlay on its water. Needs frame.glsl.
 // Reads: scene colour, shoreline and contact foam.
 
 #include "coat_light.glsl"
 #include "filtered.glsl"
 
-// 1: there may be some; else it is not read.
+// 1: there may be shore foam; otherwise it is not read.
 layout(constant_id = 24) const uint SHORE = 0;
 
 layout(set = 0, binding = 4) uniform sampler2D scene_color;
 layout(set = 0, binding = 31) uniform sampler2D shore_foam;
 
-// What of the light in the sun there is where so much of the sun's comes.
+// Light at a point relative to full sun, by the visibility of the sun.
 vec3 under(vec3 sun) {
     return mix(frame.shade.rgb, vec3(1.0), sun);
 }
 
-// Along shores, at contacts on the host's surface, what of the sun's light does not come there, on the particles'
+// Shoreline foam, contact foam on the host's surface, lost fraction of sunlight, contact foam on the particles'
 // water.
 vec4 coat_at(vec2 pixel) {
     return filtered(shore_foam, pixel, vec2(0.0), frame.extent.xy);
@@ -30,12 +30,12 @@ vec3 coated(vec3 c, vec4 coat, CoatLight light) {
     return with_contact(c, coat.y, coat.z, light);
 }
 
-// What of the scene is seen through both.
+// Fraction of the scene that both leave visible.
 float uncovered(vec4 coat, CoatLight light) {
     return (1.0 - coat.x * light.shore.w) * (1.0 - coat.y);
 }
 
-// At a place, filtered.
+// The scene's colour at a point, filtered.
 vec3 uncoated_at(vec2 pixel) {
     return filtered(scene_color, pixel * frame.scene_color.xy, frame.scene_origin.zw, frame.scene_color.zw).rgb;
 }

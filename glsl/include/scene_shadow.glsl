@@ -1,17 +1,17 @@
-// How much of the sun's light reaches a point past the host's scene, by its shadow map or its mask (thesis Sec. 4.9.4,
-// which has convolution shadow maps).
+// Shadow of the host's scene at a point, from its shadow map or mask (thesis Sec. 4.9.4, which uses convolution shadow
+// maps).
 // Needs frame.glsl, convolution.glsl. Reads: shadow map or mask, its basis and span.
 
 // 0: the host says nothing, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
 layout(constant_id = 11) const uint SHADOW = 0;
-// Of the Fourier basis.
+// Number of terms of the Fourier basis.
 layout(constant_id = 13) const int TERMS = 16;
 
 layout(set = 0, binding = 16) uniform sampler2D shadow_map;
 layout(set = 0, binding = 18) uniform sampler2D shadow_basis;
 layout(set = 0, binding = 19, std140) uniform Span { uvec4 span; };
 
-// Place in the shadow map, 0 to 1, and depth there. Outside the map all is lit.
+// Position in the shadow map, 0 to 1, and depth. Outside the map everything is lit.
 vec3 shadow_place(vec3 eye, out bool inside) {
     vec4 clip = frame.shadow * vec4(eye + frame.sun_direction.xyz * frame.shadow_map.x, 1.0);
     vec3 at = clip.xyz / clip.w;
@@ -19,7 +19,7 @@ vec3 shadow_place(vec3 eye, out bool inside) {
     return at;
 }
 
-// The truncated series of the comparison, with a basis that is filtered already.
+// The truncated series of the depth comparison, from a basis that is already filtered.
 float convolved_at(vec3 eye) {
     bool inside;
     vec3 at = shadow_place(eye, inside);
@@ -41,8 +41,8 @@ float convolved_at(vec3 eye) {
     return inside && span_holds(span) ? clamp(lit, 0.0, 1.0) : 1.0;
 }
 
-// Nine comparisons a texel apart, each filtered (percentage-closer filtering, Reeves et al. 1987): all
-// of 4x4 texels.
+// Nine comparisons one texel apart, each filtered (percentage-closer filtering, Reeves et al. 1987): together 4x4
+// texels.
 float shadow_map_at(vec3 eye) {
     bool inside;
     vec3 at = shadow_place(eye, inside);
@@ -56,7 +56,7 @@ float shadow_map_at(vec3 eye) {
             ivec2 t = clamp(ivec2(base) + ivec2(x, y), ivec2(0), last) + ivec2(frame.shadow_rect.xy);
             float wx = x == -1 ? 1.0 - f.x : (x == 2 ? f.x : 1.0);
             float wy = y == -1 ? 1.0 - f.y : (y == 2 ? f.y : 1.0);
-            // What is nearer to the light has less depth, or more where it is reversed.
+            // Nearer to the light means less depth, or more if it is reversed.
             float behind = (at.z - texelFetch(shadow_map, t, 0).x) * frame.shadow_map.y;
             lit += behind > 0.0 ? 0.0 : wx * wy;
         }
@@ -64,7 +64,7 @@ float shadow_map_at(vec3 eye) {
     return inside ? lit / 9.0 : 1.0;
 }
 
-// Of the sun's light at a point of a pixel, what the host's scene leaves.
+// Visibility of the sun at a point, considering the host's scene only.
 float past_scene(vec3 eye, vec2 pixel) {
     if (SHADOW == 1u) {
         vec2 texel = clamp(pixel / frame.extent.xy, 0.0, 1.0) * frame.shadow_rect.zw;

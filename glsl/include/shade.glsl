@@ -1,22 +1,23 @@
-// What a pixel of water looks like (thesis Sec. 3.2.3 and 4.9.2, Listings A.19, A.20), for every way to reach
-// its pixels. Layers so far: a sheet of water, or two one behind the other, over the scene.
-// Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
-// sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
-// Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
-// What it mirrors: the environment and, by a march over the screen, the scene.
-// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam, thickness and
-// light of diffuse particles, bubble foam, contact foam.
+// Shading of a water pixel (thesis Sec. 3.2.3 and 4.9.2, Listings A.19, A.20), for both paths of `composite`. Layers:
+// one or two bodies of water over the scene.
+// Screen-space refraction, Beer's law along the ray, Fresnel reflection of the environment and, by a screen-space
+// march, of the scene, the sun's highlight. Two layers are not in the thesis (its limitation, Fig. 5.13).
+// Whitewater is composited with the layers: the part behind the surface in the water, the rest over it.
+// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam,
+// thickness and light of whitewater particles, bubble foam, contact foam.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
 // shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
-// 1: coarser levels of the smoothing may show. A pipeline each, not a branch: a CPU would run both sides.
+// 1: coarser levels of the smoothing may show. It is a specialization constant, because a CPU would run both
+// sides of a branch.
 layout(constant_id = 2) const uint NEAR = 0;
-// Steps of the march for what of the scene the front surface mirrors; 0: the environment alone.
+// Steps of the screen-space march that finds which part of the scene the front surface reflects; 0: reflect
+// the environment only.
 layout(constant_id = 25) const uint MIRROR = 0;
-// Steps of the march for where the refracted ray meets the scene, under water and, past the far surface, behind it; 0: what
-// is behind, displaced by the front surface's slope.
+// Steps of the screen-space march that finds where the refracted ray meets the scene; 0: displace the scene
+// behind by the front surface's slope.
 layout(constant_id = 26) const uint EXIT = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
@@ -34,7 +35,7 @@ layout(set = 0, binding = 26) uniform sampler2D soap;
 #include "lace.glsl"
 #include "march.glsl"
 
-// Derivatives of the unsmoothed depth, per pixel; never steep.
+// Slope of the unsmoothed depth, per pixel, limited to RIM_SLOPE.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
     vec2 texel = 1.0 / vec2(textureSize(depth, 0));
     vec4 before = textureGather(depth, vec2(pixel) * texel);
@@ -48,8 +49,8 @@ vec2 drop_slope(ivec2 pixel, float front, float threshold) {
     return clamp(dz, -steepest, steepest);
 }
 
-// Upsampled with the weights of texels on the same surface; which ones those were, and how much each.
-// The second of the two: before the frontmost foam.
+// Thickness at a pixel, upsampled from the texels of its own surface: all of it, and the part before the
+// frontmost foam. Also returns those texels and their weights.
 vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2 base, out vec4 weights) {
     base = s.base;
     weights = s.weights;
@@ -64,7 +65,7 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
         base = ivec2(floor(h));
         vec2 f = h - vec2(base);
         weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-        // The surface at the middle of each coarse texel.
+        // The surface at the centre of each thickness texel.
         vec4 same;
         float ratio = frame.thick_extent.z / level.texel.z;
         for (int i = 0; i < 4; ++i) {
@@ -76,7 +77,8 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
         float sum = same.x + same.y + same.z + same.w;
         weights = sum > 1.0e-3 ? same / sum : weights;
     }
-    // A texel without water has none to give: the scene hides its middle, not all of it.
+    // Texels without water do not count: at their centre the scene hides the water, but not in the whole
+    // texel.
     vec2 sum = vec2(0.0);
     vec4 wet = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
@@ -92,13 +94,14 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
     return share > 0.0 ? sum / share : vec2(0.0);
 }
 
-// How much the water in the window between two sheets leaves them two: 1 where there is air.
+// Whether there is air between two sheets, from the water left in the window around their boundary: 1 air, 0
+// water.
 float air(float window) {
     return 1.0 - smoothstep(0.1 * frame.particle.y, 0.6 * frame.particle.y, window);
 }
 
-// Of the sheet that a surface belongs to; how much air is behind or before it (without air it is
-// both together); of the back sheet; of the front one.
+// x: thickness of the sheet of the front surface; without air, that of both sheets together. y: amount of air
+// between the sheets. z: thickness of the back sheet. w: thickness of the front sheet.
 vec4 sheet_thickness(ivec2 base, vec4 weights, float front) {
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     vec4 sum = vec4(0.0);
@@ -112,20 +115,20 @@ vec4 sheet_thickness(ivec2 base, vec4 weights, float front) {
     return sum;
 }
 
-// Whether any of the four texels of the scene's depth round a point stands before a depth.
+// Whether one of the four scene-depth texels around a point is nearer than z.
 bool stands_before(vec2 at, float z) {
-    // No texel of what lies beside the view in the same image.
+    // Stay inside the view: its image may hold other views beside it.
     vec2 size = frame.scene_depth.zw;
     vec2 texel = clamp(at * frame.scene_depth.xy, min(vec2(1.0), 0.5 * size), max(size - 1.0, 0.5 * size));
     texel = (texel + frame.scene_origin.xy) / vec2(textureSize(scene_depth, 0));
     vec4 scene = frame.depth.x / (textureGather(scene_depth, texel) + frame.depth.y);
-    // Infinity of a reversed depth may come out negative.
+    // With a reversed depth, infinity may come out negative.
     return any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
 }
 
-// Whether nothing can be seen of what is behind the water at a point: it is beyond the view, or
-// scene stands before it in or next to what filtering of its colour will touch. Loops here, not
-// branches: a CPU runs branches whole.
+// Whether the scene behind the water cannot be looked up at a point: it is outside the view, or a texel that
+// filtering of the scene's colour would read lies in front of z. Loops instead of branches, for CPU drivers
+// (docs/performance.md).
 bool hidden_at(vec2 q, float z) {
     bool same = all(equal(frame.scene_depth.xy, vec2(1.0)));
     int corners = same ? 1 : 4;
@@ -140,25 +143,26 @@ bool hidden_at(vec2 q, float z) {
     return hidden || any(notEqual(inside, q));
 }
 
-// Farthest that the look-up goes, in heights of the picture. In torn water neighbours look far into
-// other directions: what comes back is a mosaic.
+// Largest refraction offset, in heights of the picture. On torn water neighbouring pixels look in very
+// different directions, and large offsets would make a mosaic.
 const float MOST_BENT = 1.0 / 16.0;
 
-// Looks for where the way behind the water ends: two, then a sixteenth of 16384 pixels halved to half of one.
+// Iterations of the search for the end of the offset: two, then bisection of 1/16 of 16384 pixels down to
+// half a pixel.
 const int MOST_LOOKS = 14;
 
-// An offset in pixels, brought smoothly below the farthest.
+// Limits an offset in pixels smoothly to MOST_BENT.
 vec2 bent(vec2 offset) {
     vec2 share = offset / (MOST_BENT * frame.extent.y);
     return offset * inversesqrt(1.0 + dot(share, share));
 }
 
-// Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
-// The look-up goes half the way to where that begins or the view ends, and no farther: dropping
-// the offset there would leave a seam, going all the way would smear what lies at the edge.
+// Scene colour behind the water at an offset in pixels; never that of an object in front of the water. If the
+// offset reaches such an object or the edge of the view, only half of the free part is used. Without an
+// offset there would be a seam; with all of the free part, what lies at the edge would smear.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
     float far = length(offset);
-    // In offsets: the farthest place known to be free, and the nearest that is not.
+    // In units of the offset: the farthest point known to be free, and the nearest known to be blocked.
     float free = 0.0;
     float blocked = 3.0;
     int looks = 0;
@@ -169,17 +173,18 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
         blocked = hidden ? part : blocked;
         ++looks;
     } while (free < 2.0 && (blocked - free) * far >= 0.5 && looks < MOST_LOOKS);
-    // A pixel and a half less: the edge may be smoothed into its neighbours.
+    // Keep a pixel and a half away: antialiasing may have blended the edge into its neighbours.
     float part = free < 2.0 ? clamp(0.5 * (free - 1.5 / max(far, 1.0)), 0.0, 1.0) : 1.0;
     return scene_at(pixel + offset * part);
 }
 
-// Mirrored light and highlights are added, weighted, and all foam is at the frontmost (Listing A.20).
+// Whether to follow Listing A.20: reflection and highlight are added with a weight, and all foam lies at the
+// depth of the frontmost.
 bool by_source() {
     return frame.ambient.w > 0.5;
 }
 
-// Both powers, and one of them taken: a pipeline each for so little would double their number.
+// Computes both powers and selects one: two pipelines for so little would double their number.
 float fresnel(float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0);
     float x2 = x * x;
@@ -187,32 +192,32 @@ float fresnel(float cosine) {
     return clamp(frame.fresnel.x + frame.fresnel.y * power, 0.0, 1.0);
 }
 
-// What a sheet of water does to the light from behind it.
+// The effect of a sheet of water on the light from behind it.
 struct Sheet {
-    float path;    // metres through the water
-    vec2 offset;   // of what is seen through it, in pixels
-    float mirror;  // share of what it mirrors
+    float path;    // length of the view ray in the water, metres
+    vec2 offset;   // of the refraction, pixels
+    float mirror;  // reflectance
     vec3 mirrored;
-    vec3 shine;    // the sun's highlight
-    float wet;     // how much of the scene behind it lies under it
-    float down;    // metres of water above that, upright
-    float sun;     // share of the sun's light that comes to its surface
-    vec3 at;       // its surface in eye space
+    vec3 shine;    // sun highlight
+    float wet;     // whether the scene behind touches the water: 1 it does, 0 air between
+    float down;    // metres of water above that scene, vertically
+    float sun;     // visibility of the sun at the surface
+    vec3 at;       // surface position, eye space
     vec3 normal;   // towards the eye
-    float thick;   // metres along z
+    float thick;   // thickness along z, metres
 };
 
 const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0);
 
-// Share of the room before the scene from which on water lies on it, and which it fills at most with air behind it:
-// a thickness of particles is right to a quarter.
+// Range of thickness / room before the scene over which the sheet goes from having air behind it to touching
+// the scene. A thickness from particles is accurate to about a quarter.
 const vec2 FILLED = vec2(0.5, 0.7);
 
-// Least cosine to the view's axis of a ray through a sheet.
+// Least cosine between the view axis and a ray through a sheet.
 const float FLATTEST = 0.25;
 
-// The way through water to what lies under it, over the way straight on: that of the bent ray to the same depth below a
-// level surface. A surface that stands upright leaves it as it is.
+// Length of the refracted ray to the scene, relative to the unrefracted one: both reach the same depth below
+// a level surface. On a vertical surface the ratio is 1.
 float bent_way(vec3 n, vec3 v, vec3 up) {
     float ratio = frame.bed.w;
     float facing = max(dot(n, v), 0.0);
@@ -223,7 +228,8 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
     return mix(1.0, clamp(rise / max(steep, 1.0e-6), 0.0, 1.0), level);
 }
 
-// ripple: noise on the surface, and its rise a pixel. marched: it mirrors the scene too, if anything does.
+// ripple: surface noise, and its slope per pixel. marched: reflections of the scene are searched, if they are
+// enabled.
 Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
@@ -236,10 +242,10 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
         n = rippled(n, px, py, ripple.yz);
     }
 
-    // No more water than there is room: sprites are wider than what they stand for. So water ends
-    // where it meets the scene, and bends nothing that it touches.
+    // Thickness is limited to the room before the scene, because sprites are wider than the particles that
+    // they stand for. So water ends where it meets the scene, and does not refract what it touches.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
-    // A mean of EMPTY may round to less.
+    // A mean of EMPTY may round to a little less.
     bool ends = scene > 0.0 && surface.z < 0.5 * EMPTY;
     float room = max(scene - surface.z, 0.0);
     t = ends ? min(t, room) : t;
@@ -256,26 +262,27 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     vec3 up = frame.up.xyz * mat3(frame.world);
     sheet.down = sheet.path * max(dot(v, up), 0.0);
     sheet.path *= mix(1.0, bent_way(n, v, up), sheet.wet);
-    // Light bends towards the water's normal: the look-up moves against it (the source has it the
-    // other way, which shows things smaller under a bump).
-    // Of a torn surface as of a thin sheet: what hangs together with nothing round it is no lens.
+    // Light bends towards the water's normal, so the look-up moves against it. (The thesis' program moves it
+    // the other way, which makes things under a bump look smaller.) A torn surface refracts like a thin
+    // sheet: particles without neighbours are no lens.
     float lens = frame.surface.x * mix(min(t, 2.0 * frame.particle.y), t, surface.found);
     sheet.offset = -n.xy * sign(frame.projection.xy) * lens / (frame.texel.xy * surface.z);
 
-    // Thin films at the rim of a drop neither reflect nor shine: no outlines.
+    // Thin films at the rim of a drop have no reflection and no highlight, which would outline every drop.
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 to = reflect(-v, n);
     vec3 reflected = mat3(frame.world) * to;
-    // What is mirrored from below the horizon is more water, not the environment's ground: it looks like what is behind.
+    // Below the horizon there is more water, not the environment's ground: the reflection fades to what is
+    // behind the surface.
     float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, dot(reflected, frame.up.xyz));
     sheet.mirror = w * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
     if (MIRROR > 0u && marched) {
-        // The scene in the way of it, whatever its direction.
+        // The scene on the reflected ray, in any direction.
         bool asked = sheet.mirror > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
         Met met = march(position, to, asked ? int(MIRROR) : 0);
         float free = (1.0 - met.share) * sky;
-        // An end of a loop, not a branch: a CPU runs branches whole.
+        // A loop instead of a branch, for CPU drivers (docs/performance.md).
         bool any = met.share > 0.0;
         while (any) {
             sky = free + met.share;
@@ -284,24 +291,24 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
         }
     }
     sheet.mirror *= sky;
-    // Straight against the sun there is none.
+    // Looking straight against the sun, the half vector is 0 and there is no highlight.
     vec3 h = v + frame.sun_direction.xyz;
     h *= inversesqrt(max(dot(h, h), 1.0e-12));
-    // pow() by hand: of tiny bases some drivers make NaN.
+    // pow() written out: for tiny bases it is NaN with some drivers.
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
     float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;
     sheet.sun = sun;
     sun = DIFFUSED == 1u ? sun * past_diffuse(light_texels(position)) : sun;
     sheet.shine = sun * w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
     if (NOISE == 1u) {
-        // As the foam of the particles, in the light there.
+        // Foam of the noise, lit like the particles' foam.
         vec3 light = SHADOW + CAST > 0u ? under(sunlight(position, pixel)) : vec3(1.0);
         sheet.shine += w * light * ripple_foam(ripple.x);
     }
     return sheet;
 }
 
-// Without what is left out.
+// Without the parts that the target leaves out.
 Sheet on_ladder(Sheet sheet) {
     float whole = frame.target.z >= WHOLE ? 1.0 : 0.0;
     sheet.mirror *= whole;
@@ -311,26 +318,27 @@ Sheet on_ladder(Sheet sheet) {
 
 #include "bed.glsl"
 
-// Light with what a surface mirrors, and its highlight; through: of the water before foam, and of the foam.
+// Adds a surface's reflection and highlight to the light from below. through: transmittance of the water
+// before the foam, and of the foam.
 vec3 with_mirrored(Sheet sheet, vec3 c, vec2 through) {
     float weight = clamp(1.0 - through.x + through.y, 0.0, 1.0) * (1.0 - through.x);
     float kept = by_source() ? 1.0 : 1.0 - sheet.mirror;
     return c * kept + (sheet.mirrored * sheet.mirror + sheet.shine) * (by_source() ? weight : 1.0);
 }
 
-// How much of a turbid medium's own light there is in a sheet.
+// Radiance that a turbid medium adds inside a sheet.
 vec3 lit_in(Sheet sheet) {
     return lit_on(sheet.normal, frame.up.xyz * mat3(frame.world), sheet.sun);
 }
 
-// Light through a sheet and off it.
+// The light from behind after a sheet: transmitted, plus what the sheet reflects.
 vec3 over(Sheet sheet, vec3 background) {
     vec4 c = through_medium(background, sheet.path, lit_in(sheet));
     return with_mirrored(sheet, c.rgb, vec2(c.a, 1.0));
 }
 
-// The back sheet where the front one covers it. Near its edge, and where it is no other sheet for
-// want of air, less of its surface; its thickness knows by itself.
+// The back sheet where the front one covers it. Near its edge, and where little air separates the two, its
+// surface counts for less; its thickness does so already.
 Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
     Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0), false);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
@@ -343,19 +351,19 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
     return sheet;
 }
 
-// The foam in a pixel.
+// The foam at a pixel.
 struct Foam {
-    float depth;  // of the frontmost, EMPTY where only thickness is left
-    float kept;   // share of the light from behind that comes through
-    float behind; // metres from the frontmost to the middle of what is seen
+    float depth;  // of the frontmost foam; EMPTY where only its thickness is known
+    float kept;   // transmittance
+    float behind; // metres from the frontmost foam to the middle of the foam that is visible
     vec3 color;
-    float t;      // metres of it
-    vec2 water;   // where no sphere shows any, metres of water, all and before the frontmost
+    float t;      // its thickness, metres
+    vec2 water;   // without a water sphere at the pixel: metres of water, in all and before the frontmost foam
 };
 
-// Rise a texel, right and down, of the quadratic B-splines through the nine texels about a place h of an image of the
-// thickness' size, f from their middle: differences of neighbours alone change from texel to texel, which stays where it is
-// on the screen while the water moves. From three rows of texels, top to bottom.
+// Slope per texel, right and down, of the quadratic B-spline through nine texels (three rows, top to bottom),
+// at the offset f from the middle one. Plain differences would be constant per texel, and the texels stay in
+// place on the screen while the water moves.
 vec2 spline_slope(vec2 f, vec3 low, vec3 mid, vec3 high) {
     vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
     vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
@@ -366,8 +374,8 @@ vec2 spline_slope(vec2 f, vec3 low, vec3 mid, vec3 high) {
          + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
 }
 
-// The same from gathers before the middle, right of it, below, and after; texels beyond the frame repeat its edge, the image may
-// be larger.
+// The same slope from four gathers around the middle texel. Texels outside the frame repeat its edge; the
+// image may be larger.
 vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 after) {
     bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
     vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
@@ -376,8 +384,8 @@ vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 
     return spline_slope(f, low, mid, high);
 }
 
-// Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
-// 1 where it is turned away. Not in the source, whose foam is flat.
+// Shading of the foam's relief: its height is its thickness in the front layer. Over 1 where it is turned to
+// the sun, under 1 where it is turned away. Not in the thesis, whose foam is flat.
 float relief(vec2 pixel, float z, float sun) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     vec2 middle = floor(h + 0.5);
@@ -393,25 +401,25 @@ float relief(vec2 pixel, float z, float sun) {
     return clamp(1.0 + sun * frame.foam_noise.z * turned, 0.3, 1.3);
 }
 
-// Those texels.
+// The foam texels around a pixel.
 FoamTexels foam_seen(vec2 pixel) {
     return foam_texels(foam_depth, pixel, eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x));
 }
 
-// Whether something is seen in a pixel without water.
+// Whether a pixel without water shows foam or spray.
 bool beside(vec2 pixel) {
     return FOAM == 1u && foam_seen(pixel).depth < EMPTY || spray_at(ivec2(pixel));
 }
 
-// Depth of the frontmost foam, of the texels' the mean: the least changes in steps.
+// Mean depth of the frontmost foam in the four texels. The least depth would change in steps.
 float foam_middle(FoamTexels foam) {
     vec4 w = mix(vec4(0.0), foam.shown, lessThan(foam.z, vec4(EMPTY)));
     float sum = w.x + w.y + w.z + w.w;
     return sum > 0.0 ? dot(w, mix(vec4(0.0), foam.z, greaterThan(w, vec4(0.0)))) / sum : foam.depth;
 }
 
-// Share of the light from behind that lace of foam lets through, which the same foam lets through where it is smooth. Where
-// cells are less than two pixels wide it is smooth. much: how much more foam there is where a thread is.
+// Transmittance of foam with the lace pattern; its mean is that of smooth foam. Where cells are less than two
+// pixels wide, foam stays smooth. much: density relative to smooth foam, more than 1 in a thread.
 float through_lace(vec2 pixel, float z, float kept, out float much) {
     vec3 at = (frame.world * vec4(z * vec3(ray_slope(pixel, frame.slope), -1.0), 1.0)).xyz / frame.foam_pattern.z;
     at -= LACE_WRAP * floor(at / LACE_WRAP + 0.5);
@@ -423,15 +431,17 @@ float through_lace(vec2 pixel, float z, float kept, out float much) {
     return 1.0 - mix(1.0 - kept, covered, told);
 }
 
-// How far around it foam is asked for its shape, in spacings, and in texels at most.
+// Radius within which the foam around a pixel is compared for its shape: in particle spacings, and at most in
+// texels.
 const vec2 SHAPE_REACH = vec2(6.0, 32.0);
 const vec2 SHAPE_WAYS[4] = vec2[](vec2(1.0, 0.0), vec2(0.70710678), vec2(0.0, 1.0), vec2(-0.70710678, 0.70710678));
-// Cosines to the sun of what is wholly turned away and wholly lit: light goes on in foam.
+// Cosines of the angle to the sun at which foam is fully unlit and fully lit. The range is wide because light
+// scatters in foam.
 const vec2 SHAPE_LIT = vec2(-0.5, 0.6);
-// How much of the sky's light neighbours take that stand wholly before it.
+// Fraction of skylight lost in a hollow whose neighbours are all a full radius nearer.
 const float SHAPE_HOLLOW = 0.6;
 
-// Foam at a place between texels, by how much it lies farther than a depth; no farther than a reach, as nothing does.
+// How much farther the foam at a point between texels is than z, within ±reach. Without foam: reach.
 float foam_beyond(vec2 h, float z, float reach) {
     h = clamp(h, vec2(0.0), frame.thick_extent.xy - 1.0);
     vec2 base = min(floor(h), frame.thick_extent.xy - 2.0);
@@ -441,8 +451,8 @@ float foam_beyond(vec2 h, float z, float reach) {
     return mix(mix(beyond.x, beyond.y, f.x), mix(beyond.z, beyond.w, f.x), f.y);
 }
 
-// What its shape leaves of the sun's light and of the sky's, by how far before it or behind it the foam around it lies:
-// a splash has a side in the shade, and hollows. Not in the source.
+// Visibility of the sun and of the sky from the shape of the foam around, so that a splash has a side in the
+// shade, and hollows. Not in the thesis.
 vec2 shape_light(vec2 pixel, float z) {
     float reach = SHAPE_REACH.x * frame.particle.y;
     vec2 texels = min(reach / (z * abs(frame.thick_slope.xy)), vec2(SHAPE_REACH.y));
@@ -456,22 +466,22 @@ vec2 shape_light(vec2 pixel, float z) {
         slope += way * beyond;
         hollow += max(-beyond, 0.0);
     }
-    // Of eight on a circle the squares of either coordinate sum up to four.
+    // For eight points on a circle, the squares of either coordinate sum to four.
     vec3 normal = normalize(vec3(0.25 * slope / metres, 1.0));
     return vec2(smoothstep(SHAPE_LIT.x, SHAPE_LIT.y, dot(normal, frame.sun_direction.xyz)),
                 1.0 - SHAPE_HOLLOW * hollow / (8.0 * reach));
 }
 
-// Thesis Sec. 3.2.3: the more foam right behind the frontmost, the nearer the front colour (Listing
-// A.20; Eq. 3.9 has them the other way round). What of it the sun lights is the sprites' (the source asks at
-// the mean of nine depths): a sprite by itself is no surface, its outline would be a shadow's.
+// Thesis Sec. 3.2.3: the more foam lies right behind the frontmost, the nearer the colour is to the front
+// colour (Listing A.20; Eq. 3.9 swaps the two). Sprites carry their sun visibility. (The thesis evaluates it
+// at the mean of nine depths.) Foam gets no shadow of its own per sprite: its outline would show.
 Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     Foam foam;
     vec4 t = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         t += texels.weights[i] * texelFetch(foam_thickness, foam_texel(texels, i), 0);
     }
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     int shown = dry ? 4 : 0;
     foam.water = vec2(0.0);
     for (int i = 0; i < shown; ++i) {
@@ -479,14 +489,14 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     }
     foam.t = t.x;
     foam.depth = texels.depth;
-    // To the source all is at the frontmost.
+    // In the thesis all foam lies at the depth of the frontmost.
     float far = by_source() || frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
-    // Metres along the ray to one along z, as of water.
+    // Converts metres along z to metres along the ray, as for water.
     float along = length(vec3(ray_slope(pixel, frame.slope), 1.0));
-    // Of a little nothing: a veil is steam, not foam.
+    // Very thin foam counts as none: a veil would look like steam.
     foam.kept = exp(-frame.foam.x * along * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
-    float local = 1.0; // much of it in a thread
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    float local = 1.0; // density relative to smooth foam
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool there = t.x > 0.0 && texels.depth < EMPTY;
     float z = foam_middle(texels);
     bool torn = frame.foam_pattern.y > 0.0 && there;
@@ -494,11 +504,12 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
         foam.kept = through_lace(pixel, z, foam.kept, local);
         torn = false;
     }
-    // A spacing more for what is far: where that becomes the frontmost nothing changes. What hides what is behind
-    // it is seen from its front, before its middle by the room that so much foam takes among as much water.
+    // Depth of the middle behind the frontmost, plus one spacing for distant foam, so that nothing changes
+    // when it becomes the frontmost. Dense foam is seen at its front, which lies before the middle by the
+    // room that the foam fills.
     float middle = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
     foam.behind = max(middle - t.x * (1.0 - foam.kept), 0.0);
-    // Or the source's other rule.
+    // Or the thesis program's other rule: a power of the share.
     float power = frame.foam_front.w;
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
     float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * along * t.y * local);
@@ -515,21 +526,22 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     return foam;
 }
 
-// Radiance of foam of diffuse particles, from what light it gathers and its shadow (Akinci et al. 2013, Sec. 2.5).
+// Radiance of whitewater particles from the light that they gather and their shadow (Akinci et al. 2013, Sec.
+// 2.5).
 vec3 diffuse_color(vec4 light) {
     vec3 shadow = clamp(light.w * frame.diffuse_shadow.rgb, 0.0, 1.0);
     vec3 whole = frame.diffuse_color.rgb * light.rgb;
     return frame.diffuse_light.z > 0.5 ? max(min(whole, 1.0) - shadow, 0.0) : whole * (1.0 - shadow);
 }
 
-// With what of the diffuse particles is behind the water's surface, as far as they are in the mean.
+// Adds the whitewater particles behind the water's surface, at their mean depth.
 Foam with_submerged(Foam foam, ivec2 pixel, float front) {
     vec3 thick = texelFetch(diffuse_thickness, pixel, 0).xyz;
     float kept = 1.0 - intensity_of(thick.y);
     float far = thick.y > 0.0 ? min(thick.z / thick.y, 0.999) : 0.0;
     float behind = frame.particle.y * far / (1.0 - far);
     vec3 color = diffuse_color(texelFetch(diffuse_light, pixel, 0));
-    // Of two kinds of foam each has its part.
+    // The two kinds of foam are mixed by their opacities.
     float own = (1.0 - foam.kept) / max(2.0 - foam.kept - kept, 1.0e-6);
     foam.behind = mix(behind, foam.behind + max(foam.depth - front, 0.0), own);
     foam.color = mix(color, foam.color, own);
@@ -537,15 +549,16 @@ Foam with_submerged(Foam foam, ivec2 pixel, float front) {
     return foam;
 }
 
-// Light through a sheet with foam in it and off it, whose surface lies at a depth: `before` of its t metres
-// along z are before the frontmost foam. What mirrors is the water before that, where there is any. Foam lies
-// where its middle is, under the water before that: else a thin veil would bring up to it what is deep below, with
-// its own outline. Not in the source, to which all is at the frontmost.
+// Light through a sheet that contains foam. z is the depth of its surface; of the t metres along z, `before`
+// are before the frontmost foam. That water alone reflects. The foam lies at its middle, under the water
+// before it: otherwise a thin veil would lift foam from deep below to the surface, with its outline. In the
+// thesis all foam lies at the frontmost.
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
-    // Diffuse particles before it lie over all.
+    // Particle foam before the surface lies over it.
     float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
     first = by_source() ? 1.0 : first;
-    // No water before its surface; but that a pixel shows no sphere of a drop says nothing of less than its width.
+    // Foam before the surface has no water before it. Distances below four spacings do not count: within the
+    // width of a drop a pixel may show no sphere.
     float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
     before += max(foam.behind - apart, 0.0);
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
@@ -559,8 +572,8 @@ vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 back
     return with_mirrored(sheet, all.rgb, vec2(all.a, foam.kept));
 }
 
-// Water among foam, which has the less of a surface the more of it is foam: what is left of a particle that
-// turns into foam is no drop, and would glint and bend in single pixels that come and go.
+// Water with foam in it: the larger the share of foam, the weaker its surface. The rest of a particle that
+// turns into foam is no drop, and would flicker with reflections in single pixels.
 Sheet among(Foam foam, float t, Sheet sheet) {
     float whole = by_source() ? 1.0 : smoothstep(0.5, 1.0, t / max(t + foam.t, 1.0e-9));
     sheet.offset *= whole;
@@ -569,7 +582,7 @@ Sheet among(Foam foam, float t, Sheet sheet) {
     return sheet;
 }
 
-// Water among foam that shows no sphere: light is lost in it all the same. It ends at the scene.
+// Water with foam in it where no water sphere shows: it only absorbs. It ends at the scene.
 Sheet between(Foam foam, vec2 pixel, float t) {
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     t = scene > 0.0 && foam.depth < 0.5 * EMPTY ? min(t, max(scene - foam.depth, 0.0)) : t;
@@ -580,7 +593,7 @@ Sheet between(Foam foam, vec2 pixel, float t) {
 
 #include "exit.glsl"
 
-// A surface on the way to the same one at the next coarser level.
+// Blends a surface with that of the next coarser level.
 Surface towards(Surface surface, Surface other, float fade) {
     surface.z = mix(surface.z, other.z, fade);
     surface.dz = mix(surface.dz, other.dz, fade);
@@ -589,14 +602,14 @@ Surface towards(Surface surface, Surface other, float fade) {
     return surface;
 }
 
-// The front surface of the water in a pixel, and the light that it sends to the eye by itself.
+// The front water surface at a pixel, and the light that it sends to the eye itself.
 struct Face {
-    float z;      // its depth
-    float mirror; // share of what it mirrors: the rest comes from below
-    vec3 light;   // what it mirrors, that share of it, and the sun's highlight
+    float z;      // depth
+    float mirror; // reflectance: the rest of the light comes from below
+    vec3 light;   // reflection times reflectance, plus the sun highlight
 };
 
-// Colour of scene, water and foam at a pixel (its centre, at +0.5), and the water's surface there.
+// Colour of scene, water and foam at a pixel (its centre is at +0.5), and the water surface there.
 vec3 layers_at(vec2 pixel, float front, out Face face) {
     float threshold = frame.surface.w;
     vec2 slope = ray_slope(pixel, frame.slope);
@@ -608,7 +621,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     vec4 weights;
     vec2 all = thickness_at(surface, level, pixel, threshold, base, weights);
     float t = all.x;
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool fading = NEAR == 1u && fade > 0.0;
     while (fading) {
         surface = towards(surface, surface_at(levels.level[shown + 1u], pixel, front, threshold), fade);
@@ -627,7 +640,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         share = covers ? thick.yz : thick.yw;
     }
     if (SHEETS == 2u) {
-        // Its first level is the front sheet's second.
+        // The first level of the back sheet corresponds to the second of the front sheet.
         uint behind_shown = NEAR == 1u ? shown_level(nearness(covers ? boundary : front, slope), fade) : 0u;
         fade = behind_shown > 0u ? fade : 0.0;
         behind_shown = BACK + max(behind_shown, 1u) - 1u;
@@ -640,7 +653,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             fading = false;
         }
         if (covers) {
-            // As the air between closes they become one: the cells that tell them apart don't show.
+            // As the air between two sheets closes, they become one, so that the cells of the boundary do not
+            // show.
             float open = smoothstep(1.0, 4.0, (other.z - surface.z - t) / frame.particle.y);
             open = other.covered > 0.0 ? open : 1.0;
             t += (1.0 - open) * share.y;
@@ -648,7 +662,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             back = behind(other, pixel, share.y, share.x);
             beyond = other.covered > 0.0 ? mix(surface.z, other.z, share.x) : 0.0;
         }
-        // The reduction widens what is in front by a texel, over what is behind: of that it leaves
+        // The reduction widens a near surface by one texel over the surface behind it; undo that, or it leaves
         // rims.
         float lost = covers || !surface.widened ? 0.0 : (1.0 - surface.found) * other.found;
         surface.z = mix(surface.z, other.z, lost);
@@ -657,10 +671,10 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     face = Face(surface.z, 0.0, vec3(0.0));
 
-    // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
+    // Less than one layer of water is a drop: it keeps the shape of its sphere.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
-    // On the front sheet: the noise is of the particles at its surface.
+    // For the front sheet only: the noise belongs to the particles of its surface.
     vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);
     Sheet sheet = sheet_of(surface, pixel, t, ripple, true);
     Foam foam;
@@ -669,10 +683,10 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     if (FOAM == 1u) {
         foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
         behind_boundary = foam.depth >= boundary;
-        // One looks between the spheres of the front sheet, if only its foam is there. Told of one sheet, what
-        // follows from it is not compiled: a CPU runs what it skips.
+        // Between the spheres of the front sheet one sees through it, where only its foam remains. The condition
+        // is false at compile time with one sheet, so that a CPU does not run what follows from it.
         past = SHEETS == 2u && !behind_boundary && front >= boundary && front < EMPTY;
-        // Foam behind the air between two sheets is among the other.
+        // Foam behind the air between two sheets belongs to the back sheet.
         if (covers && behind_boundary) {
             back = among(foam, share.y, back);
         } else if (!past) {
@@ -685,7 +699,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         foam = with_submerged(foam, ivec2(pixel), front);
     }
     vec2 offset = bent(sheet.offset + back.offset);
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     bool submerged = EXIT > 0u && max(sheet.wet, back.wet) > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
     while (submerged) {
         Sheet last = sheet;
@@ -698,7 +712,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     vec3 c = refracted(pixel, offset, max(surface.z, beyond));
     c = under_water(back, under_water(sheet, c));
     Exit way = Exit(1.0, vec3(0.0), c, sheet.path);
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool open = EXIT > 0u && sheet.thick > 0.0 && surface.z < 0.5 * EMPTY && sheet.wet < 1.0 && !by_source();
     while (open) {
         way = exit_of(sheet, surface, pixel, c, covers);
@@ -734,7 +748,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         sheet = between(foam, pixel, t);
         surface.z = foam.depth;
     }
-    // Behind as much air as there is: where there is none both sheets are one.
+    // Weighted by the amount of air: without air both sheets are one.
     float behind_air = covers && behind_boundary ? share.x : 0.0;
     vec3 apart = c;
     if (past && share.y > 0.0) {
@@ -754,13 +768,15 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     return dry && foam.depth >= EMPTY ? c : seen;
 }
 
-// Bubble foam over all there is, or in the water: pass `soap` dims what is in it, and gives it the water's own light
-// before it. So of `c` as much is left as no foam covers, and the surface's light is the same before both.
+// Adds bubble foam. Over the water it covers all; in the water, pass `soap` has already dimmed it and added
+// the water's light before it. In both cases `c` is left where no foam covers, and the front surface's own
+// light is the same.
 vec3 with_soap(vec3 c, vec4 over, Face face) {
     return c * (1.0 - over.a) + over.a * face.light + (1.0 - face.mirror) * over.rgb;
 }
 
-// All layers at a pixel where water, foam or spray is: spray lies over the others, but for bubble foam before the water.
+// All layers at a pixel that shows water, foam or spray. Spray lies over the others, except over bubble foam
+// before the water.
 vec3 shade(vec2 pixel, float front) {
     Face face;
     vec3 c = layers_at(pixel, front, face);
@@ -773,7 +789,8 @@ vec3 shade(vec2 pixel, float front) {
     }
     if (SHORE == 1u && frame.target.z >= FOAM_TOO) {
         float amount = texelFetch(shore_foam, ivec2(pixel), 0).w;
-        // What the texel knows of the sun is the host's surface's, behind.
+        // The texel's visibility of the sun is that of the host's surface behind; compute it at the water's
+        // surface.
         float lost = 0.0;
         for (bool go = SHADOW + CAST > 0u && amount > 0.0; go; go = false) {
             lost = sun_lost(face.z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);

@@ -9,11 +9,11 @@ layout(push_constant, std430) uniform Push {
     uint position_word;   // of the chunk's first particle
     uint position_stride; // in words
     uint chunk_first;
-    uint chunk;           // most particles of it
-    uint count;           // known to the host, or the most there may be
+    uint chunk;           // most particles of the chunk
+    uint count;           // number from the host, or the capacity
     uint from_gpu;        // 1: the count is in the buffer
     uint buckets;         // a power of two
-    float cells;          // of the grid along a unit of length
+    float cells;          // grid cells per unit of length
 } push;
 
 #include "cells.glsl"
@@ -28,7 +28,7 @@ vec3 position_of(uint i) {
     return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
 }
 
-// What is not finite, or far beyond any scene, has no cell.
+// Particles that are not finite, or far beyond any scene, do not take part.
 bool takes_part(vec3 position) {
     // Comparisons with NaN are false.
     return all(lessThan(abs(position), vec3(min(1.0e18, 1073741824.0 / push.cells))));

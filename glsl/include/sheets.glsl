@@ -1,6 +1,6 @@
-// Two sheets of water, one behind the other (passes `gaps` and `back`): for each texel of the
-// thickness the eye depth between them, EMPTY where there is but one. Not in the source (its
-// limitation, Fig. 5.13). Needs frame.glsl. Reads: boundaries.
+// Two layers of water, one behind the other (passes `gaps` and `back`): for each texel of the thickness the eye depth
+// between them, EMPTY where there is only one. Not in the thesis (its limitation, Fig. 5.13). Needs frame.glsl. Reads:
+// boundaries.
 
 // 1: there is one sheet everywhere; the buffer is not read.
 layout(constant_id = 8) const uint SHEETS = 2;
@@ -15,8 +15,8 @@ float boundary_of(ivec2 texel) {
 const int BLOCK = 16;
 const int BLOCK_BITS = 4;
 
-// Of a full-resolution pixel.
+// The boundary at a full-resolution pixel.
 float boundary_at(ivec2 pixel) {
-    // A shift: a division of floats may come out below, of integers CPUs have no vectors for it.
+    // A shift, because a float division may round down, and CPUs have no vector division of integers.
     return boundary_of(pixel >> findMSB(int(frame.thick_extent.z)));
 }

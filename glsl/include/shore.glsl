@@ -1,43 +1,43 @@
-// What the passes of shoreline and contact foam share: where the water's surface is, the numbers of the block.
-// Horizontal places p are metres along two axes of the world's that are level. Needs frame.glsl.
+// Shared by the passes of shoreline and contact foam: position of the water's surface, values of the block. Horizontal
+// positions p are metres along the two level axes of the world. Needs frame.glsl.
 // Reads: the block of shoreline and contact foam.
 
 // 0: what most frames have, a level surface, a map of distances or a strip, two looks into the noise and two into the web at
-// most, the scene's depth of the frame's size; 1: all there is. A pipeline each: a CPU runs branches whole, and finds the
+// most, the scene's depth of the frame's size; 1: all there is. A pipeline each: a CPU driver executes both sides of branches, and finds the
 // numbers of a loop's turns one lane at a time.
 layout(constant_id = 3) const uint GENERAL = 1;
 const int LOOKS = GENERAL == 1u ? 6 : 2;
 const int LAYERS = GENERAL == 1u ? 4 : 2;
 
 layout(set = 0, binding = 1, std140) uniform ShoreFrame {
-    vec4 east;          // eye space -> first level axis
-    vec4 north;         // the second
-    vec4 height;        // height over the water's level
-    vec4 surface;       // texels of the host's surface a pixel, its size
-    vec4 surface_part;  // its first texel; 1 = there is a level, 2 = a depth, 0 neither; metres of solids before it that count as behind
-    vec4 map;           // corner of the map in p, texels a metre, texels each way
-    vec4 reach;         // 1 over metres of foam to sea, inland; v in which it ends; 0 no shoreline, 1 strip, 2 map, 3 screen
+    vec4 east;          // maps eye space to the first axis of the level
+    vec4 north;         // and to the second
+    vec4 height;        // eye space to height above the water's level
+    vec4 surface;       // texels of the host's surface per pixel, its size
+    vec4 surface_part;  // its first texel; 1: level, 2: depth, 0: neither; metres of solids before it that count as behind
+    vec4 map;           // corner of the map in p, texels per metre, texels on each axis
+    vec4 reach;         // 1 / metres of foam to sea and inland; v where it ends; 0: no shoreline, 1: strip, 2: map, 3: screen
     vec4 waves;         // frequency, phase, a, b
-    vec4 mixed;         // floor, ratio of waves, of the web, threshold
-    vec4 web;           // a', b'; texels of the web, of the noise
-    vec4 counts;        // looks into the noise, layers of the web; 0 0
-    vec4 look[6];       // of each: repetitions a metre; metres by which its xy bends places, by which its zw bends the web; 0
+    vec4 mixed;         // floor, ratio of waves and of the web, threshold
+    vec4 web;           // a', b'; texels of the web and of the noise
+    vec4 counts;        // look-ups in the noise, layers of the web; 0 0
+    vec4 look[6];       // for each: repetitions per metre; metres by which xy displaces points and zw the web; 0
     vec4 look_moved[6]; // how far it has moved, metres; 0 0
-    vec4 noise[6];      // what its xyzw adds to the frequency, the phase, what is affine, the threshold
+    vec4 noise[6];      // weights with which its xyzw change frequency, phase, offset and threshold
     vec4 layer[4];      // web at p: (x p.x - y p.y, y p.x + x p.y) + zw
     vec4 layer_weight;
-    vec4 contact;       // 1 over metres on the host's surface, on the particles'; how much the mask takes; 0 distance, 1 view, 2 vertical
-    vec4 contact_mask;  // repetitions of the web a metre, how far it has moved; 1 = the host has one
-    vec4 mask;          // texels of it a pixel, its size
-    vec4 mask_part;     // its first texel; opacity on the host's surface, on the particles'
+    vec4 contact;       // 1 / metres (host's surface, particles'); weight of the mask; 0: distance, 1: view, 2: vertical
+    vec4 contact_mask;  // repetitions of the web per metre, how far it has moved; 1: the host has a mask
+    vec4 mask;          // texels of the mask per pixel, its size
+    vec4 mask_part;     // its first texel; opacity on the host's surface and on the particles'
 } shore;
 
-// A point of the water's surface in a pixel, and how far it goes from pixel to pixel.
+// A point of the water's surface at a pixel, with its derivatives per pixel.
 struct Water {
-    float z;     // eye depth; no surface: 0 or less
+    float z;     // eye depth; 0 or less without a surface
     vec3 ray;    // eye space, at depth 1
     vec2 p;
-    mat2 across; // metres of p a pixel to the right, and down
+    mat2 across; // metres of p per pixel to the right and down
 };
 
 // The point of a ray at a depth, on a level surface.
@@ -46,7 +46,7 @@ Water water_point(vec3 ray, float z) {
     w.z = z;
     w.ray = ray;
     w.p = vec2(dot(shore.east.xyz, ray), dot(shore.north.xyz, ray)) * z + vec2(shore.east.w, shore.north.w);
-    // Where the surface is level its depth changes with the ray.
+    // On a level surface the depth changes with the ray.
     float fall = dot(shore.height.xyz, ray);
     fall = abs(fall) < 1.0e-6 ? 1.0e-6 : fall;
     vec3 right = vec3(frame.slope.x, 0.0, 0.0);
@@ -58,17 +58,17 @@ Water water_point(vec3 ray, float z) {
     return w;
 }
 
-// Metres a pixel is wide, of a square of the same area.
+// Width of a pixel in metres: the side of a square of the same area.
 float width_of(Water w) {
     return sqrt(abs(determinant(w.across)));
 }
 
-// Eye depth of the scene; where nothing is 0, and not that of the far plane.
+// Eye depth of the scene; 0 without a scene or at the far plane.
 float scene_of(float device_depth) {
     return device_depth == frame.before_lens.w ? 0.0 : eye_depth(device_depth);
 }
 
-// Whether solids at a depth (0 and less: none) leave the surface to be seen.
+// Whether the surface is visible before solids at a depth (0 or less: no solid).
 bool seen_before(float z, float scene) {
     return z > 0.0 && z < EMPTY && !(scene > 0.0 && scene + shore.surface_part.w < z);
 }

@@ -4,6 +4,6 @@
 layout(set = 0, binding = 11, std430) buffer Marks { uint marks[]; };
 
 void draws(uint tile) {
-    // An atomic: many may do it.
+    // An atomic, because several invocations may do it.
     atomicOr(marks[tile], 1u);
 }

@@ -5,7 +5,7 @@ layout(constant_id = 0) const uint OWN = 0;
 
 layout(set = 0, binding = 0) uniform sampler2D heights;
 
-// Metres over the water at the middle of a texel; beyond the map as at its edge.
+// Metres above the water at the centre of a texel; clamped at the map's edge.
 float height_at(ivec2 texel) {
     texel = clamp(texel, ivec2(0), ivec2(push.size - 1));
     if (OWN == 0u) {
@@ -19,9 +19,9 @@ float height_at(ivec2 texel) {
     for (int i = 0; i < 4; ++i) {
         ivec2 at = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), ivec2(push.part.zw) - 1) + ivec2(push.part.xy);
         float weight = ((i & 1) == 0 ? 1.0 - f.x : f.x) * (i < 2 ? 1.0 - f.y : f.y);
-        // Beside a texel's middle what is no number is no matter.
+        // A NaN with weight 0 must not count.
         sum += weight > 0.0 ? weight * texelFetch(heights, at, 0).x : 0.0;
     }
-    // What is no number is no land.
+    // NaN counts as no land.
     return abs(sum) < 1.0e18 ? sum - push.level : -1.0e3;
 }

@@ -1,11 +1,11 @@
-// Lists of tiles of shoreline and contact foam, with the dispatches over them: what makes them and what goes over them share.
+// Tile lists of shoreline and contact foam with their dispatches, shared by producers and consumers.
 // Reads, writes: lists, arguments.
 
 // Tiles that may have shoreline foam, contact foam, both; runs of those that have any (shore_runs.glsl); tiles that may have
 // contact foam on the particles' water.
 layout(set = 0, binding = 9, std430) buffer Lists { uint list[]; };
-// Vertices, instances, first vertex, first instance of the draw of the fourth; of each list groups in x, y, z and how many
-// tiles, which of the fourth, of runs, the draw has.
+// For each list: workgroups in x, y, z and the number of tiles. The fourth list holds runs of tiles, and its
+// arguments are those of a draw: vertices, instances, first vertex, first instance.
 layout(set = 0, binding = 10, std430) buffer Arguments { uint arguments[24]; };
 layout(push_constant, std430) uniform Push {
     uint across; // tiles
@@ -14,22 +14,22 @@ layout(push_constant, std430) uniform Push {
 
 const uint TILE = 8u;            // pixels
 const uint TILES = 4u;           // of a group of what goes over the lists
-const uint RUNS = 4u;            // their list
-const uint MOST_LISTED = 65535u; // of a dispatch, in each direction
+const uint RUNS = 4u;            // the list of runs
+const uint MOST_LISTED = 65535u; // limit of a dispatch, on each axis
 
-// What a slot of a list has; the first list is 1.
+// Writes a slot of a list; the first list is 1.
 void lists(uint kind, uint slot, uint own) {
     list[(kind - 1u) * push.most + slot] = own;
 }
 
-// The dispatch over a list is as large as it takes for a slot.
+// Enlarges the dispatch over a list to include a slot.
 void dispatches(uint kind, uint slot, uint slots_a_group) {
     uint group = slot / slots_a_group;
     atomicMax(arguments[4u * kind], min(group + 1u, MOST_LISTED));
     atomicMax(arguments[4u * kind + 1u], 1u + group / MOST_LISTED);
 }
 
-// A group's tile of a list, one of four; whether there is one.
+// One of the four tiles of a workgroup; false if there is none.
 bool tile_of(uint kind, uint own, out uint tile) {
     uint i = TILES * (gl_WorkGroupID.y * MOST_LISTED + gl_WorkGroupID.x) + own;
     bool listed = i < arguments[4u * kind + 3u];

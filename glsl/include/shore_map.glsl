@@ -1,22 +1,22 @@
-// What the steps of the map of distances to the shore share (jump flooding, Rong, Tan 2006). A seed is a point of the
-// shore line: its place in 16ths of a texel, 16 bits each way; NONE where none is known.
+// Shared by the steps of the distance map (jump flooding, Rong, Tan 2006). A seed is a point of the shore line: its
+// position in 16ths of a texel, 16 bits per axis; NONE if unknown.
 
 const uint NONE = 0xffffffffu;
 
 layout(push_constant, std430) uniform Push {
-    ivec4 window; // first texel and size of what is made anew
-    int size;     // texels each way
+    ivec4 window; // first texel and size of the part that is computed anew
+    int size;     // texels on each axis
     int jump;
     float texel;  // its edge in metres
     float level;  // of the water
-    vec4 part;    // of the host's heights: first texel, size
+    vec4 part;    // of the host's height image: first texel, size
 } push;
 
 vec2 place_of(uint seed) {
     return vec2(seed & 0xffffu, seed >> 16) / 16.0;
 }
 
-// A texel's own, of the window.
+// The invocation's texel in the window.
 bool texel_of(uvec2 id, out ivec2 texel) {
     texel = push.window.xy + ivec2(id);
     return all(lessThan(ivec2(id), push.window.zw));

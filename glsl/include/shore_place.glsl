@@ -1,10 +1,11 @@
-// Where a pixel's ray meets the host's surface, and v there. Needs frame.glsl, shore.glsl.
+// Intersection of a pixel's ray with the host's surface, and the shore coordinate v there. Needs frame.glsl,
+// shore.glsl.
 // Reads: surface depth, map of distances.
 
 layout(set = 0, binding = 3) uniform sampler2D surface_depth;
 layout(set = 0, binding = 6) uniform sampler2D map;
 
-// The host's surface: its level, or where its depth says.
+// Eye depth of the host's surface, from its level or its depth image.
 float surface_at(vec2 pixel, vec3 ray) {
     float fall = dot(shore.height.xyz, ray);
     float z = -shore.height.w / (abs(fall) < 1.0e-9 ? 1.0e-9 : fall);
@@ -20,7 +21,7 @@ float v_of(float distance) {
     return 1.0 + distance * (distance < 0.0 ? shore.reach.x : shore.reach.y);
 }
 
-// v by the map, 0 beside it, and its change a pixel.
+// v from the map (0 outside) and its change per pixel.
 float mapped(Water w, out vec2 dv) {
     vec2 texel = (w.p - shore.map.xy) * shore.map.z - 0.5;
     float last = shore.map.w - 1.0;

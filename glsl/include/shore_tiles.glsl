@@ -1,9 +1,9 @@
-// What the passes that list tiles share: an invocation a tile. Needs frame.glsl, shore.glsl, shore_lists.glsl.
+// Shared by the passes that list tiles, one invocation per tile. Needs frame.glsl, shore.glsl, shore_lists.glsl.
 // Reads: scene depth. Writes: lists, arguments.
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 
-// The invocation's tile to a list.
+// Adds the invocation's tile to a list.
 void adds(uint kind) {
     uint slot = atomicAdd(arguments[4u * kind + 3u], 1u);
     lists(kind, slot, gl_GlobalInvocationID.y * push.across + gl_GlobalInvocationID.x);
@@ -13,23 +13,23 @@ void adds(uint kind) {
 const int HALF = int(TILE) / 2;
 const int FOURS = HALF * HALF; // of pixels in a tile
 
-// The first of four pixels of a tile.
+// The first of four pixels in a tile.
 vec2 four_of(vec2 first, int i) {
     return first + 2.0 * vec2(i % HALF, i / HALF);
 }
 
-// A pixel of four, as they are gathered.
+// A pixel of four, in the order of a gather.
 vec2 pixel_of(vec2 first, int i) {
     return first + vec2(i == 1 || i == 2 ? 1.5 : 0.5, i < 2 ? 1.5 : 0.5);
 }
 
-// The scene's depths at four pixels from one on; texel: one over the size of their image. What lies beyond the picture may
-// be among them.
+// Scene depths at four pixels from `first` on; texel: 1 / size of the image. They may include texels outside the
+// picture.
 vec4 scene_at_four(vec2 first, vec2 texel) {
     if (GENERAL == 0u) {
         return textureGather(scene_depth, (first + 1.0 + frame.scene_origin.xy) * texel);
     }
-    // Not a texel a pixel.
+    // The image has another resolution than the picture.
     vec4 four;
     for (int i = 0; i < 4; ++i) {
         four[i] = texelFetch(scene_depth, scene_texel(min(pixel_of(first, i), frame.extent.xy - 0.5)), 0).x;
@@ -37,7 +37,7 @@ vec4 scene_at_four(vec2 first, vec2 texel) {
     return four;
 }
 
-// By the vertical measure what is seen from above is nearer.
+// With the vertical measure, distances along the view count for less when seen from above.
 float counted(vec3 ray) {
     return shore.contact.w == 2.0 ? max(-dot(shore.height.xyz, ray), 0.0) : 1.0;
 }

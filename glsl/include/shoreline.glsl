@@ -1,13 +1,13 @@
-// Shoreline foam: waves by v and a web in the world (blog, Sec. IV to VIII). What is too fine for a pixel is left out
-// and kept as a variance, so that far foam covers what near foam does. Needs shore.glsl. Reads: noise, web.
+// Shoreline foam: waves over v and a foam texture in the world (blog, Sec. IV to VIII). Detail finer than a pixel is
+// removed and kept as a variance, so that far foam covers as much as near foam. Needs shore.glsl. Reads: noise, web.
 
 layout(set = 0, binding = 28) uniform sampler2D shore_noise;
 layout(set = 0, binding = 29) uniform sampler2D shore_web;
 
-// 0: clipped, 1: smooth, 2: by four samples.
+// 0: clipped, 1: smooth, 2: four samples.
 layout(constant_id = 0) const uint EDGE = 1;
 
-// The level of a texture that is as fine as a place is wide.
+// Mip level of a texture for a footprint in texels.
 float level_of(float texels) {
     return log2(max(texels, 1.0e-6));
 }
@@ -16,12 +16,13 @@ vec4 noise_at(vec2 p, float scale, float width) {
     return textureLod(shore_noise, p * scale, level_of(width * scale * shore.web.w));
 }
 
-// Of a web as it is, at its own places: its mean and that of its square, its slope each way.
+// The web at a point: its mean, the mean of its square, and its slope on each axis.
 vec4 web_at(vec2 uv, float level) {
     return textureLod(shore_web, uv, level);
 }
 
-// What the noises add at a place: to the frequency, the phase, what is affine, the threshold; how far they move the web.
+// Sums of the noises at a point: added to frequency, phase, offset and threshold, and the displacement of the
+// web.
 struct Noises {
     vec4 sum;
     vec2 moved;
@@ -30,7 +31,7 @@ struct Noises {
 Noises noises_at(vec2 p, float width) {
     Noises noises = Noises(vec4(0.0), vec2(0.0));
     vec2 bent = p;
-    // The world's bend first, the web's last.
+    // Displace the point by the first noise first, and the web last.
     for (int i = 0; i < LOOKS; ++i) {
         vec4 n = noise_at(bent + shore.look_moved[i].xy, shore.look[i].x, width);
         noises.sum += shore.noise[i] * n;
@@ -40,28 +41,29 @@ Noises noises_at(vec2 p, float width) {
     return noises;
 }
 
-// How far the mix is over the threshold, its change a pixel to the right and down, and the variance of what a pixel leaves
-// out of it.
+// How far the mix exceeds the threshold, its change per pixel to the right and down, and the variance that is
+// too fine for the pixel.
 struct Mixed {
     float over;
     vec2 change;
     float variance;
 };
 
-// What a place has for all pixels about it: of what the noises change from one to the next little is known, and it is little.
+// What the pixels around a point share. The noises change little from one pixel to the next, so their change
+// is neglected.
 struct Place {
-    vec4 noise;     // what they add
-    vec2 moved;     // p, by them
-    mat2 across;    // metres of p a pixel to the right, and down
-    vec2 dv;        // change of v
-    float kept;     // of the waves, what a pixel does not leave out
-    vec4 levels;    // how fine each layer of the web is to be
+    vec4 noise;     // sums of the noises
+    vec2 moved;     // p, displaced by them
+    mat2 across;    // metres of p per pixel to the right and down
+    vec2 dv;        // derivative of v per pixel
+    float kept;     // fraction of the waves that a pixel resolves
+    vec4 levels;    // mip level of each layer of the web
 };
 
 Place place_at(vec2 p, mat2 across, vec2 dv) {
     float width = sqrt(abs(determinant(across)));
     Noises noises = noises_at(p, width);
-    // Mean of the wave over a pixel, as if it were over a normal distribution of a box's variance.
+    // Mean of the wave over a pixel, taken as a normal distribution with the variance of a box.
     float frequency = shore.waves.x + noises.sum.x;
     float kept = exp(-frequency * frequency * dot(dv, dv) / 24.0);
     vec4 levels = vec4(0.0);
@@ -71,12 +73,12 @@ Place place_at(vec2 p, mat2 across, vec2 dv) {
     return Place(noises.sum, p + noises.moved, across, dv, kept, levels);
 }
 
-// The mix so many pixels from a place.
+// The mix at an offset in pixels from a point.
 Mixed mixed_at(Place place, float v, vec2 off) {
     vec4 noise = place.noise;
     float frequency = shore.waves.x + noise.x;
     float phase = frequency * v + shore.waves.y + noise.y;
-    // Nothing is promised of a sine beyond half a turn.
+    // Bring the phase to half a turn: the precision of a sine is not guaranteed beyond it.
     phase -= 6.2831853 * round(phase / 6.2831853);
     float waves = place.kept * sin(phase) + shore.waves.z * v + shore.waves.w + noise.z;
     float steep = waves > shore.mixed.x ? place.kept * frequency * cos(phase) + shore.waves.z : 0.0;
@@ -100,14 +102,15 @@ Mixed mixed_at(Place place, float v, vec2 off) {
     return mixed;
 }
 
-// Share of a pixel that is foam: of a box as wide as the change along its steepest way and what is too fine are together.
+// Coverage of a pixel by foam: a box filter as wide as the change along the steepest direction, together with
+// the variance too fine for the pixel.
 float covered(Mixed mixed, vec2 pixel) {
     float width = sqrt(dot(mixed.change, mixed.change) + 12.0 * mixed.variance);
     float share = clamp(mixed.over / max(width, 1.0e-6) + 0.5, 0.0, 1.0);
     if (EDGE == 0u) {
         return step(0.0, mixed.over);
     }
-    // Quarters, which of two 2x2 pixels share, as devices do.
+    // Coverage in quarters, with an ordered dither over 2x2 pixels.
     vec2 odd = mod(floor(pixel), 2.0);
     float order = (odd.x + odd.y == 1.0 ? 0.5 : 0.0) + (odd.y > 0.5 ? 0.25 : 0.0) + 0.125;
     return EDGE == 2u ? floor(4.0 * share + order) / 4.0 : share;

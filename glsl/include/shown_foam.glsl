@@ -1,20 +1,20 @@
 // The foam that a pixel shows, of pass `foam`. Needs frame.glsl, foam_texels.glsl. Reads: foam depth and
 // thickness.
 
-// 1: there may be foam; else it is not read.
+// 1: there may be foam; otherwise it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 layout(set = 0, binding = 9) uniform sampler2D foam_thickness;
 
-// Depth of the frontmost foam where it hides half of what is behind it or more, else EMPTY: a veil moves
-// as what shows through.
+// Depth of the frontmost foam if it hides at least half of what is behind, else EMPTY: a veil moves like what
+// shows through it.
 float shown_foam(vec2 pixel) {
     if (FOAM == 0u) {
         return EMPTY;
     }
-    // As `composite` has it.
+    // As in `composite`.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     FoamTexels texels = foam_texels(foam_depth, pixel, scene);
     float t = 0.0;

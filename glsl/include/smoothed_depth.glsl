@@ -3,7 +3,7 @@
 
 layout(set = 0, binding = 5) uniform sampler2D smoothed;
 
-// Depth of the smoothed surface that a pixel's own depth lies on: the mean of the texels of it.
+// Depth of the smoothed surface at a pixel: the mean of the texels on the surface of its own depth.
 float smoothed_at(vec2 pixel, float front) {
     float fade;
     uint finer = shown_level(nearness(front, ray_slope(pixel, frame.slope)), fade);

@@ -1,6 +1,6 @@
-// What blobs run against. Needs nothing.
+// Solids that blobs collide with. Needs nothing.
 struct Solid {
-    vec4 place; // of a plane its normal, of a box its middle; 0 or 1
-    vec4 size;  // of a box half its edges; of a plane its distance from 0 along the normal
-    vec4 turn;  // of a box, to the world
+    vec4 place; // plane: normal; box: centre; w: 0 plane, 1 box
+    vec4 size;  // box: half its edges; plane: distance from the origin along the normal
+    vec4 turn;  // box: rotation to the world
 };

@@ -6,13 +6,13 @@ const float SPECTRUM_FIRST = 380.0;
 const int SPECTRUM_COUNT = 81;
 const float SPECTRUM_STEP = 5.0;
 
-// A Gaussian of another width on each side.
+// A Gaussian with a different width on each side.
 float spectrum_lobe(float wavelength, float middle, float below, float above) {
     float t = (wavelength - middle) * (wavelength < middle ? below : above);
     return exp(-0.5 * t * t);
 }
 
-// Of light of equal energy at all wavelengths each part sums to what its eye's response does: divide by that.
+// Normalized so that light of equal energy at all wavelengths sums to 1 per channel.
 vec3 spectrum_color(float w) {
     float x = 0.362 * spectrum_lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * spectrum_lobe(w, 599.8, 0.0264, 0.0323)
         - 0.065 * spectrum_lobe(w, 501.1, 0.0490, 0.0382);

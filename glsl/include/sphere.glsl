@@ -1,5 +1,5 @@
-// Spheres under a perspective: footprint and exact hit, where the source offsets a billboard by N_z r
-// (thesis Sec. 4.6.1, Listings A.8, A.9). Needs nothing.
+// Spheres in perspective: footprint and exact intersection, where the thesis offsets a billboard by N_z r (Sec. 4.6.1,
+// Listings A.8, A.9). Needs nothing.
 
 // Bounds of the projected sphere in slopes (min xy, max xy), from the tangents through the eye in
 // the planes of x and y; false when it reaches the eye plane and has none.
@@ -15,9 +15,9 @@ bool sphere_bounds(vec3 centre, float radius, out vec4 bounds) {
     return true;
 }
 
-// How many times the ray w the nearest point of the sphere on it is away; EMPTY when missed or nearer than
-// `near` (the far root is never taken). The discriminant is that of the distance
-// between centre and ray: the textbook one loses half a radius to rounding at 1000 radii.
+// Parameter of the sphere's nearest point on the ray w; EMPTY if missed or nearer than `near` (the far root is
+// never taken). The discriminant uses the distance between centre and ray: the textbook form loses half a radius
+// to rounding at 1000 radii.
 float ray_hit(vec3 w, vec3 centre, float radius, float near) {
     float inverse = 1.0 / dot(w, w);
     float along = dot(w, centre) * inverse;

@@ -1,9 +1,9 @@
-// Spray as droplets round a particle (thesis Sec. 4.9.5 has one sprite each). Needs frame.glsl.
+// Spray as droplets around a particle (thesis Sec. 4.9.5 has one sprite each). Needs frame.glsl.
 
 struct SpraySprite {
-    vec4 centre;   // eye space; share of the particle that is spray
-    vec4 velocity; // eye space; bits of the id
+    vec4 centre;   // eye-space position; fraction of the particle that is spray
+    vec4 velocity; // eye-space velocity; bits of the id
 };
 
-// Half-axis of the largest droplet, in that of the mean.
+// Half-axis of the largest droplet, relative to the mean.
 const float LARGEST_DROPLET = 2.74; // 1.5 over the root of LEAST_TORN

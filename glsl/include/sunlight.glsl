@@ -1,22 +1,23 @@
-// How much of the sun's light reaches a point: past the host's scene (scene_shadow.glsl), and through water and foam (ours).
-// Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: what scene_shadow.glsl reads, light's thickness, diffuse
-// particles and bubble foam as the sun sees them.
+// Sunlight that reaches a point: past the host's scene (scene_shadow.glsl), and through water and foam (not in the
+// thesis).
+// Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: what scene_shadow.glsl reads, the light's maps of
+// thickness, whitewater particles and bubble foam.
 
 #include "scene_shadow.glsl"
 
-// 1: water and foam take light away.
+// 1: water and foam absorb sunlight.
 layout(constant_id = 12) const uint CAST = 0;
-// 1: so do diffuse particles.
+// 1: whitewater particles absorb it too.
 layout(constant_id = 21) const uint DIFFUSED = 0;
 
 layout(set = 0, binding = 17) uniform sampler2D light_thickness;
-// 1: so does bubble foam.
+// 1: bubble foam absorbs it too.
 layout(constant_id = 23) const uint SOAPED = 0;
 
 layout(set = 0, binding = 24) uniform sampler2D light_diffuse;
 layout(set = 0, binding = 27) uniform sampler2D light_soap;
 
-// Texels of the light's maps round a point, and their weights.
+// The texels of the light maps around a point, and their weights.
 struct LightTexels {
     ivec2 base;
     vec2 f;
@@ -36,18 +37,18 @@ LightTexels light_texels(vec3 eye) {
     return t;
 }
 
-// Metres of water and foam of a texel that lie before a depth: as if each hung together about its mean.
+// Metres of a texel's water and foam that lie before a depth, as if each were contiguous around its mean.
 vec2 before_depth(vec4 thick, float depth) {
     vec2 t = thick.xy;
     vec2 mean = thick.zw / max(t, vec2(1.0e-9));
     return clamp(depth - mean + 0.5 * t, vec2(0.0), t);
 }
 
-// What diffuse particles of a texel cover at a depth: as much as of what they are drawn over, by so many of them as
-// lie before it. Of these no more is known than where their middle is and how far they spread: behind the middle
-// at least 1 - s^2 / (s^2 + x^2) of them (Cantelli), which is all there may be where they lie in two places, as
-// foam on water and spray above it. It is scaled to be all at the end of an even body. A reach behind it begins:
-// foam does not shade itself for what a texel does not tell.
+// Coverage of a texel by the whitewater particles before a depth. Only their mean depth and standard
+// deviation s are known. At a distance x behind the mean at least 1 - s^2 / (s^2 + x^2) of them lie before it
+// (Cantelli's inequality), with equality if they lie at two depths, such as foam on water and spray above it.
+// The bound is scaled to reach 1 at the end of a uniform body. A minimal distance is subtracted, so that foam
+// does not shade itself within what a texel can resolve.
 float covered_by_diffuse(ivec2 texel, float depth) {
     vec3 there = texelFetch(light_diffuse, texel, 0).xyz;
     float reach = 0.5 * frame.particle.y + 1.5 * frame.light_map.y;
@@ -57,7 +58,7 @@ float covered_by_diffuse(ivec2 texel, float depth) {
     return intensity_of(part * there.x);
 }
 
-// Of the sun's light what diffuse particles before a point leave.
+// Sunlight that whitewater particles before a point let through.
 float past_diffuse(LightTexels t) {
     float lost = 0.0;
     for (int i = 0; i < 4; ++i) {
@@ -67,11 +68,11 @@ float past_diffuse(LightTexels t) {
     return t.inside ? 1.0 - lost : 1.0;
 }
 
-// Of the sun's light what blobs of bubble foam before a point leave. It goes some way into them, and through them a
-// little.
+// Sunlight that blobs of bubble foam before a point let through. It penetrates some way into them, and a
+// little passes through.
 float past_soap(LightTexels t) {
     float edge = float(textureSize(light_soap, 0).x);
-    float wide = frame.light_map.y * frame.light_map.x / edge; // of a texel, metres
+    float wide = frame.light_map.y * frame.light_map.x / edge; // width of a texel, metres
     vec2 at = (vec2(t.base) + t.f + 0.5) / frame.light_map.x * edge - 0.5;
     ivec2 base = ivec2(floor(at));
     vec2 f = at - vec2(base);
@@ -88,11 +89,11 @@ float past_soap(LightTexels t) {
     return t.inside ? 1.0 - 0.85 / 9.0 * lost : 1.0;
 }
 
-// Of the sun's light what water and foam before a point leave.
+// Sunlight that water and foam before a point let through.
 vec3 through_fluid(vec3 eye) {
     LightTexels t = light_texels(eye);
     vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
-    // What is lost, not what is kept: where there is nothing it is nothing.
+    // Sums what is lost instead of what is kept, so that it is 0 where there is nothing.
     vec3 lost = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
@@ -105,14 +106,14 @@ vec3 through_fluid(vec3 eye) {
     return SOAPED == 1u ? left * past_soap(t) : left;
 }
 
-// Share of the sun's light at a point of foam, of all colours together: what it is in is foam more than
-// water. Not a mask's part, which is the pixels'.
+// Sunlight at a point of foam, one value for all colours: around it there is more foam than water. Without
+// the mask's part, which is per pixel.
 float sun_in_foam(vec3 eye) {
     float past = SHADOW == 1u ? 1.0 : past_scene(eye, vec2(0.0));
     return CAST == 1u ? past * dot(through_fluid(eye), vec3(1.0 / 3.0)) : past;
 }
 
-// Share of the sun's light at a point of the fluid.
+// Visibility of the sun at a point of the fluid, per colour channel.
 vec3 sunlight(vec3 eye, vec2 pixel) {
     vec3 light = vec3(past_scene(eye, pixel));
     return CAST == 1u ? light * through_fluid(eye) : light;

@@ -1,37 +1,37 @@
 // The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.9.3,
-// Listings A.17, A.18, A.21 and A.23-A.25). Two depths lie on one surface if they differ by the falloff at
-// most; the neighbours of a texel also if one does and the other goes on from it, by a rise that differs from
-// its by the falloff at most (the source's border is by the second difference as well): water seen along its
-// surface is no border.
-// - A texel's slope along an axis is the mean of its rises to those of its two neighbours that are
-//   on its surface. One that lacks any of the four is on the rim.
-// - A pixel sees those of the four texels around it that lie on the surface of its own depth, with
-//   bilinear weights; beyond the image's edge its texels are repeated.
-// - Its depth and slope are their means; in the slope, texels on the rim count for RIM. Where whole
-//   ones are 1/63 of the weight at most, the slope is no steeper than RIM_SLOPE.
-// - Where it sees none it has the slope and the thickness of the texel next to the four, within one and a
-//   half of the pixel, that is nearest to it in depth, at its own depth. If none of those is on its surface
-//   either (nor asked for, at full resolution) it faces the eye, with the thickness of the nearest in depth
-//   of the four.
-// Where the source shades four neighbours at a border and blends their colours, we blend the
-// derivatives of those on the same surface and shade once: the colour of another surface never
-// bleeds in, which shows as dark seams.
+// Listings A.17, A.18, A.21 and A.23-A.25). Two depths belong to one surface if they differ by at most the
+// falloff. Of the neighbours of a texel on an axis, both belong to its surface also if one does and the other
+// continues its slope: the two differences differ by at most the falloff. (The thesis' program tests the
+// second difference as well.) So a surface seen at a grazing angle has no border.
+// - The slope of a texel along an axis is the mean of the differences to its two neighbours on its surface. A
+//   texel that lacks one of its four neighbours is on the rim.
+// - A pixel uses those of the four texels around it that belong to the surface of its own depth, with
+//   bilinear weights. Texels beyond the image's edge repeat it.
+// - Depth and slope of the pixel are the weighted means. In the slope, rim texels have the weight RIM. If
+//   whole texels have at most 1/63 of the weight, the slope is limited to RIM_SLOPE.
+// - If none of the four texels belongs to its surface, the pixel takes slope and thickness of a texel beside
+//   the four (within one and a half of the pixel), the one nearest in depth, and keeps its own depth. If that
+//   is not on its surface either, or at full resolution, the pixel faces the eye and takes the thickness of
+//   that of the four texels that is nearest in depth.
+// The thesis' program shades four neighbours at a border and blends their colours. Here the derivatives on
+// the same surface are blended and shaded once: the colour of another surface never bleeds in, which would
+// show as dark seams.
 // Needs frame.glsl, level.glsl. Reads: smoothed.
 
 struct Surface {
     float z;
     vec2 dz;        // per full-resolution pixel
-    bool widened;   // a texel is of a surface before the pixel's own
-    float found;    // weight of whole texels on the pixel's own surface, 0 to 1
-    float covered;  // weight of all texels on it
-    vec4 weights;   // of the four texels, sum 1
-    ivec2 base;     // the first of them, from the corner of the level
+    bool widened;   // a texel belongs to a surface before the pixel's own
+    float found;    // weight of texels on the pixel's surface with all neighbours, 0 to 1
+    float covered;  // weight of all texels on the pixel's surface
+    vec4 weights;   // of the four texels; their sum is 1
+    ivec2 base;     // the first of the four texels, from the corner of the level
 };
 
 layout(set = 0, binding = 1) uniform sampler2D smoothed;
 
-// Derivatives of four texels along one axis: central, or one-sided where the other side is another
-// surface, or none. `whole` keeps the texels that have both sides.
+// Derivatives of four texels along one axis: central, or one-sided if the other side belongs to another
+// surface, or 0. Clears `whole` for texels that lack a side.
 vec4 differences(vec4 before, vec4 z, vec4 after, float threshold, inout bvec4 whole) {
     vec4 a = z - before;
     vec4 b = after - z;
@@ -49,14 +49,13 @@ float smoothed_at(Level level, ivec2 texel) {
     return inside ? texelFetch(smoothed, level.rect.xy + texel, 0).x : EMPTY;
 }
 
-// Share of a texel on the rim in the slope, where there are others. The last particle of a body
-// of water curves away within a pixel or two: taken at its word it mirrors the horizon, and every
-// outline is beaded with white.
+// Weight of a rim texel in the slope beside whole ones. The last particle of a body of water curves away
+// within a pixel or two; with full weight it would reflect the horizon and bead every outline with white.
 const float RIM = 1.0 / 64.0;
-// Steepest slope, depth per width, of a drop: of what is all rim, or all but 1/63.
+// Steepest slope, depth per width, where whole texels have at most 1/63 of the weight (a drop).
 const float RIM_SLOPE = 1.5;
 
-// front: depth of the pixel's own surface; negative: that of the nearest texel.
+// front: depth of the pixel's own surface; negative: the surface of the nearest texel.
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
     vec2 h = pixel / level.texel.z - 0.5;
@@ -65,8 +64,8 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     ivec2 last = level.rect.zw - 1;
     s.base = base;
 
-    // The four texels in order left-up, right-up, left-down, right-down, with the neighbours of
-    // each on one side. Vectors, not an array: that would live in memory.
+    // The four texels in the order left-up, right-up, left-down, right-down, and the neighbours of each.
+    // Vectors, because an array would live in memory.
     vec2 texel = 1.0 / vec2(levels.atlas.xy);
     ivec2 corner = level.rect.xy + base;
     vec4 upper_left = textureGather(smoothed, vec2(corner) * texel);
@@ -77,7 +76,7 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     bool last_x = base.x + 2 > last.x;
     bool first_y = base.y < 1;
     bool last_y = base.y + 2 > last.y;
-    // A neighbour beyond the image's edge is another surface.
+    // A neighbour beyond the image's edge counts as another surface.
     vec2 row0 = first_y ? vec2(EMPTY) : vec2(upper_left.z, upper_right.w);
     vec4 row1 = vec4(first_x ? EMPTY : upper_left.x, upper_left.y, upper_right.x, last_x ? EMPTY : upper_right.y);
     vec4 row2 = vec4(first_x ? EMPTY : lower_left.w, lower_left.z, lower_right.w, last_x ? EMPTY : lower_right.z);
@@ -87,7 +86,7 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     vec4 right = vec4(row1.zw, row2.zw);
     vec4 up = vec4(row0, row1.yz);
     vec4 down = vec4(row2.yz, row3);
-    // Of the texels that will stand in for those beyond the edge: nothing lies on that side.
+    // For the texels that will replace those beyond the edge: they have no neighbour on that side.
     if (base.x < 0) { left.yw = vec2(EMPTY); }
     if (base.x >= last.x) { right.xz = vec2(EMPTY); }
     if (base.y < 0) { up.zw = vec2(EMPTY); }
@@ -112,7 +111,7 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     s.found = dot(own, vec4(whole));
     s.covered = front < EMPTY ? sum : 0.0;
     if (lost) {
-        // At full resolution three have no weight, all on one side of the pixel: none of them.
+        // At full resolution three texels have weight 0, on one side of the pixel: exclude them.
         off = mix(off, vec4(2.0 * EMPTY), equal(w, vec4(0.0)));
         float least = min(min(off.x, off.y), min(off.z, off.w));
         own = off.x == least ? vec4(1, 0, 0, 0) : off.y == least ? vec4(0, 1, 0, 0)
@@ -123,19 +122,20 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     s.z = lost ? front : dot(s.weights, z);
     vec4 slopes = s.weights * trust;
     float trusted = slopes.x + slopes.y + slopes.z + slopes.w;
-    // An edge is a power of two: this rounds nothing.
+    // The texel size is a power of two, so this does not round.
     s.dz = lost ? vec2(0.0) : vec2(dot(slopes, dx), dot(slopes, dy)) / (trusted * level.texel.z);
     vec2 steepest = frame.texel.xy * s.z * RIM_SLOPE;
-    // That is, whole texels weigh more than 1/63.
+    // The condition means that whole texels weigh more than 1/63.
     s.dz = trusted > 2.0 * RIM ? s.dz : clamp(s.dz, -steepest, steepest);
 
-    // The two above or below the four and the two on a side, whichever the pixel is nearer to.
+    // The two texels above or below the four, and the two at their left or right, whichever side the pixel is
+    // nearer to.
     bvec2 after = greaterThan(f, vec2(0.5));
     vec4 beside = vec4(after.y ? row3 : row0, after.x ? vec2(row1.w, row2.w) : vec2(row1.x, row2.x));
     bvec4 outside = bvec4(base.x < 0, base.x >= last.x, base.y < 0, base.y >= last.y);
     vec4 miss = mix(abs(beside - front), vec4(2.0 * EMPTY), outside);
     float least = min(min(miss.x, miss.y), min(miss.z, miss.w));
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool found = lost && least <= threshold && level.texel.z > 1.0;
     while (found) {
         ivec2 next = mix(ivec2(-1), ivec2(2), after);
@@ -153,14 +153,14 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     return s;
 }
 
-// Eye-space steps of the surface from pixel to pixel.
+// Eye-space vectors of the surface from a pixel to the next.
 void surface_tangents(Surface s, vec2 slope, out vec3 px, out vec3 py) {
     vec2 slope_step = frame.slope.xy;
     px = vec3(slope_step.x * s.z + slope.x * s.dz.x, slope.y * s.dz.x, -s.dz.x);
     py = vec3(slope.x * s.dz.y, slope_step.y * s.z + slope.y * s.dz.y, -s.dz.y);
 }
 
-// Eye-space position and normal (towards the eye).
+// Position and normal (towards the eye) in eye space.
 void surface_frame(Surface s, vec2 slope, out vec3 position, out vec3 normal) {
     position = vec3(slope, -1.0) * s.z;
     vec3 px;

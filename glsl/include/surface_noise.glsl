@@ -4,7 +4,7 @@
 // Parts of 1 that sums are counted in: floats hold them exactly up to 256, in any order.
 const float NOISE_PARTS = 65536.0;
 
-// A Gaussian that ends smoothly, in its slope too, which shades.
+// A Gaussian that ends smoothly, also in its slope, which is used for shading.
 float noise_kernel(float rho2) {
     float left = max(1.0 - rho2, 0.0);
     return left * left * exp(-2.0 * rho2);

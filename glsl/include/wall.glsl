@@ -1,17 +1,16 @@
-// The film between two bubbles that meet: part of a sphere through their common circle, whose tangent there halves the
-// angle between the two (Huszar, Szecsi, Sec. 3.2, whose print has lost its roots and squares). Where films meet at 120
-// degrees it is Laplace's: 1/r = 1/r_B - 1/r_A. Needs nothing.
-//
-// As a curvature and an apex, not a centre: of equal bubbles it is a plane, and nearly equal ones would have a sphere
-// larger than the digits are good for.
+// The film between two touching bubbles: part of a sphere through their common circle, whose tangent there bisects the
+// angle between the two (Huszar, Szecsi, Sec. 3.2, whose print lacks its roots and squares). Where films meet at 120
+// degrees it obeys Laplace: 1/r = 1/r_B - 1/r_A. Needs nothing.
+// Stored as curvature and apex, not as a centre: between equal bubbles it is a plane, and between nearly equal ones
+// the sphere exceeds single precision.
 
 struct Wall {
     vec3 apex;
     vec3 axis;       // unit, from the larger bubble to the smaller
-    float curvature; // 0 of a plane; the middle lies ahead on the axis
+    float curvature; // 0 for a plane; the centre lies ahead on the axis
 };
 
-// Bubbles as centre and radius. They intersect: neither holds the other.
+// The wall between two bubbles (centre, radius). They intersect, and neither contains the other.
 Wall wall_between(vec4 a, vec4 b) {
     if (a.w < b.w) {
         vec4 other = a;
@@ -20,7 +19,7 @@ Wall wall_between(vec4 a, vec4 b) {
     }
     vec3 apart = b.xyz - a.xyz;
     float square = dot(apart, apart);
-    // Of half the angle between the radii to their circle.
+    // Sine of half the angle between the radii to the circle of intersection.
     float sine = sqrt(max(0.5 - (a.w * a.w + b.w * b.w - square) / (4.0 * a.w * b.w), 1.0e-12));
     Wall wall;
     wall.axis = apart * inversesqrt(square);
@@ -36,11 +35,11 @@ bool wall_inside(vec3 point, vec4 ball) {
     return dot(q, q) <= ball.w * ball.w;
 }
 
-// How far along a ray of unit direction its cap inside both bubbles lies, less than 0: nowhere ahead of `from`.
+// Position on a ray (unit direction) of the wall's cap inside both bubbles; less than 0: none after `from`.
 float wall_hit(Wall wall, vec4 a, vec4 b, vec3 origin, vec3 direction, float from) {
     vec3 q = origin - wall.apex;
     float k = wall.curvature;
-    // k t^2 + 2 h t + c = 0, by roots that lose no digits where k is 0.
+    // k t^2 + 2 h t + c = 0, with roots that stay precise where k is 0.
     float h = k * dot(q, direction) - dot(direction, wall.axis);
     float c = k * dot(q, q) - 2.0 * dot(q, wall.axis);
     float under = h * h - k * c;
@@ -60,7 +59,7 @@ float wall_hit(Wall wall, vec4 a, vec4 b, vec3 origin, vec3 direction, float fro
     return -1.0;
 }
 
-// Unit normal of the wall at one of its points, ahead on the axis.
+// Unit normal of the wall at one of its points, on the side of the axis.
 vec3 wall_normal(Wall wall, vec3 point) {
     return normalize(wall.axis - wall.curvature * (point - wall.apex));
 }

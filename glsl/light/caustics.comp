@@ -1,7 +1,7 @@
 #version 460
-// Pass `caustics`: light refracted by the water, from each texel of the light's map to where it leaves
-// the water again, which is mostly the ground (caustics mapping, Shah et al. 2007, without its mesh). No light comes from where
-// the host's scene shades the water: through its side at a wall it would be thrown along the bed.
+// Pass `caustics`: refracts the light of each texel of the light map to where it leaves the water again, usually the
+// ground (caustics mapping, Shah et al. 2007, without its mesh). Where the host's scene shadows the water there is no
+// light: it would enter through the water's side at a wall and be thrown along the bed.
 // Reads: smoothed front, thickness, shadow map or its basis and span. Writes: photons, fixed point, summed.
 
 #include "frame.glsl"
@@ -14,17 +14,17 @@ layout(set = 0, binding = 1) uniform sampler2D smoothed;
 layout(set = 0, binding = 2) uniform sampler2D thickness;
 layout(set = 0, binding = 3, std430) buffer Photons { uint photons[]; };
 
-// Parts of a texel's light.
+// Fixed-point steps per texel's light.
 const float UNITS = 4096.0;
-// Of water over that of air.
+// Refractive index of water relative to air.
 const float INDEX = 1.333;
-// Half the width over which the surface's slope is taken, over the depth of the water, and the most texels of it. Waves
-// shorter than that focus far above the bed: on it their light is nearly even again, and the ripples that particles do not
-// resolve spread the rest.
+// Half the width over which the surface's slope is measured, relative to the water's depth, and its limit in
+// texels. Shorter waves focus far above the bed: on the bed their light is nearly uniform again, and ripples that
+// particles do not resolve spread the rest.
 const float SOFT = 1.0 / 16.0;
 const int MOST_SOFT = 8;
 
-// Eye space of a place in the maps at a depth: the rows of the matrix are at right angles.
+// Eye-space position of a point of the maps at a depth. The rows of the matrix are orthogonal.
 vec3 eye_at(vec2 place, float depth) {
     mat4 rows = transpose(frame.to_light);
     vec3 off = vec3(place, depth) - vec3(rows[0].w, rows[1].w, rows[2].w);
@@ -47,7 +47,7 @@ void main() {
     if (here >= EMPTY) {
         return;
     }
-    // The light goes along +z here.
+    // In these axes the light goes along +z.
     vec2 deep = texelFetch(thickness, texel, 0).xy;
     int reach = clamp(int(SOFT * deep.x / frame.light_map.y + 0.5), 1, MOST_SOFT);
     ivec2 aside = ivec2(reach, 0);
@@ -55,11 +55,11 @@ void main() {
                      front_at(texel + aside.yx, here) - front_at(texel - aside.yx, here))
               / (2.0 * float(reach) * frame.light_map.y);
     vec3 bent = refract(vec3(0.0, 0.0, 1.0), normalize(vec3(rise, -1.0)), 1.0 / INDEX);
-    // Drops and thin sheets are no lenses: what they gather is spread again before it lands. Foam
-    // scatters it.
+    // Drops and thin sheets do not act as lenses: the light that they focus diverges again before it arrives.
+    // Foam scatters it.
     float lens = deep.x * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep.x)
                * exp(-4.0 * frame.shade.w * deep.y);
-    // A mask is the picture's.
+    // Without a mask, which is per pixel of the picture.
     float sun = SHADOW > 1u ? past_scene(eye_at((vec2(texel) + 0.5) / float(size), here), vec2(0.0)) : 1.0;
     vec2 at = vec2(texel) + bent.xy / max(bent.z, 0.2) * (lens / frame.light_map.y);
     ivec2 base = ivec2(floor(at));

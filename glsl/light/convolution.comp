@@ -19,7 +19,7 @@ void main() {
     if (any(greaterThanEqual(texel, ivec2(frame.shadow_basis.xy)))) {
         return;
     }
-    // The last block of a row or a column may have fewer texels.
+    // The last block of a row or column may have fewer texels.
     int edge = int(frame.shadow_basis.z);
     ivec2 first = texel * edge;
     ivec2 end = min(first + edge, ivec2(frame.shadow_rect.zw));

@@ -8,7 +8,7 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(set = 0, binding = 1) uniform sampler2D across;
-// Its format is the configuration's.
+// The format depends on the configuration.
 layout(set = 0, binding = 2) uniform writeonly image2D basis;
 
 layout(push_constant, std430) uniform Push { int page; } push;

@@ -20,7 +20,7 @@ void main() {
         ivec2 texel = first + 8 * ivec2(i & 15, i >> 4);
         if (all(lessThan(texel, size))) {
             float depth = texelFetch(shadow_map, texel + ivec2(frame.shadow_rect.xy), 0).x;
-            // Bits of positive numbers are in their order.
+            // Bits of positive floats have their order.
             uint bits = floatBitsToUint(clamp(depth, 0.0, 1.0));
             least = is_open(depth) ? least : min(least, bits);
             most = is_open(depth) ? most : max(most, bits);

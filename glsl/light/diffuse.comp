@@ -1,7 +1,7 @@
 #version 460
-// Pass `diffuse`: the thickness of diffuse particles as the sun sees them, and where along its light it lies; as
-// Akinci et al. 2013, Sec. 2.2, for the eye. That they cast shadows is their future work. An invocation a particle,
-// all of a group the large ones.
+// Pass `diffuse`: thickness of whitewater as the sun sees it, and its position along the light; splatted as Akinci et
+// al. 2013, Sec. 2.2, do for the camera. Shadows of whitewater are their future work. One invocation per particle, a
+// whole group for large ones.
 // Reads: positions, kinds, radii, ages, ids, hand-over, front, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
@@ -27,7 +27,7 @@ layout(push_constant, std430) uniform Push {
     uint id_stride;
     uint chunk_first;
     uint chunk;
-    int first; // rows of the map whose words are bound
+    int first; // first row of the map whose words are bound
     int last;
 } push;
 
@@ -35,15 +35,15 @@ layout(push_constant, std430) uniform Push {
 
 layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// Where the light meets water first.
+// Depth at which the light first meets water.
 layout(set = 0, binding = 8) uniform sampler2D front;
 
 // A particle as the sun sees it.
 struct Sprite {
     Diffuse p;
     Footprint f;
-    float depth; // of its middle, metres along the light
-    uint place;  // of its far end, texels along the light
+    float depth; // depth of its centre, metres along the light
+    uint place;  // position of its far end, texels along the light
 };
 
 Sprite sprite_at(uint i) {
@@ -54,12 +54,12 @@ Sprite sprite_at(uint i) {
     float texel = frame.light_map.y;
     s.depth = seen.z;
     s.f = footprint_at(seen.xy * frame.light_map.x, vec2(s.p.radius / texel), s.p.kind);
-    // Its far end: a particle, however large, does not shade itself. What is nearer to the sun than the region
-    // shades all of it; what is behind it nothing there.
+    // The far end, so that a particle of any size does not shade itself. A particle between the sun and the
+    // region shades all of it; one behind the region shades nothing.
     float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
-    // The sun sees what is behind the eye too.
+    // Particles behind the eye cast shadows too.
     bool there = world.w < 1.0 && all(lessThan(abs(s.p.centre), vec3(EMPTY))) && place < frame.light_map.x;
-    // What of it is a blob casts as one.
+    // The part of it that is a blob casts as a blob.
     float kept = 1.0;
     for (bool handed = frame.diffuse.z > 0.0 && may_be_blob(s.p, length(s.p.centre)); handed; handed = false) {
         kept = kept_of(s.p);
@@ -69,8 +69,8 @@ Sprite sprite_at(uint i) {
     return s;
 }
 
-// All in one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not
-// they have something to add. What comes to a sum that is full is taken out again.
+// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether
+// or not they add anything. What would go to a sum that is full is taken out again.
 void add(uint at, uint steps, uint place) {
     uint high, low;
     umulExtended(steps * place, place, high, low);
@@ -94,7 +94,7 @@ void splat(ivec2 texel, Sprite s) {
         return;
     }
     float amount = diffuse_amount(s.p, s.f, rr);
-    // What is not shown behind the water's surface does not cast either.
+    // What is not drawn behind the water's surface casts no shadow either.
     if (SHAPED == 1u && frame.diffuse.w > 0.0) {
         float depth = s.depth - sqrt(1.0 - rr) * s.p.radius;
         amount = diffuse_shares(amount, depth, texelFetch(front, texel, 0).x).x;
@@ -109,14 +109,14 @@ ivec4 inside(ivec4 box) {
     return ivec4(max(box.xy, ivec2(0, push.first)), min(box.zw, ivec2(int(frame.light_map.x) - 1, push.last)));
 }
 
-// Whether a sphere of particles' middles may shade any of the rows.
+// Whether a particle with its centre in this sphere may shade any of the rows.
 bool shows(vec3 middle, float reach) {
     vec3 seen = (frame.to_light * (frame.view * vec4(middle, 1.0))).xyz;
-    // The largest of its own accord, and the widest that what is less than a texel is made.
+    // The largest radius of a particle, plus the widest to which smaller ones are enlarged.
     float texel = frame.light_map.y;
     float wider = (reach + frame.diffuse.x) / texel + LEAST_REACH;
     vec2 at = seen.xy * frame.light_map.x;
-    // What lies behind the region shades nothing there.
+    // Particles behind the region shade nothing in it.
     bool before = (seen.z - reach) / texel + 0.5 * frame.light_map.x < frame.light_map.x + 1.0;
     return before && all(greaterThan(at + wider, vec2(0, push.first)))
         && all(lessThan(at - wider, vec2(frame.light_map.x, push.last + 1)));

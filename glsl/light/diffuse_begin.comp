@@ -1,14 +1,14 @@
 #version 460
-// Pass `diffuse`, first part: the dispatches that the particles need. Not in the source.
+// Pass `diffuse`, first part: the dispatches that the particles need. Not in the paper.
 // Reads: count. Writes: arguments.
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 1, std430) readonly buffer Count { uint count; };
-// Groups of each chunk, and its particles.
+// For each chunk its workgroups and its number of particles.
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
-    uint count;      // from the host, or the most there may be
+    uint count;      // number from the host, or the capacity
     uint from_gpu;
     uint chunks;
     uint chunk_size;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `diffuse`, last part: sums to how much there is of each texel, where its middle lies and how far about that
-// it spreads; all a little softened, the sun is no point. (diffuse.comp names the source.)
+// Pass `diffuse`, last part: sums to the thickness of each texel, its mean position and its spread; slightly blurred,
+// because the sun is no point. (Source: see diffuse.comp.)
 // Reads: words. Writes: diffuse (RGBA16F).
 
 #include "frame.glsl"
@@ -14,7 +14,7 @@ layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D diffuse;
 layout(push_constant, std430) uniform Push {
     int first; // row of the map
     int last;
-    int bound; // row that the words begin with
+    int bound; // row of the first word
 } push;
 
 // Numbers of 64 bits.
@@ -38,12 +38,12 @@ uvec2 times(uvec2 a, uint b) {
 
 struct Moments {
     float sum;    // in steps
-    int about;    // texels along the light
-    float mean;   // beyond that
-    float square; // mean square of what is off `about`
+    int about;    // an integer number of texels along the light
+    float mean;   // mean offset from `about`
+    float square; // mean square of the offset from `about`
 };
 
-// Of what is added up the moments about a whole number near its middle: all but the last quotients is exact.
+// Moments about an integer near the mean. All but the final quotients is exact.
 Moments moments_of(uvec4 w) {
     Moments m;
     m.sum = float(w.x);
@@ -54,7 +54,7 @@ Moments moments_of(uvec4 w) {
     uvec2 square = minus(second, times(first, 2u * about));
     square = plus(square, times(uvec2(w.x, 0u), about * about));
     m.about = int(about);
-    // Less than the sum itself either way: its low word is all of it.
+    // Its magnitude is below the sum, so the low word is all of it.
     m.mean = float(int(off.x)) / m.sum;
     m.square = (float(square.y) * 4294967296.0 + float(square.x)) / m.sum;
     return m;

@@ -1,6 +1,6 @@
 #version 460
 // Pass `light`: where the sun's light meets water or foam first, metres along it. MIN blending keeps
-// the nearest. Not in the source. Reads: sprites.vert's discs. Writes: front (R32F).
+// the nearest. Not in the thesis. Reads: sprites.vert's discs. Writes: front (R32F).
 
 #include "frame.glsl"
 

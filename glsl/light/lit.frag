@@ -1,6 +1,6 @@
 #version 460
-// Pass `lit`: the scene under the shadows and caustics of water and foam (lit.glsl; caustics are
-// the source's future work, thesis Sec. 6.2).
+// Pass `lit`: the scene with the shadows and caustics of water and foam (lit.glsl; caustics are the thesis' future
+// work, Sec. 6.2).
 // Reads: scene colour and depth, the light's maps. Writes: lit scene, all of it.
 
 #include "frame.glsl"

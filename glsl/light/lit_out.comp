@@ -1,5 +1,5 @@
 #version 460
-// Pass `lit`, last part, compute: the lit scene to the output, before the fluid is laid over it.
+// Pass `lit`, last part, compute: copies the lit scene to the output, before the fluid is composited over it.
 // Reads: lit scene. Writes: output.
 
 #include "frame.glsl"
@@ -7,7 +7,7 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(set = 0, binding = 1) uniform sampler2D lit;
-// Its format is the host's choice: written without being told.
+// The format is the host's choice: written without a format qualifier.
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 
 void main() {

@@ -1,5 +1,5 @@
 #version 460
-// Pass `lit`, last part: the lit scene to the output, before the fluid is laid over it.
+// Pass `lit`, last part: copies the lit scene to the output, before the fluid is composited over it.
 // Reads: lit scene. Writes: output.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `caustics`, first part: the front that the light meets, smoothed along one axis by a Gaussian
-// over what is on the same surface. Ours. Reads: front, or the first axis' result. Writes: smoothed.
+// Pass `caustics`, first part: smooths the front surface of the light map along one axis, by a Gaussian over texels on
+// the same surface. Not in the paper. Reads: front, or the first axis' result. Writes: smoothed.
 
 #include "frame.glsl"
 

@@ -1,7 +1,6 @@
 #version 460
-// Pass `light`: a quad round each particle as the sun sees it, straight from the host's streams. Not in
-// the source.
-// Reads: positions, densities, foam, members. Writes: the disc's corners, place, size and heights.
+// Pass `light`: a quad around each particle as the sun sees it, directly from the host's streams. Not in the thesis.
+// Reads: positions, densities, foam, members. Writes: the disc's corners, position, size and heights.
 
 #include "frame.glsl"
 #include "density.glsl"
@@ -22,17 +21,17 @@ layout(push_constant, std430) uniform Push {
     uint foam_word;
     uint foam_stride;     // 0: no foam
     uint front;           // 1: as spheres, 0: as thickness sprites
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 4
 #include "members.glsl"
 
-layout(location = 0) flat out vec2 centre; // in texels
+layout(location = 0) flat out vec2 centre; // texels
 layout(location = 1) flat out float depth; // metres along the light
 layout(location = 2) flat out float axis;  // half-axis, metres
-layout(location = 3) flat out vec2 amount; // height of its water and of its foam
-layout(location = 4) flat out uint chance; // that they are rounded up by
+layout(location = 3) flat out vec2 amount; // thickness of its water and of its foam
+layout(location = 4) flat out uint chance; // for stochastic rounding
 
 void main() {
     uint index = gl_InstanceIndex;
@@ -42,7 +41,7 @@ void main() {
     float spray_share = 0.0;
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + index * push.density_stride];
-        // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
+        // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
         if (density > 0.0) {
             bulk_share = density < frame.density.x ? 0.0 : 0.5 + 0.5 * bulk(density);
             spray_share = share_of_spray(density);
@@ -53,22 +52,22 @@ void main() {
         float share = amounts[push.foam_word + index * push.foam_stride];
         foam = share > 0.0 ? min(share, 1.0) : 0.0;
     }
-    // Spray is thin: half of what foam would be.
+    // Spray is thin: it counts half as much as foam.
     vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + 0.5 * spray_share * (1.0 - bulk_share * foam));
-    // No ids are read for it: by its place, whatever the order.
+    // Random numbers come from the position, so they need no ids and do not depend on the order.
     uvec3 bits = floatBitsToUint(position);
     chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     vec3 seen = (frame.to_light * (frame.view * vec4(position, 1.0))).xyz;
     float texel = frame.light_map.y;
     float radius = frame.particle.x * max(bulk_share, 0.5);
-    // No narrower than a texel: it must not fall between them.
+    // At least one texel wide, so that it does not fall between texels.
     axis = max(push.front == 1u ? radius : frame.particle.z, texel);
     depth = seen.z;
-    // As on the screen: the integral over the map is the volume.
+    // As on the screen, the integral over the map is the volume.
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     amount = shares * volume / (axis * axis);
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // A texel more, so that snapping does not cut it.
+    // One texel wider, so that snapping does not cut it.
     centre = seen.xy * frame.light_map.x;
     vec2 ndc = (centre + side * (axis / texel + 1.0)) / frame.light_map.x * 2.0 - 1.0;
     bool there = is_member(index) && shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));

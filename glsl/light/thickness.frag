@@ -1,6 +1,6 @@
 #version 460
-// Pass `light`: metres of water and of foam along the sun's light, and both times how far along it they
-// lie: thickness as the eye's (thesis Sec. 3.2.2, kernel.glsl), from the sun, which is ours.
+// Pass `light`: metres of water and of foam along the sunlight, and both times their position along it: thickness as
+// for the camera (thesis Sec. 3.2.2, kernel.glsl), seen from the sun, which the thesis does not do.
 // Reads: sprites.vert's discs. Writes: thickness (RGBA32F), summed.
 
 #include "frame.glsl"
@@ -22,10 +22,10 @@ void main() {
     if (rho2 > 1.0) {
         discard;
     }
-    // Whole steps: their sums are exact, in any order.
+    // In whole steps, whose sums are exact in any order.
     float step = frame.foam_back.w;
     float up = rounding_up(chance, ivec2(gl_FragCoord.xy));
     vec2 height = floor(amount * (thickness_kernel(rho2) / step) + up) * step;
-    // Of places in quarters of a spacing, a power of two again: products and sums are exact too.
+    // Depths in quarters of a spacing, also a power of two, so products and sums are exact too.
     thickness = vec4(height, height * (floor(depth / (512.0 * step) + 0.5) * (512.0 * step)));
 }

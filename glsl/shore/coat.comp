@@ -1,6 +1,6 @@
 #version 460
-// Pass `composite`, compute: foam on the scene's water, a run of tiles of 8x8 pixels a group, where the particles' is not:
-// that is stored over it.
+// Pass `composite`, compute: foam on the scene's water, one group per run of 8x8 tiles. Particle water is stored over
+// it afterwards.
 // Reads: list, scene colour, shoreline and contact foam. Writes: output.
 
 #include "frame.glsl"
@@ -9,13 +9,13 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Its format is the host's choice: written without being told.
+// The format is the host's choice: written without a format qualifier.
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 layout(set = 0, binding = 32, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 33, std430) readonly buffer Arguments { uint arguments[24]; };
 layout(push_constant, std430) uniform Push {
     uint across; // tiles
-    uint first;  // of the list
+    uint first;  // index in the list
 } push;
 
 void main() {

@@ -1,14 +1,14 @@
 #version 460
-// Pass `composite`, raster: foam on the scene's water, where the particles' is not: that draws over it.
+// Pass `composite`, raster: foam on the scene's water. Particle water is drawn over it afterwards.
 // Reads: shoreline and contact foam; scene colour, where the output cannot be blended with. Writes: output.
 
 #include "frame.glsl"
 #include "scene_color.glsl"
 
-// 1: alpha is how much of the output stays, which is the scene's colour.
+// 1: blended onto the output, which holds the scene's colour; alpha is the fraction of it that stays.
 layout(constant_id = 0) const uint BLENDED = 1;
 
-// Not from the block: a CPU's driver reads that for each pixel by itself.
+// An input instead of the uniform block, which a CPU driver reads anew for each pixel.
 layout(location = 0) flat in CoatLight light;
 layout(location = 4) flat in vec2 target;
 
@@ -18,7 +18,7 @@ void main() {
     vec2 pixel = gl_FragCoord.xy - target;
     vec4 coat = texelFetch(shore_foam, ivec2(pixel), 0);
     if (BLENDED == 1u) {
-        // Where there is none all of the output stays.
+        // Without foam all of the output stays.
         color = vec4(coated(vec3(0.0), coat, light), uncovered(coat, light));
     } else {
         if (coat.x + coat.y == 0.0) {

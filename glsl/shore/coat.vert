@@ -1,6 +1,6 @@
 #version 460
-// Pass `composite`, raster: a quad a run of tiles that have foam on the scene's water.
-// Reads: list. Writes: its corners, what is the same in all of it.
+// Pass `composite`, raster: one quad per run of tiles with foam on the scene's water.
+// Reads: list. Writes: its corners, values that are constant over it.
 
 #include "frame.glsl"
 #include "coat_light.glsl"
@@ -9,7 +9,7 @@
 layout(set = 0, binding = 32, std430) readonly buffer List { uint list[]; };
 layout(push_constant, std430) uniform Push {
     uint across; // tiles
-    uint first;  // of the list
+    uint first;  // index in the list
 } push;
 
 layout(location = 0) flat out CoatLight light;

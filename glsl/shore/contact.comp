@@ -1,7 +1,7 @@
 #version 460
-// Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam), whose surface is the smoothed one.
-// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, of the pixels that have some. What of the
-// sun's light comes there `composite` finds: the host's surface behind may have another light.
+// Pass `contact`: foam on the particles' water around objects (Lettier, Foam), on the smoothed surface.
+// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, of the pixels that have some.
+// `composite` evaluates its sunlight: the host's surface behind may be lit differently.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -10,7 +10,7 @@
 #include "shoreline.glsl"
 #include "contact.glsl"
 
-// Four tiles a group.
+// Four tiles per workgroup.
 layout(local_size_x = 256) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D depth;
@@ -30,7 +30,7 @@ void main() {
     vec2 pixel = vec2(texel) + 0.5;
     float scene = scene_of(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
-    // The smoothed surface is off by less than the border's threshold.
+    // The smoothed surface differs by less than the border's threshold.
     float near = contact_distance(ray, front + frame.surface.w, scene) * shore.contact.y;
     bool go = front < EMPTY && scene > 0.0 && near < 1.0;
     for (; go; go = false) {

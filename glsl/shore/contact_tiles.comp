@@ -1,5 +1,5 @@
 #version 460
-// Pass `contact`: the tiles of 8x8 pixels that may have foam on the particles' water.
+// Pass `contact`: lists the 8x8 tiles that may contain foam on the particles' water.
 // Reads: depth, scene depth. Writes: list of tiles, the dispatch over it.
 
 #include "frame.glsl"
@@ -20,8 +20,8 @@ void main() {
     }
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
     vec2 own = 1.0 / vec2(textureSize(depth, 0));
-    // How far behind the water's front what stands in it is at the least, as the smoothed surface is off by less than the
-    // border's threshold.
+    // Least distance behind the water's front of an object in it, since the smoothed surface differs by less than
+    // the border's threshold.
     vec4 least = vec4(EMPTY);
     for (int i = 0; i < FOURS; ++i) {
         vec2 four = four_of(first, i);
@@ -31,7 +31,7 @@ void main() {
         least = min(least, mix(vec4(EMPTY), scene - front, both));
     }
     float near = min(min(least.x, least.y), min(least.z, least.w)) - frame.surface.w;
-    // With some to spare for rounding: what has foam is asked again.
+    // With a margin for rounding: pixels are tested again.
     if (all(lessThan(first, frame.extent.xy)) && near * part * shore.contact.y < 1.0 + 1.0e-4) {
         adds(5u);
     }

@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, distances: from each texel to a piece of the shore line a texel long about its seed, below 0 in the water.
+// Pass `map`, distances: from each texel to a shore-line segment one texel long at its seed, negative in the water.
 // Reads: seeds, heights. Writes: distances.
 
 #include "shore_map.glsl"
@@ -9,9 +9,9 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 1, std430) readonly buffer Seeds { uint seeds[]; };
 layout(set = 0, binding = 2, r32f) uniform writeonly image2D distances;
 
-// Gradient of the height about a place, of the four texels round it.
+// Gradient of the height at a point, from the four texels around.
 vec2 rise_at(vec2 place) {
-    // Four that are all of the map.
+    // Keep all four texels inside the map.
     ivec2 base = clamp(ivec2(floor(place - 0.5)), ivec2(0), ivec2(push.size - 2));
     vec2 f = place - 0.5 - vec2(base);
     vec4 h = vec4(height_at(base), height_at(base + ivec2(1, 0)), height_at(base + ivec2(0, 1)), height_at(base + 1));
@@ -25,7 +25,7 @@ void main() {
     }
     uint seed = seeds[texel.y * push.size + texel.x];
     bool land = height_at(texel) > 0.0;
-    // Farther than any that is asked for.
+    // Farther than any distance that is used.
     float distance = 2.0 * float(push.size);
     if (seed != NONE) {
         vec2 to = place_of(seed) - vec2(texel) - 0.5;

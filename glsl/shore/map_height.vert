@@ -1,21 +1,21 @@
 #version 460
-// Pass `map`, heights: a mesh of the host's from above; the highest of each texel is kept.
-// Reads: the host's vertices. Writes: places in the map, heights as depths.
+// Pass `map`, heights: a host mesh from above; the highest point of each texel is kept.
+// Reads: the host's vertices. Writes: positions in the map, heights as depths.
 
 layout(set = 0, binding = 0, std430) readonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Indices { uint indices[]; };
 layout(push_constant, std430) uniform Push {
-    vec4 east;   // mesh's space -> the map, -1 to 1
+    vec4 east;   // mesh space to map, -1 to 1
     vec4 north;
-    vec4 height; // -> depth, 0 to 1
+    vec4 height; // to depth, 0 to 1
     uint position_word;
     uint position_stride;
     uint index_word;
-    uint index_stride; // 0: none, vertices in their order
+    uint index_stride; // 0: no indices, vertices in their order
     uint vertices;
 } push;
 
-// Vertex of a corner of the triangles; as many as there are where it is none.
+// Vertex index of a triangle's corner; the number of vertices if the index is invalid.
 uint vertex_of(uint corner) {
     uint i = push.index_stride > 0u ? indices[push.index_word + corner * push.index_stride] : corner;
     return min(i, push.vertices);
@@ -28,7 +28,8 @@ vec4 vertex_at(uint i) {
 
 void main() {
     uint own = uint(gl_VertexIndex);
-    // A triangle is whole or is none: one of its corners moved away would leave a part of another.
+    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw another
+    // triangle.
     bool there = true;
     vec4 vertex = vec4(0.0);
     for (uint k = 0u; k < 3u; ++k) {
@@ -39,7 +40,7 @@ void main() {
         there = there && known && all(lessThan(abs(other), vec4(1.0e18)));
         vertex = corner == own ? other : vertex;
     }
-    // What is higher or lower than the range is as high as that: an island's peak is land.
+    // Heights are clamped to the range: an island's peak stays land.
     vec3 place = vec3(dot(push.east, vertex), dot(push.north, vertex), clamp(dot(push.height, vertex), 0.0, 1.0));
     gl_Position = there ? vec4(place, 1.0) : vec4(0.0, 0.0, -1.0, 1.0);
 }

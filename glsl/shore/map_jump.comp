@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, a jump: of nine texels so far apart the nearest seed (Rong, Tan 2006).
+// Pass `map`, one jump: the nearest seed of nine texels at this jump's distance (Rong, Tan 2006).
 // Reads: seeds. Writes: the others.
 
 #include "shore_map.glsl"
@@ -23,7 +23,7 @@ void main() {
         uint seed = inside ? before[at.y * push.size + at.x] : NONE;
         vec2 to = place_of(seed) - own;
         float square = seed == NONE ? 1.0e29 : dot(to, to);
-        // Of two as near the lesser: the order of the nine is no matter.
+        // Of two equally near seeds the lesser one, so that the order of the nine does not matter.
         bool better = square < nearest || square == nearest && seed < best;
         best = better ? seed : best;
         nearest = better ? square : nearest;

@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, seeds: where the shore line crosses the lines from a texel to its four neighbours, the nearest of these.
+// Pass `map`, seeds: nearest crossing of the shore line with the lines from a texel to its four neighbours.
 // Reads: heights. Writes: seeds.
 
 #include "shore_map.glsl"
@@ -19,7 +19,7 @@ void main() {
     for (int i = 0; i < 4; ++i) {
         ivec2 to = (i < 2 ? ivec2(1, 0) : ivec2(0, 1)) * (1 - 2 * (i & 1));
         float other = height_at(texel + to);
-        // Land is above the water.
+        // Positive heights are land.
         if ((own > 0.0) != (other > 0.0)) {
             float part = own / (own - other);
             vec2 place = vec2(texel) + 0.5 + part * vec2(to);

@@ -1,7 +1,7 @@
 #version 460
-// Pass `shoreline`, last part: the tiles of 8x8 pixels that have foam on the host's surface as runs along their rows, for
-// `composite`: to set up a quad a run costs much less than a quad a tile. An invocation has as many tiles of a row as a run
-// may be long.
+// Pass `shoreline`, last part: merges the 8x8 tiles with foam on the host's surface to runs along their rows, for
+// `composite`: a quad per run costs much less set-up than one per tile. One invocation per stretch of a row as long as
+// the longest run.
 // Reads: marks. Writes: list of runs, arguments.
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,7 +16,7 @@ void main() {
     uint first = gl_GlobalInvocationID.y * push.across + x;
     uint foams = 0u;
     for (uint i = 0u; i < LONGEST; ++i) {
-        // Beyond the frame's last row none is marked.
+        // Beyond the frame's last row no tile is marked.
         if (x + i < push.across && first + i < push.most && marks[first + i] != 0u) {
             foams |= 1u << i;
         }

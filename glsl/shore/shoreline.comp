@@ -1,9 +1,9 @@
 #version 460
-// Pass `shoreline`: foam on the host's water surface: along shores by the map of distances or the bottom's slope (blog),
-// and round what stands in it (Lettier, Foam).
-// Not in the sources: no mesh; what a pixel covers of the foam, where they clip.
-// Reads: lists of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes: shoreline
-// foam, contact foam, what of the sun's light does not come there.
+// Pass `shoreline`: foam on the host's water surface: along shores by the distance map or the ground's slope (blog),
+// and around objects (Lettier, Foam).
+// Differs from both: no mesh; fractional coverage of a pixel, where they clip.
+// Reads: lists of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes:
+// shoreline foam, contact foam, missing sunlight.
 
 #extension GL_EXT_control_flow_attributes : require
 #include "frame.glsl"
@@ -14,7 +14,7 @@
 #include "intensity.glsl"
 #include "sunlight.glsl"
 
-// Four tiles a group, two by two pixels an invocation.
+// Four tiles per workgroup, 2x2 pixels per invocation.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 8, rgba8) uniform image2D foam;
@@ -22,19 +22,20 @@ layout(set = 0, binding = 8, rgba8) uniform image2D foam;
 #include "shore_lists.glsl"
 #include "shore_drawn.glsl"
 
-// What tiles may have, 1: shoreline foam, 2: contact foam, 3: both. A pipeline each, not branches: a CPU runs them whole.
+// Foam that the tiles may have. 1: shoreline, 2: contact, 3: both. One pipeline each instead of branches, for CPU
+// drivers (docs/performance.md).
 layout(constant_id = 1) const uint PARTS = 3;
 
 #include "shore_light.glsl"
 #include "shore_place.glsl"
 
-// Where the depth alone is known: as far from the shore as the bottom's slope would have it. What is seen through the surface from
-// below is no bottom: 0, as far out.
+// v from the depth of the water alone: the distance to the shore that the slope of the bed implies. What is
+// visible through the surface from below is no bed: 0, far from the shore.
 float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     vec3 places[3];
     places[0] = ray * scene;
     for (int i = 1; i < 3; ++i) {
-        // Of the two beside a pixel the one whose depth is nearer to its own.
+        // Of the two neighbours the one with the depth nearer to the pixel's.
         vec2 to = i == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
         float best = EMPTY;
         for (int k = -1; k < 2; k += 2) {
@@ -55,7 +56,7 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     return dot(shore.height.xyz, ray) < 0.0 ? v : 0.0;
 }
 
-// A place of the surface. As far as the horizon is none of its foam is seen.
+// The surface at a pixel. Near the horizon no foam is visible.
 Water water_at(vec2 pixel) {
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
     float z = surface_at(pixel, ray);
@@ -83,14 +84,14 @@ bool shaded(uvec2 texel, bool listed, float device, Mixed mixed, float v, float 
     }
     bool foams = line + amount > 0.0;
     if (foams) {
-        // Where there is a strip its foam is here.
+        // With a strip, its foam is already in the image.
         float strip = PARTS == 2u ? imageLoad(foam, ivec2(texel)).x : 0.0;
         imageStore(foam, ivec2(texel), vec4(max(line, strip), amount, sun_lost(ray * z, pixel), 0.0));
     }
     return foams;
 }
 
-// Of any surface, each pixel by itself.
+// For any surface, one pixel.
 bool shaded_alone(uvec2 texel, bool listed) {
     vec2 pixel = min(vec2(texel) + 0.5, frame.extent.xy - 0.5);
     Water w = water_at(pixel);
@@ -115,7 +116,7 @@ bool shaded_alone(uvec2 texel, bool listed) {
     return shaded(texel, listed, device, mixed, v, pattern);
 }
 
-// Of a level surface 2x2 pixels: what changes little from one to the next is found once.
+// For a level surface, 2x2 pixels: what changes little between them is computed once.
 bool shaded_together(uvec2 first, bool listed) {
     vec2 middle = vec2(first) + 1.0;
     Water w = water_at(middle);
@@ -134,7 +135,7 @@ bool shaded_together(uvec2 first, bool listed) {
     vec2 texture_size = vec2(textureSize(scene_depth, 0));
     vec4 devices = textureGather(scene_depth, (middle + frame.scene_origin.xy) / texture_size).wzxy;
     bool foams = false;
-    // Unrolled, as what a loop reads of a buffer a CPU reads for each lane by itself.
+    // Unrolled, because in a loop a CPU driver reads buffers for each lane separately.
     [[unroll]] for (int i = 0; i < 4; ++i) {
         uvec2 to = uvec2(i & 1, i >> 1);
         vec2 off = vec2(to) - 0.5;

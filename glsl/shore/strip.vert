@@ -1,5 +1,5 @@
 #version 460
-// Pass `shoreline`: the host's strip of foam, whose vertices have a place and v (blog, Sec. IV).
+// Pass `shoreline`: the host's strip of foam, whose vertices have a position and v (blog, Sec. IV).
 // Reads: the host's streams. Writes: eye position, v.
 
 #include "frame.glsl"
@@ -13,20 +13,20 @@ layout(push_constant, std430) uniform Push {
     uint v_word;
     uint v_stride;
     uint index_word;
-    uint index_stride; // 0: none, vertices in their order
+    uint index_stride; // 0: no indices, vertices in their order
     uint vertices;
 } push;
 
 layout(location = 0) out vec3 eye;
 layout(location = 1) out float v;
 
-// Vertex of a corner of the triangles; as many as there are where it is none.
+// Vertex index of a triangle's corner; the number of vertices if the index is invalid.
 uint vertex_of(uint corner) {
     uint i = push.index_stride > 0u ? indices[push.index_word + corner * push.index_stride] : corner;
     return min(i, push.vertices);
 }
 
-// World place and v.
+// World position and v.
 vec4 vertex_at(uint i) {
     uint at = push.position_word + i * push.position_stride;
     return vec4(positions[at], positions[at + 1u], positions[at + 2u], across[push.v_word + i * push.v_stride]);
@@ -34,7 +34,8 @@ vec4 vertex_at(uint i) {
 
 void main() {
     uint own = uint(gl_VertexIndex);
-    // A triangle is whole or is none: one of its corners moved away would leave a part of another.
+    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw another
+    // triangle.
     bool there = true;
     vec4 vertex = vec4(0.0);
     for (uint k = 0u; k < 3u; ++k) {
@@ -48,6 +49,6 @@ void main() {
     v = vertex.w;
     eye = (frame.view * vec4(vertex.xyz, 1.0)).xyz;
     vec2 clip = frame.projection.xy * eye.xy + frame.projection.zw * eye.z;
-    // Clipped at the near plane; else its depth is compared with the scene's where it is shaded.
+    // Only clipped at the near plane: the depth is compared with the scene's during shading.
     gl_Position = there ? vec4(clip, -eye.z - frame.depth.z, -eye.z) : vec4(0.0, 0.0, -1.0, 1.0);
 }

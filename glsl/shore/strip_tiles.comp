@@ -1,5 +1,5 @@
 #version 460
-// Pass `shoreline`: which tiles of 8x8 pixels a strip's foam is in, when it is drawn.
+// Pass `shoreline`: marks the 8x8 tiles that contain a strip's foam, after it is drawn.
 // Reads: foam. Writes: marks.
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -17,7 +17,7 @@ const uint TILE = 8u; // pixels
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;
     vec2 size = vec2(textureSize(foam, 0));
-    // Beyond the frame there is none.
+    // No scene outside the frame.
     vec4 most = vec4(0.0);
     for (int i = 0; i < 16; ++i) {
         most = max(most, textureGather(foam, vec2(TILE * tile + 2u * uvec2(i & 3, i >> 2) + 1u) / size));

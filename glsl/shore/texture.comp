@@ -1,13 +1,13 @@
 #version 460
-// Pass `web`: a level of the web or the noise as half floats, for a copy to its image. Of the web the mean and the mean of
-// the square, by which what a pixel cannot show is known as a variance, and its slopes. Not in the source.
-// Reads: texels as the host has them, or 32-bit floats, or the level before. Writes: the level.
+// Pass `web`: one mip level of the foam texture or the noise as half floats, for a copy to its image. The foam texture
+// has the mean, the mean square (whose variance stands for detail finer than a pixel) and the slopes. Not in the blog.
+// Reads: texels of the host, or 32-bit floats, or the level before. Writes: the level.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 // 0: web, 1: noise.
 layout(constant_id = 0) const uint NOISE = 0;
-// 0: the level before, 1: floats, 2: the host's image.
+// Source: 0: the previous mip level, 1: floats, 2: the host's image.
 layout(constant_id = 1) const uint FROM = 0;
 
 layout(set = 0, binding = 0, std430) readonly buffer Floats { float floats[]; };
@@ -15,10 +15,10 @@ layout(set = 0, binding = 1, std430) buffer Halves { uint halves[]; };
 layout(set = 0, binding = 2) uniform sampler2D image;
 
 layout(push_constant, std430) uniform Push {
-    vec4 part;   // of the host's image: first texel and size
+    vec4 part;   // the host's image: first texel and size
     uint size;   // of this level
     uint first;  // word of the level
-    uint before; // of the one before
+    uint before; // word of the previous level
 } push;
 
 vec4 before_at(uvec2 at) {
@@ -26,7 +26,7 @@ vec4 before_at(uvec2 at) {
     return vec4(unpackHalf2x16(halves[word]), unpackHalf2x16(halves[word + 1u]));
 }
 
-// Bilinear, or the mean of what a texel covers where there are more of them; the image closes on itself.
+// Bilinear, or the mean over the texels covered if the image is larger. The image repeats.
 float host_at(ivec2 at) {
     vec2 step = push.part.zw / float(push.size);
     ivec2 taps = max(ivec2(ceil(step)), ivec2(1));
@@ -42,7 +42,7 @@ float host_at(ivec2 at) {
                 texel += size * ivec2(lessThan(texel, ivec2(0))) - size * ivec2(greaterThanEqual(texel, size));
                 float weight = ((i & 1) == 0 ? 1.0 - f.x : f.x) * (i < 2 ? 1.0 - f.y : f.y);
                 float value = texelFetch(image, texel + ivec2(push.part.xy), 0).x;
-                // What is no number is no foam.
+                // NaN counts as no foam.
                 sum += weight * (value > 0.0 ? min(value, 1.0) : 0.0);
             }
         }
@@ -71,7 +71,7 @@ void main() {
     } else {
         ivec2 own = ivec2(at);
         float web = web_of(own);
-        // Over two texels; by all of it, as the image repeats.
+        // Difference over two texels, per whole image, because the image repeats.
         vec2 slope = vec2(web_of(own + ivec2(1, 0)) - web_of(own - ivec2(1, 0)),
                           web_of(own + ivec2(0, 1)) - web_of(own - ivec2(0, 1)));
         value = vec4(web, web * web, 0.5 * float(push.size) * slope);

@@ -1,6 +1,6 @@
 #version 460
-// Pass `shore-tiles`: lists of the tiles of 8x8 pixels that may have foam on the host's surface, by what they may have, with
-// the dispatches over them. Not in the sources: most of a picture has none, and what tells is much less than what it is.
+// Pass `shore-tiles`: lists the 8x8 tiles that may contain foam on the host's surface, by kind, with the dispatches
+// over them. Not in the sources: most of a picture has none, and the test is much cheaper than shading.
 // Reads: scene depth, surface depth, map of distances. Writes: lists, arguments.
 
 #include "frame.glsl"
@@ -13,19 +13,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 const float NONE = -3.0e38;
 
-// The scene's depths are compared as they are, but turned so that what is nearer is more: all is asked of many.
+// The scene's device depths are compared directly, negated if necessary so that nearer is greater. This saves
+// work per texel.
 struct Range {
-    vec4 seen;    // the surface is hidden where the scene's are more
-    vec4 contact; // no contact foam where they are less
+    vec4 seen;    // the surface is hidden where the scene's depth is greater
+    vec4 contact; // no contact foam where it is less
 };
 
-// The reciprocal of an eye depth as such a depth.
+// Converts the reciprocal of an eye depth to such a depth.
 vec4 device(vec4 reciprocal) {
     return abs(frame.depth.x) * reciprocal - (frame.depth.x < 0.0 ? -frame.depth.y : frame.depth.y);
 }
 
-// Of reciprocals of the surface's eye depths: no pixel has less than the least or more than the most; part: of a metre of
-// view that counts as near. With some to spare for rounding: what has foam is asked again.
+// The range, from the bounds of the reciprocal eye depth of the surface in a tile. part: fraction of a metre along the view that
+// counts as near. With a margin for rounding: pixels are tested again.
 Range range_of(vec4 least, vec4 most, vec4 part) {
     const float SPARE = 1.0e-5;
     float ulps = 2.5e-7 * (1.0 + abs(frame.depth.y));
@@ -37,12 +38,12 @@ Range range_of(vec4 least, vec4 most, vec4 part) {
     return range;
 }
 
-// Reciprocal of the level's eye depth on a ray; where it is not met 0.
+// Reciprocal of the level's eye depth on a ray; 0 if the ray misses it.
 float level_on(vec3 ray) {
     return shore.height.w == 0.0 ? 0.0 : max(-dot(shore.height.xyz, ray) / shore.height.w, 0.0);
 }
 
-// Of a surface that need not be level, at four pixels from one on.
+// Range for a surface that need not be level, at four pixels from `first` on.
 Range range_at_four(vec2 first) {
     vec4 own, part;
     for (int i = 0; i < 4; ++i) {
@@ -57,7 +58,7 @@ Range range_at_four(vec2 first) {
 void main() {
     vec2 first = vec2(TILE * gl_GlobalInvocationID.xy);
     bool inside = all(lessThan(first, frame.extent.xy));
-    // What a level surface has in a tile lies between what it has at its corners: so do reciprocals of depths.
+    // On a level surface, values in a tile lie between those at its corners; so do reciprocals of depths.
     float least = EMPTY, most = 0.0, part = EMPTY;
     vec2 low = vec2(EMPTY), high = vec2(-EMPTY);
     for (int i = 0; i < 4; ++i) {
@@ -72,12 +73,12 @@ void main() {
         low = min(low, p);
         high = max(high, p);
     }
-    // Of the map, in its texels.
+    // The tile's bounds in texels of the map.
     low = clamp((low - shore.map.xy) * shore.map.z, vec2(-1.0), vec2(shore.map.w + 1.0));
     high = clamp((high - shore.map.xy) * shore.map.z, vec2(-1.0), vec2(shore.map.w + 1.0));
     bool over = all(lessThan(low, vec2(shore.map.w))) && all(greaterThan(high, vec2(0.0)));
     vec2 middle = clamp(0.5 * (low + high), vec2(0.0), vec2(max(shore.map.w - 1.0, 0.0)));
-    // The texel's middle is less than one away, those about a place less than one and a half.
+    // The nearest texel's centre is less than 1 away, the four around a point less than 1.5.
     float off = (0.5 * length(high - low) + 2.5) / max(shore.map.z, 1.0e-9);
     float distance = texelFetch(map, ivec2(middle), 0).x;
     bool band = over && (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0;
@@ -85,14 +86,14 @@ void main() {
     bool in_band = band || shore.surface_part.z > 1.5;
     bool lines = by_depth || by_map && in_band;
     bool contacts = shore.mask_part.z > 0.0;
-    // The depths only where the surface is in view and they are a matter.
+    // Read depths only where the surface is in view and they matter.
     bool in_view = inside && (most > 0.0 || GENERAL == 1u);
     bool asked = in_view && (lines || contacts);
     Range range = range_of(vec4(least), vec4(most), vec4(part));
     float side = sign(frame.depth.x);
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
-    // The most of what does not hide the surface; of a surface that need not be level, over where contacts begin. What
-    // lies beyond the picture may be among it: it is asked again.
+    // Greatest depth that does not hide the surface; for a surface that need not be level, relative to where
+    // contacts begin. This may include texels outside the picture: pixels are tested again.
     vec4 nearest = vec4(NONE);
     for (int row = 0; row < (asked ? HALF : 0); ++row) {
         for (int column = 0; column < HALF; ++column) {
@@ -108,7 +109,7 @@ void main() {
     float found = max(max(nearest.x, nearest.y), max(nearest.z, nearest.w));
     lines = asked && lines && found > NONE;
     contacts = asked && contacts && found > (GENERAL == 1u ? 0.0 : range.contact.x);
-    // Each list by its own number: by one index for all, NVIDIA 580.159 listed no tile that has both.
+    // Each list has its own constant index: with one variable index, NVIDIA 580.159 listed no tile that has both.
     if (lines && contacts) {
         adds(3u);
     } else if (lines) {

@@ -1,6 +1,6 @@
 #version 460
-// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample a texel.
-// Not in the source; the hit is that of pass `depth`.
+// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample per texel.
+// Not in the thesis; the hit is that of pass `depth`.
 // Reads: Counts, visible, boundaries, blocks, levels. Writes: back bits.
 
 #include "frame.glsl"
@@ -11,13 +11,13 @@
 #include "sheets.glsl"
 
 layout(local_size_x = 64) in;
-// 0: an invocation a sprite. 1: a workgroup a sprite, for large ones.
+// 0: one invocation per sprite. 1: one workgroup per sprite, for large ones.
 layout(constant_id = 0) const uint LARGE = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 3, r32ui) uniform uimage2D back_bits;
-// Of each block the nearest boundary.
+// The nearest boundary of each block.
 layout(set = 0, binding = 4, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
@@ -44,14 +44,14 @@ ivec4 span(Ellipsoid body, Level level) {
     return pixel_span(pixel_bounds(slopes, level.slope), vec2(level.rect.zw));
 }
 
-// The part of a box of texels in whose blocks a sphere may be of a back sheet.
+// The part of a box of texels whose blocks have a boundary that the sphere may lie behind.
 ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
-    // By the middle of each texel.
+    // From the centre of each texel.
     ivec2 most = ivec2(frame.extent.xy) - 1;
     ivec4 touched = ivec4(min(box.xy * edge + (edge >> 1), most), min(box.zw * edge + (edge >> 1), most)) >> BLOCK_BITS;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Not one loop with its condition last: lavapipe 22.3 loses what its only round finds.
+    // Two loops: lavapipe 22.3 loses what a single loop with its condition last finds in its only iteration.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-body.sphere.z >= blocks[y * columns + x]) {

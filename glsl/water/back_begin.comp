@@ -1,7 +1,7 @@
 #version 460
-// Pass `back`, first part: in the tiles of the back sheet's first level that have a boundary in or round them
-// the depth of what is one sheet, so that the smoothing finds its neighbours; elsewhere nothing.
-// Not in the source.
+// Pass `back`, first part: in tiles of the back layer's first level with a boundary in or around them, the depth where
+// there is only one layer, so that the smoothing finds neighbours; EMPTY elsewhere.
+// Not in the thesis.
 // Reads: boundaries, levels, depth. Writes: back.
 
 #include "frame.glsl"
@@ -15,8 +15,8 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D back;
 
 shared uint wanted;
 
-// A boundary in the tile or a tile's width round it, as far as smoothing reaches. No boundary is
-// alone: every eighth pixel will do.
+// Whether there is a boundary in the tile or within a tile's width around it, which is as far as smoothing
+// reaches. Boundaries are never isolated, so every eighth pixel suffices.
 bool boundary_near(ivec2 corner, int edge) {
     ivec2 extent = ivec2(frame.extent.xy);
     ivec2 first = max((corner - 16) * edge, ivec2(0)) >> 3;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `back`, last part: the back sheet joins the levels of the smoothing: its first as it is, of each coarser one that
-// the frame needs the nearest of each block. Not in the source.
+// Pass `back`, last part: adds the back layer to the levels of the smoothing: its first level as it is, and for each
+// coarser one that the frame needs the nearest of each block. Not in the thesis.
 // Reads: back, levels, levels needed. Writes: both smoothing images, plan, work of the levels' tiles.
 
 #include "frame.glsl"
@@ -22,7 +22,7 @@ layout(set = 0, binding = 8, std430) readonly buffer Counts { Marked marked; };
 shared uint most;
 
 void main() {
-    uint coarser = gl_WorkGroupID.z; // than its first, which is the front sheet's second
+    uint coarser = gl_WorkGroupID.z; // levels coarser than its first, which is the front sheet's second
     Level level = levels.level[BACK + coarser];
     ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16;
     if (any(greaterThanEqual(corner, level.rect.zw))) {

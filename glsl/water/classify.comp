@@ -1,18 +1,17 @@
 #version 460
-// Pass `classify`: foam phases by Weber number (thesis Sec. 3.2). Each particle's state is looked up
-// by its id in the table of the step before, moved on, and entered in this step's table: order does
-// not matter, and ids that are gone are forgotten. A dispatch sees one part of the tables, and moves on the particles
-// whose ids belong there.
+// Pass `classify`: foam phases by Weber number (thesis Sec. 3.2). Each particle's state is looked up by id in the
+// previous table, advanced, and entered in the new table: order does not matter, and vanished ids are forgotten. A
+// dispatch sees one part of the tables and handles the particles whose ids belong there.
 // Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 #include "random.glsl"
 
 layout(local_size_x = 64) in;
 
-// A row of the tables; an empty one has key 0, others id + 1.
+// A row of the tables. The key is id + 1, or 0 for an empty row.
 struct Row {
     uint key;
-    uint phase; // phase in the lowest two bits, transitions above
+    uint phase; // phase in the lowest two bits, number of transitions above
     float timer;
     float lifetime;
     float age;
@@ -36,7 +35,7 @@ layout(push_constant, std430) uniform Push {
     uint id_stride;       // 0: no ids
     uint first;           // particle of the chunk
     uint count;           // most particles
-    uint from_gpu;        // 1: as many as the host's buffer says, at most count
+    uint from_gpu;        // 1: the host's buffer holds the number, at most count
     uint chunk_end;       // first particle of the next chunk
     uint rows;            // of all parts
     uint part_first;      // row of the part
@@ -57,7 +56,7 @@ const uint WATER_TO_FOAM = 1u;
 const uint FOAM = 2u;
 const uint FOAM_TO_WATER = 3u;
 
-// `precise`: a twin on the CPU must come to the same phases, bit for bit.
+// `precise`: the CPU twin must reach the same phases, bit for bit.
 float weber(uint i) {
     uint at = push.velocity_word + i * push.velocity_stride;
     precise float x = velocities[at] - push.air_x;
@@ -65,13 +64,13 @@ float weber(uint i) {
     precise float z = velocities[at + 2u] - push.air_z;
     precise float square = (x * x + y * y) + z * z;
     float density = push.density_stride > 0u ? densities[push.density_word + i * push.density_stride] : 0.0;
-    // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
+    // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
     density = density > 0.0 ? density : push.rest_density;
     precise float number = (density * square) * push.scale;
     return number;
 }
 
-// Where its search begins in the part, or the part's end or more where it belongs to another.
+// Row of the part at which the search for a key begins; outside the part if the key belongs to another.
 uint slot_of(uint key) {
     uint high;
     uint low;
@@ -79,16 +78,17 @@ uint slot_of(uint key) {
     return high - push.part_first;
 }
 
-// No search is longer: a table that is two thirds full has none of a quarter of it, but of ids that collide on purpose, or in
-// a state that something else wrote, each would go through all rows. A particle that finds no row begins anew each step.
+// Longest search in rows. In a table that is two thirds full no search takes a quarter of this. But with ids
+// made to collide, or a state that something else wrote, each search would visit all rows. A particle that
+// finds no row starts as new water in each step.
 const uint MOST_LOOKS = 1024u;
 
-// A search that comes to the end of the part goes on at its beginning.
+// The search wraps around at the end of the part.
 uint next(uint slot) {
     return slot + 1u == push.part_rows ? 0u : slot + 1u;
 }
 
-// The particle's row of the step before; a new one is water.
+// The particle's row of the previous step; a new particle is water.
 Row row_before(uint key, uint slot) {
     for (uint n = 0u; n < min(push.part_rows, MOST_LOOKS) && old_rows[slot].key != 0u; ++n) {
         if (old_rows[slot].key == key) {
@@ -111,7 +111,7 @@ void enter(Row row, uint slot) {
             new_rows[slot].age = row.age;
             return;
         }
-        // A second particle of the id: the first one keeps the row.
+        // A second particle with the same id: the first one keeps the row.
         if (there == row.key) {
             return;
         }
@@ -119,7 +119,7 @@ void enter(Row row, uint slot) {
     }
 }
 
-// One step of a row; what the particle is foam.
+// Advances a row by one step and returns the particle's foam, 0 to 1.
 float advance(inout Row row, uint id, float number) {
     uint transitions = row.phase >> 2;
     uint phase = row.phase & 3u;
@@ -163,7 +163,7 @@ void main() {
         return;
     }
     if (push.id_stride == 0u) {
-        // No ids, no memory: a ramp round the threshold. Comparisons with NaN are false.
+        // Without ids there is no memory: foam is a ramp around the threshold. Comparisons with NaN are false.
         float ramp = weber(i) / push.threshold - 0.5;
         foam[i] = vec2(ramp > 0.0 ? min(ramp, 1.0) : 0.0, 0.0);
         return;

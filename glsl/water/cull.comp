@@ -1,7 +1,7 @@
 #version 460
-// Pass `cull`: the border. Drops NaN and infinite particles, sets spray aside, tests the rest
-// against the frustum (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the
-// survivors in eye space: small sprites from the front of the list, large ones from its back.
+// Pass `cull`: the border. Drops NaN and infinite particles, classifies spray, culls the rest against the frustum
+// (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the survivors in eye space: small sprites from
+// the front of the list, large ones from its back.
 // Reads: positions, of ellipsoids with their shapes, densities, packets. Writes: Counts, visible, members.
 
 #include "frame.glsl"
@@ -14,9 +14,9 @@
 layout(local_size_x = 64) in;
 // 1: one workgroup per host packet.
 layout(constant_id = 0) const uint PACKETS = 0;
-// 1: what is foam of a particle is no water of it.
+// 1: the foam part of a particle is not counted as water.
 layout(constant_id = 1) const uint FOAM = 0;
-// 1: passes go over the host's particles again, and ask which are in packets.
+// 1: later passes visit the host's particles again and need to know which lie in packets.
 layout(constant_id = 2) const uint MEMBERS = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
@@ -25,9 +25,9 @@ layout(set = 0, binding = 3, std430) readonly buffer HostPackets { uint packets[
 layout(set = 0, binding = 4, std430) buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 5, std430) writeonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Amounts { float amounts[]; };
-// The share of each visible sphere that is water.
+// Fraction of water of each visible sphere.
 layout(set = 0, binding = 7, std430) writeonly buffer Shares { float shares[]; };
-// A bit a particle (members.glsl).
+// One bit per particle (members.glsl).
 layout(set = 0, binding = 8, std430) buffer Members { uint members[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -54,17 +54,17 @@ const uint NONE = 0u;
 const uint SMALL = 1u;
 const uint LARGE = 2u;
 
-// Less water than this is none.
+// A smaller fraction of water counts as none.
 const float LEAST_SHARE = 1.0 / 256.0;
 
-// What pass `shape` left behind a position, turned to eye space.
+// The shape that pass `shape` stored behind a position, rotated to eye space.
 vec4 seen_shape(uint at) {
     mat3 axes = unpack_axes(uvec3(positions[at], positions[at + 1u], positions[at + 2u]));
     mat3 turn = mat3(frame.view);
     return vec4(uintBitsToFloat(pack_axes(turn * axes * transpose(turn))), 0.0);
 }
 
-// Small or large by what of an ellipsoid is on the screen: itself, and the sprite of its thickness.
+// Small or large by the size on the screen of the ellipsoid and of its thickness sprite.
 uint classify_ellipsoid(Ellipsoid body) {
     vec3 centre = body.sphere.xyz;
     float times = frame.particle.z / frame.particle.x;
@@ -109,7 +109,7 @@ uint classify(uint index, out vec4 sphere, out vec4 shape, out float share) {
     float radius = frame.particle.x;
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + index * push.density_stride];
-        // 0 marks a particle that was just emitted and has no sum yet.
+        // 0 marks a particle that was just emitted and has no density yet.
         if (density > 0.0) {
             if (density < frame.density.x) {
                 atomicAdd(counts.spray, 1u);
@@ -127,7 +127,7 @@ uint classify(uint index, out vec4 sphere, out vec4 shape, out float share) {
         shape = seen_shape(at + 3u);
         return classify_ellipsoid(ellipsoid_of(vec4(centre, radius), shape));
     }
-    // The thickness sprite is the wider one: its half-axis bounds both.
+    // The half-axis of the thickness sprite bounds both: it is the wider one.
     float reach = radius * frame.particle.z / frame.particle.x;
     if (!in_frustum(centre, reach)) {
         return NONE;
@@ -160,7 +160,7 @@ void append(uint kind, vec4 sphere, vec4 shape, float share) {
         slot = atomicAdd(group_large, 1u);
     }
     barrier();
-    // One pair of global atomics a workgroup.
+    // One pair of global atomics per workgroup.
     if (local == 0u) {
         first_small = group_small > 0u ? atomicAdd(counts.small, group_small) : 0u;
         first_large = group_large > 0u ? atomicAdd(counts.large, group_large) : 0u;
@@ -179,7 +179,7 @@ void append(uint kind, vec4 sphere, vec4 shape, float share) {
     barrier();
 }
 
-// All of the packet's, whether or not it is seen: the sun sees others.
+// Marks all particles of the packet, visible or not: the sun sees others than the eye.
 void enter(Packet packet) {
     uint past = (packet.past + 31u) >> 5;
     for (uint word = (packet.first >> 5) + gl_LocalInvocationIndex; word < past; word += gl_WorkGroupSize.x) {
@@ -207,7 +207,7 @@ void main() {
         enter(packet);
     }
     vec3 centre = (frame.view * vec4(packet.middle, 1.0)).xyz;
-    // The bounding sphere of the box, grown by a sprite: conservative.
+    // The bounding sphere of the packet's box, enlarged by a sprite, is conservative.
     if (!in_frustum(centre, packet.reach + frame.particle.z)) {
         return;
     }

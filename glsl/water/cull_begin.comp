@@ -8,15 +8,15 @@
 layout(local_size_x = 32) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count; };
-// 256 bytes a chunk, so that each can be bound and used as arguments by itself.
+// 256 bytes per chunk, so that each can be bound and used as arguments separately.
 layout(set = 0, binding = 2, std430) writeonly buffer AllCounts { uint words[]; };
 
 layout(push_constant, std430) uniform Push {
-    uint count;      // known to the host, or the most there may be
+    uint count;      // number from the host, or the capacity
     uint from_gpu;   // 1: the count is in the buffer
     uint chunks;
     uint chunk_size;
-    uint packets;    // > 0: culled by packets, one workgroup each
+    uint packets;    // > 0: culling by packets, one workgroup per packet
     uint group_size;
 } push;
 

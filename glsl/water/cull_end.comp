@@ -1,5 +1,5 @@
 #version 460
-// Pass `cull`, last part: survivors to workgroups. Ours: the source draws directly.
+// Pass `cull`, last part: number of survivors to number of workgroups. (The thesis draws directly.)
 // Reads: Counts of every chunk. Writes: their arguments.
 
 layout(local_size_x = 32) in;
@@ -18,7 +18,7 @@ void main() {
     }
     uint base = chunk * 64u;
     uint large = words[base + 5u];
-    // Where there are only large ones, the dispatch over the small ones still takes care of them.
+    // If there are only large sprites, the dispatch over the small ones must still run for them.
     words[base + 8u] = max((words[base] + push.group_size - 1u) / push.group_size, min(large, 1u));
     words[base + 11u] = min(large, push.most_groups);
 }

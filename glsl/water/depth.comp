@@ -10,7 +10,7 @@
 #include "counts.glsl"
 
 layout(local_size_x = 64) in;
-// 0: an invocation a sprite. 1: a workgroup a sprite, for large ones.
+// 0: one invocation per sprite. 1: one workgroup per sprite, for large ones.
 layout(constant_id = 0) const uint LARGE = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
@@ -24,7 +24,7 @@ void splat(ivec2 pixel, Ellipsoid body) {
     float depth = ellipsoid_hit(slope, body, frame.depth.z);
     if (depth < EMPTY) {
         uint bits = floatBitsToUint(depth);
-        // Most sprites lose: a read is cheaper than an atomic.
+        // Most sprites lose the comparison: a read is cheaper than an atomic.
         if (bits < imageLoad(depth_bits, pixel).x) {
             imageAtomicMin(depth_bits, pixel, bits);
         }

@@ -7,14 +7,14 @@
 #include "sphere.glsl"
 #include "ellipsoid.glsl"
 
-// 0: points from the front of the list. 1: quads from its back.
+// 0: points, from the front of the list. 1: quads, from its back.
 layout(constant_id = 0) const uint QUADS = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Visible { vec4 visible[]; };
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
 layout(location = 0) flat out vec4 sphere;
-// Of ellipsoids what takes the ray to where that sphere is: xx, yy, zz; yz, xz, xy.
+// For ellipsoids, the matrix that maps the ray to the space of the sphere: xx, yy, zz; yz, xz, xy.
 layout(location = 1) flat out vec3 diagonal;
 layout(location = 2) flat out vec3 off;
 

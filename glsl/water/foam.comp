@@ -1,7 +1,7 @@
 #version 460
-// Pass `foam`, compute path: the frontmost foam (thesis Sec. 4.6.2), then the metres of all foam and of the
-// layer right behind the frontmost (Sec. 4.8), in whole steps. An invocation a sprite, or all of a group the
-// large ones. A noise breaks up the discs, that of a pattern or one of its own in each sprite, that changes as it ages.
+// Pass `foam`, compute path: depth of the frontmost surface foam (thesis Sec. 4.6.2), then metres of all foam and of
+// the front layer (Sec. 4.8), in fixed-point steps. One invocation per sprite, a whole group for large ones. A noise
+// breaks up the discs: the shared pattern, or one per sprite that changes with its age.
 // Reads: Counts, sprites, words. Writes: words.
 
 #include "frame.glsl"
@@ -25,10 +25,10 @@ layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprite
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 
-// Texels of a box that an invocation does by itself: all of some classes, none of the others.
+// Largest number of texels of a box that one invocation handles alone. It is at the end of a class.
 const int SMALL = 1023;
 
-// Classes of sprites by their texels, two to each power of two.
+// Number of size classes: two per power of two of the number of texels.
 const uint CLASSES = 24u;
 
 shared int texels[FOAM_GROUP];
@@ -37,15 +37,15 @@ shared uint before[CLASSES];
 
 struct Splat {
     FoamPlane plane;
-    vec3 along;  // over its half-axis
+    vec3 along;  // divided by its half-axis
     vec3 across;
     float amount;
     FoamNoise noise;
-    ivec4 box;   // texels that may see it
+    ivec4 box;   // texels that it may cover
 };
 
-// Bounds of the ellipse in slopes along an axis, from the planes through the eye that touch it; of all there
-// is where it reaches the eye's plane. From where its centre is seen: exact for small ones.
+// Bounds of the ellipse in slopes on an axis, from the tangent planes through the eye; everything where it
+// reaches the eye's plane. Relative to the centre's slope, which is exact for small sprites.
 vec2 touching(vec2 centre, vec2 half1, vec2 half2) {
     float from = centre.x / -centre.y;
     vec2 w = vec2(half1.x + from * half1.y, half2.x + from * half2.y);
@@ -78,12 +78,12 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Adds to the sum of all foam, and to those after it what they get, often nothing. No number of sprites on one
-// spot is too many: what comes to a word that is half full is taken out again. All in one loop: at each atomic
-// that it finds a CPU goes through the invocations one by one, whether or not they have something to add.
+// Adds to the sum of all foam and to those after it, which often get nothing. Any number of sprites may lie
+// on one spot: what would go to a word that is half full is taken out again. All in one loop: at each atomic
+// operation that a CPU driver meets, it runs the invocations one by one, whether or not they add anything.
 void add(uint word, uvec4 steps) {
     do {
-        // Nothing is never too much: it would be taken out, as nothing again, for ever.
+        // A zero must not count as too much: it would be taken out again for ever.
         bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec4(0u - steps.x, steps.yzw) : uvec4(steps.yzw, 0u);
         word += over ? 0u : 1u;
@@ -103,14 +103,14 @@ void splat(ivec2 texel, Splat s) {
     uint at = words_of(texel);
     uint front = words[at + FRONT];
     if (THICK == 0u) {
-        // Most lose, to the scene or to others: a read is cheaper than an atomic.
+        // Most sprites lose against the scene or others: a read is cheaper than an atomic.
         if (floatBitsToUint(depth) < front) {
             atomicMin(words[at + FRONT], floatBitsToUint(depth));
         }
         return;
     }
     uint scene = words[at + SCENE];
-    // Metres to the scene; what hides a sprite has none.
+    // Metres to the scene; not positive where it hides the sprite.
     float before = uintBitsToFloat(scene) - depth;
     if (!(before > 0.0)) {
         return;
@@ -135,8 +135,7 @@ uint class_of(int texels) {
     return min(2u * power + (power > 0u ? n >> (power - 1u) & 1u : 0u), CLASSES - 1u);
 }
 
-// Invocations that run in step wait for the one with the most texels: a group's sprites in the order of their
-// classes.
+// Invocations in lockstep wait for the one with the most texels, so a group's sprites are sorted by class.
 uint in_order(int own) {
     uint local = gl_LocalInvocationIndex;
     if (local < CLASSES) {
@@ -172,7 +171,7 @@ void main() {
             }
         }
     }
-    // The last of them all together.
+    // The largest ones at the end are shared by all invocations.
     for (uint i = FOAM_GROUP; i > 0u && texels[order[i - 1u]] > SMALL; --i) {
         Splat s = splat_of(first + order[i - 1u]);
         ivec2 lane = ivec2(local & 7u, local >> 3);

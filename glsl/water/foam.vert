@@ -20,7 +20,7 @@ layout(constant_id = 0) const uint THICK = 0;
 layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprites[]; };
 
 layout(location = 0) flat out vec3 centre;
-layout(location = 1) flat out vec3 along;  // over its half-axis
+layout(location = 1) flat out vec3 along;  // divided by its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out float amount;
@@ -39,7 +39,7 @@ void main() {
     vec4 scale = frame.thick_slope;
     vec2 extent = frame.thick_extent.xy;
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // A texel more: snapping (1/16 at worst) must not cut the footprint, even foreshortened.
+    // One texel wider, so that snapping (1/16 at worst) does not cut the footprint, even foreshortened.
     vec3 reach_a = plane.e1 * (plane.axes.x + plane.texel);
     vec3 reach_b = plane.e2 * (plane.axes.y + plane.texel);
     float depth = -centre.z;

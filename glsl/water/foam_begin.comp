@@ -1,6 +1,6 @@
 #version 460
-// Pass `foam`, compute path, first part: nothing in any texel, and the scene's depth at its middle: sprites ask for
-// it many times, and a word beside the sums is read sooner than a texel of an image.
+// Pass `foam`, compute path, first part: clears all texels and stores the scene's depth at their centres: sprites read
+// it many times, and a word beside the sums is faster than a texel of an image.
 // Reads: scene depth. Writes: words.
 
 #include "frame.glsl"
@@ -16,7 +16,7 @@ void main() {
         vec2 pixel = (vec2(texel) + 0.5) * frame.thick_extent.z;
         float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
         uint at = words_of(texel);
-        // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+        // With a reversed infinite depth, infinity is 1/0, or negative by rounding.
         uint bits = floatBitsToUint(scene > 0.0 ? min(scene, EMPTY) : EMPTY);
         words[at + FRONT] = bits;
         words[at + SCENE] = bits;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `foam`: how the foam drifts, for the lace, which it carries along (not in the source).
-// Each sprite adds its velocity to the four nodes about its centre on the screen.
+// Pass `foam`: velocity of the foam on the screen, which advects the lace (not in the thesis). Each sprite adds its
+// velocity to the four nodes around its centre.
 // Reads: Counts, sprites. Writes: drift.
 
 #include "frame.glsl"
@@ -23,7 +23,7 @@ void main() {
     vec2 pixel = (centre.xy / -centre.z - frame.slope.zw) / frame.slope.xy;
     vec2 at = pixel / DRIFT_CELL;
     ivec2 last = drift_nodes() - 1;
-    // What lies half a cell outside is nobody's: its sprite may be seen, and then others are.
+    // Sprites more than half a cell outside the grid add to no node. If one is visible, there are others inside.
     if (!(all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, vec2(last) + 0.5)))) {
         return;
     }

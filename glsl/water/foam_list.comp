@@ -1,8 +1,8 @@
 #version 460
-// Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2).
-// Spray is none: what is turning into it is that much less foam.
-// Reads: Counts (particles), positions, foam, velocities, ids, densities, members, what casts shadows. Writes:
-// Counts (foam), sprites.
+// Pass `foam`, first part: lists the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2). The share that is
+// spray is subtracted.
+// Reads: Counts (particles), positions, foam, velocities, ids, densities, members, shadow maps. Writes: Counts (foam),
+// sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -34,11 +34,11 @@ layout(push_constant, std430) uniform Push {
     uint velocity_word;
     uint velocity_stride; // 0: at rest
     uint id_word;
-    uint id_stride;       // 0: no ids, the number in the frame instead
+    uint id_stride;       // 0: no ids, the index in the frame instead
     uint density_word;
     uint density_stride;  // 0: no densities
     uint chunk_first;
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 8
@@ -71,7 +71,7 @@ void visit(uint index) {
         return;
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
-    // The longest half-axis of all. A centre behind the near plane has no sprite.
+    // An upper bound of the half-axes. A centre behind the near plane has no sprite.
     float texel = -centre.z * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
     float reach = max(2.0 * FOAM_AXIS * frame.particle.x, LEAST_FOAM_AXIS * texel);
     if (-centre.z <= frame.depth.z || !in_frustum(centre, reach)) {
@@ -82,7 +82,7 @@ void visit(uint index) {
     uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;
     age = age > 0.0 && age < 1.0e6 ? age : 0.0;
     uint slot = atomicAdd(counts.foam, 1u);
-    // The first of each group of the compute path.
+    // The first sprite of each workgroup of the compute path.
     if (slot % FOAM_GROUP == 0u) {
         atomicAdd(counts.foam_groups[0], 1u);
     }

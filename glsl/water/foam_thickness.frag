@@ -1,7 +1,7 @@
 #version 460
-// Pass `foam`, raster path: metres of foam, of all, of the layer right behind the frontmost (thesis
-// Sec. 4.8.2, Listing A.16), of what of that layer the sun lights, and of all by how far behind the frontmost it
-// lies. A noise breaks up the discs, that of a pattern or one of its own in each sprite, that changes as it ages.
+// Pass `foam`, raster path: metres of all foam, of the layer right behind the frontmost (thesis Sec. 4.8.2, Listing
+// A.16), of its sunlit part, and of all foam times its distance behind the frontmost. A noise breaks up the discs: the
+// shared pattern, or one per sprite that changes with its age.
 // Reads: scene depth, foam depth. Writes: foam thickness (RGBA32F).
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `front`, second part: keeps the sprites that can show in some cell they touch, in a list of
-// the same form. In a deep body of water that is the surface alone. Not in the source.
+// Pass `front`, second part: keeps the sprites that can be visible in some cell they touch, in a list of the same
+// form. In deep water that is the surface alone. Not in the thesis.
 // Reads: Counts, visible, cells. Writes: front counts, front list.
 
 #include "frame.glsl"
@@ -32,7 +32,7 @@ bool can_show(Ellipsoid body) {
     if (span.z < span.x || span.w < span.y) {
         return false;
     }
-    // Wide sprites are kept without a look: it would cost more than it saves.
+    // Wide sprites are kept without a test, which would cost more than it saves.
     ivec4 touched = span >> 2;
     if (touched.z - touched.x > 7 || touched.w - touched.y > 7) {
         return true;

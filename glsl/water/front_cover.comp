@@ -1,8 +1,7 @@
 #version 460
-// Pass `front`, first part: for each cell of 4x4 pixels the depth behind which nothing shows,
-// because one sphere covers all of it. Each small sprite tries the four cells nearest its centre.
-// The part of a convex body's front before some depth has a convex outline, so that the farthest point
-// over a cell is at one of its corners. Not in the source.
+// Pass `front`, first part: for each cell of 4x4 pixels the depth behind which nothing is visible, because one sphere
+// covers the whole cell. Each small sprite tries the four cells nearest its centre. The part of a convex body's front
+// before some depth has a convex outline, so its farthest point over a cell is at a corner. Not in the thesis.
 // Reads: Counts, visible. Writes: cells (bits of the depth; EMPTY where none covers).
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `gaps`, first and second part: per cell of 8x8 pixels the nearest centre, then which slices
-// of depth behind it hold water. The spheres' whole footprints, of ellipsoids too: a cell without air is closed by
-// what lies beside its pixels too. Not in the source (its limitation, Fig. 5.13).
+// Pass `gaps`, first and second part: per cell of 8x8 pixels the nearest centre, then the depth slices behind it that
+// hold water. The whole footprints of spheres and ellipsoids count, so a cell is also closed by water outside of its
+// pixels. Not in the thesis (its limitation, Fig. 5.13).
 // Reads: Counts, visible, nearest. Writes: nearest (1), marks (2).
 
 #include "frame.glsl"
@@ -11,14 +11,14 @@
 #include "gaps.glsl"
 
 layout(local_size_x = 64) in;
-// 0: an invocation a sprite. 1: a workgroup a sprite, for large ones.
+// 0: one invocation per sprite. 1: one workgroup per sprite, for large ones.
 layout(constant_id = 0) const uint LARGE = 0;
-// 0: nearest. 1: marks.
+// 0: nearest depth. 1: marks.
 layout(constant_id = 1) const uint MARKS = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
-// Of every cell the bits of the nearest depth, then of every cell the marked slices.
+// The bits of the nearest depth of every cell, then the marked slices of every cell.
 layout(set = 0, binding = 3, std430) buffer Cells { uint cells[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
@@ -36,13 +36,13 @@ void visit(uint cell, uint all, float z) {
     vec2 reach = vec2(behind - REACH * spacing, behind + REACH * spacing) / (SLICE * spacing);
     ivec2 slices = ivec2(clamp(floor(reach), 0.0, 31.0));
     uint bits = bitfieldInsert(0u, ~0u, slices.x, slices.y - slices.x + 1);
-    // Most find their slices marked: a read is cheaper than an atomic.
+    // Most slices are already marked: a read is cheaper than an atomic.
     if ((cells[all + cell] & bits) != bits) {
         atomicOr(cells[all + cell], bits);
     }
 }
 
-// First and last cell; none where last < first.
+// First and last cell; empty if last < first.
 ivec4 touched(vec4 sphere) {
     vec4 slopes;
     if (sphere.w < DROP * frame.particle.x || !sphere_bounds(sphere.xyz, sphere.w, slopes)) {

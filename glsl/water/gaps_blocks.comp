@@ -1,12 +1,12 @@
 #version 460
 // Passes `gaps` and `back`: the farthest or the nearest boundary of each block of 16x16 pixels, so that
-// most spheres need no look at its texels. Not in the source. Reads: boundaries. Writes: blocks.
+// most spheres need not read its texels. Not in the thesis. Reads: boundaries. Writes: blocks.
 
 #include "frame.glsl"
 #include "sheets.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 0: the farthest, 0 where there is none. 1: the nearest, EMPTY where there is none.
+// 0: the farthest, 0 without a boundary. 1: the nearest, EMPTY without a boundary.
 layout(constant_id = 0) const uint NEAREST = 0;
 
 layout(set = 0, binding = 1, std430) writeonly buffer Blocks { float blocks[]; };

@@ -1,7 +1,7 @@
 #version 460
-// Pass `gaps`, third part: of each cell the middle of the air before the last body of water behind
-// some air, or before the first drop where there is no body. So both walls of a crown are one sheet,
-// the pool behind them the other. Not in the source.
+// Pass `gaps`, third part: for each cell the middle of the air in front of the last body of water that is behind air, or
+// in front of the first drop if there is no such body. Both walls of a crown are thus one layer, and the pool behind them
+// the other. Not in the thesis.
 // Reads: nearest, marks. Writes: boundaries of the cells.
 
 #include "frame.glsl"
@@ -19,8 +19,8 @@ layout(push_constant, std430) uniform Push {
 
 float boundary_of(uint cell) {
     uint marks = cells[uint(push.columns * push.rows) + cell];
-    int middle = 0; // twice
-    // Behind the marks there is always an end: shifts bring zeros.
+    int middle = 0; // doubled
+    // There is always an end behind the marks, because shifts bring zeros.
     int air = findLSB(~marks);
     while (air > 0 && air < 32 && (marks >> air) != 0u) {
         int water = air + findLSB(marks >> air);

@@ -1,6 +1,6 @@
 #version 460
-// Pass `gaps`, fourth part: cells without a boundary take one from those near, by their squared
-// distance. Not in the source. Reads: boundaries of the cells. Writes: the same, spread.
+// Pass `gaps`, fourth part: dilation: cells without a boundary take one from cells nearby, weighted by squared distance.
+// Not in the thesis. Reads: boundaries of the cells. Writes: the same, dilated.
 
 #include "frame.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
 // Pass `gaps`, last part: cells to texels of the thickness, bilinear between those cells that have a
-// boundary. Not in the source. Reads: boundaries of the cells, spread. Writes: boundaries.
+// boundary. Not in the thesis. Reads: boundaries of the cells, spread. Writes: boundaries.
 
 #include "frame.glsl"
 

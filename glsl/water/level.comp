@@ -1,7 +1,6 @@
 #version 460
-// Pass `level`: the reduction again for each level that is coarser than the configured one, in the tiles
-// where some of the water is so near as to need it. Not in the source, whose cap leaves near water
-// rough.
+// Pass `level`: the reduction repeated for each level coarser than the configured one, in tiles with water near enough
+// to need it. Not in the thesis, whose cap leaves near water rough.
 // Reads: levels, depth (occluded pixels emptied), marks and list of the levels' tiles. Writes: both smoothing images,
 // plan, work of the levels' tiles.
 
@@ -42,7 +41,7 @@ void main() {
     barrier();
     ivec2 block = corner - own.rect.xy + ivec2(gl_LocalInvocationID.xy);
     if (all(lessThan(block, own.rect.zw))) {
-        // Beside the tiles that need it there is nothing to smooth with.
+        // Outside the tiles that need this level there is nothing to smooth with.
         float z = EMPTY;
         ivec2 end = mark == 2u ? min((block + 1) * edge, ivec2(frame.extent.xy)) : ivec2(0);
         for (int y = block.y * edge; y < end.y; ++y) {

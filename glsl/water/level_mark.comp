@@ -1,6 +1,6 @@
 #version 460
-// Pass `level`, first part: which of the coarser levels' tiles are made, over what is so near as to need them and, for
-// its neighbourhood, beside. An invocation a tile of the first level.
+// Pass `level`, first part: marks the tiles of coarser levels that contain near water or neighbour it. One invocation
+// per tile of the first level.
 // Reads: levels, work of the tiles. Writes: marks and list of the coarser levels' tiles, levels needed.
 
 #include "frame.glsl"
@@ -8,8 +8,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Of the first level as `reduce` wrote it. Of a coarser one's tile until it is made: 2 where something in it needs it,
-// 1 beside such, else 0.
+// Of the first level: as `reduce` wrote it. Of a coarser level until its tile is made: 2 if something in it needs
+// the tile, 1 beside such a tile, else 0.
 layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 8, std430) buffer Counts { Marked marked; };
 layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };

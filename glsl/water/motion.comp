@@ -1,7 +1,6 @@
 #version 460
-// Pass `motion`, second part, not in the sources: how far each particle near a surface has come, weighted
-// as its thickness. Those that few texels see are an invocation's each; the others are done by the whole
-// group.
+// Pass `motion`, second part, not in the sources: motion of each particle near a surface, weighted by its thickness.
+// Particles over few texels take one invocation each; a whole group handles each of the others.
 // Reads: Counts (particles), positions, velocities, densities, foam, members, fronts. Writes: sums.
 
 #include "frame.glsl"
@@ -14,7 +13,7 @@
 #include "foam.glsl"
 
 layout(local_size_x = 64) in;
-// 1: what is foam of a particle is no water of it.
+// 1: the foam part of a particle is not counted as water.
 layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { Counts counts; };
@@ -33,32 +32,32 @@ layout(push_constant, std430) uniform Push {
     uint foam_word;
     uint foam_stride;     // 0: no foam
     uint level;
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 8
 #include "members.glsl"
 #include "motion.glsl"
 
-// A particle's sprite, of its water or of its foam.
+// The sprite of a particle's water or of its foam.
 struct Sprite {
     vec3 centre; // eye space
-    float share; // of the particle
-    vec3 along;  // over its half-axis
+    float share; // fraction of the particle
+    vec3 along;  // divided by its half-axis
     vec3 across;
     vec3 normal; // of its plane
-    vec3 moved;  // since the frame before, eye space, in units
-    ivec4 box;   // texels that may see it; empty: none does
+    vec3 moved;  // since the previous frame, eye space, in units
+    ivec4 box;   // texels that it may cover; empty: none
 };
 
-// A pixel's ray meets its sphere within a radius and 0.71 texels of a texel's middle: so wide a sprite
-// reaches it.
+// Least half-axis in texels. A pixel's ray meets the particle's sphere within a radius and 0.71 texels of a
+// texel's centre; a sprite this wide reaches that texel.
 const float LEAST_AXIS = 1.5;
-// Texels that an invocation does by itself.
+// Largest number of texels that one invocation handles alone.
 const int SMALL = 64;
 
 shared uint large_count;
-shared uvec2 large[128]; // particle; 1: its foam
+shared uvec2 large[128]; // particle; 1 for its foam
 
 const Sprite NONE = Sprite(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), ivec4(0, 0, -1, -1));
 
@@ -79,7 +78,7 @@ Sprite sprite_of(uint index, bool foamy) {
     }
     float body = 1.0;
     if (push.density_stride > 0u) {
-        // 0 marks a particle that was just emitted and has no sum yet.
+        // 0 marks a particle that was just emitted and has no density yet.
         float density = densities[push.density_word + index * push.density_stride];
         if (density > 0.0 && density < frame.density.x) {
             return NONE;
@@ -123,7 +122,7 @@ Sprite sprite_of(uint index, bool foamy) {
     return s;
 }
 
-// Adds a whole number below 2^31 to a sum.
+// Adds an integer with a magnitude below 2^31 to a sum.
 void add(uint at, int amount) {
     if (amount == 0) {
         return;
@@ -165,9 +164,10 @@ void splat(ivec2 texel, Sprite s) {
     }
 }
 
-// The part of its box in which it lies near a surface: of a deep body of water most particles have none.
+// The part of its box in which the sprite lies near a surface. In a deep body of water most particles have
+// none.
 ivec4 near_surfaces(Sprite s) {
-    // The plane of a foam sprite is no farther from its centre than its half-axes.
+    // The distance of a foam sprite's plane from its centre is at most its half-axes.
     float tilt = s.normal.z == 1.0 ? 0.0 : inversesqrt(dot(s.along, s.along)) + inversesqrt(dot(s.across, s.across));
     float reach = 3.0 * frame.particle.x + 1.001 * tilt;
     ivec4 part = ivec4(s.box.zw + 1, s.box.xy - 1);
@@ -207,7 +207,7 @@ void visit(uint index, bool foamy) {
 void main() {
     uint count = counts.particles;
     uint local = gl_LocalInvocationIndex;
-    // The same rounds for all of a group: they meet at the barriers.
+    // All invocations of a group run the same number of iterations, because of the barriers.
     for (uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x; first < count;
          first += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
         if (local == 0u) {

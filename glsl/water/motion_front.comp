@@ -1,5 +1,5 @@
 #version 460
-// Pass `motion`, first part, not in the sources: the surfaces in each texel; its sums begin at nothing.
+// Pass `motion`, first part, not in the sources: the surfaces in each texel; clears its sums.
 // Reads: depth, foam depth and thickness, scene depth. Writes: fronts, sums.
 
 #include "frame.glsl"
@@ -29,7 +29,7 @@ void main() {
             farthest = z < EMPTY ? max(farthest, z) : farthest;
         }
     }
-    // What is near the first is near the second too, else.
+    // Otherwise what is near the first would also be near the second.
     bool other = nearest < EMPTY && farthest - nearest > 3.0 * frame.particle.x;
     uint at = texel_index(texel);
     fronts[at] = vec2(nearest, other ? farthest : EMPTY);

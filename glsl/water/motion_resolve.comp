@@ -1,8 +1,7 @@
 #version 460
-// Pass `motion`, last part: where what a pixel shows was in the frame before, in pixels from there to
-// here. Of water and foam by their own motion and the camera's, of the scene by the camera's alone.
-// All of it is differences: nothing that moved is nothing, and small motion is as exact as large.
-// Not in the sources.
+// Pass `motion`, last part: previous position of the visible point of each pixel, as a vector in pixels from there to
+// here. Water and foam have their own motion and the camera's, the scene has the camera's alone. Everything is
+// computed as differences: zero motion is exactly zero, and small motion is as exact as large. Not in the sources.
 // Reads: fronts, sums, depth, foam depth and thickness, smoothed, levels, scene depth. Writes: motion.
 
 #include "frame.glsl"
@@ -18,10 +17,10 @@ layout(push_constant, std430) uniform Push { uint level; } push;
 #include "smoothed_depth.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
-// Of a format that shaders may only be told of by a feature: written without being told.
+// A format qualifier would need a feature (shaderStorageImageExtendedFormats): written without one.
 layout(set = 0, binding = 8) uniform writeonly image2D motion;
 
-// A 64-bit sum as it is rounded once.
+// A 64-bit sum, rounded once.
 float sum_at(uint at) {
     uint low = sums[at];
     uint high = sums[at + 1u];
@@ -34,8 +33,8 @@ float sum_at(uint at) {
     return negative ? -value : value;
 }
 
-// Weight times displacement, and weight, of the surface of a texel that is nearer to a depth and has
-// any; how far it is from it.
+// Weighted displacement and weight of that surface of a texel which is nearer to a depth and has any; and its
+// distance from it.
 vec4 texel_sums(ivec2 texel, float z, out float away) {
     uint at = texel_index(texel);
     vec2 front = fronts[at];
@@ -56,8 +55,8 @@ vec4 texel_sums(ivec2 texel, float z, out float away) {
     return weight > 0.0 ? vec4(moved, weight) : vec4(0.0);
 }
 
-// How far the surface at a depth has come, eye space, in spacings: of the four texels round the pixel
-// those on its surface, with bilinear weights; where there are none, of the sixteen that nearest in depth.
+// Displacement of the surface at a depth in eye space, in spacings. Bilinear over those of the four texels
+// around the pixel that lie on the surface; if none does, from the nearest in depth of sixteen texels.
 vec3 moved_at(vec2 pixel, float z) {
     vec2 h = pixel / float(texel_edge()) - 0.5;
     ivec2 base = ivec2(floor(h));
@@ -65,7 +64,7 @@ vec3 moved_at(vec2 pixel, float z) {
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     ivec2 last = texel_extent() - 1;
     vec4 sum = vec4(0.0);
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     int texels = z < EMPTY ? 4 : 0;
     for (int i = 0; i < texels; ++i) {
         ivec2 texel = base + ivec2(i & 1, i >> 1);
@@ -104,15 +103,15 @@ void main() {
     } else {
         float device = texelFetch(scene_depth, scene_texel(pixel), 0).x;
         float scene = eye_depth(device);
-        // Nothing there: reversed infinite depth at infinity is 1/0, or negative by rounding.
+        // Nothing there: with a reversed infinite depth, infinity is 1/0, or negative by rounding.
         z = device == frame.before_lens.w || !(scene > 0.0 && scene < EMPTY) ? EMPTY : scene;
     }
-    // Where it was in the eye space of the frame before, less where it is in this one's; of what is at
-    // infinity both as directions.
+    // Its position in the eye space of the previous frame minus that in the current one. For points at
+    // infinity both are directions.
     bool sky = z >= EMPTY;
     vec3 here = vec3(slope, -1.0) * (sky ? 1.0 : z) - moved;
     vec3 change = mat3(frame.before) * here - moved + (sky ? vec3(0.0) : frame.before[3].xyz);
-    // What was behind the eye was nowhere: as if just before it.
+    // A point that was behind the eye had no position on the screen: it is placed just before the eye.
     float before = max((sky ? 1.0 : z) - change.z, sky ? 1.0e-3 : frame.before_lens.z);
     vec2 slope_change = (change.xy + slope * change.z) / before;
     vec2 vector = slope * frame.lens_change.xy - frame.lens_change.zw - slope_change * frame.before_lens.xy;

@@ -1,7 +1,6 @@
 #version 460
-// Pass `noise` (van der Laan et al. 2009): one octave a particle, fixed to it, under a kernel; less the
-// deeper it lies below the surface. Reads: water depth. Writes: noise (R32F), summed; 0 where there is no
-// water.
+// Pass `noise` (van der Laan et al. 2009): one octave per particle, fixed to it, under a kernel, fading with its depth
+// below the surface. Reads: water depth. Writes: noise (R32F), summed; 0 where there is no water.
 
 #include "frame.glsl"
 #include "random.glsl"
@@ -18,7 +17,7 @@ layout(location = 0) out float noise;
 void main() {
     float depth = -centre.z;
     vec2 slope = ray_slope(gl_FragCoord.xy * frame.noise_image.z, frame.slope);
-    // In the plane of the centre's depth, as the thickness' sprites.
+    // In the plane of the centre's depth, as for thickness sprites.
     vec2 off = slope * depth - centre.xy;
     vec2 place = off / frame.noise.w;
     float rho2 = dot(place, place);
@@ -26,10 +25,10 @@ void main() {
     if (surface >= EMPTY || rho2 >= 1.0) {
         discard;
     }
-    // Of the particle's nearest point: what is at the surface counts whole.
+    // Depth below the surface of the particle's nearest point: a particle at the surface counts fully.
     float below = max(depth - frame.particle.x - surface, 0.0);
     float amount = noise_kernel(rho2) * exp(-below * frame.noise.z);
-    // World axes: it does not turn with the camera.
+    // Along the world's axes, so that it does not turn with the camera.
     vec3 at = mat3(frame.world) * vec3(off, 0.0) * frame.noise_image.w + phase;
     noise = floor(amount * gradient_noise(at) * NOISE_PARTS + 0.5) / NOISE_PARTS;
 }

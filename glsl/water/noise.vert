@@ -9,17 +9,17 @@
 layout(set = 0, binding = 1, std430) readonly buffer Sprites { vec4 sprites[]; };
 
 layout(location = 0) flat out vec3 centre;
-layout(location = 1) flat out vec3 phase; // place of the centre in the noise
+layout(location = 1) flat out vec3 phase; // position of the centre in the noise
 
 void main() {
     vec4 sprite = sprites[gl_InstanceIndex];
     centre = sprite.xyz;
-    // In 64 cells no two particles near each other are alike.
+    // With 64 cells, particles near each other have different noise.
     phase = noise_phase(floatBitsToUint(sprite.w)) * 64.0;
     float edge = frame.noise_image.z;
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
     float depth = -centre.z;
-    // A texel more: snapping must not cut the footprint.
+    // One texel wider, so that snapping does not cut the footprint.
     vec2 reach = frame.noise.w + depth * edge * abs(frame.slope.xy);
     vec2 slope = (centre.xy + side * reach) / depth;
     vec2 texel = (slope - frame.slope.zw) / (frame.slope.xy * edge);

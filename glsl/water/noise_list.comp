@@ -1,7 +1,6 @@
 #version 460
-// Pass `noise`, first part: the particles on the screen that are no spray, in eye space. (To leave out
-// those that `front` knows to lie deep below the surface saved nothing: where they are small no sphere
-// covers its cells.)
+// Pass `noise`, first part: lists the particles on the screen that are not spray, in eye space. (Leaving out those
+// that `front` knows to be deep below the surface saved nothing: where spheres are small none covers a cell.)
 // Reads: Counts (particles), positions, densities, ids, members. Writes: Counts (noise), sprites.
 
 #include "frame.glsl"
@@ -23,9 +22,9 @@ layout(push_constant, std430) uniform Push {
     uint density_word;
     uint density_stride;  // 0: no densities
     uint id_word;
-    uint id_stride;       // 0: no ids, the number in the frame instead
+    uint id_stride;       // 0: no ids, the index in the frame instead
     uint chunk_first;
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 6
@@ -48,7 +47,7 @@ void visit(uint index) {
         return;
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
-    // Half the diagonal of the quad.
+    // 1.5 bounds half the diagonal of the quad.
     if (-centre.z <= frame.depth.z || !in_frustum(centre, 1.5 * frame.noise.w)) {
         return;
     }

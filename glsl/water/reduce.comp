@@ -1,9 +1,8 @@
 #version 460
-// Pass `reduce`: hides water behind the scene, takes the nearest surface of each block of pixels
-// (but no drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1,
-// Listing A.12).
-// Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan,
-// work of every tile.
+// Pass `reduce`: rejects water behind the scene, takes the nearest surface of each block of pixels (but not a single
+// drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1, Listing A.12).
+// Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan, work of
+// every tile.
 
 #include "frame.glsl"
 #include "plan.glsl"
@@ -18,8 +17,8 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
-// Most iterations + 1, 0 without water; from bit 16 on the coarsest level needed in it, at bit 24
-// whether one may show.
+// Greatest number of iterations + 1, 0 without water; from bit 16 on the coarsest level needed, at bit 24 whether
+// a coarser level may be visible.
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
 #include "foam_texels.glsl"
@@ -30,8 +29,8 @@ layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; 
 shared uint most;
 shared uint nearest_bits;
 
-// Depth of the block in front of the scene, and of what of it is nearest; whether something is drawn there that is
-// no water.
+// Depth of a block before the scene; `best`: the nearest depth; `other`: whether something other than water is
+// drawn there.
 float reduced(ivec2 block, out float best, out bool other) {
     ivec2 extent = ivec2(frame.extent.xy);
     other = foam_beside(block << LEVEL, 1 << LEVEL);
@@ -46,7 +45,7 @@ float reduced(ivec2 block, out float best, out bool other) {
             other = other || spray_at(pixel);
             if (z < EMPTY) {
                 float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
-                // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+                // With a reversed infinite depth, infinity is 1/0, or negative by rounding.
                 if (scene > 0.0 && z >= scene) {
                     imageStore(depth, pixel, vec4(EMPTY));
                 } else {
@@ -55,7 +54,7 @@ float reduced(ivec2 block, out float best, out bool other) {
             }
         }
     }
-    // A pixel is no less than a quarter of four.
+    // One pixel is at least a quarter of four.
     return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 
@@ -74,7 +73,7 @@ void main() {
         imageStore(smooth_a, block, vec4(z));
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));
-        // One more than the iterations: a tile with water and nothing to smooth is still drawn.
+        // Iterations + 1, because a tile with water and nothing to smooth is still drawn.
         if (z < EMPTY || other) {
             atomicMax(most, plan_count(planned) + 1u);
         }
@@ -87,7 +86,7 @@ void main() {
     if (gl_LocalInvocationIndex == 0u) {
         float near = uintBitsToFloat(nearest_bits);
         uint coarsest = near < 0.8 ? 0u : min(uint(0.5 * log2(1.25 * near)) + 1u, uint(levels.atlas.w));
-        // A pixel's own ray is less than a texel beside that of its block.
+        // A pixel's ray is less than a texel away from that of its block.
         uint shows = near < 0.9 ? 0u : 1u;
         tile_work[gl_WorkGroupID.y * levels.atlas.z + gl_WorkGroupID.x] = most | coarsest << 16 | shows << 24;
     }

@@ -1,9 +1,9 @@
 #version 460
-// Pass `shape`, third part: the ellipsoid of each particle, by the weighted covariance of its neighbours (Yu and Turk 2013,
-// Sec. 4, Eqs. 6 and 9 to 16). What differs: it keeps its sphere's volume (theirs, k_s, goes by a constant of the
-// kernel), and from sphere to ellipsoid it goes by the sum of the neighbours' weights, not at once at a number of them, so that
-// it does not jump in time.
-// Sums are of whole steps: whatever order neighbours come in, the same is made of them.
+// Pass `shape`, third part: fits the ellipsoid of each particle to the weighted covariance of its neighbours (Yu and
+// Turk 2013, Sec. 4, Eqs. 6 and 9 to 16). Differs: it keeps its sphere's volume (the paper's k_s is a kernel
+// constant), and it changes from sphere to ellipsoid with the sum of the neighbours' weights, not at a number of
+// neighbours, so that it does not jump in time.
+// Sums use fixed-point steps: the order of the neighbours does not matter.
 // Reads: the grid, counts. Writes: shaped, shifts.
 
 #include "random.glsl"
@@ -12,11 +12,11 @@
 layout(local_size_x = 64) in;
 
 layout(push_constant, std430) uniform Push {
-    float cells;   // of the grid along a unit of length: one over the reach
+    float cells;   // grid cells per unit of length: 1 / reach
     uint buckets;  // a power of two
-    float ratio;   // of the longest half-axis to the shortest, at most
+    float ratio;   // largest ratio of the longest to the shortest half-axis
     float fewest;  // sum of the neighbours' weights from which on it is an ellipsoid
-    float lone;    // size of one without neighbours
+    float lone;    // size of a particle without neighbours
 } push;
 
 #include "grid.glsl"
@@ -26,18 +26,19 @@ layout(push_constant, std430) uniform Push {
 
 layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; };
 layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
-// In the order of the grid: to the middle of the neighbours, in the reach; how much of an ellipsoid it is.
+// In the order of the grid: vector to the mean of the neighbours in units of the reach, and the weight of the
+// ellipsoid.
 layout(set = 0, binding = 5, std430) writeonly buffer Shifts { vec4 shifts[]; };
 
-// Steps of sums, whose addends are at most 1: those of 27 full buckets fit.
+// Fixed-point steps; addends are at most 1, so the sums of 27 full buckets fit.
 const float STEPS = 65536.0;
 
-// What Jacobi's rotations leave of a variance that is none, in squares of the reach.
+// Variance that Jacobi rotations leave of 0, in squares of the reach.
 const float NO_VARIANCE = 1.0e-6;
 
 void visit(uint i) {
     vec3 position = places[i].position;
-    // It is its own neighbour, at no distance.
+    // The particle is its own neighbour at distance 0.
     int weights = int(STEPS);
     ivec3 offsets = ivec3(0);
     ivec3 squares = ivec3(0); // xx yy zz
@@ -72,7 +73,7 @@ void visit(uint i) {
         axes *= pow(axes.x * axes.y * axes.z, -1.0 / 3.0);
     }
     float beside = float(weights) / STEPS - 1.0;
-    // Never of equal ends, which GLSL leaves open.
+    // The edges are never equal: GLSL leaves that undefined.
     float share = smoothstep(0.5 * push.fewest, max(push.fewest, 1.0e-6), beside);
     axes = pow(axes, vec3(share)) * mix(push.lone, 1.0, share);
     // V diag(axes) V^T.

@@ -1,7 +1,8 @@
 #version 460
-// Pass `shape`, last part: particles go towards the middle of their neighbours, so that sheets and rims are smooth (Yu and
-// Turk 2013, Eq. 6), less what their neighbours do on average (Vollmer, Mencl, Mueller 1999): by Eq. 6 alone all at the surface of
-// a body go inwards, and it shrinks from its walls. Those count that go far, at the surface as it does.
+// Pass `shape`, last part: moves particles towards the centre of their neighbours, so that sheets and rims are smooth
+// (Yu and Turk 2013, Eq. 6), minus the mean displacement of their neighbours (Vollmer, Mencl, Mueller 1999): with Eq.
+// 6 alone the whole surface moves inwards, and a body shrinks from its walls. Neighbours with large displacements, at
+// the surface like the particle, count most.
 // Reads: the grid, counts, shifts. Writes: shaped (places).
 
 #include "random.glsl"
@@ -10,9 +11,9 @@
 layout(local_size_x = 64) in;
 
 layout(push_constant, std430) uniform Push {
-    float cells;   // of the grid along a unit of length: one over the reach
+    float cells;   // grid cells per unit of length: 1 / reach
     uint buckets;  // a power of two
-    float centred; // how far they go
+    float centred; // strength of the displacement
 } push;
 
 #include "grid.glsl"
@@ -22,7 +23,7 @@ layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; 
 layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Shifts { vec4 shifts[]; };
 
-// Steps of sums, whose addends are at most 1: those of 27 full buckets fit.
+// Fixed-point steps; addends are at most 1, so the sums of 27 full buckets fit.
 const float STEPS = 65536.0;
 
 void visit(uint i) {

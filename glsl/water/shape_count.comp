@@ -1,7 +1,7 @@
 #version 460
-// Pass `shape`, first part: how many particles there are in each bucket of the grid of neighbours (Yu and Turk 2013 leave
-// it open how neighbours are found).
-// Reads: the host's count, positions. Writes: buckets; shaped, the spheres of those that take no part.
+// Pass `shape`, first part: number of particles in each bucket of the neighbour grid (Yu and Turk 2013 do not say how
+// neighbours are found).
+// Reads: the host's count, positions. Writes: buckets; shaped: the spheres of particles that take no part.
 
 #include "random.glsl"
 #include "shape_chunk.glsl"

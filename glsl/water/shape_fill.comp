@@ -1,6 +1,6 @@
 #version 460
-// Pass `shape`, second part: the particles by their buckets. Of one they come in any order.
-// Reads: the host's count, positions. Writes: buckets (where each begins, then where it ends), places.
+// Pass `shape`, second part: enters the particles in their buckets, in any order within a bucket.
+// Reads: the host's count, positions. Writes: buckets (begin of each, then its end), places.
 
 #include "random.glsl"
 #include "shape_chunk.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // Pass `smooth`, form Tiles: one iteration of curvature flow (thesis Sec. 3.1, 4.7, Listing A.13) over the
-// tiles with work left, where the source draws one quad over the image.
+// tiles with work left. The thesis draws one quad over the image.
 // Reads: one smoothing image, plan, list. Writes: the other smoothing image.
 
 #include "frame.glsl"
@@ -8,8 +8,8 @@
 #include "level.glsl"
 #include "curvature.glsl"
 
-// An invocation smooths ROWS rows of two columns: a gather brings four texels, and the rows it
-// needs stay in registers. 2 where threads are plenty, 16 where they are few.
+// An invocation smooths ROWS rows of two columns: a gather reads four texels, and the rows that it needs stay in
+// registers. ROWS is 2 on devices with many threads and 16 on those with few.
 layout(local_size_x = 8, local_size_y_id = 2) in;
 layout(constant_id = 1) const uint RULE = 1;
 layout(constant_id = 3) const int ROWS = 2;
@@ -22,7 +22,7 @@ layout(set = 0, binding = 5, std430) readonly buffer Arguments { uvec4 arguments
 
 layout(push_constant, std430) uniform Push {
     uint iteration; // from 1
-    uint columns;   // tiles a row
+    uint columns;   // tiles per row
 } push;
 
 #include "smoothing.glsl"
@@ -60,7 +60,7 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
     vec4 b;
     fetch_rows(p - ivec2(0, 1), first, last, a, b);
     int k = 0;
-    // The condition last, as in main; the first row is in the level.
+    // The condition is at the end, as in main; the first row is in the level.
     do {
         vec4 c;
         vec4 d;
@@ -80,8 +80,8 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
 void main() {
     uint tiles = arguments[push.iteration].w;
     uint i = gl_WorkGroupID.x;
-    // The condition last: with one at the top a CPU runs the body once more, for no invocation.
-    // No group is without a tile.
+    // The condition is at the end: with it at the top, a CPU driver executes the body once more for no
+    // invocation. Every workgroup has a tile.
     do {
         uint tile = list[i];
         ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;

@@ -1,6 +1,6 @@
 #version 460
 // Pass `smooth`, form Query: one iteration of curvature flow, and the two draws beside it (thesis Sec. 4.7,
-// Listings A.11-A.13; the source counts by what it has not discarded).
+// Listings A.11-A.13; the thesis counts fragments that it has not discarded).
 // Reads: one smoothing image, plan. Writes: the other smoothing image.
 
 #include "frame.glsl"
@@ -17,7 +17,7 @@ layout(set = 0, binding = 2) uniform usampler2D plan;
 
 layout(push_constant, std430) uniform Push {
     uint iteration; // from 1
-    uint columns;   // tiles a row
+    uint columns;   // tiles per row
     uint block;
 } push;
 

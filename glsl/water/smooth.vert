@@ -16,7 +16,7 @@ layout(location = 0) flat out uint own; // level of the tile
 
 layout(push_constant, std430) uniform Push {
     uint iteration; // from 1
-    uint columns;   // tiles a row
+    uint columns;   // tiles per row
     uint block;
 } push;
 
@@ -27,7 +27,7 @@ void main() {
     ivec4 rect = levels.level[own].rect;
     ivec2 pixel = min(corner + 16 * ivec2(gl_VertexIndex & 1, gl_VertexIndex >> 1), rect.xy + rect.zw);
     gl_Position = vec4(vec2(pixel) / vec2(levels.atlas.xy) * 2.0 - 1.0, 0.5, 1.0);
-    // 256 bytes a predicate.
+    // 256 bytes per predicate.
     if (CULL == 1u && predicates[push.block * 64u] == 0u) {
         gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
     }

@@ -24,7 +24,7 @@ layout(set = 0, binding = 5, std430) readonly buffer Arguments { uvec4 arguments
 
 layout(push_constant, std430) uniform Push {
     uint iteration; // the first one, from 1
-    uint columns;   // tiles a row
+    uint columns;   // tiles per row
     uint arguments_index;
 } push;
 

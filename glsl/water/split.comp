@@ -1,8 +1,7 @@
 #version 460
-// Pass `split`: the first level's tiles with water again, apart by whether they hold a boundary, whether they hold
-// foam and whether coarser levels show in them, so that `composite` can shade each kind with a shader that knows of
-// no more.
-// Not in the source.
+// Pass `split`: sorts the first level's tiles with water by whether they hold a boundary, foam, and coarser levels, so
+// that `composite` can shade each kind with a shader that handles no more.
+// Not in the thesis.
 // Reads: tile list and arguments, work, levels, boundaries, foam depth and thickness. Writes: eight lists, their
 // lengths.
 
@@ -11,25 +10,26 @@
 #include "sheets.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 1: there may be foam; else it is not read.
+// 1: there may be foam; otherwise it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// One sheet, two, the same with foam, all these with coarser levels: each list has room for all tiles.
+// Lists for one sheet, two sheets, both with foam, and all of these with coarser levels. Each has room for all
+// tiles.
 layout(set = 0, binding = 3, std430) writeonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 4, std430) buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 5) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D foam_thickness;
 layout(set = 0, binding = 8, std430) readonly buffer Tiles { uint tile_work[]; };
 
-layout(push_constant, std430) uniform Push { uint tiles; } push; // at most
+layout(push_constant, std430) uniform Push { uint tiles; } push; // number of tiles
 
 shared uint kind;
 
 void split(uint tile) {
     ivec2 texel = ivec2(tile % uint(levels.atlas.z), tile / uint(levels.atlas.z)) * 16;
-    // The first level covers the picture: others are not shaded.
+    // Only tiles of the first level, which covers the picture, are shaded.
     if (any(greaterThanEqual(texel, levels.level[0].rect.zw))) {
         return;
     }
@@ -38,8 +38,8 @@ void split(uint tile) {
         kind = near << 2;
     }
     barrier();
-    // A tile is 16 texels wide; one more to each side, of the coarsest level that shows, which what is in front may be
-    // widened by. So the texels of the thickness beside the tile are looked at too, which is read between its texels.
+    // A tile is 16 texels wide, plus one texel on each side of the coarsest visible level, by which near surfaces
+    // may be widened. This includes the thickness texels beside the tile, which are needed for interpolation.
     float edge = levels.level[0].texel.z;
     float wider = near == 0u ? edge : edge * exp2(float(tile_work[tile] >> 16 & 255u));
     vec2 corner = vec2(texel) * edge;
@@ -54,7 +54,7 @@ void split(uint tile) {
             if (SHEETS == 2u && boundary_of(p) < EMPTY) {
                 found |= 1u;
             }
-            // Its depth has the narrower sprites, its thickness may be less than a step.
+            // Test both: the depth has narrower sprites, and the thickness may be less than a step.
             if (FOAM == 1u && (texelFetch(foam_depth, p, 0).x < EMPTY || texelFetch(foam_thickness, p, 0).x > 0.0)) {
                 found |= 2u;
             }
@@ -73,7 +73,7 @@ void split(uint tile) {
 void main() {
     uint tiles = arguments[258].w;
     uint i = gl_WorkGroupID.x;
-    // The condition last, as in smooth.comp.
+    // The condition is at the end, as in smooth.comp.
     do {
         split(list[i]);
         i += gl_NumWorkGroups.x;

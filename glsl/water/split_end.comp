@@ -1,5 +1,5 @@
 #version 460
-// Pass `split`, last part: the arguments of `composite`, for tiles of each kind. Not in the source.
+// Pass `split`, last part: the arguments of `composite`, for tiles of each kind. Not in the thesis.
 // Reads: lengths, levels. Writes: arguments: eight draws, then eight dispatches of groups of 8x8 pixels.
 
 #include "frame.glsl"
@@ -10,7 +10,7 @@ layout(local_size_x = 1) in;
 layout(set = 0, binding = 1, std430) readonly buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
-// Tiles in the second dimension of a dispatch.
+// Size of the second dimension of a dispatch in tiles.
 const uint ROW = 64u;
 
 void main() {

@@ -1,6 +1,5 @@
 #version 460
-// Pass `spray`: how much of the light from behind droplets before scene and water take away (thesis
-// Sec. 4.9.5 adds a colour instead).
+// Pass `spray`: optical depth of droplets in front of scene and water (thesis Sec. 4.9.5 adds a colour instead).
 // Reads: scene depth, water depth. Writes: spray (RG32F, or RG16F where that is not blended), summed.
 
 #include "frame.glsl"
@@ -13,15 +12,15 @@ layout(location = 4) flat in vec2 amount;
 layout(location = 5) flat in int aside;
 layout(location = 6) flat in uint chance;
 
-// 1: sums are of single precision.
+// 1: sums in single precision, 0: in half precision.
 layout(constant_id = 34) const uint SINGLE = 1;
-// Steps of an optical depth of 1: sums are exact in any order up to 64, of half floats up to 4.
+// Fixed-point steps per optical depth of 1: sums are exact in any order up to 64, with half floats up to 4.
 const float STEPS = SINGLE == 1u ? 262144.0 : 512.0;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 
-layout(location = 0) out vec2 optical_depth; // all, and what the sun lights
+layout(location = 0) out vec2 optical_depth; // optical depth: all, and the sunlit part
 
 void main() {
     vec2 place;
@@ -30,8 +29,8 @@ void main() {
         discard;
     }
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
-    // Only a body of water hides it, not a drop, which shows what is behind: the farthest of five, a drop
-    // apart.
+    // Only a body of water hides spray; a drop is transparent. So the farthest of five depths, a drop apart, is
+    // used.
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float water = texelFetch(water_depth, pixel, 0).x;
     for (int i = 0; i < 4; ++i) {
@@ -42,9 +41,9 @@ void main() {
     if (scene > 0.0 && depth >= scene) {
         discard;
     }
-    // Droplets lie round particles that may be water too: those just behind the surface are seen.
+    // Droplets surround particles that may also be water, so those just behind the surface are visible.
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
-    // As the thickness: the source's exp(-2 rho^2) alone ends with an edge.
+    // The kernel of the thickness, because the thesis' exp(-2 rho^2) alone ends with an edge.
     float added = before * amount.x * thickness_kernel(dot(place, place));
     optical_depth = floor(added * vec2(1.0, amount.y) * STEPS + rounding_up(chance, pixel)) / STEPS;
 }

@@ -1,6 +1,5 @@
 #version 460
-// Pass `spray`, first part: the particles that are spray, all of them or in part, in eye space
-// (thesis Sec. 4.9.5).
+// Pass `spray`, first part: lists the particles that are fully or partly spray, in eye space (thesis Sec. 4.9.5).
 // Reads: Counts (particles), positions, densities, velocities, ids, members. Writes: Counts (droplets), sprites.
 
 #include "frame.glsl"
@@ -26,9 +25,9 @@ layout(push_constant, std430) uniform Push {
     uint velocity_word;
     uint velocity_stride; // 0: at rest
     uint id_word;
-    uint id_stride;       // 0: no ids, the number in the frame instead
+    uint id_stride;       // 0: no ids, the index in the frame instead
     uint chunk_first;
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 7
@@ -39,7 +38,7 @@ void visit(uint index) {
         return;
     }
     float density = densities[push.density_word + index * push.density_stride];
-    // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
+    // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
     float share = density > 0.0 ? share_of_spray(density) : 0.0;
     if (!(share > 0.0)) {
         return;
@@ -54,8 +53,8 @@ void visit(uint index) {
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
     velocity = mat3(frame.view) * velocity;
-    // Droplets lie round the centre, and reach half their streak. Nearer than that nothing is drawn:
-    // it would fill the picture.
+    // Droplets surround the centre and reach half of their streak. Nothing nearer than that is drawn, because it
+    // would fill the picture.
     float reach = frame.spray.z + max(LARGEST_DROPLET * frame.spray.y, frame.spray_cloud.y)
                 + length(velocity) * (0.5 * frame.spray.w + frame.spray_cloud.z);
     if (-centre.z <= max(frame.depth.z, frame.spray.z) || !in_frustum(centre, reach)) {

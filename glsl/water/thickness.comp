@@ -1,10 +1,10 @@
 #version 460
-// Pass `thickness`, compute path: sums of fixed-point numbers, so that their order is no matter
-// (thesis Sec. 4.8.1 blends; kernel.glsl).
-// An addend is 2^26 at most (a particle of half the radius), 64 overflow a word: what they carry is
-// counted in a second one, as exact. Any number of particles may lie on one spot.
-// A second time for the front of two sheets and the window between them: for few spheres, those that
-// do not lie well behind every boundary near.
+// Pass `thickness`, compute path: fixed-point sums, so that the order does not matter (thesis Sec. 4.8.1 blends;
+// kernel.glsl).
+// An addend is 2^26 at most (a particle of half the radius), so 64 of them overflow a word; carries are counted in a
+// second word. Any number of particles may lie on one spot.
+// A second dispatch sums the front of two layers and the window between them, for the few spheres that are not well
+// behind every nearby boundary.
 // Reads: Counts, visible, scene depth, with foam that and the frontmost foam's from its words, boundaries, blocks.
 // Writes: sums (UNITS of the amplitude).
 
@@ -24,28 +24,29 @@ layout(constant_id = 1) const uint APART = 0;
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 3) uniform sampler2D scene_depth;
-// The sum's low word and its carries: of all water, then of what is before the frontmost foam if there
-// may be some, then of the front sheet, then of the windows.
+// Each sum is two words: the low word and the number of carries. First all water; then, if there may be foam,
+// the water before the frontmost foam; then the front sheets; then the windows.
 layout(set = 0, binding = 4, std430) buffer Sums { uint sums[]; };
-// Of each block the farthest boundary.
+// The farthest boundary of each block.
 layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
 
-// With foam: of each texel what the compute path of `foam` has, first bits of the depths of the frontmost foam, or
-// of the scene where there is none before it, and of the scene. Read sooner than texels of two images.
+// With foam: the words of the compute path of `foam` per texel. The first is the depth of the frontmost foam
+// (that of the scene if no foam lies before it), the second that of the scene, both as bits. Reading them is
+// faster than reading two images.
 layout(constant_id = 10) const uint FOAM_WORDS = 5;
 layout(set = 0, binding = 8, std430) readonly buffer FoamWords { uint foam_words[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
-// What is splatted of a particle.
+// The sprite of a particle.
 struct Sprite {
     vec3 centre;
-    vec3 conic;  // rho^2 of ellipsoids
-    vec2 reach;  // half of the box round it, in the plane of the centre
+    vec3 conic;  // of ellipsoids: the quadratic form of rho^2
+    vec2 reach;  // half of its bounding box, in the plane of the centre
     float inverse_axis; // of spheres
-    float scale; // units
+    float scale; // units per amplitude of 1
 };
 
 // A smaller sprite holds the same volume.
@@ -54,7 +55,7 @@ float units(float radius) {
     return UNITS * grown * grown;
 }
 
-// At its particle's full size, by the share of it that is water.
+// The sprite of a particle at full size, scaled by the fraction that is water.
 Sprite sprite_of(uint index) {
     Ellipsoid body = ellipsoid_in(visible, index);
     float water = FOAM == 1u ? shares[index] : 1.0;
@@ -76,23 +77,22 @@ Sprite sprite_of(uint index) {
     return sprite;
 }
 
-// Bounds of the disc in the plane of the centre: exact, it is parallel to the image.
+// Texels that the disc covers. The bounds are exact, because it is parallel to the image plane.
 ivec4 span(Sprite sprite) {
     float inverse = 1.0 / -sprite.centre.z;
     vec4 slopes = vec4(sprite.centre.xy - sprite.reach, sprite.centre.xy + sprite.reach) * inverse;
     return pixel_span(pixel_bounds(slopes, frame.thick_slope), frame.thick_extent.xy);
 }
 
-// Adds to the sum of a texel and to another one, each its low word and, where that overflows, its carries. All in
-// one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not they have
-// something to add.
+// Adds to two sums: to each its low word, and if that overflows, a carry. All in one loop: at each atomic
+// operation that a CPU driver meets, it runs the invocations one by one, whether or not they add anything.
 void add(uint at, float amount, uint other, float more) {
     uint word = 2u * at;
     uint units = uint(amount + 0.5);
     uint next = 2u * other;
     uint after = uint(more + 0.5);
     do {
-        // What the word held and the addend are more than it can hold.
+        // The low word overflows if the old value is more than this.
         bool carries = atomicAdd(sums[word], units) > ~units;
         word = carries ? word + 1u : next;
         units = carries ? 1u : after;
@@ -135,13 +135,14 @@ void splat(ivec2 texel, Sprite sprite) {
     }
 }
 
-// The part of a box of texels in whose blocks a sphere may add to a front sheet or a window.
+// The part of a box of texels whose blocks have a boundary that the sphere may lie before (front sheet or
+// window).
 ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
-    int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of the texels of a block
+    int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of a block's texels
     ivec4 touched = box >> bits;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Not one loop with its condition last: lavapipe 22.3 loses what its only round finds.
+    // Two loops: lavapipe 22.3 loses what a single loop with its condition last finds in its only iteration.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-sprite.centre.z < blocks[y * columns + x] + frame.particle.y) {
@@ -174,8 +175,8 @@ void main() {
                 return;
             }
         }
-        // One loop with its condition last, not two: where invocations are lanes, all wait for the
-        // one with the most pixels once, not once a row, and none runs an empty round.
+        // One loop with its condition last instead of two loops: where invocations are SIMD lanes, all wait for
+        // the one with the most pixels once instead of once per row, and none runs an empty iteration.
         ivec2 p = box.xy;
         do {
             splat(p, sprite);

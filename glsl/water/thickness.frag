@@ -15,7 +15,7 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(location = 0) flat in vec4 disc;
 layout(location = 1) flat in float amplitude;
 layout(location = 2) flat in vec3 conic;
-// All, and before the frontmost foam.
+// All water, and the water before the frontmost foam.
 layout(location = 0) out vec2 thickness;
 
 void main() {

@@ -7,25 +7,25 @@
 #include "ellipsoid.glsl"
 #include "kernel.glsl"
 
-// 0: points from the front of the list. 1: quads from its back.
+// 0: points, from the front of the list. 1: quads, from its back.
 layout(constant_id = 0) const uint QUADS = 0;
-// 1: spheres are shares of their particles.
+// 1: spheres are scaled by the fraction of water of their particles.
 layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
-layout(location = 0) flat out vec4 disc; // centre; of spheres 1 / half-axis
+layout(location = 0) flat out vec4 disc; // centre; for spheres 1 / half-axis
 layout(location = 1) flat out float amplitude;
-layout(location = 2) flat out vec3 conic; // of ellipsoids
+layout(location = 2) flat out vec3 conic; // for ellipsoids: the quadratic form
 
 void main() {
     uint index = QUADS == 0u ? uint(gl_VertexIndex) : push.capacity - 1u - uint(gl_InstanceIndex);
     Ellipsoid body = ellipsoid_in(visible, index);
     vec4 sphere = body.sphere;
     float share = FOAM == 1u ? shares[index] : 1.0;
-    // The sprite keeps its size.
+    // The sprite keeps the particle's full size.
     sphere.w = FOAM == 1u ? sphere.w / share : sphere.w;
     float widened;
     float axis = drawn_axis(sphere.w * frame.particle.z / frame.particle.x, -sphere.z, frame.thick_slope, widened);
@@ -53,7 +53,7 @@ void main() {
                   (gl_VertexIndex & 2) == 0 ? pixels.y : pixels.w);
     }
     gl_Position = vec4(at / frame.thick_extent.xy * 2.0 - 1.0, 0.5, 1.0);
-    // A centre behind the near plane has no sprite: off the screen.
+    // A centre behind the near plane has no sprite: move it off the screen.
     if (-sphere.z <= frame.depth.z) {
         gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
         gl_PointSize = 1.0;

@@ -1,7 +1,6 @@
 #version 460
-// Pass `thickness`, compute path, with two sheets: their sums to metres. Where all water is of one
-// there is no boundary any more: there is nothing to tell apart. Not in the
-// source.
+// Pass `thickness`, compute path, with two layers: their sums to metres. Where all water belongs to one layer the
+// boundary is removed. Not in the thesis.
 // Reads: sums, boundaries. Writes: sheets (RGBA32F: front, back, window), boundaries.
 
 #include "frame.glsl"
@@ -25,7 +24,7 @@ void main() {
     float all = metres(sums[at]);
     float front = metres(sums[at + (1u + FOAM) * texels]);
     float window = metres(sums[at + (2u + FOAM) * texels]);
-    // In fixed point one sheet's is the whole, or zero.
+    // With fixed point, one sheet's part is exactly the whole or zero.
     bool two = boundaries[at] < EMPTY && front > 0.0 && front < all;
     imageStore(sheets, p, two ? vec4(front, all - front, window, 0.0) : vec4(all, 0.0, ONE_SHEET * all, 0.0));
     if (!two) {

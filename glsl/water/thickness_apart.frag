@@ -1,6 +1,6 @@
 #version 460
 // Pass `thickness`, raster path with two sheets: additive, tested against the scene by the centre's depth.
-// Two sheets are not in the source.
+// Two sheets are not in the thesis.
 // Reads: scene depth, boundaries, foam depth. Writes: thickness (as thickness.frag), sheets
 // (RGBA32F: front, back, window).
 
@@ -17,7 +17,7 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(location = 0) flat in vec4 disc;
 layout(location = 1) flat in float amplitude;
 layout(location = 2) flat in vec3 conic;
-// All, and before the frontmost foam.
+// All water, and the water before the frontmost foam.
 layout(location = 0) out vec2 thickness;
 layout(location = 1) out vec4 sheets;
 

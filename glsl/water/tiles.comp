@@ -1,8 +1,8 @@
 #version 460
-// Pass `tiles`: sorts the tiles that hold water by their iterations, most first, so that the
-// tiles with work left in iteration i are a prefix of the list; writes the arguments of every
-// iteration's dispatch. A counting sort by one workgroup. Not in the source.
-// Reads: work of every tile (most iterations + 1), levels. Writes: list, arguments.
+// Pass `tiles`: sorts the tiles that hold water by iteration count, largest first, so that the tiles still active in
+// iteration i are a prefix of the list; writes the arguments of every iteration's dispatch. A counting sort by one
+// workgroup. Not in the thesis.
+// Reads: work of every tile (maximum iterations + 1), levels. Writes: list, arguments.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -11,8 +11,8 @@ layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer List { uint list[]; };
-// [0] all tiles with water: draw (4, n, 0, 0), then dispatches {x, 1, 1, n}: one an iteration, and at
-// last all tiles.
+// [0]: draw of all tiles with water (4, n, 0, 0). Then dispatches {x, 1, 1, n}: one per iteration, and at the end
+// all tiles.
 layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -20,7 +20,7 @@ layout(push_constant, std430) uniform Push {
     uint most_groups;
 } push;
 
-// Work of a tile; 0 of those that no level covers.
+// Work of a tile; 0 for tiles that no level covers.
 uint work_of(uint tile) {
     ivec2 corner = ivec2(int(tile) % levels.atlas.z, int(tile) / levels.atlas.z) * 16;
     return level_of(corner) < LEVELS ? tile_work[tile] & 0xffffu : 0u;
@@ -51,8 +51,8 @@ void main() {
         arguments[258] = uvec4(min(sum, push.most_groups), 1u, 1u, sum);
     }
     barrier();
-    // Iteration i runs the tiles with at least i - 1: one more than they need, in which all their
-    // pixels are copied, leaves the result in both images.
+    // Iteration i runs the tiles with at least i - 1 iterations. The additional one copies all pixels, so that
+    // both images hold the result.
     for (uint i = lane + 1u; i <= 257u; i += 256u) {
         uint least = max(i, 2u);
         uint n = first[least] + histogram[least];

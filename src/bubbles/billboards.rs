@@ -1,5 +1,5 @@
-//! Pass `peel` by billboards (Huszár, Szécsi, Sec. 5): all blobs once a layer, behind what the layer before has found (depth
-//! peeling, Everitt 2001), and once more for the most opacity.
+//! Pass `peel` by billboards (Huszár, Szécsi, Sec. 5): depth peeling, all blobs once per layer, behind what the
+//! previous layer found (Everitt 2001), and once more for the maximum opacity.
 //!
 //! Reads: blobs, scene depth, impostors. Writes: layers, bubble depth.
 
@@ -28,12 +28,12 @@ const LAYER: vk::Format = vk::Format::R32G32_UINT;
 const OPACITY: vk::Format = vk::Format::R16_SFLOAT;
 const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
 
-/// How what was drawn is read: by the next layer, and to keep it.
+/// How a drawn layer is read: by the next layer, and to store it.
 const READ: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
-/// What depends on the frame's size.
+/// Size-dependent state.
 struct Targets {
-    /// The layer before and this one, in turn.
+    /// The previous layer and this one, alternating.
     layers: [Image; 2],
     depth: Image,
     opacity: Image,
@@ -147,8 +147,8 @@ impl Billboards {
         Ok(())
     }
 
-    /// `count` blobs, of those that there may be; `bound`: what the pass reads and writes, `kept`: layers and depth, which
-    /// come and go as compute writes them.
+    /// `count`: number of blobs. `bound`: what the pass reads and writes. `kept`: layers and depth, which are
+    /// in the compute-write state before and after.
     pub fn record(
         &self,
         r: &Recording<'_>,

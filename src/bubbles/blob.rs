@@ -1,37 +1,37 @@
-//! A blob of foam: soap bubbles on a shell round a core (Huszár, Szécsi, Sec. 4.1), made of a seed.
+//! A blob of foam: soap bubbles on a shell around a core (Huszár, Szécsi, Sec. 4.1), generated from a seed.
 //!
-//! Neighbours are to stand where their films and the wall between them meet at 120°, `|AB|² = r_A² + r_B² − r_A r_B`,
-//! as nearly as a shell can be packed: each bubble is given as much of it as a hexagon of that spacing covers, and
-//! those too near push each other away along it.
+//! Neighbours should be placed where their films and the wall between them meet at 120°, `|AB|² = r_A² + r_B² −
+//! r_A r_B`, as nearly as a shell can be packed: each bubble gets as much of the shell as a hexagon of that
+//! spacing covers, and bubbles that are too close push each other apart along it.
 //!
-//! Nothing here is a transcendental function: a seed gives the same blob on every machine.
+//! No transcendental function is used: a seed gives the same blob on every machine.
 
 use glam::DVec3;
 
 use crate::random::Random;
 
-/// Fewest and most bubbles of a blob: the impostor's maps have eight bits for one.
+/// Minimum and maximum number of bubbles of a blob: the impostor's maps have eight bits for an index.
 pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
 
-/// Candidates for a bubble's first place, of which the one farthest from all others is taken.
+/// Candidates for a bubble's initial position; the one farthest from all others is taken.
 const CANDIDATES: u32 = 8;
-/// Rounds in which the bubbles push each other away.
+/// Iterations of the repulsion between bubbles.
 const ROUNDS: u32 = 40;
-/// How far radii differ from their mean, and how far a centre lies off the shell, in radii.
+/// Relative variation of radii, and offset of a centre from the shell, in radii.
 const SPREAD: f64 = 0.3;
 const OFF_SHELL: f64 = 0.15;
 
-/// Those that a bubble is told to have beside it, at most (glsl/include/blob.glsl).
+/// Maximum number of stored neighbours per bubble (glsl/include/blob.glsl).
 pub(super) const NEIGHBOURS: usize = 16;
 
-/// Bubbles of one blob in its own space, whose bounding ball is the unit ball about 0.
+/// The bubbles of one blob in its own space, whose bounding sphere is the unit sphere around the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blob {
-    /// Centre and radius of each.
+    /// Centre and radius of each bubble.
     pub bubbles: Vec<[f32; 4]>,
 }
 
-/// Evenly over all.
+/// A uniformly distributed direction.
 fn direction(random: &mut Random) -> DVec3 {
     loop {
         let v = DVec3::from([random.next(), random.next(), random.next()].map(|x| 2.0 * x - 1.0));
@@ -42,13 +42,13 @@ fn direction(random: &mut Random) -> DVec3 {
     }
 }
 
-/// How far apart two bubbles are whose films meet at 120°.
+/// Distance of two bubbles whose films meet at 120°.
 fn apart(a: f64, b: f64) -> f64 {
     (a * a + b * b - a * b).sqrt()
 }
 
 impl Blob {
-    /// So many bubbles, 8 to 256; fewer and more are as many as the nearer of the two.
+    /// A blob with this many bubbles, clamped to 8 to 256.
     pub fn new(seed: u32, count: u32) -> Self {
         let count = count.clamp(*BUBBLES.start(), *BUBBLES.end());
         let mut random = Random::new(seed);
@@ -94,8 +94,8 @@ impl Blob {
         Self { bubbles }
     }
 
-    /// Of each bubble those that it intersects, the nearest of them by how deep, a byte each; itself where there are
-    /// fewer.
+    /// For each bubble the indices of the bubbles that it intersects, deepest first, one byte each; its own
+    /// index where there are fewer.
     pub(super) fn neighbours(&self) -> Vec<[u8; NEIGHBOURS]> {
         let depth = |a: &[f32; 4], b: &[f32; 4]| {
             let apart = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt();

@@ -1,6 +1,8 @@
-//! Pass `cast`: blobs as the sun sees them, so that they shade each other, the scene and the water (not in the source).
+//! Pass `cast`: the blobs' shadow map, so that they shadow each other, the scene and the water (not in the
+//! paper).
 //!
-//! Reads: blobs. Writes: metres along the light to the first of them, from the near side of the light's region on.
+//! Reads: blobs. Writes: metres along the light to the first of them, from the near side of the light's region
+//! on.
 
 use ash::vk;
 
@@ -18,7 +20,7 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// How it is read: by all that asks for the sun's light.
+/// How the map is read: by every pass that needs sunlight.
 const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED).and(VERTEX_SAMPLED);
 
 /// The pass.
@@ -28,7 +30,7 @@ pub struct Cast {
 }
 
 impl Cast {
-    /// None where nothing casts shadows.
+    /// `None` if nothing casts shadows.
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Option<Self>, Error> {
         let Some(edge) = config.cast else { return Ok(None) };
         let usage = vk::ImageUsageFlags::STORAGE

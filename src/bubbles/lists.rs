@@ -1,8 +1,8 @@
-//! Pass `blobs`: the blobs on the screen, and for each tile which they are, front to back.
+//! Pass `blobs`: the blobs on the screen, and for each tile its blobs front to back.
 //!
-//! Where the source draws a billboard for each, and all of them once a layer, a pixel here goes through the list of its
-//! tile. Lists are places in one buffer, by prefix sums: of slice after slice of depth, so that where there is no
-//! room the farthest are lost.
+//! The paper draws a billboard per blob, and all of them once per layer. Here a pixel walks the list of its
+//! tile. The lists share one buffer, placed by prefix sums, depth slice by depth slice, so that the farthest
+//! blobs are dropped when it is full.
 //! Reads: the host's streams. Writes: blobs, range, cells, spans, list.
 
 use ash::vk;
@@ -25,19 +25,19 @@ use crate::gpu::scan::Scan;
 use crate::gpu::shader;
 use crate::water::{Recording, Window, capacity, each_once};
 
-/// Edge of a tile in pixels (glsl/include/bubbles.glsl).
+/// Side length of a tile in pixels (glsl/include/bubbles.glsl).
 pub const TILE: u32 = 16;
 /// Slices of depth.
 pub const SLICES: u32 = 32;
-/// Places of a tile in the list, in the mean: more blobs than lie one behind the other.
+/// List entries per tile, on average: more blobs than usually lie behind each other.
 const PLACES: u32 = 128;
-/// Bytes of a blob, and of what is known of all.
+/// Bytes of a blob, and of the statistics of all.
 const BLOB: u64 = 48;
 const RANGE: u64 = 20;
-/// Word of the range that has the number of places taken.
+/// Word of the range with the number of used entries.
 const TAKEN: u32 = 4;
 
-/// Where the host's streams begin, and their strides: 0 of one that is not there.
+/// Offsets and strides of the host's streams; the stride is 0 for an absent one.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
 pub struct Places {
@@ -73,13 +73,13 @@ pub fn tiles(extent: vk::Extent2D) -> [u32; 2] {
     [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)]
 }
 
-/// Places of the list of an extent, 4 bytes each.
+/// List entries for an extent, 4 bytes each.
 pub fn room(extent: vk::Extent2D, config: &BubbleConfig) -> u32 {
     let [x, y] = tiles(extent);
     PLACES * x * y + 4 * config.max_blobs
 }
 
-/// The streams that there are, with the bytes of a value.
+/// The present streams, with the bytes of a value.
 fn streams(blobs: &Blobs) -> impl Iterator<Item = (&Stream, u64)> {
     let all = [(Some(&blobs.balls), 16), (blobs.turns.as_ref(), 16), (blobs.ids.as_ref(), 4)];
     all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
@@ -90,7 +90,7 @@ pub fn buffers_of(blobs: &Blobs) -> Vec<vk::Buffer> {
     each_once(streams(blobs), blobs.count, None)
 }
 
-/// Balls, turns and ids, and where they begin; none where one ends before the first blob.
+/// Bindings and offsets of balls, turns and ids; `None` if a stream ends before the first blob.
 pub fn windows(gpu: &Gpu, blobs: &Blobs) -> Option<([Resource; 3], Places)> {
     let balls = Window::new(gpu, &blobs.balls, 0)?;
     let other = |stream: &Option<Stream>| match stream {
@@ -109,7 +109,7 @@ pub fn windows(gpu: &Gpu, blobs: &Blobs) -> Option<([Resource; 3], Places)> {
     Some(([balls, turns, ids].map(|own| own.resource), places))
 }
 
-/// What depends on the frame's size.
+/// Size-dependent state.
 struct Cells {
     cells: Buffer,
     spans: Buffer,
@@ -137,7 +137,7 @@ impl Cells {
 /// The pass.
 pub struct Lists {
     begin: Pipeline,
-    /// To the eye, numbers, lists.
+    /// Three dispatches: to eye space, counts, entries.
     goes: [Pipeline; 3],
     config: BubbleConfig,
     blobs: Buffer,
@@ -176,13 +176,13 @@ impl Lists {
         Ok(())
     }
 
-    /// Blobs, what is known of them all, ends of the cells, list, each tile's slices.
+    /// Blobs, their statistics, ends of the cells, list, depth slices of each tile.
     pub fn buffers(&self) -> [&Buffer; 5] {
         let Cells { cells, spans, list, .. } = &self.cells;
         [&self.blobs, &self.range, cells, list, spans]
     }
 
-    /// How the blobs are read after the pass; all the rest is by compute.
+    /// How the blobs are read after the pass; everything else is read by compute.
     fn read(&self) -> Access {
         match self.config.sort {
             BubbleSort::Tiles => COMPUTE_READ,
@@ -190,7 +190,7 @@ impl Lists {
         }
     }
 
-    /// Lists are for those who go through them.
+    /// The dispatches that are needed: the tile lists are built only if the sort uses them.
     fn goes(&self) -> &[Pipeline] {
         match self.config.sort {
             BubbleSort::Tiles => &self.goes,
@@ -198,7 +198,7 @@ impl Lists {
         }
     }
 
-    /// As many are drawn where they are drawn.
+    /// Number of blobs to draw, in the path that draws them.
     pub fn count(&self, gpu: &Gpu, blobs: Option<&Blobs>) -> u32 {
         blobs.and_then(|blobs| self.bound(gpu, blobs)).map_or(0, |(_, push)| push.most)
     }
@@ -261,7 +261,7 @@ impl Lists {
         Ok(())
     }
 
-    /// The host's streams, and what is pushed; none where one ends before the first blob.
+    /// The host's streams and the push constants; `None` if a stream ends before the first blob.
     fn bound(&self, gpu: &Gpu, blobs: &Blobs) -> Option<([(u32, Resource); 3], Push)> {
         let (bound, places) = windows(gpu, blobs)?;
         let room = streams(blobs).map(capacity).fold(self.config.max_blobs, u32::min);
@@ -279,7 +279,7 @@ impl Lists {
     }
 }
 
-/// Tiles of all slices.
+/// Number of tiles of all depth slices.
 fn cells_of(extent: vk::Extent2D) -> u32 {
     let [x, y] = tiles(extent);
     SLICES * x * y

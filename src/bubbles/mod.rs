@@ -1,5 +1,5 @@
-//! Bubble foam: blobs of soap bubbles by the thousand (Huszár, Szécsi, GPU-supported bubble and foam rendering). A pass
-//! a file.
+//! Bubble foam: blobs of soap bubbles by the thousand (Huszár, Szécsi, GPU-supported bubble and foam
+//! rendering). One pass per file.
 
 mod billboards;
 mod blob;
@@ -81,14 +81,14 @@ impl BubbleUniforms {
     }
 }
 
-/// Bytes of what is bound whole: layers of pixels, lists of tiles.
+/// Bytes of the largest buffer that is bound as a whole: layers of pixels, or lists of tiles.
 pub(crate) fn bytes_bound(extent: vk::Extent2D, bubbles: &BubbleConfig) -> (u64, u64) {
     (peel::layer_bytes(extent, bubbles), 4 * u64::from(lists::room(extent, bubbles)))
 }
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Bubbles {
-    /// Those of the renderer before a `reconfigure`, where they fit.
+    /// Those of the renderer before a `reconfigure`, if they still fit.
     templates: Arc<Templates>,
     near: Option<near::Near>,
     lists: lists::Lists,
@@ -98,7 +98,7 @@ pub(crate) struct Bubbles {
 }
 
 impl Bubbles {
-    /// `before`: what there was until now.
+    /// `before`: the previous state.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -124,7 +124,7 @@ impl Bubbles {
         })
     }
 
-    /// Replaces what depends on the extent.
+    /// Recreates the size-dependent state.
     pub fn resize(
         &mut self,
         gpu: &Gpu,
@@ -136,7 +136,7 @@ impl Bubbles {
         self.soap.resize(gpu, config, retired)
     }
 
-    /// What `record_setup` makes is that of another.
+    /// Whether the precomputed data is that of `other`.
     pub fn is_set_up_as(&self, other: Option<&Self>) -> bool {
         other.is_some_and(|other| Arc::ptr_eq(&self.templates, &other.templates))
     }
@@ -145,8 +145,8 @@ impl Bubbles {
         self.templates.record_setup(gpu, cmd);
     }
 
-    /// Diffuse foam near the eye becomes blobs, where it does. Whether the particles' buffers were taken over for it, as
-    /// read by compute.
+    /// Pass `near`, if it is enabled. Returns whether it has taken over the particles' buffers, which are then
+    /// in the compute-read state.
     pub fn record_near(
         &self,
         r: &mut Recording<'_>,
@@ -158,12 +158,12 @@ impl Bubbles {
         }
     }
 
-    /// The blobs that are made of diffuse foam, and what says up to where they are.
+    /// The blobs made of whitewater foam, and the distances of the cross-fade.
     pub fn handed_over(&self) -> Option<(Blobs, Resource)> {
         self.near.as_ref().map(|near| (near.blobs(), near.over()))
     }
 
-    /// Which there are, and their shadows: before anything asks for the sun's light.
+    /// Passes `blobs` and `cast`, before any pass that needs sunlight.
     pub fn record_lists(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"blobs");
         self.lists.record(r, blobs)?;
@@ -176,12 +176,12 @@ impl Bubbles {
         Ok(())
     }
 
-    /// Blobs as the sun sees them, where they cast shadows.
+    /// The blobs' shadow map, if they cast shadows.
     pub fn cast(&self, gpu: &Gpu) -> Option<Resource> {
         self.cast.as_ref().map(|cast| cast.resource(gpu))
     }
 
-    /// Where blobs are: before the tiles that are drawn are known.
+    /// Pass `peel`, before tile classification, which needs the blobs' depth.
     pub fn record_peel(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"peel");
         self.peel.record(r, (&self.lists, blobs), &self.templates)?;
@@ -189,7 +189,7 @@ impl Bubbles {
         Ok(())
     }
 
-    /// What they look like.
+    /// Pass `soap`.
     pub fn record_soap(
         &self,
         r: &mut Recording<'_>,
@@ -203,27 +203,27 @@ impl Bubbles {
         Ok(())
     }
 
-    /// Depth of the frontmost, EMPTY where there is none.
+    /// Depth of the frontmost blob, EMPTY where there is none.
     pub fn depth(&self) -> &Image {
         self.peel.depth()
     }
 
-    /// Colour, premultiplied, and how much it covers.
+    /// Premultiplied colour, with opacity in A.
     pub fn image(&self) -> &Image {
         self.soap.image()
     }
 
-    /// Of each pixel its layers and the most opacity, and how many words these are.
+    /// Layers and maximum opacity of each pixel, and the number of words per pixel.
     pub fn layers(&self) -> (vk::Buffer, u32) {
         (self.peel.layers().handle, self.peel.words())
     }
 
-    /// What became of the blobs.
+    /// Statistics of the blobs.
     pub fn counts(&self) -> vk::Buffer {
         self.lists.buffers()[1].handle
     }
 
-    /// The layers of a frame of a size for the host.
+    /// The layers of a frame of this size, for the host.
     pub fn kept(&self, extent: vk::Extent2D) -> Vec<Layer> {
         let film = &self.templates.table;
         let layer = |name, image: &Image, extent| Layer {

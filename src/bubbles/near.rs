@@ -1,8 +1,9 @@
-//! Pass `near`: diffuse foam near the eye becomes blobs, where Akinci et al. 2013 give foam up.
+//! Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs, where Akinci et al. 2013 draw no
+//! foam.
 //!
-//! Numbers of particles by their distance say how far there is room for blobs; up to there each is one. Which place a blob
-//! gets is chance and does not show.
-//! Reads: the host's diffuse particles. Writes: hand-over; balls, turns, ids and count of blobs.
+//! A histogram of the particles' distances determines how far there are enough slots for blobs. Up to that
+//! distance each particle is a blob. Which slot it gets is arbitrary and not visible.
+//! Reads: the host's whitewater particles. Writes: hand-over; balls, turns, ids and count of blobs.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -24,12 +25,12 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Distances that are told apart (glsl/include/hand_over_rings.glsl).
+/// Bins of the distance histogram (glsl/include/hand_over_rings.glsl).
 const RINGS: u64 = 1024;
-/// Bytes of what says up to where there are blobs.
+/// Bytes of the cross-fade distances.
 const OVER: u64 = 16;
 
-/// How the sprites' passes read that.
+/// How the sprite passes read them.
 const OVER_READ: Access = COMPUTE_READ.and(VERTEX_READ);
 
 #[repr(C)]
@@ -44,7 +45,7 @@ const _: () =
 /// The pass.
 pub struct Near {
     begin: Pipeline,
-    /// How many, which; of particles as the source has them, and of others.
+    /// Pipelines of the two dispatches, histogram and entries, for default and for other particle shapes.
     goes: [[Pipeline; 2]; 2],
     range: Pipeline,
     chunks: Chunks,
@@ -90,7 +91,7 @@ impl Near {
         })
     }
 
-    /// What says up to where there are blobs.
+    /// The distances of the cross-fade.
     pub fn over(&self) -> Resource {
         Resource::buffer(&self.over)
     }
@@ -113,7 +114,8 @@ impl Near {
         }
     }
 
-    /// Before anything else takes the particles' buffers, which are read by compute afterwards.
+    /// Runs before any other pass takes over the particles' buffers, which are in the compute-read state
+    /// afterwards.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -209,7 +211,7 @@ impl Near {
     }
 }
 
-/// Descriptor sets that a frame takes.
+/// Number of descriptor sets per frame.
 pub fn sets(limits: &vk::PhysicalDeviceLimits, diffuse: &DiffuseConfig) -> u32 {
     2 + 2 * Chunks::new(limits, diffuse).count
 }

@@ -1,4 +1,5 @@
-//! Pass `peel`: which blobs a pixel sees, the nearest first, and how opaque all of them are (Huszár, Szécsi, Sec. 5).
+//! Pass `peel`: the nearest blobs of each pixel, front to back, and the combined opacity of all (Huszár,
+//! Szécsi, Sec. 5).
 //!
 //! Reads: blobs and lists, scene depth, impostors. Writes: layers, bubble depth.
 
@@ -31,7 +32,7 @@ pub fn layer_bytes(extent: vk::Extent2D, bubbles: &BubbleConfig) -> u64 {
     4 * u64::from(bubbles.layers + 1) * u64::from(extent.width) * u64::from(extent.height)
 }
 
-/// What depends on the frame's size.
+/// Size-dependent state.
 struct Targets {
     layers: Buffer,
     depth: Image,
@@ -56,7 +57,7 @@ impl Targets {
     }
 }
 
-/// How the nearest are found.
+/// Path that finds the nearest blobs.
 enum Way {
     Tiles(Pipeline),
     Billboards(Box<Billboards>),
@@ -97,17 +98,17 @@ impl Peel {
         }
     }
 
-    /// Of each pixel its layers, front to back, and the most opacity.
+    /// Layers of each pixel, front to back, and the maximum opacity.
     pub fn layers(&self) -> &Buffer {
         &self.targets.layers
     }
 
-    /// Words of a pixel among them.
+    /// Words per pixel in that buffer.
     pub fn words(&self) -> u32 {
         self.config.layers + 1
     }
 
-    /// Depth of the frontmost.
+    /// Depth of the frontmost blob.
     pub fn depth(&self) -> &Image {
         &self.targets.depth
     }

@@ -4,43 +4,44 @@ use super::blob::BUBBLES;
 use crate::error::Error;
 use crate::water::settings::range;
 
-/// Most layers of blobs that are told apart in a pixel.
+/// Maximum number of blob layers per pixel.
 pub const MOST_LAYERS: u32 = 8;
-/// Most thickness of a film in nanometres.
+/// Maximum thickness of a film, nanometres.
 pub const MOST_FILM: f32 = 2000.0;
 
-/// What of the bubble foam costs memory or pipelines.
+/// Configuration of bubble foam: what costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BubbleConfig {
-    /// Most blobs a frame may have, 1 to 2^20. 64 bytes each.
+    /// Maximum number of blobs per frame, 1 to 2^20. 64 bytes each.
     pub max_blobs: u32,
-    /// Different blobs, 1 to 32, default 8: which of them one is its id decides.
+    /// Number of precomputed blob variants, 1 to 32, default 8. Each blob uses one, chosen by its id.
     pub templates: u32,
-    /// Bubbles of each, 8 to 256, default 227 (the source's 22 700 of a hundred).
+    /// Bubbles per variant, 8 to 256, default 227 (the paper's 22 700 in a hundred blobs).
     pub bubbles: u32,
-    /// What they are made of, default 1.
+    /// Seed of the variants, default 1.
     pub seed: u32,
-    /// How a ray's first bubble is found.
+    /// How the first bubble along a ray is found.
     pub impostor: Impostor,
-    /// Edge of a face of the impostor's map in texels, a multiple of 4 from 8 to 512; default as the impostor's.
+    /// Side length of a face of the impostor's cube map in texels, a multiple of 4 from 8 to 512. Default: the
+    /// impostor's.
     pub map: u32,
-    /// Steps of the search along a ray, 1 to 64; default as the impostor's.
+    /// Maximum steps of the search along a ray, 1 to 64. Default: the impostor's.
     pub steps: u32,
-    /// Blobs of a pixel that are drawn one behind the other, 1 to 8, default 3. What lies farther only makes holes
-    /// between them as opaque as it is.
+    /// Number of blobs per pixel that are composited, 1 to 8, default 3. Blobs behind these only contribute
+    /// opacity to the holes between them.
     pub layers: u32,
-    /// How they are sorted.
+    /// How the blobs of a pixel are sorted.
     pub sort: BubbleSort,
     /// The soap film.
     pub film: Film,
-    /// Diffuse foam near the eye becomes blobs ([`BubbleLook::hand_over`]), at most `max_blobs` of them; frames then have no
-    /// other blobs. Default false. With [`Config::diffuse`](crate::Config::diffuse); 36 bytes a blob more, the pass
-    /// `near`.
+    /// Whether whitewater foam near the camera turns into blobs ([`BubbleLook::hand_over`]), at most
+    /// `max_blobs` of them; frames then have no other blobs. Default false. Needs
+    /// [`Config::diffuse`](crate::Config::diffuse). 36 bytes per blob more; adds the pass `near`.
     pub hand_over: bool,
 }
 
 impl BubbleConfig {
-    /// The defaults for so many blobs.
+    /// The defaults for a maximum number of blobs.
     pub fn new(max_blobs: u32) -> Self {
         Self {
             max_blobs,
@@ -78,18 +79,19 @@ impl BubbleConfig {
     }
 }
 
-/// What stands for a blob's bubbles (Sec. 4.2, 4.3).
+/// Precomputed representation of a blob's bubbles (Sec. 4.2, 4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Impostor {
-    /// How far from its middle its surface lies in each direction: 64 texels a side, at most 20 steps. No walls.
+    /// Distance from the centre to the surface in each direction: 64 texels per side, at most 20 steps. No
+    /// walls.
     Distance,
-    /// Which bubble is outermost in each direction: 128 texels a side, 10 steps. Its sphere is met exactly, and there
-    /// are walls. Default.
+    /// Id of the outermost bubble in each direction: 128 texels per side, 10 steps. The bubble's sphere is
+    /// intersected exactly, and walls are drawn. Default.
     Ids,
 }
 
 impl Impostor {
-    /// The source's size of a face.
+    /// The paper's side length of a face, texels.
     pub fn map(self) -> u32 {
         match self {
             Self::Distance => 64,
@@ -97,7 +99,7 @@ impl Impostor {
         }
     }
 
-    /// The source's number of steps.
+    /// The paper's number of steps.
     pub fn steps(self) -> u32 {
         match self {
             Self::Distance => 20,
@@ -109,12 +111,12 @@ impl Impostor {
 /// How the nearest blobs of a pixel are found. Both give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BubbleSort {
-    /// Each pixel goes once through the blobs of its tile, front to back, and keeps the nearest. Default. There is room
-    /// for 128 blobs a tile of 16×16 pixels in the mean and four tiles a blob besides: where it is full, the farthest are
-    /// left out.
+    /// Each pixel walks the blobs of its tile once, front to back, and keeps the nearest. Default. The lists
+    /// have room for 128 blobs per 16×16 tile on average, plus four tiles per blob; when full, they drop the
+    /// farthest blobs.
     Tiles,
-    /// All blobs are drawn once a layer, behind what the layer before has found (depth peeling, Everitt 2001), and
-    /// once more for how opaque they are: the source's way (Sec. 5). 22 bytes a pixel more.
+    /// Depth peeling, as in the paper (Sec. 5; Everitt 2001): all blobs are drawn once per layer, behind what
+    /// the previous layer found, and once more for the combined opacity. 22 bytes per pixel more.
     Peel,
 }
 
@@ -123,9 +125,9 @@ pub enum BubbleSort {
 pub struct Film {
     /// Refractive index of the soapy water, 1 to 3, default 1.4.
     pub index: f32,
-    /// What one face of it reflects.
+    /// Reflectance of one face of the film.
     pub fresnel: FilmFresnel,
-    /// What of the light is looked at.
+    /// Wavelengths that are evaluated.
     pub spectrum: Spectrum,
 }
 
@@ -135,75 +137,77 @@ impl Default for Film {
     }
 }
 
-/// What one face of a film reflects.
+/// Reflectance of one face of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FilmFresnel {
-    /// Fresnel's equations for both polarisations, and Airy's sum for each. Default.
+    /// Fresnel's equations for both polarisations, with Airy's sum for each. Default.
     Exact,
-    /// Schlick's approximation, and Airy's sum.
+    /// Schlick's approximation, with Airy's sum.
     Schlick,
-    /// As printed: one less the cosine, and four times that times the squared sine, cut at 1. Its phase is half of
-    /// the printed one, of the refracted ray.
+    /// As printed: 1 − cosine, and four times that times the squared sine, clamped to 1. The phase is half the
+    /// printed one, and of the refracted ray.
     Source,
 }
 
-/// Which wavelengths a film is looked at.
+/// Wavelengths at which a film's interference is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Spectrum {
-    /// Three: one for each of red, green and blue, as the source.
+    /// One each for red, green and blue, as in the paper.
     Three,
-    /// 81, from 380 to 780 nm. Default: it costs the same, a look into a table.
+    /// 81, from 380 to 780 nm. Default. It costs the same: one table look-up.
     Whole,
 }
 
-/// How bubble foam looks.
+/// Appearance of bubble foam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BubbleLook {
     /// Mean thickness of the films in nanometres, 1 to 2000, default 380.
     pub film: f32,
-    /// How far bubbles' films differ from it, and each within itself, 0 to 1, default 0.35.
+    /// Variation of the film thickness between bubbles and within each, relative to `film`, 0 to 1, default
+    /// 0.35.
     pub variation: f32,
-    /// How much thinner they are on top and thicker at the bottom, where they drain to, 0 to 1, default 0.35.
+    /// Drainage: how much thinner films are at the top and thicker at the bottom, 0 to 1, default 0.35.
     pub drainage: f32,
-    /// Distances from a blob's middle, in its radius, within which the core is opaque and beyond which it is gone, 0 ≤
-    /// first < second ≤ 2, default 0.65 and 0.98 (Sec. 4.4).
+    /// Distances from a blob's centre, in its radius, within which the core is opaque and beyond which it is
+    /// absent. 0 ≤ first < second ≤ 2, default 0.65 and 0.98 (Sec. 4.4).
     pub core: [f32; 2],
     /// Albedo of the core, linear RGB, 0 to 1, default 0.92 of each.
     pub albedo: [f32; 3],
-    /// How much the pattern of small bubbles inside shows, 0 to 1, default 0.7.
+    /// Visibility of the texture of small bubbles on the core, 0 to 1, default 0.7.
     pub pattern: f32,
-    /// Weight of the inverse normal in the look-up of the pattern, beside the place behind the bubble, 0 to 1, default
-    /// 0.1 (v₂ and v₁ of Sec. 4.4): with more of it the cells become rings round each bubble's middle.
+    /// Weight of the inverse normal in the texture look-up, relative to the position behind the bubble, 0 to 1,
+    /// default 0.1 (v₂ and v₁ of Sec. 4.4). Large values turn the cells into rings around each bubble's centre.
     pub distortion: f32,
-    /// Weight of the blob's own normal beside the bubble's where the core is lit, 0 to 1, default 0.5 (Sec. 4.4).
+    /// Weight of the blob's normal against the bubble's in the lighting of the core, 0 to 1, default 0.5 (Sec.
+    /// 4.4).
     pub roundness: f32,
-    /// Factor on what films reflect of the environment, [0, 8], default 1.
+    /// Factor on the environment reflection of films, [0, 8], default 1.
     pub reflection: f32,
     /// Exponent of the sun's highlight on films, 1 to 10 000, default 800.
     pub shininess: f32,
-    /// Whether the walls between bubbles are drawn; default true. With [`Impostor::Ids`].
+    /// Whether the walls between bubbles are drawn, with [`Impostor::Ids`]. Default true.
     pub walls: bool,
-    /// Whether what lies behind the last layer plugs the holes (Sec. 5); default true.
+    /// Whether blobs behind the last layer fill the holes (Sec. 5). Default true.
     pub plug: bool,
-    /// Blobs whose radius on the screen is less than so many pixels merge, 0 to 64, default 1; 0: none. Of them so few
-    /// are left, each grown in the same measure, that they cover as much and are as large as that (Cook, Halstead,
-    /// Planck, Ryu 2007, Stochastic Simplification of Aggregate Detail). Which ones go first, their ids decide; each shrinks
-    /// before it goes.
+    /// Stochastic level of detail: blobs whose screen radius is below this many pixels are thinned out, and the
+    /// rest enlarged so that they cover as much and reach this size (Cook, Halstead, Planck, Ryu 2007,
+    /// Stochastic Simplification of Aggregate Detail). 0 to 64, default 1, 0 = off. Ids decide which blobs go
+    /// first; each shrinks before it disappears.
     pub merge: f32,
-    /// Where blobs take over from sprites of diffuse foam, with [`BubbleConfig::hand_over`].
+    /// Cross-fade from whitewater foam sprites to blobs, with [`BubbleConfig::hand_over`].
     pub hand_over: HandOver,
 }
 
-/// Diffuse foam near the eye as blobs: Akinci et al. 2013 give foam up that is nearer than some metres. What is spray or
-/// under water stays sprites.
+/// Cross-fade of whitewater foam near the camera to blobs, where Akinci et al. 2013 draw none. Spray and
+/// particles under water stay sprites.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HandOver {
-    /// Up to this distance from the eye there are blobs alone, scene units, [0, ∞), default 2.
+    /// Distance from the camera up to which foam consists of blobs only, scene units, [0, ∞), default 2.
     pub near: f32,
-    /// From there on sprites alone, above `near`, default 4. Between the two a blob grows as its sprite goes. Where more
-    /// particles are nearer than there may be blobs, both distances are less.
+    /// Distance from which foam consists of sprites only, more than `near`, default 4. In between blobs grow as
+    /// sprites shrink. If more particles are nearer than `max_blobs` allows, both distances shrink.
     pub far: f32,
-    /// Radius of a blob in that of its particle, (0, 100], default 1.
+    /// Radius of a blob relative to its particle, (0, 100], default 1.
     pub size: f32,
 }
 

@@ -1,4 +1,4 @@
-//! Pass `soap`: films, walls and cores of what `peel` has found, and the light on them (Huszár, Szécsi, Sec. 3.1, 4.4, 5).
+//! Pass `soap`: shades the films, walls and cores that `peel` has found (Huszár, Szécsi, Sec. 3.1, 4.4, 5).
 //!
 //! Reads: blobs, layers, templates, environment, irradiance, water depth, thickness, sunlight. Writes: bubbles,
 //! premultiplied.
@@ -57,12 +57,12 @@ impl Soap {
         Ok(())
     }
 
-    /// Colour, premultiplied, and how much it covers.
+    /// Premultiplied colour, with opacity in A.
     pub fn image(&self) -> &Image {
         &self.image
     }
 
-    /// `water`: its depth and thickness, which come and go as sampled by fragments.
+    /// `water`: its depth and thickness, sampled by fragment shaders before and after.
     pub fn record(
         &self,
         r: &Recording<'_>,

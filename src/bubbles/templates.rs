@@ -1,5 +1,5 @@
-//! Passes `film`, `impostor` and `core`: what no frame changes, made once per renderer (Huszár, Szécsi, Sec. 3.1, 4.2 to
-//! 4.4).
+//! Passes `film`, `impostor` and `core`: precomputed data, made once per renderer (Huszár, Szécsi, Sec. 3.1,
+//! 4.2 to 4.4).
 //!
 //! Reads: bubbles of the blobs. Writes: the film's table, the impostors' maps, the core's picture.
 
@@ -22,15 +22,15 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::random::pcg;
 
-/// Cosines and thicknesses of the film's table.
+/// Size of the film's table: cosines by thicknesses.
 const FILM: vk::Extent2D = vk::Extent2D { width: 64, height: 256 };
-/// Edge of the core's picture without its border.
+/// Side length of the core's texture without its border.
 const CORE: u32 = 256;
-/// Edge of the impostor's map that is not asked for.
+/// Side length of the impostor map that is not used.
 const UNUSED: u32 = 8;
 /// How the ids are read.
 const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
-/// How all the rest is.
+/// How everything else is read.
 const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 #[repr(C)]
@@ -57,25 +57,25 @@ struct CorePush {
 }
 shader::assert_layout!(shader::BUBBLES_CORE_COMP, "Push", CorePush { size, seed });
 
-/// What the blobs are made of.
+/// Precomputed data of the blobs.
 pub struct Templates {
     film: Pipeline,
     impostors: [Pipeline; 2],
     core: Pipeline,
     config: BubbleConfig,
-    /// Of the pipelines, in the order of the dispatches; they live in the pool.
+    /// Sets of the pipelines, in the order of the dispatches; the pool owns them.
     sets: [vk::DescriptorSet; 4],
     _descriptors: Descriptors,
     /// Reflectance by cosine and thickness.
     pub table: Image,
     /// Centre and radius of each bubble of each blob.
     bubbles: Buffer,
-    /// Which others each of them intersects.
+    /// Neighbours that each bubble intersects.
     neighbours: Buffer,
-    /// How far their surfaces are from their middles; or whose they are, a byte a texel.
+    /// Impostor maps: distance of the surface from the centre, or index of the bubble, one byte per texel.
     distances: Image,
     ids: Buffer,
-    /// Small bubbles inside.
+    /// Texture of small bubbles on the core.
     pub picture: Image,
 }
 
@@ -150,13 +150,13 @@ impl Templates {
         })
     }
 
-    /// Whether it is what another configuration asks for, whatever else that changes.
+    /// Whether the data also fits another configuration.
     pub fn fits(&self, config: &BubbleConfig) -> bool {
         let BubbleConfig { max_blobs, layers, sort, steps, hand_over, .. } = *config;
         BubbleConfig { max_blobs, layers, sort, steps, hand_over, ..self.config } == *config
     }
 
-    /// Edges of the faces of both maps.
+    /// Side lengths of the faces of both maps.
     fn edges(config: &BubbleConfig) -> [u32; 2] {
         match config.impostor {
             Impostor::Distance => [config.map, UNUSED],
@@ -164,7 +164,7 @@ impl Templates {
         }
     }
 
-    /// Makes all of it, for good.
+    /// Records the computation of all data, once.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         gpu.begin_label(cmd, c"bubbles");
         let images = [&self.table, &self.distances, &self.picture];

@@ -1,5 +1,5 @@
-//! Screen-space foam of diffuse particles: spray, foam and bubbles, by the million (Akinci, Dippel, Akinci,
-//! Teschner, Screen Space Foam Rendering, 2013). A pass a file.
+//! Screen-space rendering of whitewater: spray, foam and bubbles that are particles of their own, by the
+//! million (Akinci, Dippel, Akinci, Teschner, Screen Space Foam Rendering, 2013). One pass per file.
 
 pub(crate) mod generate;
 mod quads;
@@ -35,7 +35,7 @@ impl Foam {
         })
     }
 
-    /// Replaces what depends on the extent.
+    /// Recreates the size-dependent state.
     pub fn resize(
         &mut self,
         gpu: &Gpu,
@@ -46,7 +46,8 @@ impl Foam {
         self.radiance.resize(gpu, config, retired)
     }
 
-    /// Where foam is, and how much: as soon as the depth of the water is known, so that its tiles are drawn.
+    /// Pass `splat`: depth and thickness. Runs as soon as the water's depth is known, because tile
+    /// classification needs the result.
     pub fn record_splat(
         &self,
         r: &mut Recording<'_>,
@@ -56,7 +57,7 @@ impl Foam {
         self.sprites.record(r, particles, water)
     }
 
-    /// The light on it. `water`: where there may be some.
+    /// Passes `radiance` and `blur`. `water`: its layers, if there may be water.
     pub fn record_radiance(
         &self,
         r: &mut Recording<'_>,
@@ -73,7 +74,7 @@ impl Foam {
         self.sprites.reading()
     }
 
-    /// What `composite` reads: depth and intensity, thickness, light and shadow.
+    /// Images that `composite` reads: depth and intensity, thickness, light and shadow.
     pub fn layers(&self) -> [&Image; 3] {
         [self.sprites.occluders(), self.sprites.thickness(), self.radiance.image()]
     }

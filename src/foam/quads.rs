@@ -1,4 +1,4 @@
-//! Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2): the source's own way, with the fixed functions of a
+//! Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2): the paper's own way, with the fixed functions of a
 //! GPU. The frontmost by a depth test, then thickness by blending; a vertex shader makes each particle's quad, so
 //! that there is no list here either.
 //! Reads: the host's streams, words. Writes: bits of the frontmost's depth and what goes with it, thickness.
@@ -19,7 +19,7 @@ use crate::water::Recording;
 const FRONT: vk::Format = vk::Format::R32G32_UINT;
 const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
 
-/// What depends on the frame's size.
+/// Size-dependent state.
 struct Targets {
     fronts: Image,
     depth: Image,
@@ -50,7 +50,7 @@ impl Targets {
 pub struct Quads {
     front_pass: vk::RenderPass,
     thickness_pass: vk::RenderPass,
-    /// Of particles as the source has them, and of others (glsl/include/diffuse.glsl).
+    /// Pipelines for default and for other particle shapes (glsl/include/diffuse.glsl).
     front: [Pipeline; 2],
     thickness: [Pipeline; 2],
     targets: Targets,
@@ -120,13 +120,13 @@ impl Quads {
         Ok(())
     }
 
-    /// Bits of the depth of the frontmost, all ones of none, and what goes with it; after `record` a colour
-    /// attachment.
+    /// Bits of the frontmost depth (all ones if there is none) and its attributes; a colour attachment after
+    /// `record`.
     pub fn fronts(&self) -> &Image {
         &self.targets.fronts
     }
 
-    /// `thickness`: the barrier that makes it a colour attachment. `draw`: all particles by a pipeline.
+    /// `thickness`: the barrier that makes it a colour attachment. `draw`: draws all particles with a pipeline.
     pub fn record(
         &self,
         r: &Recording<'_>,

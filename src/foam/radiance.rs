@@ -1,11 +1,14 @@
-//! Passes `radiance` and `blur`: how much light foam gets of its surroundings (Akinci et al. 2013, Sec. 2.4 and
+//! Passes `radiance` and `blur`: ambient occlusion and light of whitewater (Akinci et al. 2013, Sec. 2.4 and
 //! 2.5; passes 6 and 7).
 //!
-//! In the reference mode the samples are the source's, points of a sphere of the Halton sequence, the same for every
-//! pixel, in spheres of growing radius. In the fast mode a pixel has a sixteenth of the points, which the blur puts
-//! together. Foam that is alone has nothing but its own: they come in pairs that lie opposite each other, of which a plane
-//! through the middle hides one, and where they are weighed most they lie most, so that each counts in full. Where the
-//! samples find the space open is the normal of what is smaller than a pixel, which is not the source's.
+//! In the reference mode the samples are the paper's: points of a Halton sequence in spheres of growing radius,
+//! the same for every pixel. In the fast mode each pixel evaluates a sixteenth of the points, which the blur
+//! recombines. Foam without neighbours has only its own samples. They come in opposite pairs, of which a plane
+//! through the centre occludes one, and their density follows the paper's weights, so that each counts fully.
+//! The direction in which samples find open space is the normal of particles smaller than a pixel; the paper
+//! does not have that.
+//! Reads: what `splat` has left, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes: foam
+//! normal, foam radiance.
 
 use std::f64::consts::TAU;
 
@@ -31,10 +34,10 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Most samples of a sphere.
+/// Maximum number of samples per sphere.
 const MOST_SAMPLES: usize = 512;
 
-/// The number whose digits in a base are those of `index`, mirrored at the point.
+/// Radical inverse of `index` in a base (van der Corput).
 fn radical_inverse(mut index: u32, base: u32) -> f64 {
     let (mut value, mut digit) = (0.0, 1.0 / f64::from(base));
     while index > 0 {
@@ -58,9 +61,9 @@ fn points() -> Vec<[f32; 4]> {
 /// Pairs of points of the fast mode, a sixteenth of them for each pixel of a block (glsl/foam/radiance.comp).
 const PAIRS: u32 = 160;
 
-/// Of pairs of points opposite each other the one of each, all of weight 1: as dense as `λ = (1 − |s|)²` says, evenly spread
-/// by the multiples of three powers of a root of x⁴ = x + 1 (Roberts, The unreasonable effectiveness of
-/// quasirandom sequences, 2018), any run of which fills the sphere.
+/// One point of each opposite pair, all with weight 1: density as `λ = (1 − |s|)²`, low-discrepancy by the
+/// multiples of three powers of a root of x⁴ = x + 1 (Roberts, The unreasonable effectiveness of quasirandom
+/// sequences, 2018). Any run of them fills the sphere.
 fn pairs() -> Vec<[f32; 4]> {
     const ROOT: f64 = 1.220_744_084_605_759_6;
     let pair = |index: u32| {
@@ -73,7 +76,7 @@ fn pairs() -> Vec<[f32; 4]> {
     (1..=PAIRS).map(pair).map(|[x, y, z]| [x, y, z, 1.0]).collect()
 }
 
-/// The radius within which this share of the unit sphere lies, weighed by λ: where `10 r³ − 15 r⁴ + 6 r⁵` is it.
+/// The radius that contains a given λ-weighted share of the unit sphere: solves `10 r³ − 15 r⁴ + 6 r⁵ = share`.
 fn radius_within(share: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..50 {
@@ -84,7 +87,7 @@ fn radius_within(share: f64) -> f64 {
     high
 }
 
-/// The surface of the water, as the fragments of `composite` take it.
+/// The water's surface, as the fragment shaders of `composite` read it.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
     pub depth: &'a Image,
@@ -98,7 +101,7 @@ pub struct Radiance {
     gather: Pipeline,
     blur: Pipeline,
     points: Buffer,
-    /// Light gathered and shadow, and room for them half blurred.
+    /// Light and shadow, and the half-blurred intermediate.
     images: [Image; 2],
 }
 
@@ -233,7 +236,7 @@ impl Radiance {
         Ok(())
     }
 
-    /// The water's surface among what stands round foam.
+    /// Adds the water's smoothed surface to the occluders.
     fn record_surface(
         &self,
         r: &Recording<'_>,

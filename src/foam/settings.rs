@@ -1,28 +1,28 @@
-//! Settings of the foam of diffuse particles (Akinci et al. 2013).
+//! Settings of whitewater: spray, foam and bubbles that are particles of their own (Akinci et al. 2013).
 
 use crate::error::Error;
 use crate::water::settings::range;
 
-/// What of the foam of diffuse particles costs memory or pipelines.
+/// Configuration of whitewater: what costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DiffuseConfig {
-    /// Most diffuse particles a frame may have, at least 1.
+    /// Maximum number of whitewater particles per frame, at least 1.
     pub max_particles: u32,
-    /// Longest stride of their streams in bytes, a multiple of 4, default 12.
+    /// Maximum stride of their streams in bytes, a multiple of 4, default 12.
     pub max_stride: u32,
-    /// Whether frames may come with [`DiffuseParticles::packets`](crate::DiffuseParticles::packets), default false.
+    /// Whether frames may have [`DiffuseParticles::packets`](crate::DiffuseParticles::packets). Default false.
     pub packets: bool,
-    /// How they become pixels; `None`: what was measured to be the fastest, [`Splat::Compute64`] where the device has
-    /// been made for it, else [`Splat::Compute`] (on lavapipe; GPUs are still to be).
+    /// How they are rasterized. `None`: the fastest as measured on lavapipe, [`Splat::Compute64`] where its
+    /// feature is enabled, otherwise [`Splat::Compute`]. Not yet measured on GPUs.
     pub splat: Option<Splat>,
-    /// Where the light of the environment is looked up.
+    /// How the environment lights them.
     pub irradiance: Irradiance,
-    /// How foam's own shadow is sampled.
+    /// How their ambient occlusion is sampled.
     pub occlusion: Occlusion,
 }
 
 impl DiffuseConfig {
-    /// The defaults for so many particles.
+    /// The defaults for a maximum number of particles.
     pub fn new(max_particles: u32) -> Self {
         Self {
             max_particles,
@@ -46,131 +46,141 @@ impl DiffuseConfig {
     }
 }
 
-/// How diffuse particles become pixels. All ways give the same picture, the two by compute to the last bit.
+/// How whitewater particles are rasterized. All paths give the same picture, the two compute paths to the last
+/// bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splat {
-    /// A quad a particle, a depth test and blending. 12 bytes a pixel more.
+    /// One quad per particle with depth test and blending. 12 bytes per pixel more.
     Raster,
-    /// An invocation a particle with atomics of 32 bits, twice: the second for what goes with the frontmost.
+    /// One invocation per particle with 32-bit atomics, in two passes. The second writes the attributes of the
+    /// frontmost.
     Compute,
-    /// An invocation a particle with atomics of 64 bits, once. Needs
+    /// One invocation per particle with 64-bit atomics, in one pass. Needs
     /// [`buffer_int64_atomics`](crate::Enabled::buffer_int64_atomics).
     Compute64,
 }
 
-/// How the shadow is sampled that foam lies in among foam, water and scene (Sec. 2.4.1).
+/// How ambient occlusion of foam by foam, water and scene is sampled (Sec. 2.4.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Occlusion {
-    /// As printed: as many points as the spheres hold pixels, the same in every pixel.
+    /// As printed: as many samples as the spheres have pixels, the same in every pixel.
     Reference,
-    /// A sixteenth of the most points ([`DiffuseLook::samples`]), of 320 at most, 2 at least, in each pixel of a block of
-    /// sixteen, which the blur puts together, in spheres of any size. They come in pairs opposite each other, so that each
-    /// pixel by itself finds half of a half space hidden. Default.
+    /// Each pixel of a 4×4 block evaluates 1/16 of [`DiffuseLook::samples`] (2 to 20 samples per sphere of any
+    /// size); the blur recombines them. Samples come in opposite pairs, so that each pixel alone finds half of
+    /// a half space occluded. Default.
     Fast,
 }
 
-/// How the light of the environment comes to foam.
+/// How light of the environment reaches foam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Irradiance {
-    /// Once a pixel, from a map that is filtered once per environment (which the source names as the
-    /// quicker way). Default.
+    /// One look-up per pixel in an irradiance map that is filtered once per environment, which the paper names
+    /// as the faster way. Default.
     Prefiltered,
-    /// At the directions of the first pass' samples (Sec. 2.4.2), whether or not there is such a pass.
+    /// Look-ups in the directions of the first occlusion pass' samples (Sec. 2.4.2), also if `passes` is 0.
     Sampled,
 }
 
-/// What becomes of particles behind the water's surface.
+/// How particles behind the water's surface are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Submerged {
-    /// The water before them takes their light, as of all that is in it. Default.
+    /// The water in front of them attenuates them, as it does everything in it. Default.
     Water,
-    /// The source's falloff, `f(metres behind, most, n, m)` (Eq. 1 and Sec. 2.2): none is left from `most`
-    /// on. They lie before the water then.
+    /// The paper's falloff, `f(metres behind, most, n, m)` (Eq. 1 and Sec. 2.2), which reaches zero at `most`. The
+    /// particles are then composited in front of the water.
     Falloff {
-        /// Metres, (0, ∞); 6 spacings do.
+        /// Metres, (0, ∞), recommended 6 spacings.
         most: f32,
-        /// Exponent, [0.1, 16]; 2 does.
+        /// Exponent, [0.1, 16], recommended 2.
         n: f32,
-        /// Exponent, [0.1, 16]; 4 does.
+        /// Exponent, [0.1, 16], recommended 4.
         m: f32,
     },
 }
 
-/// How far an occluder may be before what it hides.
+/// Maximum distance between an occluder and the point that it occludes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
-    /// So many radii of the search, (0, ∞). Default 1.
+    /// In search radii, (0, ∞), default 1.
     Radii(f32),
-    /// Metres, (0, ∞); the source: 5.
+    /// In metres, (0, ∞); the paper: 5.
     Metres(f32),
 }
 
-/// How light and shadow become colour.
+/// How light and shadow combine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mixing {
-    /// Light less its share in shadow: not negative, and the same under any exposure. Default.
+    /// light × (1 − shadow): never negative, and independent of exposure. Default.
     Scaled,
-    /// The source's: clamped to 1, less the shadow (Sec. 2.5).
+    /// The paper's light − shadow, clamped to 1 before (Sec. 2.5).
     Source,
 }
 
-/// How the foam of diffuse particles looks. Of no effect without [`Config::diffuse`](crate::Config).
+/// Appearance of whitewater. No effect without [`Config::diffuse`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiffuseLook {
-    /// Radius of a particle without one, scene units, (0, ∞), default 0.15 of 0.05. It is divided by the
-    /// particle's number ([`sizes`](Self::sizes)), a bubble's halved ([`bubble_size`](Self::bubble_size)).
+    /// Radius of a particle without one of its own, scene units, (0, ∞), default 0.15 spacings (0.0075 for a
+    /// spacing of 0.05). It is divided by 1 to [`sizes`](Self::sizes), chosen per particle; a bubble's is
+    /// scaled by [`bubble_size`](Self::bubble_size).
     pub radius: f32,
-    /// What the water takes.
+    /// How particles behind the water's surface are drawn.
     pub submerged: Submerged,
-    /// ρ_mod of the intensity `ρ^e / (ρ_mod + ρ^e)`, (0, 1e6], default 3 (Sec. 2.3).
+    /// Thickness ρ_mod at which the intensity `ρ^e / (ρ_mod + ρ^e)` is one half (for e = 1), (0, 1e6], default
+    /// 3 (Sec. 2.3).
     pub half: f32,
-    /// Its exponent e, [0.1, 16], default 1.25.
+    /// Exponent e of the intensity, [0.1, 16], default 1.25.
     pub exponent: f32,
-    /// Occlusion is looked for in so many spheres, 0 to 8, default 3 (AO_#Passes, Sec. 2.4.1).
+    /// Number of occlusion passes, each with a larger sphere, 0 to 8, default 3 (AO_#Passes, Sec. 2.4.1).
     pub passes: u32,
-    /// Their radii in those of the particles: the first number and the second for each pass from 1 on, [0, 100]; default 1
-    /// and 7 (AO_InitSRFac, AO_SRIncFac).
+    /// Radii of those spheres, in particle radii: the first value, plus the second for each further pass. [0,
+    /// 100], default 1 and 7 (AO_InitSRFac, AO_SRIncFac).
     pub search: [f32; 2],
-    /// Samples a cubic pixel, [0, 16], default 0.5 (AO_SDens). With [`Occlusion::Reference`] alone:
-    /// [`Occlusion::Fast`] has a share of the most samples, whatever the size.
+    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). For [`Occlusion::Reference`];
+    /// [`Occlusion::Fast`] uses a fixed share of `samples` at any size.
     pub density: f32,
-    /// Least and most samples of a sphere, 1 to 512, default 16 and 512. The least with [`Occlusion::Reference`] alone.
+    /// Minimum and maximum number of samples per sphere, 1 to 512, default 16 and 512. The minimum applies to
+    /// [`Occlusion::Reference`] only.
     pub samples: [u32; 2],
-    /// How far before it an occluder hides a point (AO_MaxOcclDist).
+    /// Maximum distance between an occluder and the point behind it (AO_MaxOcclDist).
     pub reach: Reach,
-    /// Opacity of the fluid's surface and of solids as occluders, 0 to 1, default 0.5 and 1.
+    /// Opacity as occluders of the fluid's surface and of solids, 0 to 1, default 0.5 and 1.
     pub opacity: [f32; 2],
-    /// Scale, exponent and offset from occlusion to shadow, [0, 16], [0.1, 16], [-1, 1]; default 1, 1.5, -0.05.
+    /// Scale, exponent and offset that turn occlusion into shadow: [0, 16], [0.1, 16], [-1, 1], default 1, 1.5,
+    /// -0.05.
     pub shadow: [f32; 3],
-    /// Colour that stays in the shadow, linear RGB, 0 to 1, default a deep blue (0, 0, 0.2).
+    /// Colour that remains in shadow, linear RGB, 0 to 1, default a deep blue (0, 0, 0.2).
     pub shadow_color: [f32; 3],
     /// Albedo, linear RGB, 0 to 1, default 0.9.
     pub albedo: [f32; 3],
-    /// What foam shines with over what its albedo sends back, [0, 64], default 1: twice both is the source's C_IrrScale
-    /// (Sec. 2.5), more than 2 with a scale above 1.
+    /// Brightness relative to what the albedo reflects, [0, 64], default 1. Twice this value is the paper's
+    /// C_IrrScale (Sec. 2.5), which exceeds 2 for values above 1.
     pub scale: f32,
-    /// Exponents n and m of the shape `(1 − x^n)^m` of a particle of foam, x the distance from its middle in radii (Eq. 1,
-    /// Sec. 2.2), [0.1, 16]; default 2.25 and 1. Other shapes, lives and sizes than the defaults cost a few powers.
+    /// Exponents n and m of the shape `(1 − x^n)^m` of a foam particle, with x the distance from its centre in
+    /// radii (Eq. 1, Sec. 2.2). [0.1, 16], default 2.25 and 1. Shapes, lives and sizes other than the defaults
+    /// cost a few powers per pixel.
     pub foam_shape: [f32; 2],
-    /// The same of spray, default 1.5 and 1.
+    /// The same exponents for spray, default 1.5 and 1.
     pub spray_shape: [f32; 2],
-    /// The same of a bubble, whose thickness is 1 less it, default 2 and 1.
+    /// The same exponents for a bubble, whose thickness is 1 minus the shape. Default 2 and 1.
     pub bubble_shape: [f32; 2],
-    /// Exponents n and m of what is left of a particle, `(1 − a^n)^m` at the age a (Sec. 2.2), [0.1, 16]; default 2 and 0.4.
+    /// Exponents n and m of the fade `(1 − a^n)^m` at the relative age a (Sec. 2.2). [0.1, 16], default 2 and
+    /// 0.4.
     pub life: [f32; 2],
-    /// A radius is divided by 1 to so many, by the particle's number, 1 to 64, default 5 (Sec. 2.1).
+    /// A radius is divided by an integer from 1 to this, chosen by the particle's id, for variation. 1 to 64,
+    /// default 5 (Sec. 2.1).
     pub sizes: u32,
-    /// Radius of a bubble in that of another particle, (0, 1], default 0.5 (Sec. 2.1).
+    /// Radius of a bubble relative to the other particles, (0, 1], default 0.5 (Sec. 2.1).
     pub bubble_size: f32,
-    /// Radius of the blur of light and shadow in that of the first sphere of the occlusion, [0, 16], default 1.5 (Sec. 2.5).
-    /// Numbers that are up to 32 pixels away are all taken, beyond it some of them, at least 11 to a side, evenly spread.
+    /// Radius of the blur of light and shadow, in radii of the first occlusion sphere, [0, 16], default 1.5
+    /// (Sec. 2.5). Up to 32 pixels every texel contributes; beyond that an evenly spaced subset, at least 11 on
+    /// each side.
     pub blur: f32,
-    /// How they are mixed.
+    /// How light and shadow combine.
     pub mixing: Mixing,
 }
 
 impl DiffuseLook {
-    /// The defaults for particles of water of a spacing.
+    /// The defaults for a particle spacing of the water.
     pub fn of_spacing(spacing: f32) -> Self {
         Self {
             radius: 0.15 * spacing,
@@ -198,8 +208,8 @@ impl DiffuseLook {
         }
     }
 
-    /// Whether particles are other than the source's, or fade as its do behind the water's surface: shaders have a variant
-    /// for that.
+    /// Whether particles differ from the paper's, or fade behind the water's surface as in the paper. Shaders have a
+    /// variant for this.
     pub(crate) fn shaped(&self) -> bool {
         let sources = Self::default();
         let numbers = |look: &Self| {

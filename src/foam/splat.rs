@@ -1,10 +1,11 @@
-//! Pass `splat`: the frontmost of the diffuse particles with its normal, and their thickness (Akinci et al.
+//! Pass `splat`: depth and normal of the frontmost whitewater particle, and the thickness of all (Akinci et al.
 //! 2013, Sec. 2.1 to 2.3; passes 3 to 5).
 //!
-//! An invocation a particle, with integer atomics: a depth by its bits, sums of whole steps, which no order of the
-//! particles changes. Depth and thickness in one go, so that a particle is read once for both; what goes with the
-//! frontmost lies below its depth in a word of 64 bits, or takes a second go. No list of sprites between: of millions
-//! it would be most of the memory. By quads in place of it: `quads`.
+//! One invocation per particle with integer atomics: depths compared by their bits, sums of fixed-point steps,
+//! so the order of the particles does not matter. Depth and thickness are written in one pass, so that a
+//! particle is read once for both. The attributes of the frontmost lie below its depth in a 64-bit word, or
+//! take a second pass. There is no intermediate sprite list: for millions of particles it would dominate the
+//! memory. `quads` is the alternative path.
 //! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
 use ash::vk;
@@ -53,12 +54,12 @@ const _: () = assert!(
     std::mem::offset_of!(BeginPush, counting) == shader::FOAM_BEGIN_COMP.offset("Push", "count")
 );
 
-/// What depends on the frame's size.
+/// Size-dependent state.
 struct Targets {
     words: Buffer,
-    /// Foam depth, intensity of all, depths of fluid and scene.
+    /// Foam depth, total intensity, depths of fluid and scene.
     occluders: Image,
-    /// Before the fluid, behind it, the second by how far.
+    /// Thickness in front of the fluid, behind it, and the latter times its distance behind.
     thickness: Image,
     /// World normal, search radius.
     normal: Image,
@@ -86,9 +87,9 @@ impl Targets {
     }
 }
 
-/// How the particles become words and images.
+/// Path of the splats.
 enum Way {
-    /// One go after the other over all particles.
+    /// Dispatches over all particles, one after the other.
     Compute(Vec<Covering>),
     Quads(Box<Quads>),
 }
@@ -103,7 +104,7 @@ pub struct Sprites {
     chunks: Chunks,
 }
 
-/// The way that a configuration takes.
+/// The path that a configuration uses.
 pub fn way(gpu: &Gpu, diffuse: &DiffuseConfig) -> Splat {
     let fastest = if gpu.enabled.buffer_int64_atomics { Splat::Compute64 } else { Splat::Compute };
     diffuse.splat.unwrap_or(fastest)
@@ -171,7 +172,7 @@ impl Sprites {
         &self.targets.occluders
     }
 
-    /// Thickness before the fluid, behind it, the second by how far behind it lies.
+    /// Thickness in front of the fluid, behind it, and the latter times its distance behind.
     pub fn thickness(&self) -> &Image {
         &self.targets.thickness
     }
@@ -190,7 +191,7 @@ impl Sprites {
         }
     }
 
-    /// `water`: depth of its frontmost spheres, as its pass left it; it comes back so.
+    /// `water`: depth of its frontmost spheres, in the state in which pass `depth` leaves it, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

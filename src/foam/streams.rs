@@ -1,4 +1,4 @@
-//! The host's streams of diffuse particles, as every pass over them takes them: in chunks that the device can bind, of
+//! The host's streams of whitewater particles, as every pass over them takes them: in chunks that the device can bind, of
 //! a count that the host or the GPU knows.
 
 use ash::vk;
@@ -16,10 +16,11 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader::{self, Shader};
 use crate::water::{Recording, Window, capacity, each_once};
 
-/// Groups of a dispatch at most.
+/// Maximum number of groups per dispatch.
 const MOST_GROUPS: u32 = 65_535;
 
-/// Where a chunk's streams begin, and their strides: 0 of one that is not there (glsl/include/diffuse_streams.glsl).
+/// Offsets and strides of a chunk's streams; the stride of an absent one is 0
+/// (glsl/include/diffuse_streams.glsl).
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
 pub struct Places {
@@ -66,7 +67,7 @@ assert_places!(
     BUBBLES_NEAR_COMP,
 );
 
-/// What tells how many there are in each chunk (glsl/include/diffuse_chunks.glsl).
+/// Number of particles in each chunk (glsl/include/diffuse_chunks.glsl).
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
 pub struct Counting {
@@ -82,10 +83,10 @@ shader::assert_layout!(
     Counting { count, from_gpu, chunks, chunk_size, group_size }
 );
 
-/// All particles that a frame may have, in parts.
+/// The maximum number of particles, in chunks.
 #[derive(Clone, Copy)]
 pub struct Chunks {
-    /// How many parts.
+    /// Number of chunks.
     pub count: u32,
     size: u32,
     max_particles: u32,
@@ -99,13 +100,13 @@ impl Chunks {
         Self { count: max_particles.div_ceil(size), size, max_particles }
     }
 
-    /// Bytes of what dispatches or draws them, 16 a chunk.
+    /// Bytes of the indirect arguments, 16 per chunk.
     pub fn arguments(&self) -> vk::DeviceSize {
         16 * u64::from(self.count)
     }
 
-    /// How many there are, for groups of a size (0: quads), and the buffer that says so where the GPU knows; else
-    /// `unread` is bound, any buffer.
+    /// Counts for groups of a size (0: quads), and the buffer with the GPU's count; without one `unread`, any
+    /// buffer, is bound.
     pub fn counting(
         &self,
         particles: Option<&DiffuseParticles>,
@@ -123,8 +124,7 @@ impl Chunks {
         (Counting { count, from_gpu, chunks, chunk_size, group_size }, buffer)
     }
 
-    /// Binds each chunk's streams and what else there is, pushes its places or what is made of them, and does
-    /// something with its number.
+    /// Binds each chunk's streams and `more`, pushes its offsets, and calls a function with its index.
     pub fn each<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -172,16 +172,17 @@ impl Chunks {
     }
 }
 
-/// Large particles of a chunk that have room in its list, glsl/include/diffuse_cover.glsl; the others are done by an
-/// invocation each.
+/// Capacity of a chunk's list of large particles (glsl/include/diffuse_cover.glsl); further ones are done by
+/// one invocation each.
 const ROOM: u64 = 16_384;
-/// Bytes of a chunk's list: arguments of a dispatch and how many there would be, then the particles.
+/// Bytes of a chunk's list: dispatch arguments and the number of large particles, then their indices.
 const LIST: u64 = 4 * (4 + ROOM);
 
-/// A shader that covers what each particle does (glsl/include/diffuse_cover.glsl): an invocation a particle, or a
-/// group for each of the host's packets; then a group for each large one.
+/// A shader over the pixels of each particle (glsl/include/diffuse_cover.glsl): one invocation per particle, or
+/// a group per host packet; then a group per large particle.
 pub struct Covering {
-    /// Of particles as the source has them; of others, and with its falloff behind the water's surface.
+    /// Pipelines for default particle shapes; and for others, or the paper's falloff behind the water's
+    /// surface.
     ways: [Ways; 2],
     list: Buffer,
 }
@@ -194,7 +195,7 @@ struct Ways {
 }
 
 impl Covering {
-    /// `name`: of its list. `constants`: of the shader's own, not numbers 1 to 3.
+    /// `name`: of its list. `constants`: the shader's own, other than ids 1 to 3.
     pub fn new(
         gpu: &Gpu,
         name: &str,
@@ -223,7 +224,7 @@ impl Covering {
         })
     }
 
-    /// Invocations of a group.
+    /// Group size.
     pub fn group_size(&self) -> u32 {
         self.ways[0].each.local_size[0]
     }
@@ -233,8 +234,8 @@ impl Covering {
         self.list.size
     }
 
-    /// Over all chunks; `arguments`: of their dispatches, visible. What is covered is added to by atomics alone, in
-    /// any order: no barrier for that.
+    /// Records all chunks. `arguments`: of their dispatches, already visible. Results are accumulated by
+    /// atomics in any order, so no barrier is needed in between.
     pub fn record<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -283,7 +284,7 @@ impl Covering {
     }
 }
 
-/// The streams that there are, with the bytes of a value.
+/// The present streams, with the bytes of a value.
 fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&Stream, u64)> {
     let all = [
         (Some(&particles.positions), 12),

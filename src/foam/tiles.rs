@@ -1,5 +1,5 @@
-//! Part of pass `radiance`: the tiles of the picture in which there is foam, over which light and shadow are found. Not in the
-//! source: most of a picture has none.
+//! Part of pass `radiance`: the screen tiles that contain whitewater, over which light and shadow are computed.
+//! Not in the paper: most of a picture has none.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -17,11 +17,11 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// How often a picture of tiles is halved: they are 8 pixels wide and high (glsl/include/foam_tiles.glsl).
+/// Number of halvings from pixels to tiles: tiles are 8×8 (glsl/include/foam_tiles.glsl).
 const LEVEL: u32 = 3;
-/// A dispatch over none, and how many there are (likewise).
+/// Arguments of an empty dispatch, and the tile count (likewise).
 const NONE: [u32; 4] = [0, 0, 1, 0];
-/// Once they are listed.
+/// State after the list is complete.
 const READ: Access = COMPUTE_READ.and(INDIRECT);
 
 /// The tiles of a frame.
@@ -55,7 +55,7 @@ impl Tiles {
         Ok(())
     }
 
-    /// Lists them; `occluders`: the foam's depth among others, as computing samples it.
+    /// Lists the tiles. `occluders`: the foam's depth among others, sampled by compute.
     pub fn record(&self, r: &Recording<'_>, occluders: &Image) -> Result<(), Error> {
         let (gpu, cmd, list) = (r.gpu, r.cmd, self.list.handle);
         gpu.barriers(cmd, &[], &[buffer(list, READ, COPY_WRITE)]);
@@ -70,12 +70,12 @@ impl Tiles {
         Ok(())
     }
 
-    /// Binding 9 of what goes over them.
+    /// The list, for binding 9 of shaders that use it.
     pub fn resource(&self) -> Resource {
         Resource::buffer(&self.list)
     }
 
-    /// A group for each, of the pipeline that is bound.
+    /// Dispatches one group per tile with the bound pipeline.
     pub fn dispatch(&self, r: &Recording<'_>) {
         // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible since `record`.
         unsafe { r.gpu.device.cmd_dispatch_indirect(r.cmd, self.list.handle, 0) };

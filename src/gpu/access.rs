@@ -1,6 +1,6 @@
-//! Barriers: a short table of named uses and two helpers. There is no tracker: the order of the
-//! passes is fixed, so every barrier is written where it is needed, from the use before to the
-//! use after, with stages, access *and* layout.
+//! Barriers: a short table of named uses, and two helpers. There is no tracker: the order of the passes is
+//! fixed, so every barrier is written where it is needed, from the previous use to the next one, with stages,
+//! access *and* layout.
 
 use ash::vk;
 
@@ -37,8 +37,8 @@ impl Access {
         }
     }
 
-    /// The same stages, but the contents are not kept: for the first write of a frame, which has
-    /// to wait for the last use of the frame before and overwrites the whole image.
+    /// The same stages, with contents discarded: for the first write in a frame, which has to wait for the last
+    /// use in the previous frame and overwrites the whole image.
     pub const fn discarded(self) -> Self {
         // Only execution must be ordered after reads; after writes the access mask is needed too.
         Self { stage: self.stage, access: self.access, layout: Layout::UNDEFINED }

@@ -10,7 +10,7 @@ use super::image::Image;
 use super::pipeline::Pipeline;
 use crate::error::{Error, VkContext};
 
-/// What is bound to one binding.
+/// Resource of one binding.
 #[derive(Clone, Copy)]
 pub enum Resource {
     /// Uniform or storage buffer, as the shader says: (buffer, offset, range).
@@ -35,7 +35,7 @@ impl Resource {
     }
 }
 
-/// Descriptors of each type that a set has in the mean.
+/// Average number of descriptors of each type per set.
 const EACH: [(vk::DescriptorType, u32); 4] = [
     (vk::DescriptorType::UNIFORM_BUFFER, 2),
     (vk::DescriptorType::STORAGE_BUFFER, 7),
@@ -46,8 +46,8 @@ const EACH: [(vk::DescriptorType, u32); 4] = [
 /// One slot's pool.
 pub struct Descriptors {
     pool: Owned<vk::DescriptorPool>,
-    /// Sets it is for, and what of them and of the types is taken: drivers may give more than there is room for, and
-    /// layers say nothing.
+    /// Capacity, and use of sets and of each type: drivers may allocate beyond it, and layers do not report
+    /// that.
     #[cfg(debug_assertions)]
     taken: (u32, [std::sync::atomic::AtomicU32; 1 + EACH.len()]),
 }
@@ -69,7 +69,7 @@ impl Descriptors {
         })
     }
 
-    /// Fails where a set takes more than there is room for.
+    /// Panics in debug builds if the pool's capacity is exceeded.
     #[cfg(debug_assertions)]
     fn take(&self, pipeline: &Pipeline) {
         use std::sync::atomic::Ordering::Relaxed;
@@ -82,7 +82,7 @@ impl Descriptors {
         }
     }
 
-    /// Gives all sets back. The slot's earlier work must be done.
+    /// Frees all sets. The slot's earlier work has to be complete.
     pub fn reset(&self, gpu: &Gpu) -> Result<(), Error> {
         #[cfg(debug_assertions)]
         for taken in &self.taken.1 {

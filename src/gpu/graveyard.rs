@@ -1,7 +1,7 @@
-//! What is dropped is not freed at once, since the GPU may still use it: its handles go to the
-//! graveyard and are freed by [`Gpu::bury`], when the caller knows that the GPU is done. A
-//! constructor that fails half-way leaks nothing, and a renderer that is simply dropped leaks
-//! safely, with its graveyard.
+//! Deletion queue. A dropped object is not freed at once, because the GPU may still use it: its handles go to
+//! the graveyard, and [`Gpu::bury`] frees them when the caller knows that the GPU is done. A constructor that
+//! fails half-way therefore leaks nothing, and a renderer that is simply dropped leaks safely, with its
+//! graveyard.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -36,12 +36,12 @@ pub enum Grave {
     Fence(vk::Fence),
 }
 
-/// The shared list.
+/// The shared deletion queue.
 #[derive(Clone, Default)]
 pub struct Graveyard(Arc<Mutex<Vec<Grave>>>);
 
 impl Graveyard {
-    /// Lays handles down.
+    /// Queues handles for deletion.
     pub fn push(&self, grave: Grave) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(grave);
     }
@@ -51,7 +51,7 @@ impl Graveyard {
     }
 }
 
-/// One handle with its owner's duties.
+/// A handle that is queued for deletion when dropped.
 pub struct Owned<T: Copy> {
     /// The handle.
     pub handle: T,
@@ -72,7 +72,7 @@ impl<T: Copy> Drop for Owned<T> {
     }
 }
 
-/// Frees an object, and what else was dropped, at once.
+/// Frees an object and everything queued, at once.
 #[cfg(feature = "headless")]
 pub trait Destroy: Sized {
     /// The GPU must be done with it.
@@ -93,7 +93,7 @@ impl Gpu {
         Owned::new(handle, grave, &self.graveyard)
     }
 
-    /// Frees all that was dropped. The GPU must be done with it.
+    /// Frees everything in the queue. The GPU has to be done with it.
     pub fn bury(&self) {
         let graves = self.graveyard.take();
         if graves.is_empty() {

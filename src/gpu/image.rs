@@ -7,7 +7,7 @@ use super::Gpu;
 use super::graveyard::{Grave, Graveyard};
 use crate::error::{Error, VkContext};
 
-/// What an image is made from.
+/// Description of an image.
 #[derive(Clone, Copy)]
 pub struct ImageDesc<'a> {
     /// `technique/stem/what`.
@@ -24,7 +24,7 @@ pub struct ImageDesc<'a> {
     pub mips: u32,
     /// Array layers; 6 makes a cube.
     pub layers: u32,
-    /// Samples a texel.
+    /// Samples per texel.
     pub samples: vk::SampleCountFlags,
 }
 

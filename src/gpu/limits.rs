@@ -1,4 +1,5 @@
-//! What the shaders need of a device's limits, counted in their SPIR-V: more of some than every Vulkan device has.
+//! Device limits that the shaders need, counted from their SPIR-V. Some exceed what every Vulkan device
+//! guarantees.
 
 use ash::vk::{self, DescriptorType as Kind};
 
@@ -85,7 +86,7 @@ fn needs(shader: &Shader) -> [Limit; 14] {
     ]
 }
 
-/// That a device can make a shader's pipeline.
+/// Checks that a device can create a shader's pipeline.
 pub fn check(shader: &Shader, limits: &vk::PhysicalDeviceLimits) -> Result<(), Error> {
     needs(shader).iter().try_for_each(|limit| limit.check(limits))
 }

@@ -1,5 +1,5 @@
-//! Whether the host's function tables hold what is called: ash fills what a loader does not know, as all of Vulkan 1.3 on
-//! an instance made for 1.2, with functions that panic.
+//! Checks that the host's function tables contain every function that is called: ash fills functions that a
+//! loader does not know, such as all of Vulkan 1.3 on a 1.2 instance, with ones that panic.
 
 use std::ptr::null;
 

@@ -1,5 +1,5 @@
-//! What every pass stands on: the host's device with what it enabled, barriers, images, buffers,
-//! render passes, pipelines, descriptor sets, queries, labels and the retire list. No state of a frame.
+//! The base of every pass: the host's device with what it enabled, barriers, images, buffers, render passes,
+//! pipelines, descriptor sets, queries, labels and the retire list. No state of a frame.
 
 pub mod access;
 pub mod buffer;

@@ -12,7 +12,7 @@ use super::limits;
 use super::shader::Shader;
 use crate::error::{Error, VkContext};
 
-/// A pipeline: one that its context has for all that need it, or one of its own.
+/// A pipeline, shared through its context or own.
 pub struct Pipeline(Arc<Made>);
 
 impl Deref for Pipeline {
@@ -41,11 +41,11 @@ pub struct Made {
     pub name: &'static str,
     stages: vk::ShaderStageFlags,
     push_size: u32,
-    /// Where its handles go when it is dropped; none when they are the context's.
+    /// Deletion queue of an own pipeline; `None` if the context owns it.
     yard: Option<Graveyard>,
 }
 
-/// All that two pipelines of one kind have in common.
+/// Everything that distinguishes two pipelines of one kind.
 #[derive(PartialEq, Eq, Hash)]
 pub struct Key {
     shaders: Vec<&'static str>,
@@ -80,8 +80,8 @@ impl GraphicsKey {
     }
 }
 
-/// What differs between the graphics pipelines here: no vertex input, no depth test, dynamic
-/// viewport and scissor.
+/// Parameters of a graphics pipeline. All have no vertex input, no depth test, and dynamic viewport and
+/// scissor.
 pub struct Graphics<'a> {
     /// Vertex shader.
     pub vertex: Shader,
@@ -97,7 +97,7 @@ pub struct Graphics<'a> {
     pub constants: &'a [(u32, u32)],
 }
 
-/// Overwrites.
+/// No blending.
 pub fn no_blend() -> vk::PipelineColorBlendAttachmentState {
     vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)
 }
@@ -114,7 +114,7 @@ pub fn blend(op: vk::BlendOp) -> vk::PipelineColorBlendAttachmentState {
         .alpha_blend_op(op)
 }
 
-/// A module for as long as its pipeline is made.
+/// A shader module that lives while its pipeline is created.
 struct Module<'a>(vk::ShaderModule, &'a Gpu);
 
 impl Drop for Module<'_> {
@@ -161,7 +161,7 @@ impl Pipeline {
         Self::tested(gpu, desc, None)
     }
 
-    /// The same behind a depth test, which writes what passes it.
+    /// A graphics pipeline with a depth test and depth writes.
     pub fn tested(
         gpu: &Gpu,
         desc: &Graphics<'_>,
@@ -388,7 +388,7 @@ impl Made {
         unsafe { gpu.device.cmd_bind_pipeline(cmd, self.point, self.handle) };
     }
 
-    /// Pushes the whole of its push constants.
+    /// Pushes all of its push constants.
     pub fn push<T: bytemuck::NoUninit>(&self, gpu: &Gpu, cmd: vk::CommandBuffer, value: &T) {
         let bytes = bytemuck::bytes_of(value);
         debug_assert_eq!(bytes.len(), self.push_size as usize, "push constants of {}", self.name);

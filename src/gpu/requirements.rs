@@ -1,4 +1,4 @@
-//! What the library needs of a device, and what it will do on one.
+//! What the library needs of a device, and which paths it will use there.
 
 use std::ffi::CStr;
 
@@ -18,30 +18,30 @@ use crate::water::{
 
 pub use limits::Limit;
 
-/// One thing the host must or may enable, and why.
+/// One feature or extension that the host has to or may enable, and why.
 #[derive(Clone, Copy, Debug)]
 pub struct Need {
     /// Feature or extension.
     pub what: &'static str,
-    /// What it is for; for optional ones, what happens without.
+    /// Its purpose; for optional ones, what happens without it.
     pub why: &'static str,
 }
 
-/// What to ask of a device before it is made.
+/// What to ask of a device before it is created.
 #[derive(Clone, Copy, Debug)]
 pub struct Requirements {
     /// Vulkan version of the device.
     pub api_version: u32,
     /// Features that must be enabled.
     pub features: &'static [Need],
-    /// Features and extensions worth enabling.
+    /// Recommended features and extensions.
     pub optional: &'static [Need],
     /// Names of the optional device extensions.
     pub optional_extensions: &'static [&'static CStr],
 }
 
-/// What the library needs. Ask it before making the device; what a configuration needs of the device's limits
-/// [`Offer::limits`] says.
+/// What the library needs. Call it before creating the device. [`Offer::limits`] returns the device limits that
+/// a configuration needs.
 pub fn requirements() -> Requirements {
     Requirements {
         api_version: vk::API_VERSION_1_3,
@@ -65,7 +65,7 @@ pub fn requirements() -> Requirements {
             },
             Need {
                 what: "shaderBufferInt64Atomics, shaderInt64",
-                why: "diffuse particles in one go, foam::Splat::Compute64; without them in two",
+                why: "whitewater in one pass, foam::Splat::Compute64; without them in two",
             },
             Need { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
         ],
@@ -73,28 +73,28 @@ pub fn requirements() -> Requirements {
     }
 }
 
-/// What a device offers, so that it can be mocked in tests.
+/// What a device supports. A plain struct, so that tests can mock it.
 #[derive(Clone, Copy, Debug)]
 pub struct Offer {
-    /// Its Vulkan version; 1.0 where the instance is of 1.0, which cannot be asked for more.
+    /// Vulkan version of the device. 1.0 if the instance is 1.0, where newer versions cannot be queried.
     pub api_version: u32,
     /// `synchronization2` is supported.
     pub synchronization2: bool,
-    /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats.
+    /// R32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments: needed by the raster splats.
     pub blend_floats: bool,
-    /// R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments, and the latter two
-    /// storage images, written without their format being known: foam.
+    /// R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments, and the latter
+    /// two storing without a format qualifier: needed by foam.
     pub foam_floats: bool,
-    /// R8G8B8A8_SNORM and R16G16B16A16_SFLOAT can be storage images, written without their format being
-    /// known, and are sampled linearly: filtered shadow maps of 8 and of 16 bits.
+    /// R8G8B8A8_SNORM and R16G16B16A16_SFLOAT support storing without a format qualifier and linear filtering:
+    /// needed by filtered shadow maps of 8 and of 16 bits.
     pub basis: [bool; 2],
-    /// R32G32_SFLOAT can be a storage image, written without its format being known: motion vectors.
+    /// R32G32_SFLOAT supports storing without a format qualifier: needed by motion vectors.
     pub motion_floats: bool,
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
-    /// The output format can be a storage image, written without its format being known.
+    /// The output format supports storing without a format qualifier.
     pub output_storage: bool,
-    /// The optional features it supports. A host that enables them all hands this on in
+    /// Optional features that the device supports. A host that enables all of them passes this on as
     /// [`Host::enabled`](crate::Host::enabled).
     pub optional: Enabled,
     /// Limits.
@@ -102,7 +102,7 @@ pub struct Offer {
 }
 
 impl Offer {
-    /// Asks a physical device.
+    /// Queries a physical device.
     pub fn of(
         instance: &ash::Instance,
         physical: vk::PhysicalDevice,
@@ -183,12 +183,15 @@ impl Offer {
         }
     }
 
-    /// What a configuration needs of the device's limits: of descriptors, workgroups, attachments and push constants.
+    /// The device limits that a configuration needs: descriptors, workgroups, attachments, push constants.
     pub fn limits(&self, config: &crate::contract::Config) -> Vec<Limit> {
         limits::of(config, self.optional.buffer_int64_atomics)
     }
 
-    /// What is missing for a configuration, as an error that says what to do.
+    /// Checks the device against a configuration.
+    ///
+    /// # Errors
+    /// [`Error::Missing`] with what is missing, and what to do.
     pub fn check(&self, config: &crate::contract::Config) -> Result<(), Error> {
         let missing = |what: String, why: &str| Err(Error::Missing { what, why: why.into() });
         if self.api_version < vk::API_VERSION_1_3 {
@@ -352,7 +355,7 @@ impl Offer {
         Ok(())
     }
 
-    /// The largest image that can be drawn into.
+    /// The largest image that can be rendered to.
     fn largest(&self) -> vk::Extent2D {
         let limits = &self.limits;
         let (image, view) = (limits.max_image_dimension2_d, limits.max_viewport_dimensions);
@@ -367,8 +370,8 @@ fn named(extent: vk::Extent2D) -> String {
     format!("{}x{}", extent.width, extent.height)
 }
 
-/// What grows with the extent and is bound whole: the field, the bytes, and what to do. Left out are lists of tiles, a
-/// word each, which no image is large enough for.
+/// Buffers that grow with the extent and are bound as a whole: field, bytes, remedy. Tile lists are omitted:
+/// with one word per tile no image is large enough for them to matter.
 fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'static str)> {
     let fewer = "a smaller extent, or a higher Config.thickness_level";
     let sums = (config.thickness_splat.unwrap_or(DEFAULT_SPLAT) == Splat::Compute)

@@ -1,10 +1,10 @@
-//! Objects that were replaced while frames that use them may still be in flight. Each waits until
-//! every slot that was recorded before it was retired has come back, and is dropped then.
+//! Objects that were replaced while frames that use them may still be in flight. Each waits until every slot
+//! that was recorded before its replacement has come back, and is dropped then.
 
-/// The retire list with the slots that are out.
+/// The retire list, with the slots that are in flight.
 #[derive(Default)]
 pub struct RetireList {
-    /// Bit per slot: recorded, not yet come back.
+    /// One bit per slot: recorded, not yet come back.
     out: u32,
     waiting: Vec<(u32, Box<dyn Send>)>,
 }
@@ -15,14 +15,14 @@ impl RetireList {
         self.out |= 1 << slot;
     }
 
-    /// Keeps the object until the slots that are out have come back; drops it now if none is.
+    /// Keeps the object until the slots in flight have come back; drops it at once if none is.
     pub fn retire(&mut self, object: impl Send + 'static) {
         if self.out != 0 {
             self.waiting.push((self.out, Box::new(object)));
         }
     }
 
-    /// Puts an object in another's place, which it retires.
+    /// Replaces an object and retires the old one.
     pub fn replace<T: Send + 'static>(&mut self, old: &mut T, new: T) {
         self.retire(std::mem::replace(old, new));
     }
@@ -36,7 +36,7 @@ impl RetireList {
         self.waiting.retain(|(mask, _)| *mask != 0);
     }
 
-    /// How many objects wait.
+    /// Number of waiting objects.
     pub fn len(&self) -> usize {
         self.waiting.len()
     }

@@ -1,6 +1,6 @@
-//! Sums of all that is before each of many numbers, in place (Blelloch, Prefix sums and their applications, 1990):
-//! of blocks, of the blocks before each, of each number.
-//! Reads, writes: the values. Writes: their sum, into a word of the counts.
+//! In-place exclusive prefix sum (Blelloch, Prefix sums and their applications, 1990), in three dispatches: sums of
+//! blocks, prefix sum of those, prefix sum within each block.
+//! Reads, writes: the values. Writes: their total, into a word of the counts.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -14,12 +14,12 @@ use crate::gpu::descriptors::{Descriptors, Resource, bind_set};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
-/// Groups of a dispatch at most: their invocations go on from block to block.
+/// Maximum number of groups per dispatch; their invocations loop over the remaining blocks.
 const MOST_GROUPS: u32 = 4096;
-/// Numbers of a block (glsl/include/scan.glsl).
+/// Values per block (glsl/include/scan.glsl).
 const BLOCK: u32 = 1024;
 
-/// Sets of a scan.
+/// Descriptor sets per scan.
 pub const SETS: u32 = 3;
 
 #[repr(C)]
@@ -56,8 +56,8 @@ impl Scan {
         })
     }
 
-    /// The first `count` of `most` values become the sums of those before each; `count` is a word of the
-    /// counts, `None`: all. Values and counts were last used by compute, and are then.
+    /// Replaces the first `count` of `most` values by their exclusive prefix sum. `count`: a word of the
+    /// counts; `None`: all values. Values and counts are in a compute state before and after.
     pub fn record(
         &self,
         (gpu, cmd, descriptors): (&Gpu, vk::CommandBuffer, &Descriptors),
@@ -71,7 +71,7 @@ impl Scan {
         Ok(())
     }
 
-    /// What [`record_with`](Self::record_with) is given, where the same values are summed often.
+    /// Descriptor sets for [`record_with`](Self::record_with), for repeated scans of the same values.
     pub fn sets(
         &self,
         gpu: &Gpu,

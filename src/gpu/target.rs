@@ -18,7 +18,7 @@ pub struct Target {
 }
 
 impl Target {
-    /// Makes them; `load`: what becomes of the contents when the pass begins.
+    /// Creates them. `load`: load operation of the pass.
     pub fn new(gpu: &Gpu, desc: &ImageDesc<'_>, load: vk::AttachmentLoadOp) -> Result<Self, Error> {
         let image = Image::new(gpu, desc)?;
         let pass = gpu.color_pass(desc.name, &[desc.format], load)?;

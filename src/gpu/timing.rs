@@ -12,14 +12,14 @@ use crate::error::{Error, VkContext};
 /// Scopes a frame may have.
 const MAX_SCOPES: u32 = 64;
 
-/// How long one pass took.
+/// Time of one pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// Stem of the pass.
+    /// Name of the pass.
     pub name: &'static str,
-    /// Nanoseconds from the first scope's begin to this one's.
+    /// Nanoseconds from the beginning of the first pass to that of this one.
     pub start: f64,
-    /// Nanoseconds between the begin and the end of the scope.
+    /// Duration in nanoseconds.
     pub nanoseconds: f64,
 }
 

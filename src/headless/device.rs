@@ -9,18 +9,19 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use crate::contract::{Enabled, Host};
 use crate::error::{Error, VkContext};
 
-/// What to make a device from.
+/// Options for creating a [`Device`].
 #[derive(Clone, Debug, Default)]
 pub struct DeviceOptions {
-    /// Part of the wanted adapter's name (any case); `None`: a GPU if there is one.
+    /// A part of the adapter's name, any case. `None`: a GPU if there is one.
     pub name: Option<String>,
-    /// Core and synchronization validation; an error when the layer is not installed.
+    /// Whether core and synchronization validation are on. It is an error if the layer is not installed.
+    /// Default false.
     pub validation: bool,
-    /// Enable nothing optional, as on a device that has none of it.
+    /// Whether to enable no optional feature, as on a device without any. Default false.
     pub bare: bool,
 }
 
-/// A device of our own with one queue.
+/// An own device with one queue.
 pub struct Device {
     /// Instance functions; keeps the loader alive.
     pub instance: ash::Instance,
@@ -28,13 +29,13 @@ pub struct Device {
     pub physical: vk::PhysicalDevice,
     /// Device functions.
     pub device: ash::Device,
-    /// Graphics and compute.
+    /// A family with graphics and compute.
     pub queue_family: u32,
     /// Its first queue.
     pub queue: vk::Queue,
     /// The allocator the renderer shares.
     pub allocator: Arc<Mutex<Allocator>>,
-    /// What is enabled.
+    /// Enabled optional features.
     pub enabled: Enabled,
     /// Name of the adapter.
     pub adapter: String,
@@ -54,7 +55,7 @@ struct Messages {
 const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 impl Device {
-    /// Makes the instance and the device.
+    /// Creates the instance and the device.
     ///
     /// # Errors
     /// No Vulkan loader, no fitting device, no validation layer: each says what to install.
@@ -116,7 +117,7 @@ impl Device {
         })
     }
 
-    /// The host's side of the contract.
+    /// The [`Host`] for [`Context::new`](crate::Context::new).
     pub fn host(&self, frames_in_flight: u32) -> Host<'_> {
         Host {
             instance: &self.instance,
@@ -140,7 +141,7 @@ impl Device {
         }
     }
 
-    /// Waits until the device has nothing to do.
+    /// Waits until the device is idle.
     ///
     /// # Errors
     /// Device loss.

@@ -1,4 +1,4 @@
-//! A frame: what stands behind the water, then the water over it, submitted and waited for.
+//! A frame: the background, then the water over it, submitted and waited for.
 
 use ash::vk;
 
@@ -18,13 +18,13 @@ use crate::gpu::graveyard::Destroy;
 use crate::gpu::image::{Image, aspect_of};
 use crate::water::settings::Shadows;
 
-/// What stands behind the water.
+/// Background of the water.
 pub enum Background<'a> {
     /// One colour, nothing in front of the far plane.
     Color([f32; 3]),
     /// The scene handed to [`Headless::scene`].
     Scene,
-    /// Pictures from the CPU, row by row: linear RGBA and device depth.
+    /// Images from the CPU, row by row: linear RGBA and device depth.
     Images {
         /// width × height linear RGBA.
         color: &'a [[f32; 4]],
@@ -34,14 +34,14 @@ pub enum Background<'a> {
 }
 
 impl Headless {
-    /// Where water and foam cast shadows and caustics, with [`Config::cast`](crate::Config::cast).
-    /// Shadows of the scene on them, with [`Shadows::Map`] or [`Shadows::Convolution`], come from the
-    /// scene's own map.
+    /// Sets the sphere in which water and foam cast shadows and caustics, with
+    /// [`Config::cast`](crate::Config::cast). With [`Shadows::Map`] or [`Shadows::Convolution`] the scene's
+    /// shadows on them come from the scene's own map.
     pub fn region(&mut self, region: Region) {
         self.region = Some(region);
     }
 
-    /// The frame before those that are drawn next, with [`Config::motion`](crate::Config::motion).
+    /// Sets the previous frame of the next one, with [`Config::motion`](crate::Config::motion).
     pub fn previous(&mut self, previous: Option<Previous>) {
         self.previous = previous;
     }
@@ -59,8 +59,8 @@ impl Headless {
         self.render_frame(camera, settings, background, false)
     }
 
-    /// The same, with the smoothing ended by the host: it submits block by block and reads each
-    /// query back, as the source does. For comparison only; needs
+    /// As [`render`](Self::render), but the host ends the smoothing: it submits block by block and reads each
+    /// query back, as the thesis does. For comparison only; needs
     /// [`Smoothing::Query`](crate::water::Smoothing::Query).
     ///
     /// # Errors

@@ -32,10 +32,10 @@ fn host(image: &Image) -> HostImage {
 const SETS: u32 = 2;
 
 impl Headless {
-    /// The built-in sky as environment.
+    /// Sets the built-in sky as environment.
     ///
     /// # Errors
-    /// What Vulkan reports.
+    /// Vulkan errors.
     pub fn sky(&mut self, sky: &Sky) -> Result<(), Error> {
         let source = EnvironmentSource::Sky(*sky);
         self.forget_scene();
@@ -46,10 +46,10 @@ impl Headless {
         })
     }
 
-    /// An equirectangular picture as environment: linear RGBA, row 0 up.
+    /// Sets an equirectangular image as environment: linear RGBA, row 0 up.
     ///
     /// # Errors
-    /// A picture larger than the device's images may be, no memory, and what Vulkan reports.
+    /// A picture larger than the device's images may be, no memory; Vulkan errors.
     pub fn equirectangular(
         &mut self,
         extent: vk::Extent2D,
@@ -60,8 +60,8 @@ impl Headless {
         self.pictures(extent, pixels, None, (scale, turn))
     }
 
-    /// The same of a picture that shows the sun of the scene and of [`Light`](crate::Light), and of the same picture
-    /// without it: water and sky show the first, what is lit from all around is lit by the second.
+    /// Sets an equirectangular image that contains the sun of the scene and of [`Light`](crate::Light), and the
+    /// same image without it. Water and sky show the first; diffuse light comes from the second.
     ///
     /// # Errors
     /// As [`equirectangular`](Self::equirectangular); pictures of different sizes.

@@ -1,4 +1,4 @@
-//! Diffuse particles that are made of the fluid's, and what they are made of.
+//! Whitewater emitted from the fluid's particles.
 
 use super::Headless;
 use super::inputs::{HOST_WRITE, stream};
@@ -6,7 +6,7 @@ use crate::contract::{Count, GenerateStep, Slot};
 use crate::error::Error;
 use crate::foam::{GenerateConfig, GenerateSettings, Generator};
 
-/// What is made of the fluid.
+/// The generator and its state.
 pub(super) struct Generating {
     pub generator: Generator,
     max_particles: u32,
@@ -16,29 +16,29 @@ pub(super) struct Generating {
     count: u32,
 }
 
-/// Diffuse particles on the CPU, those that live.
+/// Whitewater particles on the CPU, the live ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Generated {
     /// World-space centres.
     pub positions: Vec<[f32; 3]>,
-    /// Scene units per second.
+    /// Velocities, scene units per second.
     pub velocities: Vec<[f32; 3]>,
-    /// 0 foam, 1 spray, 2 bubble.
+    /// Kinds: 0 foam, 1 spray, 2 bubble.
     pub kinds: Vec<u32>,
-    /// What of their lives has passed, 0 to 1.
+    /// Relative ages, 0 to 1.
     pub ages: Vec<f32>,
-    /// Numbers that follow them from frame to frame.
+    /// Numbers that stay with their particle from frame to frame.
     pub ids: Vec<u32>,
-    /// How many were not made for want of room, since there were none.
+    /// Number of particles not emitted for lack of slots, since the start.
     pub lost: u32,
 }
 
 impl Headless {
-    /// Makes diffuse particles of the particles uploaded last and their [`motion`](Self::motion), a step of a
-    /// [`Generator`]: with a [`Config::diffuse`](crate::Config::diffuse) of as many particles and of strides of 16 the
-    /// next frame shows them. `dt`: seconds
-    /// since the step before; `number`: of the step in the sequence; `max_particles`: most at a time, with
-    /// another one they begin anew.
+    /// Emits whitewater from the particles uploaded last and their [`motion`](Self::motion): one step of a
+    /// [`Generator`]. The next frame shows it if [`Config::diffuse`](crate::Config::diffuse) has the same
+    /// number of particles and strides of 16. `dt`: seconds since the previous step; `number`: the step's
+    /// number in the sequence; `max_particles`: maximum number alive (a different value restarts the
+    /// generator).
     ///
     /// # Errors
     /// No motion, no memory, and as [`Generator::record_step`].
@@ -52,7 +52,7 @@ impl Headless {
         self.generate_any(Some(dt), number, settings, max_particles)
     }
 
-    /// The same of the particles alone, whatever was before: a [snapshot](Generator::record_snapshot).
+    /// As [`generate`](Self::generate), from the current frame alone: a [snapshot](Generator::record_snapshot).
     ///
     /// # Errors
     /// As [`generate`](Self::generate).
@@ -121,18 +121,19 @@ impl Headless {
         result
     }
 
-    /// What was made is not shown, until the next [`generate`](Self::generate).
+    /// Hides the emitted whitewater until the next [`generate`](Self::generate).
     pub fn hide_generated(&mut self) {
         if let Some(generating) = &mut self.generating {
             generating.shown = false;
         }
     }
 
-    /// Of each particle of the last [`generate`](Self::generate)'s fluid trapped air, wave crest and energy, as
-    /// [`GenerateSettings`] has them, and the number of its neighbours; zeros of those that take no part.
+    /// Potentials of each fluid particle of the last [`generate`](Self::generate): trapped air, wave crest and
+    /// energy, in the units of [`GenerateSettings`], and the number of neighbours; zeros for particles that
+    /// take no part.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn potentials(&mut self) -> Result<Vec<[f32; 4]>, Error> {
         let Some(generating) = &self.generating else { return Ok(Vec::new()) };
         if generating.count == 0 {
@@ -143,11 +144,11 @@ impl Headless {
         Ok(bytemuck::cast_slice(&words).to_vec())
     }
 
-    /// How many diffuse particles are shown, after the last [`generate`](Self::generate), and how many were never made
-    /// for want of room, in all.
+    /// Number of whitewater particles shown after the last [`generate`](Self::generate), and total number of
+    /// those not emitted for lack of slots.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn generated_count(&mut self) -> Result<(u32, u32), Error> {
         let Some(generating) = self.generating.as_ref().filter(|made| made.shown) else {
             return Ok((0, 0));
@@ -158,10 +159,10 @@ impl Headless {
         Ok((high - free.saturating_sub(made), counts[5]))
     }
 
-    /// The diffuse particles that are shown, after the last [`generate`](Self::generate).
+    /// The whitewater particles that are shown after the last [`generate`](Self::generate).
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn generated(&mut self) -> Result<Generated, Error> {
         let Some(generating) = self.generating.as_ref().filter(|made| made.shown) else {
             return Ok(Generated::default());

@@ -1,4 +1,4 @@
-//! Blobs of bubble foam that move.
+//! Simulation of bubble-foam blobs.
 
 use super::Headless;
 use super::inputs::{Bubble, Foamed};
@@ -7,8 +7,9 @@ use crate::contract::{Slot, Stream};
 use crate::error::Error;
 
 impl Headless {
-    /// Hands blobs to a [`Heap`], at rest; the next frames show them as [`heap_step`](Self::heap_step) moves them, with a
-    /// [`Config::bubbles`](crate::Config::bubbles) of as many, times 2^`halvings`, as often as one may split in two.
+    /// Hands blobs to a [`Heap`], at rest. The next frames show them as [`heap_step`](Self::heap_step) moves
+    /// them. [`Config::bubbles`](crate::Config::bubbles) needs room for their number times 2^`halvings`, where
+    /// `halvings` is how often a blob may split.
     ///
     /// # Errors
     /// As [`Heap::new`] and [`Heap::record_set`]; then there is no heap.
@@ -46,7 +47,7 @@ impl Headless {
         Ok(())
     }
 
-    /// Moves them on, and waits for it.
+    /// Simulates one step and waits for it.
     ///
     /// # Errors
     /// No heap, and as [`Heap::record_step`].
@@ -66,17 +67,17 @@ impl Headless {
         result
     }
 
-    /// Nanoseconds of the last step; `None` before there is one.
+    /// Time of the last step in nanoseconds; `None` before the first.
     pub fn heap_time(&mut self) -> Option<f64> {
         let heap = self.heap.as_mut()?;
         heap.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
     }
 
-    /// The blobs of the heap after the last step, in the order they were handed over, and the places of their halves; none
-    /// without a heap. What is not there is all 0.
+    /// The heap's blobs after the last step, in the order in which they were handed over, followed by the slots
+    /// of split ones. Unused slots are zeros. Empty without a heap.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn heap_blobs(&mut self) -> Result<Vec<Bubble>, Error> {
         let Some((blobs, count)) = self.heap.as_ref().map(|heap| (heap.blobs(), heap.count()))
         else {

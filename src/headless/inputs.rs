@@ -1,4 +1,4 @@
-//! The particles of a frame, and the foam that a step makes of their motion.
+//! Particles of a frame, and the foam step on their motion.
 
 use std::sync::Arc;
 
@@ -18,30 +18,30 @@ use crate::gpu::graveyard::Destroy;
 use crate::state::{State, StateConfig};
 use crate::water::settings::FoamSettings;
 
-/// What the foam of the particles goes by.
+/// State of surface foam.
 pub(super) struct Foaming {
     pub state: State,
     /// By the particles that are here now.
     stepped: bool,
 }
 
-/// Diffuse particles of a frame, each attribute as long as `positions`. What they are is said at
+/// Whitewater particles of a frame, each attribute as long as `positions`, with the meaning of
 /// [`DiffuseParticles`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Diffuse<'a> {
     /// World-space centres.
     pub positions: &'a [[f32; 3]],
-    /// 0 foam, 1 spray, 2 bubble.
+    /// Kinds: 0 foam, 1 spray, 2 bubble.
     pub kinds: Option<&'a [u32]>,
     /// Radii, scene units.
     pub radii: Option<&'a [f32]>,
-    /// What of their lives has passed, 0 to 1.
+    /// Relative ages, 0 to 1.
     pub ages: Option<&'a [f32]>,
-    /// Numbers that follow them from frame to frame.
+    /// Numbers that stay with their particle from frame to frame.
     pub ids: Option<&'a [u32]>,
 }
 
-/// The same on the device.
+/// Whitewater particles on the device.
 pub(super) struct Diffusing {
     count: u32,
     positions: Buffer,
@@ -70,7 +70,7 @@ impl Diffuse<'_> {
 }
 
 impl Diffusing {
-    /// Room for so many.
+    /// Allocates buffers for `count` particles.
     fn new(gpu: &Arc<Gpu>, count: u32, attributes: [bool; 4]) -> Result<Self, Error> {
         let room = |name, bytes: u64| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
@@ -161,7 +161,7 @@ impl Packing {
 /// Bytes that are on their way to the device at a time.
 const STAGING: usize = 4 << 20;
 
-/// An upload of diffuse particles a part after the other, from [`Headless::diffuse_parts`]. Dropped before
+/// An upload of whitewater particles in parts, from [`Headless::diffuse_parts`]. If it is dropped before
 /// [`finish`](Self::finish) there are none.
 pub struct DiffuseParts<'a> {
     headless: &'a mut Headless,
@@ -173,11 +173,11 @@ pub struct DiffuseParts<'a> {
 }
 
 impl DiffuseParts<'_> {
-    /// Uploads the particles that come next. What is borrowed is free again afterwards.
+    /// Uploads the next particles. The borrowed slices are free afterwards.
     ///
     /// # Errors
-    /// Attributes of another length, or others than in the part before; more particles than were said; no memory.
-    /// Then nothing of the part counts.
+    /// Attributes of different lengths, other attributes than in the previous part, more particles than
+    /// announced, no memory. The part is then ignored.
     pub fn push(&mut self, part: &Diffuse<'_>) -> Result<(), Error> {
         let length = part.positions.len();
         if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {
@@ -220,10 +220,10 @@ impl DiffuseParts<'_> {
         Ok(())
     }
 
-    /// Ends the upload: these are the diffuse particles of the frames to come.
+    /// Ends the upload. The following frames show these whitewater particles.
     ///
     /// # Errors
-    /// Fewer particles than were said, and no memory; then there are none.
+    /// Fewer particles than announced, no memory. Then there are none.
     pub fn finish(mut self) -> Result<(), Error> {
         if self.written < self.count {
             let why = format!("{} particles expected, found {}", self.count, self.written);
@@ -249,15 +249,15 @@ impl DiffuseParts<'_> {
     }
 }
 
-/// A blob of bubble foam. What it is is said at [`Blobs`].
+/// A blob of bubble foam, with the meaning of [`Blobs`].
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Bubble {
-    /// World-space centre, radius.
+    /// World-space centre and radius.
     pub ball: [f32; 4],
-    /// Quaternion, the real part last.
+    /// Orientation: a quaternion, the real part last.
     pub turn: [f32; 4],
-    /// Number that follows it from frame to frame.
+    /// A number that stays with the blob from frame to frame.
     pub id: u32,
 }
 
@@ -353,9 +353,9 @@ impl Headless {
         }
     }
 
-    /// Uploads how the particles uploaded last move: their velocities, for foam, spray and motion
-    /// vectors, and `ids` that follow them from frame to frame, so that the noise in their foam and
-    /// their droplets do.
+    /// Uploads the motion of the particles uploaded last: velocities, for foam, spray and motion vectors, and
+    /// `ids` that stay with their particle from frame to frame, which keep the noise in foam and the droplets
+    /// attached to it.
     ///
     /// # Errors
     /// Not as many as positions, no memory.
@@ -392,8 +392,8 @@ impl Headless {
         Ok(())
     }
 
-    /// Uploads the diffuse particles of a frame, with [`Config::diffuse`](crate::Config::diffuse); `None`: there
-    /// are none.
+    /// Uploads the whitewater particles of a frame, with [`Config::diffuse`](crate::Config::diffuse). `None`:
+    /// there are none.
     ///
     /// # Errors
     /// As [`diffuse_parts`](Self::diffuse_parts) and [`DiffuseParts::push`]; then there are none.
@@ -408,9 +408,9 @@ impl Headless {
         }
     }
 
-    /// Uploads the diffuse particles of a frame part by part, so that no more than a part of them is in the host's
-    /// memory at a time: of a file that is read on the way, or of very many. `count`: of all. There are none
-    /// until [`DiffuseParts::finish`].
+    /// Uploads the whitewater particles of a frame in parts, so that only one part is in the host's memory at a
+    /// time, for example from a file that is being read. `count`: total number. There are none until
+    /// [`DiffuseParts::finish`].
     ///
     /// # Errors
     /// More than [`DiffuseConfig::max_particles`](crate::foam::DiffuseConfig::max_particles).
@@ -428,7 +428,7 @@ impl Headless {
         Ok(DiffuseParts { headless: self, count, written: 0, made: None, packing })
     }
 
-    /// Bytes of the buffers of diffuse particles that were uploaded.
+    /// Bytes of the buffers of uploaded whitewater particles.
     pub fn diffuse_memory(&self) -> u64 {
         self.diffuse.as_ref().map_or(0, Diffusing::size)
     }
@@ -458,9 +458,9 @@ impl Headless {
         Ok(())
     }
 
-    /// What of the particles is foam, with [`Config::foam`](crate::Config::foam): a step of a
-    /// [`State`] by their [`motion`](Self::motion). `dt`: seconds since the step before; without, or
-    /// without ids, a frame stands for itself.
+    /// Advances surface foam, with [`Config::foam`](crate::Config::foam): one step of a [`State`] from the
+    /// particles' [`motion`](Self::motion). `dt`: seconds since the previous step. Without it, or without ids,
+    /// each frame is independent.
     ///
     /// # Errors
     /// No motion, no memory, and as [`State::record_step`].

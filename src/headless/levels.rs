@@ -1,31 +1,31 @@
-//! The levels of the smoothing put together, as the picture shows them, texel by texel of a sheet's first.
+//! The smoothing levels merged as the picture shows them, at the resolution of a layer's first level.
 
 use super::Picture;
 use crate::contract::{SmoothingLevel, SmoothingLevels};
 use crate::frame::EMPTY;
 
-/// A sheet of water among the levels.
+/// A layer of water among the levels.
 #[derive(Clone, Copy)]
 pub struct Sheet {
     first: usize,
-    /// How much coarser that is than the first of all.
+    /// Number of levels by which `first` is coarser than the first level of the front layer.
     coarser: usize,
 }
 
-/// The front sheet.
+/// The front layer.
 pub const FRONT: Sheet = Sheet { first: 0, coarser: 0 };
-/// The back sheet.
+/// The back layer.
 pub const BACK: Sheet = Sheet { first: 4, coarser: 1 };
 
 impl Sheet {
-    /// Whether there is such a sheet.
+    /// Whether this layer exists.
     pub fn is_in(self, levels: &SmoothingLevels) -> bool {
         levels.level[self.first].rect[2] > 0
     }
 }
 
-/// Calls `of` for each texel of a sheet's first level: with the texel, the depth that it has there, the
-/// level it shows and how far the next has faded in; `none` where there is no water.
+/// Calls `of` for each texel of a layer's first level: with the texel, its depth, the level that is visible
+/// there, and how far the next one has faded in. Texels without water get `none`.
 fn each(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,
@@ -56,7 +56,7 @@ fn at_texel<T: Copy>(image: &Picture<T>, level: &SmoothingLevel, [x, y]: [usize;
     image.data[(first_y + y.min(height - 1)) * image.width + first_x + x.min(width - 1)]
 }
 
-/// The smoothed depth; `image`: of all levels.
+/// The smoothed depth. `image`: all levels.
 pub fn surface(levels: &SmoothingLevels, image: &Picture<f32>, sheet: Sheet) -> Picture<f32> {
     each(levels, image, sheet, EMPTY, |at, z, shown, fade| {
         let of = |level: usize| smoothed(levels, image, sheet, level, at, z);
@@ -64,7 +64,8 @@ pub fn surface(levels: &SmoothingLevels, image: &Picture<f32>, sheet: Sheet) -> 
     })
 }
 
-/// Depth of a level's surface in a texel of the sheet's first: between its texels on the same one.
+/// Depth of a level's surface at a texel of the layer's first level, interpolated between texels on the same
+/// surface.
 fn smoothed(
     levels: &SmoothingLevels,
     image: &Picture<f32>,
@@ -88,7 +89,7 @@ fn smoothed(
     if weights > 0.0 { z + sum / weights } else { z }
 }
 
-/// Iterations planned for the level that shows most; `plan`: of all levels.
+/// Iteration counts of the level that dominates each texel. `plan`: all levels.
 pub fn iterations(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,

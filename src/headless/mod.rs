@@ -1,11 +1,10 @@
-//! The library without a host: an own device, a scene to stand in, submits and read-back. For the
-//! tool and for tests; an engine that embeds the library does not compile it.
+//! The library without a host: an own device, a stand-in scene, submits and read-back. For the tool, tests and
+//! examples; an engine that embeds the library does not compile it.
 //!
-//! One frame at a time: [`Headless::new`]; then what a frame takes, by [`Headless::particles`] and
-//! [`Headless::motion`], [`Headless::diffuse`] or a part at a time
-//! [`Headless::diffuse_parts`], [`Headless::sky`] or [`Headless::equirectangular`], [`Headless::scene`]; then
-//! [`Headless::render`], and the picture and its layers back. What is recorded is submitted and waited
-//! for at once.
+//! One frame at a time: [`Headless::new`]; the inputs of a frame by [`Headless::particles`] and
+//! [`Headless::motion`], [`Headless::diffuse`] or in parts [`Headless::diffuse_parts`], [`Headless::sky`] or
+//! [`Headless::equirectangular`], [`Headless::scene`]; then [`Headless::render`], and the picture and its
+//! layers are read back. Recorded commands are submitted and waited for at once.
 
 mod device;
 mod draw;
@@ -63,29 +62,29 @@ const COLOR_REST: Access = access::COLOR_ATTACHMENT;
 /// The scene's depth image between its own passes.
 const DEPTH_REST: Access = access::DEPTH_ATTACHMENT;
 
-/// What became of the particles of a frame.
+/// Particle statistics of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// On the screen.
+    /// Particles on the screen.
     pub visible: u32,
-    /// Of those, the ones that can show.
+    /// Those of them that can be visible.
     pub front: u32,
-    /// Dropped for NaN, infinite or huge positions.
+    /// Particles dropped for NaN, infinite or huge positions.
     pub dropped: u32,
-    /// Set aside as spray.
+    /// Particles classified as spray.
     pub spray: u32,
 }
 
-/// What is done once a step of a simulation, before the frames that show it.
+/// What runs once per simulation step, before the frames that show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
-    /// What of the water is foam ([`Headless::step`]).
+    /// Surface foam ([`Headless::step`]).
     Foam,
-    /// Diffuse particles that are made ([`Headless::generate`]).
+    /// Whitewater emission ([`Headless::generate`]).
     Generate,
-    /// Blobs that move ([`Headless::heap_step`]).
+    /// Blob dynamics ([`Headless::heap_step`]).
     Heap,
-    /// How far the shore is ([`Headless::shore_map_step`]).
+    /// The distance to the shore ([`Headless::shore_map_step`]).
     ShoreMap,
 }
 
@@ -117,7 +116,7 @@ pub struct Headless {
     active_samples: Option<(vk::Buffer, u32)>,
     bubble_words: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
-    /// The environment without the sun, where that is in it: what lights the scene.
+    /// The environment without the sun, if the picture contains it; it lights the scene.
     without_sun: Option<Environment>,
     context: Context,
     device: Device,
@@ -139,7 +138,7 @@ impl Headless {
         let ((commands, color, depth), renderer) = match made {
             Ok(made) => made,
             Err(error) => {
-                // Nothing was submitted with what was made before the failure.
+                // Nothing was submitted with the objects created before the failure.
                 gpu.destroy();
                 return Err(error);
             }
@@ -181,7 +180,7 @@ impl Headless {
         Ok(headless)
     }
 
-    /// Brings the images to where frames find them, under the built-in sky.
+    /// Initializes the images and sets the built-in sky as environment.
     fn first_contents(&mut self) -> Result<(), Error> {
         self.run(|this, cmd| {
             // SAFETY: cmd is recording and submitted before any record.
@@ -199,14 +198,14 @@ impl Headless {
         self.sky(&Sky::default())
     }
 
-    /// What is ours beside the renderer.
+    /// Creates the objects besides the renderer.
     fn own(gpu: &Gpu, device: &Device, config: &Config) -> Result<(Commands, Image, Image), Error> {
         let extent = config.extent;
         let usage = vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
         let mut color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        // Only where it is needed: some devices do not compress what can be stored to.
+        // Only if needed: some devices do not compress images that can be stored to.
         if way(config) == Shading::Compute {
             color |= vk::ImageUsageFlags::STORAGE;
         }
@@ -228,8 +227,8 @@ impl Headless {
         &self.renderer
     }
 
-    /// Fills a fresh command buffer, submits it and waits. `record` says which command buffer it
-    /// ended with.
+    /// Fills a fresh command buffer, submits it and waits. `record` returns the command buffer that it ended
+    /// with.
     fn run_parts(
         &mut self,
         record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<vk::CommandBuffer, Error>,
@@ -255,7 +254,7 @@ impl Headless {
         self.run_parts(|this, cmd| record(this, cmd).map(|()| cmd))
     }
 
-    /// Times of the last step of a kind, pass by pass; none before there is one.
+    /// Times of the last step of a kind, pass by pass; empty before the first.
     pub fn step_timings(&mut self, which: Stepped) -> Vec<Timing> {
         let slot = Slot(0);
         let times = match which {
@@ -267,7 +266,7 @@ impl Headless {
         times.unwrap_or_default().to_vec()
     }
 
-    /// Times of the last frame, pass by pass, without those of [steps](Self::step_timings) before it.
+    /// Times of the last frame, pass by pass, without its [steps](Self::step_timings).
     pub fn timings(&mut self) -> Vec<Timing> {
         self.renderer.timings(Slot(0)).to_vec()
     }

@@ -1,4 +1,4 @@
-//! Shoreline and contact foam: what the stand-in host's water is and where its shores are.
+//! Shoreline and contact foam: the stand-in host's water surface and shores.
 
 use std::sync::Arc;
 
@@ -16,16 +16,16 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::timing::Timing;
 use crate::shore::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
 
-/// Triangles of a mesh: vertices, three of which each triangle has.
+/// Triangles of a mesh.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ShoreMesh<'a> {
-    /// Places.
+    /// Positions of the vertices.
     pub positions: &'a [[f32; 3]],
-    /// Three for each triangle.
+    /// Vertex indices, three per triangle.
     pub indices: &'a [u32],
 }
 
-/// The same on the device.
+/// A mesh on the device.
 struct Meshed {
     positions: Buffer,
     indices: Buffer,
@@ -51,14 +51,14 @@ impl Meshed {
     }
 }
 
-/// What there is of them.
+/// Shoreline and contact foam of the stand-in host.
 #[derive(Default)]
 pub(super) struct Shores {
-    /// Of the frames; a strip or a map of ours takes the place of its shoreline.
+    /// Shore of the frames; a strip or a map below replaces its shoreline.
     shore: Option<Shore>,
     strip: Option<(Meshed, Buffer)>,
     map: Option<(ShoreMap, Vec<Meshed>)>,
-    /// In place of theirs.
+    /// Replaces the mask of `shore`.
     mask: Option<Image>,
 }
 
@@ -68,7 +68,7 @@ impl Shores {
         self.map.as_mut().map(|(map, _)| map.timings(slot))
     }
 
-    /// As a frame takes it.
+    /// The shore for a frame.
     pub fn shore(&self) -> Option<Shore> {
         let strip = self.strip.as_ref().map(|(mesh, v)| {
             let v = stream(v, 4);
@@ -87,16 +87,17 @@ impl Shores {
 }
 
 impl Headless {
-    /// The next frames' shoreline and contact foam, with [`Config::shore`](crate::Config::shore): its surface, mask and up.
-    /// Where there is a [`shore_strip`](Self::shore_strip) or a [`shore_map`](Self::shore_map) these are its shoreline.
+    /// Sets shoreline and contact foam of the next frames, with [`Config::shore`](crate::Config::shore):
+    /// surface, mask and bias. The shoreline is that of [`shore_strip`](Self::shore_strip) or
+    /// [`shore_map`](Self::shore_map) if there is one.
     pub fn shore(&mut self, shore: Option<Shore>) {
         self.shores.shore = shore;
     }
 
-    /// A strip of foam with the v of each vertex, in place of what there was.
+    /// Sets a strip of foam with the shore coordinate v of each vertex. It replaces an earlier strip or map.
     ///
     /// # Errors
-    /// No memory; of other numbers of them; what Vulkan reports.
+    /// Numbers of vertices and values of v differ; no memory; Vulkan errors.
     pub fn shore_strip(&mut self, mesh: &ShoreMesh<'_>, v: &[f32]) -> Result<(), Error> {
         self.shores.strip = None;
         self.gpu.bury();
@@ -110,8 +111,8 @@ impl Headless {
         Ok(())
     }
 
-    /// A map of distances to the shores of meshes, `size` texels each way, in place of what there was; filled by
-    /// [`shore_map_step`](Self::shore_map_step).
+    /// Sets a map of distances to the shores of meshes, with `size` texels along each axis. It replaces an
+    /// earlier strip or map. [`shore_map_step`](Self::shore_map_step) fills it.
     ///
     /// # Errors
     /// As [`ShoreMap::new`].
@@ -125,7 +126,8 @@ impl Headless {
         Ok(())
     }
 
-    /// The land has changed: where each of its meshes is now. `changed`: as [`ShoreMapStep::changed`].
+    /// Updates the map after the land has changed, with the transform of each mesh. `changed`: as
+    /// [`ShoreMapStep::changed`].
     ///
     /// # Errors
     /// No map, other numbers of meshes, and as [`ShoreMap::record_step`].
@@ -157,17 +159,18 @@ impl Headless {
         result
     }
 
-    /// Nanoseconds of the last step of the map; `None` before there is one.
+    /// Time of the last step of the map in nanoseconds; `None` before the first.
     pub fn shore_map_time(&mut self) -> Option<f64> {
         let (map, _) = self.shores.map.as_mut()?;
         map.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
     }
 
-    /// The web of the next frames, of so many texels each way: 1 where foam is first, 0 where it is last; in place of the
-    /// built-in one.
+    /// Sets the foam texture of the next frames, instead of the built-in one: 1 where foam appears first, 0
+    /// where it appears last. `size`: texels along each axis.
     ///
     /// # Errors
-    /// Of other numbers of texels; no [`Config::shore`](crate::Config::shore), no memory, what Vulkan reports.
+    /// The number of texels differs from `size`; no [`Config::shore`](crate::Config::shore); no memory; Vulkan
+    /// errors.
     pub fn shore_web(&mut self, size: [u32; 2], texels: &[f32]) -> Result<(), Error> {
         let (image, staged) = self.values("web", size, texels)?;
         // SAFETY: every run waits for its end.
@@ -180,11 +183,11 @@ impl Headless {
         })
     }
 
-    /// The mask of the next frames' contact foam, of so many texels over the view: 0 takes all of it away, 1 nothing; in place
-    /// of what there was.
+    /// Sets the mask of the next frames' contact foam over the view, replacing an earlier one: 0 suppresses it
+    /// completely, 1 not at all. `size`: texels along each axis.
     ///
     /// # Errors
-    /// Of other numbers of texels; no memory, what Vulkan reports.
+    /// The number of texels differs from `size`; no memory; Vulkan errors.
     pub fn shore_mask(&mut self, size: [u32; 2], texels: &[f32]) -> Result<(), Error> {
         self.shores.mask = None;
         self.gpu.bury();
@@ -197,7 +200,7 @@ impl Headless {
         Ok(())
     }
 
-    /// An image of one channel, and what is to be put into it.
+    /// Creates an image of one channel, and a buffer with its contents.
     fn values(
         &self,
         field: &'static str,

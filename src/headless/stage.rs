@@ -1,4 +1,4 @@
-//! The stand-in scene: set up, and drawn into the images that the water is drawn over.
+//! The stand-in scene: set-up, and drawing into the images that the water is drawn over.
 
 use std::sync::Arc;
 
@@ -18,9 +18,9 @@ use crate::gpu::image::{Image, ImageDesc};
 pub(super) struct Stage {
     pub renderer: SceneRenderer,
     descriptors: Descriptors,
-    /// The frame in which its solids are, and whether edges are smoothed.
+    /// Frame of the scene that was drawn last, and whether edges were smoothed.
     drawn: (u64, bool),
-    /// Its last picture, for a camera that rests.
+    /// The last picture of the scene, reused while the camera rests.
     kept: Option<Kept>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Stage {
 struct Kept {
     color: Image,
     depth: Image,
-    /// `None`: of none yet, or a frame failed.
+    /// `None`: nothing is kept yet, or a frame failed.
     camera: Option<Camera>,
 }
 
@@ -52,19 +52,18 @@ impl Kept {
 }
 
 impl Headless {
-    /// The scene to stand behind the water, drawn by
-    /// [`Background::Scene`](super::Background::Scene); `antialias`: four samples a pixel in its
-    /// colour. Its light is baked: a new sun needs a new scene.
+    /// Sets the scene behind the water, drawn by [`Background::Scene`](super::Background::Scene). `antialias`:
+    /// four samples per pixel in its colour. Its light is baked, so a new sun needs a new scene.
     ///
     /// # Errors
-    /// A sun or a sea that is none; no memory, and what Vulkan reports.
+    /// Invalid parameters of sun or sea, no memory, Vulkan errors.
     pub fn scene(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
         self.set_up_scene(scene, antialias, None)
     }
 
-    /// The scene that was handed in last, in another [`frame`](Scene::frame) and at another
-    /// [`time`](Scene::time): its parts and its sea have moved, and nothing else has changed. What moves takes the
-    /// baked light along; the sun's shadow is drawn anew. Where the sea alone has moved this costs nothing.
+    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time): parts and sea
+    /// move, nothing else may change. Moving parts keep their baked light; the sun's shadow map is redrawn. If
+    /// only the sea moves this costs nothing.
     ///
     /// # Errors
     /// As [`scene`](Self::scene).
@@ -105,7 +104,7 @@ impl Headless {
             Ok(Stage { descriptors, renderer, drawn, kept: None })
         });
         if made.is_err() {
-            // Nothing was submitted with what was made before the failure.
+            // Nothing was submitted with the objects created before the failure.
             gpu.bury();
         }
         let mut stage = made?;
@@ -118,14 +117,14 @@ impl Headless {
         Ok(())
     }
 
-    /// Its picture is another one now: a new sky, or a frame failed.
+    /// Discards the kept picture: the sky has changed, or a frame failed.
     pub(super) fn forget_scene(&mut self) {
         if let Some(kept) = self.scene.as_mut().and_then(|stage| stage.kept.as_mut()) {
             kept.camera = None;
         }
     }
 
-    /// Draws it into colour and depth, or takes what was drawn from the same camera.
+    /// Draws the scene into colour and depth, or copies the kept picture if the camera is the same.
     pub(super) fn draw_scene(
         &mut self,
         cmd: vk::CommandBuffer,

@@ -1,5 +1,5 @@
-//! Command buffers: begun, submitted, waited for; one after the other where the host reads queries
-//! back in between.
+//! Command buffers: begun, submitted and waited for; several in sequence if the host reads queries back in
+//! between.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;
 use crate::gpu::graveyard::{Grave, Owned};
 
-/// A command pool with its first buffer, and the fence to wait by.
+/// A command pool, its first buffer, and a fence to wait for.
 pub struct Commands {
     pub pool: Owned<vk::CommandPool>,
     pub buffer: vk::CommandBuffer,

@@ -97,10 +97,10 @@ impl Headless {
         }
     }
 
-    /// What became of the particles of the last frame.
+    /// Particle statistics of the last frame.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn counts(&mut self) -> Result<Counts, Error> {
         let mut sum = Counts::default();
         let Some(counts) = self.counts else { return Ok(sum) };
@@ -120,11 +120,11 @@ impl Headless {
         Ok(sum)
     }
 
-    /// Samples that the smoothing's queries counted in the last frame, in iterations 5, 10, …; none
-    /// for other forms.
+    /// Samples that the smoothing's queries counted in the last frame, in iterations 5, 10, …; empty for other
+    /// forms.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn active_samples(&mut self) -> Result<Vec<u32>, Error> {
         match self.active_samples {
             Some((buffer, blocks)) => self.read_buffer(buffer, 4 * u64::from(blocks)),
@@ -163,7 +163,7 @@ impl Headless {
     /// The output of the last frame: linear RGBA.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn color(&mut self) -> Result<Picture<[f32; 4]>, Error> {
         let texels: Picture<[u16; 4]> =
             self.read(self.color.handle, COLOR_FORMAT, self.color.extent.into(), COLOR_REST)?;
@@ -173,30 +173,34 @@ impl Headless {
     /// Device depth of the scene.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn scene_depth(&mut self) -> Result<Picture<f32>, Error> {
         self.read(self.depth.handle, DEPTH_FORMAT, self.depth.extent.into(), DEPTH_REST)
     }
 
-    /// At which resolutions the last frame was smoothed.
+    /// Resolutions at which the last frame was smoothed.
     pub fn levels(&self) -> Option<SmoothingLevels> {
         self.levels
     }
 
-    /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
-    /// smoothing come at its configured resolution, each texel of the level that shows there; `water.back` is the smoothed back sheet, and
-    /// `water.thickness.front` and `.back` are what of `water.thickness` lies before and behind the frontmost foam
-    /// (T_wf and T_wb of the thesis; where there is no foam, all of it is before), `water.sheet.front` and `.back` are
-    /// channels of `water.thickness.sheets`, the water of each of two sheets, and
-    /// `water.foam.front`, what lies right behind the frontmost, is one of `water.foam.thickness`, and
-    /// `motion.X` and `motion.Y` of `motion`; of diffuse particles there are `foam` (depth), `foam.intensity`,
-    /// `foam.thickness`, `foam.submerged` (what of the thickness is behind the water's surface), `foam.normal.X`,
-    /// `.Y`, `.Z`, `foam.radius` (of the search), `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`; of bubble foam
-    /// `bubbles` (depth) and `bubbles.layers` (how many blobs are drawn one behind the other); `shore.amount` and
-    /// `contact.amount` are of shoreline and contact foam.
+    /// A layer of the last frame by its name; `None` if there is none of that name.
+    ///
+    /// - Smoothing layers have its configured resolution; each texel is taken from the level that is shown
+    ///   there. `water.back` is the smoothed back layer.
+    /// - `water.thickness.front` and `.back` are the parts of `water.thickness` in front of and behind the
+    ///   frontmost foam (T_wf and T_wb of the thesis; without foam everything is in front).
+    /// - `water.sheet.front` and `.back` are the water of each of two layers, channels of
+    ///   `water.thickness.sheets`.
+    /// - `water.foam.front` is the foam right behind the frontmost, a channel of `water.foam.thickness`.
+    /// - `motion.X` and `motion.Y` are channels of `motion`.
+    /// - Whitewater has `foam` (depth), `foam.intensity`, `foam.thickness`, `foam.submerged` (the part of the
+    ///   thickness behind the water's surface), `foam.normal.X`, `.Y`, `.Z`, `foam.radius` (search radius),
+    ///   `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`.
+    /// - Bubble foam has `bubbles` (depth) and `bubbles.layers` (number of composited blobs).
+    /// - Shores have `shore.amount` and `contact.amount`.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn layer(&mut self, name: &str) -> Result<Option<Picture<f32>>, Error> {
         if name == "bubbles.layers" {
             return self.bubble_layers();

@@ -1,4 +1,4 @@
-//! Files: particle caches in, pictures out.
+//! Files: reads particle caches, writes pictures.
 
 pub mod particles;
 pub mod picture;

@@ -1,10 +1,10 @@
-//! Pass `caustics`: sunlight gathered and thinned out by the water's surface (caustics mapping, Shah,
-//! Konttinen, Pattanaik 2007, by a photon a texel in place of a mesh).
+//! Pass `caustics`: sunlight focused and spread by the water's surface (caustics mapping, Shah, Konttinen,
+//! Pattanaik 2007, with one photon per texel instead of a mesh).
 //!
-//! The front of the light's map is smoothed as wide as the water on the screen, each texel's light is
-//! refracted there and added where it leaves the water again; sums are of integers.
-//! Light that the host's scene keeps from the water, by its shadow map, is left out.
-//! Reads: front, thickness, shadow map. Writes: caustics, R32F, light over what would come without water.
+//! The front of the light map is smoothed with the same width as the water on the screen. Each texel's light is
+//! refracted there and added where it leaves the water again, with integer sums. Light that the host's scene
+//! blocks, by its shadow map, is left out.
+//! Reads: front, thickness, shadow map. Writes: caustics, R32F, light relative to that without water.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;

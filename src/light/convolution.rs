@@ -1,20 +1,21 @@
-//! Pass `convolution`: the host's shadow map as filtered images of a Fourier basis, from which whoever
-//! asks for shadows rebuilds the comparison with its own depth (Annen, Mertens, Bekaert, Seidel, Kautz,
-//! *Convolution Shadow Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
+//! Pass `convolution`: the host's shadow map as filtered images of a Fourier basis, from which shaders
+//! reconstruct the comparison with their own depth (Annen, Mertens, Bekaert, Seidel, Kautz, *Convolution Shadow
+//! Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
 //!
 //! What differs, and why:
-//! - Depths are taken between the nearest and the farthest texel of the map, found on the GPU: any
-//!   projection will do, endless ones too, and the series rises as steeply as the scene lets it. Texels
-//!   where nothing is lie behind. The series turns back at the end of its period: both ends keep room.
-//! - Terms are damped by exp(−α((k − ½)/M)²), k − ½ in place of k: that is a Gaussian of the step, which
-//!   keeps its height with few terms too.
-//! - What is rebuilt is steeper by a factor about one half (clipped: it hides what rings on), and moved
-//!   by as much of its rise as it takes for what touches its occluder to be in the sun.
-//! - The map is averaged to the size of our images first, then over a box: no mips.
-//! - The basis lies side by side in one image, not in an array: where there is none any image stands in.
+//! - Depths are normalised between the nearest and the farthest texel of the map, found on the GPU. Any
+//!   projection works, infinite ones too, and the series rises as steeply as the scene allows. Empty texels
+//!   count as behind. The series is periodic, so both ends keep a margin.
+//! - Terms are damped by exp(−α((k − ½)/M)²), with k − ½ instead of k: a Gaussian of the step, which keeps its
+//!   height with few terms.
+//! - The reconstruction is steepened around one half (and clipped, which hides ringing) and offset by the part
+//!   of its rise that keeps a point touching its occluder in the sun.
+//! - The map is averaged to the size of the library's images first, then box-filtered: no mips.
+//! - The pages of the basis lie side by side in one image, not in an array, so any image can stand in where
+//!   there is none.
 //!
-//! Reads: the host's shadow map. Writes: span of its depths; basis, RGBA8 signed or RGBA16F, cosine and
-//! sine of two terms a page, pages in two rows with a border of one texel each.
+//! Reads: the host's shadow map. Writes: span of its depths; basis, RGBA8 signed or RGBA16F, cosine and sine of
+//! two terms per page, pages in two rows with a border of one texel each.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -34,29 +35,29 @@ use crate::gpu::shader;
 use crate::water::Recording;
 use crate::water::settings::{ShadowFilter, Shadows};
 
-/// Texels a side that a group of the first part looks at.
+/// Side length in texels of the block that a group of the first part reads.
 const SPAN_BLOCK: u32 = 128;
 /// Bytes of the span.
 const SPAN: u64 = 16;
 /// One page, whole and filtered along one axis: every device stores and samples it.
 const PAGE: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
-/// Read by what shades, and by the vertices of spray.
+/// Read by shading passes, and by the vertex shader of spray.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
-/// How the maps are made ([`Shadows::Convolution`]).
+/// Configuration of convolution shadow maps ([`Shadows::Convolution`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Convolution {
-    /// Terms of the series: 4, 8 or 16 (default). Behind an occluder the shade is whole from 23, 9 or 4 % on
-    /// of the depths that the map spans.
+    /// Terms of the series: 4, 8 or 16 (default). Shadow is complete at a distance behind its occluder of 23, 9
+    /// or 4 % of the depth range of the map.
     pub terms: u32,
-    /// Texels a side that the images hold at most, 16 to 4096 (default 1024). A larger map is averaged
-    /// over whole blocks of its texels; its size may change from frame to frame.
+    /// Maximum side length of the images in texels, 16 to 4096 (default 1024). A larger map is averaged over
+    /// whole blocks of its texels; its size may change from frame to frame.
     pub texels: u32,
-    /// Bits of a number: 8 (default) or 16, in which the picture is the same but for a few thousandths.
-    /// The images take 2·`terms`·`bits`/8 + 16 bytes a texel.
+    /// Bits per value: 8 (default) or 16, which changes the picture by a few thousandths. The images take
+    /// 2·`terms`·`bits`/8 + 16 bytes per texel.
     pub bits: u32,
 }
 
@@ -67,7 +68,7 @@ impl Default for Convolution {
 }
 
 impl Convolution {
-    /// What is wrong with it.
+    /// Validates the configuration.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let Self { terms, texels, bits } = *self;
         let bad = |why: String| Err(Error::bad("Config.shadow", why));
@@ -91,7 +92,7 @@ impl Convolution {
         }
     }
 
-    /// A page's texels a side.
+    /// Side length of a page in texels.
     fn page(&self) -> u32 {
         self.texels + 2
     }
@@ -101,7 +102,7 @@ impl Convolution {
         vk::Extent2D { width: self.terms / 4 * self.page(), height: 2 * self.page() }
     }
 
-    /// The map's texels that one of ours covers along an axis, and how many ours are.
+    /// Texels of the map per texel of the image along an axis, and the size of the image.
     fn size(&self, map: vk::Extent2D) -> (u32, vk::Extent2D) {
         let edge = map.width.max(map.height).div_ceil(self.texels).max(1);
         let (width, height) = (map.width.div_ceil(edge), map.height.div_ceil(edge));
@@ -109,7 +110,7 @@ impl Convolution {
     }
 }
 
-/// The configuration of the pass, where it is asked for.
+/// The configuration of the pass, if it is enabled.
 pub fn convolution(config: &Config) -> Option<Convolution> {
     match config.shadow {
         Some(Shadows::Convolution(convolution)) => Some(convolution),
@@ -117,7 +118,7 @@ pub fn convolution(config: &Config) -> Option<Convolution> {
     }
 }
 
-/// Numbers of a frame, as glsl/include/frame.glsl has them.
+/// Values of a frame (glsl/include/frame.glsl).
 #[derive(Clone, Copy, Default)]
 pub struct Convolved {
     pub linear: [f32; 4],
@@ -127,7 +128,7 @@ pub struct Convolved {
 }
 
 impl Convolved {
-    /// None where the configuration has no such pass.
+    /// `None` if the pass is disabled.
     pub fn new(frame: &Frame<'_>, config: &Config) -> Option<Self> {
         let (convolution, shadow) = (convolution(config)?, frame.sun.shadow.as_ref()?);
         let settings = &frame.settings.shadow;
@@ -158,7 +159,7 @@ fn weights(terms: u32, settings: &ShadowFilter) -> impl Iterator<Item = f32> + u
     })
 }
 
-/// From where on the series, made steeper, is 1; where it nowhere is, its first maximum.
+/// Position from which the steepened series is 1; its first maximum if it never is.
 fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     const STEPS: u32 = 256;
     // No maximum comes later, with the damping there may be.
@@ -178,8 +179,9 @@ fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     most
 }
 
-/// Device depth z to (a z + b) / (c z + d), even along the light: its depth by a perspective projection,
-/// z itself by a parallel one or by one whose depth goes by place too. It grows away from the light.
+/// Coefficients of (a z + b) / (c z + d), which maps device depth to a depth that is linear along the light:
+/// the depth of a perspective projection, z itself for a parallel one or for one whose depth also depends on
+/// the position. It increases away from the light.
 fn linear(shadow: &Shadow, nearer: f32) -> [f32; 4] {
     let clip = shadow.view_projection;
     let (z, w) = (clip.row(2), clip.row(3));
@@ -205,7 +207,7 @@ pub struct Convolving {
     across: Pipeline,
     down: Pipeline,
     span: Buffer,
-    /// One page, and it filtered along x.
+    /// One page, and the page filtered along x.
     page: [Image; 2],
     basis: Image,
     pages: u32,
@@ -252,7 +254,7 @@ impl Convolving {
         Resource::Buffer(self.span.handle, 0, SPAN)
     }
 
-    /// `shadow`: the host's, which compute samples by `map`.
+    /// `shadow`: the host's map; `map` is its resource for compute.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -340,7 +342,8 @@ mod tests {
         0.5 + settings.scale * sum
     }
 
-    /// Past the ramp the light is whole to the end of the period, by default; steeper is shorter.
+    /// Beyond the ramp the light is complete until the end of the period, by default; a steeper ramp is
+    /// shorter.
     #[test]
     fn the_ramp_ends_where_the_light_is_whole() {
         for terms in [4, 8, 16] {

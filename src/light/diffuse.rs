@@ -1,11 +1,12 @@
-//! Pass `diffuse`: the foam of diffuse particles as the sun sees it (future work of Akinci et al. 2013, Sec. 4).
+//! Pass `diffuse`: whitewater as the sun sees it (future work of Akinci et al. 2013, Sec. 4).
 //!
-//! An invocation a particle, straight from the host's streams, wherever the eye looks: sums of whole steps, which no
-//! order of the particles changes. Of each texel three are kept, of a thickness as the eye's and of that times its
-//! place along the light, once and squared: how much there is, where its middle is and how far it spreads. What of
-//! it lies before a point, and so what of the sun comes there, is told by those (glsl/include/sunlight.glsl).
-//! Reads: the host's streams, front. Writes: diffuse, RGBA16F, thickness; metres along the light to its middle, and
-//! of its spread.
+//! One invocation per particle, directly from the host's streams, independent of the camera: sums of
+//! fixed-point steps, so the order of the particles does not matter. Each texel has three sums: the thickness
+//! (as for the camera), and its products with the position along the light and its square. They give amount,
+//! mean and spread. From these follows how much foam lies in front of a point, and so how much sunlight reaches
+//! it (glsl/include/sunlight.glsl).
+//! Reads: the host's streams, front. Writes: diffuse, RGBA16F, thickness; metres along the light to its mean,
+//! and its spread.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -63,7 +64,7 @@ pub struct Diffuse {
     /// The result.
     pub image: Image,
     chunks: Chunks,
-    /// Rows whose words can be bound at once.
+    /// Rows whose words fit in one binding.
     rows: u32,
 }
 
@@ -98,7 +99,7 @@ impl Diffuse {
         })
     }
 
-    /// After `light`, whose front it takes. The particles' buffers are taken over here.
+    /// Runs after `light`, whose front it reads. Takes over the particles' buffers.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -124,7 +125,7 @@ impl Diffuse {
         Ok(())
     }
 
-    /// The words are those of the particles afterwards.
+    /// Accumulates the particles in the words.
     fn record_splat(
         &self,
         r: &Recording<'_>,
@@ -154,7 +155,7 @@ impl Diffuse {
         Ok(())
     }
 
-    /// Adds up what comes to some rows, the first and the last.
+    /// Accumulates the contributions to a range of rows.
     fn record_rows(
         &self,
         r: &Recording<'_>,
@@ -224,7 +225,7 @@ impl Diffuse {
     }
 }
 
-/// Rows of a map of so many texels a side whose words a device can bind at once, at least three.
+/// Number of rows of a map whose words fit in one binding, at least three.
 fn rows(limits: &vk::PhysicalDeviceLimits, edge: u32) -> u32 {
     let row = WORDS * u64::from(edge);
     let fit = u64::from(limits.max_storage_buffer_range) / row;

@@ -1,8 +1,8 @@
-//! Pass `lit`: the host's scene under the shadows and caustics of water and foam, in an image of ours,
-//! from which the fluid refracts it, and in the output.
+//! Pass `lit`: the host's scene with the shadows and caustics of water and foam, written to an own image, from
+//! which the fluid refracts it, and to the output.
 //!
-//! It takes the place of the copy of a scene that is the output itself. What share of a pixel's light
-//! is the sun's, nobody says: that of level ground ([`Light`](crate::Light)).
+//! It replaces the copy of a scene that is the output itself. The sun's share of a pixel's light is unknown;
+//! that of level ground is used ([`Light`](crate::Light)).
 //! Reads: scene colour and depth, the light's maps, caustics. Writes: lit scene; output, all of it.
 
 use ash::vk;
@@ -25,7 +25,7 @@ use crate::water::settings::Shading;
 /// How the scene's colour is read.
 pub const SCENE_USE: Access = FRAGMENT_SAMPLED;
 
-/// Where the lit scene goes.
+/// Destination of the lit scene.
 pub struct Output {
     /// View of the output.
     pub view: vk::ImageView,
@@ -33,11 +33,11 @@ pub struct Output {
     pub image: vk::Image,
     /// All aspects of the image.
     pub aspect: vk::ImageAspectFlags,
-    /// Its framebuffer; null where there is none.
+    /// Its framebuffer, or null.
     pub target: vk::Framebuffer,
     /// The part of it that is the view.
     pub area: vk::Rect2D,
-    /// How it is used before, and how `composite` wants it.
+    /// Its use before, and the use that `composite` expects.
     pub before: Access,
     pub after: Access,
 }
@@ -49,7 +49,7 @@ enum Out {
 
 /// The pass.
 pub struct Lit {
-    /// The lit scene; begins with the view.
+    /// The lit scene, with the view at its origin.
     target: Target,
     pipeline: Pipeline,
     out: Out,

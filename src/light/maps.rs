@@ -1,10 +1,10 @@
-//! Pass `light`: water and foam as the sun sees them.
+//! Pass `light`: water and surface foam as the sun sees them.
 //!
-//! Every particle is drawn, whatever the camera sees, straight from the host's streams: nothing is
-//! listed for one look. Of packets too: those beside the view cast into it.
-//! Reads: the counts and the members of `cull`, the host's particles. Writes: front, R32F, metres along the light to
-//! what it meets first; thickness, RGBA32F, metres of water and of foam along it, and both times where
-//! they lie.
+//! Every particle is drawn, independent of the camera, directly from the host's streams, without a list.
+//! Particles in culled packets are included, because they cast shadows into the view.
+//! Reads: the counts and the members of `cull`, the host's particles. Writes: front, R32F, metres along the
+//! light to the first surface; thickness, RGBA32F, metres of water and of foam along it, and both times their
+//! position.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -23,7 +23,7 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 use crate::water::{self, Recording, SphereList, Window};
 
-/// Read by compute, by what shades, and by the vertices of spray.
+/// Read by compute, by shading passes, and by the vertex shader of spray.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);

@@ -1,7 +1,7 @@
-//! What water and foam do to the sunlight: shadows in the water's colours, shadows of foam, caustics
-//! (the thesis' future work). A pass a file: [`maps`] splats all particles as the sun sees them,
-//! [`diffuse`] the diffuse ones, [`caustics`] follows the refracted light, [`lit`] lays both on the host's scene; foam, spray and
-//! highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
+//! Effects of water and foam on sunlight: coloured shadows of water, shadows of foam, caustics (the thesis'
+//! future work). One pass per file: [`maps`] splats all particles as the sun sees them, [`diffuse`] the
+//! whitewater, [`caustics`] traces the refracted light, [`lit`] applies both to the host's scene. Foam, spray
+//! and highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
 //! shadow map.
 
 mod caustics;
@@ -47,23 +47,23 @@ pub fn constants(config: &Config) -> [(u32, u32); 5] {
     ]
 }
 
-/// What of the sun's light reaches a point, for every shader that asks.
+/// Resources of the sunlight at a point, for every shader that needs it.
 #[derive(Clone, Copy)]
 pub struct Sunlight {
-    /// The host's shadow map or mask; anything where there is none.
+    /// The host's shadow map or mask, or a stand-in.
     pub shadow: Resource,
-    /// Ours; anything where there is none.
+    /// The light map's thickness, or a stand-in.
     pub thickness: Resource,
-    /// Basis of a filtered shadow map, and its span; any image and buffer where there is none.
+    /// Basis of a filtered shadow map and its span, or stand-ins.
     pub convolved: [Resource; 2],
-    /// Diffuse particles as the sun sees them; anything where they cast nothing.
+    /// The map of whitewater, or a stand-in.
     pub diffuse: Resource,
-    /// The same of bubble foam.
+    /// The map of bubble foam, or a stand-in.
     pub bubbles: Resource,
 }
 
 impl Sunlight {
-    /// As glsl/include/sunlight.glsl binds it.
+    /// Bindings of glsl/include/sunlight.glsl.
     pub fn resources(&self) -> [(u32, Resource); 6] {
         let [basis, span] = self.convolved;
         [
@@ -95,7 +95,7 @@ impl Light {
         })
     }
 
-    /// Replaces what depends on the extent.
+    /// Recreates the size-dependent state.
     pub fn resize(
         &mut self,
         gpu: &Gpu,
@@ -105,19 +105,19 @@ impl Light {
         self.lit.resize(gpu, config, retired)
     }
 
-    /// What shaders read, once [`record_maps`](Self::record_maps) is recorded.
+    /// The thickness map, after [`record_maps`](Self::record_maps).
     pub fn thickness(&self, gpu: &Gpu) -> Resource {
         Resource::Sampled(self.maps.thickness.image().view, gpu.samplers.nearest)
     }
 
-    /// The same of diffuse particles, where they cast.
+    /// The map of whitewater, if it casts.
     pub fn diffuse(&self, gpu: &Gpu) -> Option<Resource> {
         let image = &self.diffuse.as_ref()?.image;
         Some(Resource::Sampled(image.view, gpu.samplers.nearest))
     }
 
-    /// `light`, `diffuse` and `caustics`, after `cull`, whose counts they take. The buffers of the diffuse particles
-    /// are read by compute from here on.
+    /// Passes `light`, `diffuse` and `caustics`, after `cull`, whose counts they use. The buffers of the
+    /// whitewater particles are in the compute-read state afterwards.
     pub fn record_maps(
         &self,
         r: &mut Recording<'_>,
@@ -132,8 +132,8 @@ impl Light {
         self.caustics.record(r, &self.maps)
     }
 
-    /// `lit`: the output holds the lit scene afterwards, as does the image that is handed back, for
-    /// fragments and compute to sample.
+    /// Pass `lit`. Afterwards the output holds the lit scene, and so does the returned image, which fragment
+    /// and compute shaders can sample.
     pub fn record_lit(
         &self,
         r: &mut Recording<'_>,
@@ -179,7 +179,7 @@ impl Light {
 
 pub use lit::Output;
 
-/// Descriptor sets that diffuse particles take of a frame where they cast.
+/// Number of descriptor sets per frame for whitewater that casts.
 pub fn diffuse_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
     match (config.cast, &config.diffuse) {
         (Some(edge), Some(diffuse)) => diffuse::sets(limits, diffuse, edge),
@@ -187,7 +187,7 @@ pub fn diffuse_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
     }
 }
 
-/// A square image of the light's.
+/// Description of a square light map.
 fn map_desc(
     name: &str,
     edge: u32,

@@ -1,7 +1,7 @@
-//! Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam). Its surface is the smoothed one,
-//! so it comes when that is there; `shoreline` has what lies on the host's surface.
+//! Pass `contact`: foam on the particles' water around objects in it (Lettier, Foam). It needs the smoothed
+//! surface, so it runs after that; `shoreline` handles the host's surface.
 //!
-//! Reads: depth, smoothed, scene depth, web, mask. Writes: tiles that may have some, foam of the pixels that have.
+//! Reads: depth, smoothed, scene depth, web, mask. Writes: tiles that may contain foam, foam of their pixels.
 
 use super::Given;
 use super::settings::ShoreConfig;
@@ -27,7 +27,7 @@ impl Contact {
         Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
     }
 
-    /// The water's layers come and go as sampled by fragments.
+    /// The water's layers are sampled by fragment shaders before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -1,10 +1,12 @@
-//! Pass `map`: how far the shore is, at the points of a grid that lies still in the world, for shores without a mesh of
-//! their own. Not in the source, whose author asks for it (*Semi-procedural foam shader*, Sec. II).
+//! Pass `map`: distance to the shore on a grid that is fixed in the world, for shores without a mesh of their
+//! own. Not in the blog, whose author asks for it (*Semi-procedural foam shader*, Sec. II).
 //!
-//! Heights from above, of the host's meshes or image; where they cross the water's level are seeds, whose nearest each
-//! texel finds by jump flooding (Rong, Tan, *Jump Flooding in GPU with Applications to Voronoi Diagram and Distance
-//! Transform*, 2006), with one more jump of a texel at the end. Where something has changed alone a window is made anew.
-//! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, metres, below 0 in the water).
+//! Input are heights from above, of the host's meshes or image. Where they cross the water's level are seeds,
+//! and jump flooding finds the nearest seed of each texel (Rong, Tan, *Jump Flooding in GPU with Applications
+//! to Voronoi Diagram and Distance Transform*, 2006), with one extra jump of one texel at the end. If only a
+//! part has changed, only a window is updated.
+//! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, metres, negative in the
+//! water).
 
 use std::sync::Arc;
 
@@ -35,17 +37,17 @@ use crate::host_images::depth_layout;
 use crate::water::Window;
 use crate::water::settings::range;
 
-/// How the distances are read, by frames and by the host.
+/// How frames and the host read the distances.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-/// Most jumps, and one more.
+/// Maximum number of jumps, plus one.
 const MOST_JUMPS: u32 = 14;
 
-/// What fixes a map's memory: 16 bytes a texel.
+/// Configuration of a [`ShoreMap`]: what fixes its memory, 16 bytes per texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShoreMapConfig {
-    /// Texels each way, a multiple of 16 from 16 to 4096, default 1024.
+    /// Texels along each axis, a multiple of 16 from 16 to 4096, default 1024.
     pub size: u32,
-    /// Most meshes of a step, default 64.
+    /// Maximum number of meshes per step, default 64.
     pub max_meshes: u32,
 }
 
@@ -55,52 +57,53 @@ impl Default for ShoreMapConfig {
     }
 }
 
-/// What a map covers.
+/// The area that a map covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     /// World direction up, unit length, as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
-    /// Its middle along the two level axes: x and z where y is up. It is moved to whole texels, so that a map that follows
-    /// a camera shows the same.
+    /// Centre along the two level axes: x and z for y up. It is snapped to whole texels, so a map that follows
+    /// a camera keeps its content.
     pub center: [f32; 2],
-    /// Metres each way, (0, 1e6].
+    /// Side length in metres, (0, 1e6].
     pub edge: f32,
     /// Height of the water along `up`.
     pub level: f32,
-    /// Metres from the shore up to which distances are found, (0, edge]: what the foam reaches, to sea or inland.
+    /// Maximum distance from the shore that is computed, metres, (0, edge]: the width of the foam, seawards or
+    /// inland.
     pub reach: f32,
 }
 
-/// Where the land's heights come from.
+/// Source of the land's heights.
 #[derive(Clone, Copy, Debug)]
 pub enum Heights<'a> {
-    /// Meshes, drawn from above: what is over the water in any of them is land, what hangs over it too.
+    /// Meshes, rendered from above. Land is wherever any mesh is above the water, including overhangs.
     Meshes(&'a [MapMesh]),
-    /// Heights along [`Area::up`] at the middles of an image's texels, whose columns go along the first axis and rows along
-    /// the second, over all of the area as it was moved ([`Area::corner`]); any size; only sampled.
+    /// Heights along [`Area::up`] at the centres of an image's texels. Columns run along the first level axis,
+    /// rows along the second, over the snapped area ([`Area::corner`]). Any size, only sampled.
     Image(HostImage),
 }
 
-/// A mesh of a step.
+/// A mesh of the land.
 #[derive(Clone, Copy, Debug)]
 pub struct MapMesh {
     /// Its triangles.
     pub triangles: Triangles,
-    /// To world space.
+    /// Transform to world space.
     pub transform: Mat4,
 }
 
-/// A step of the map, [`ShoreMap::record_step`]: only where something has changed.
+/// A step of the map, [`ShoreMap::record_step`], needed only where something has changed.
 #[derive(Clone, Copy, Debug)]
 pub struct ShoreMapStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// What is covered.
+    /// The covered area.
     pub area: Area,
-    /// The land: all of it, whatever has changed.
+    /// The land: all of it, also where it has not changed.
     pub heights: Heights<'a>,
-    /// What has changed since the last step, in metres along the level axes: its least and its greatest corner, where it was
-    /// and where it is. `None`: all of it, as where the area is another.
+    /// What has changed since the last step: minimum and maximum corner along the level axes, metres, enclosing
+    /// the old and the new position. `None`: everything, as if the area had changed.
     pub changed: Option<[[f32; 2]; 2]>,
     /// Last use of the meshes' buffers before the step (layout ignored).
     pub before: Access,
@@ -113,7 +116,7 @@ impl Area {
         self.edge / size as f32
     }
 
-    /// The corner of a map of so many texels each way, at the least of both axes.
+    /// The minimum corner of a map with this many texels along each axis.
     pub fn corner(&self, size: u32) -> [f32; 2] {
         let texel = f64::from(self.edge) / f64::from(size);
         self.center.map(|c| {
@@ -180,7 +183,7 @@ shader::assert_layout!(
 
 struct Pipelines {
     height: Pipeline,
-    /// Of our own heights, of the host's.
+    /// Pipelines for rendered heights and for the host's.
     seed: [Pipeline; 2],
     jump: Pipeline,
     distance: [Pipeline; 2],
@@ -191,7 +194,7 @@ struct MapSlot {
     timer: Timer,
 }
 
-/// The images, and what makes them.
+/// The images and their passes.
 struct Grid {
     pass: vk::RenderPass,
     framebuffer: Owned<vk::Framebuffer>,
@@ -207,13 +210,13 @@ pub struct ShoreMap {
     config: ShoreMapConfig,
     grid: Grid,
     slots: Vec<MapSlot>,
-    /// Of the last step.
+    /// Area of the last step.
     area: Option<Area>,
-    /// Whose heights were meshes'.
+    /// Whether its heights came from meshes.
     drawn: bool,
 }
 
-/// A part of the map in texels: first, and one past the last.
+/// A window of the map in texels: first, and one past the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Part {
     first: [i32; 2],
@@ -225,7 +228,7 @@ impl Part {
         Self { first: [0; 2], end: [size as i32; 2] }
     }
 
-    /// Of what lies beside the map nothing grows into it.
+    /// The window grown on all sides, clamped to the map.
     fn grown(self, by: i32, size: u32) -> Self {
         if self.is_empty() {
             return self;
@@ -254,7 +257,7 @@ impl ShoreMap {
     /// Makes pipelines and memory.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(context: &Context, config: &ShoreMapConfig) -> Result<Self, Error> {
         let size = config.size;
         if !size.is_multiple_of(16) || !(16..=4096).contains(&size) {
@@ -341,7 +344,7 @@ impl ShoreMap {
         })
     }
 
-    /// Records that land or water have changed. Never submits, waits or allocates device memory.
+    /// Records an update after land or water have changed. Never submits, waits or allocates device memory.
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command buffer, and
@@ -505,7 +508,7 @@ impl ShoreMap {
         }
     }
 
-    /// The map as frames take it, of the last step; none before the first.
+    /// The map of the last step, for [`Shoreline::Map`](crate::Shoreline::Map). `None` before the first step.
     pub fn coast(&self) -> Option<Coast> {
         let area = self.area?;
         let size = self.config.size;
@@ -517,8 +520,9 @@ impl ShoreMap {
         })
     }
 
-    /// Metres to the shore at the middle of each texel, below 0 in the water, R32F; farther than the reach only that it is
-    /// so. Transfer source; sampled by fragment and compute shaders after a step.
+    /// Distance to the shore at each texel's centre, metres, negative in the water, R32F. Beyond the reach only
+    /// the sign and a larger value are guaranteed. Transfer source; sampled by fragment and compute shaders
+    /// after a step.
     pub fn distances(&self) -> vk::Image {
         self.grid.distances.handle
     }
@@ -537,10 +541,10 @@ impl ShoreMap {
         grid.heights.size + grid.distances.size + grid.seeds.iter().map(|b| b.size).sum::<u64>()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);
@@ -549,7 +553,7 @@ impl ShoreMap {
 }
 
 impl Grid {
-    /// The meshes from above, over what has changed.
+    /// Renders the meshes from above, over the changed window.
     fn record_heights(
         &self,
         gpu: &Gpu,
@@ -636,15 +640,15 @@ impl Grid {
     }
 }
 
-/// What of the meshes is drawn.
+/// The draw of the meshes.
 struct Drawn<'a> {
     area: &'a Area,
     corner: [f32; 2],
     changed: Part,
     meshes: &'a [MapMesh],
-    /// The step before has drawn them too.
+    /// Whether the previous step also drew meshes.
     before: bool,
-    /// Texels of the map each way.
+    /// Texels of the map along each axis.
     size: u32,
 }
 

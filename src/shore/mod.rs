@@ -1,5 +1,5 @@
-//! Foam that lies on water as a coat: along shores (*Semi-procedural foam shader*, an indie developer's blog) and round what
-//! stands in it (D. Lettier, *3D Game Shaders For Beginners*, Foam). A pass a file.
+//! Foam that lies on water as an overlay: along shores (*Semi-procedural foam shader*, an indie developer's
+//! blog) and around objects (D. Lettier, *3D Game Shaders For Beginners*, Foam). One pass per file.
 
 mod contact;
 mod distance;
@@ -88,7 +88,7 @@ shader::assert_layout!(
     }
 );
 
-/// The texel of a host's image for a pixel: scale; size; first texel.
+/// Mapping from a pixel to the texel of a host image: scale; size; first texel.
 fn texels(image: &HostImage, frame: vk::Extent2D) -> ([f32; 4], [f32; 2]) {
     let vk::Rect2D { offset, extent } = image.rect;
     let [w, h] = [extent.width as f32, extent.height as f32];
@@ -96,12 +96,12 @@ fn texels(image: &HostImage, frame: vk::Extent2D) -> ([f32; 4], [f32; 2]) {
     (scale, [offset.x as f32, offset.y as f32])
 }
 
-/// How far a pattern that repeats so often a metre has moved, in its repetitions.
+/// Displacement of a pattern, in its repetitions.
 fn moved(look: &ShoreLook, scale: f32, speed: [f32; 2]) -> [f32; 2] {
     speed.map(|speed| look.turned(f64::from(scale) * f64::from(speed)) as f32)
 }
 
-/// Looks into the noise, in their order.
+/// Noise look-ups, in order.
 #[derive(Default)]
 struct Looks {
     count: usize,
@@ -111,7 +111,7 @@ struct Looks {
 }
 
 impl Looks {
-    /// One of so many repetitions a metre.
+    /// Adds a look-up with a number of repetitions per metre.
     fn add(&mut self, scale: f32) -> &mut [f32; 4] {
         let own = &mut self.own[self.count];
         self.count += 1;
@@ -119,7 +119,7 @@ impl Looks {
         own
     }
 
-    /// Noises in the four channels, with factors: those of one scale are one look.
+    /// Adds noises in the four channels, with factors. Those of equal scale share a look-up.
     fn add_noises(&mut self, noises: [(Noise, f32); 4]) {
         let first = self.count;
         for (channel, (noise, factor)) in noises.iter().enumerate() {
@@ -137,7 +137,7 @@ impl Looks {
 }
 
 impl ShoreUniforms {
-    /// Whether a frame has more than most have (glsl/include/shore.glsl).
+    /// Whether a frame needs the general pipeline (glsl/include/shore.glsl).
     pub fn is_general(&self, scene_depth: vk::Extent2D, frame: vk::Extent2D) -> bool {
         let [looks, layers, ..] = self.counts;
         let [_, _, kind, _] = self.surface_part;
@@ -146,7 +146,8 @@ impl ShoreUniforms {
         looks > 2.0 || layers > 2.0 || kind > 1.5 || mask > 0.5 || way > 2.5 || scene_depth != frame
     }
 
-    /// `edges`: of web and noise, in texels. Without a [`Frame::shore`] nothing is drawn by it.
+    /// `edges`: side lengths of foam texture and noise in texels. Without a [`Frame::shore`] the values draw
+    /// nothing.
     pub fn new(frame: &Frame<'_>, lens: &Lens, edges: [f32; 2]) -> Self {
         let Settings { shore: look, water, .. } = frame.settings;
         let own = frame.shore.unwrap_or(crate::contract::Shore::new(0.0));
@@ -244,7 +245,8 @@ impl ShoreUniforms {
     }
 }
 
-/// Radiance of both kinds of foam in full light, for `composite`: RGB, then what of it is lit; opacity of shoreline foam.
+/// Radiance of both kinds of foam in full light, for `composite`: RGB, then the share that is lit; opacity of
+/// shoreline foam.
 pub(crate) fn colors(settings: &Settings) -> [Vec4; 2] {
     let (s, c) = (&settings.shore.shoreline, &settings.shore.contact);
     let light = Vec3::from(settings.light.irradiance) / std::f32::consts::PI;
@@ -253,10 +255,10 @@ pub(crate) fn colors(settings: &Settings) -> [Vec4; 2] {
     [shoreline.extend(s.opacity), contact.extend(c.lit)]
 }
 
-/// What a frame brings.
+/// Inputs of a frame.
 pub(crate) struct Given<'a> {
     pub shore: Option<&'a crate::contract::Shore>,
-    /// The host's images, as they are sampled.
+    /// The host's images, as sampled resources.
     pub surface: Option<Resource>,
     pub mask: Option<Resource>,
 }
@@ -300,7 +302,7 @@ fn buffers_of(strip: &Strip) -> impl Iterator<Item = vk::Buffer> + use<> {
     all.into_iter()
 }
 
-/// The depth of the host's surface, where it has one.
+/// The depth of the host's surface, if it has one.
 pub(crate) fn surface_of(shore: &crate::contract::Shore) -> Option<&HostImage> {
     match &shore.surface {
         Some(Surface::Depth(image)) => Some(image),
@@ -310,7 +312,7 @@ pub(crate) fn surface_of(shore: &crate::contract::Shore) -> Option<&HostImage> {
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Shore {
-    /// Those of the renderer before a `reconfigure`, where they fit.
+    /// Those of the renderer before a `reconfigure`, if they still fit.
     textures: Arc<Textures>,
     tiles: tiles::Tiles,
     shoreline: shoreline::Shore,
@@ -318,7 +320,7 @@ pub(crate) struct Shore {
 }
 
 impl Shore {
-    /// `before`: what there was until now.
+    /// `before`: the previous state.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -337,7 +339,7 @@ impl Shore {
         })
     }
 
-    /// Replaces what depends on the extent.
+    /// Recreates the size-dependent state.
     pub fn resize(
         &mut self,
         gpu: &Gpu,
@@ -348,7 +350,7 @@ impl Shore {
         self.shoreline.resize(gpu, config, retired)
     }
 
-    /// What `record_setup` makes is that of another.
+    /// Whether the precomputed data is that of `other`.
     pub fn is_set_up_as(&self, other: Option<&Self>) -> bool {
         other.is_some_and(|other| Arc::ptr_eq(&self.textures, &other.textures))
     }
@@ -367,13 +369,12 @@ impl Shore {
         self.textures.record_web(gpu, cmd, descriptors, image)
     }
 
-    /// Edges of web and noise, in texels.
+    /// Side lengths of foam texture and noise, in texels.
     pub fn edges(&self) -> [f32; 2] {
         self.textures.edges()
     }
 
-    /// Where foam lies on the host's surface: before the tiles that are drawn are known.
-    /// `general`: the frame has more than most have.
+    /// Passes `shore-tiles` and `shoreline`. `general`: the frame needs the general pipeline.
     pub fn record_shoreline(
         &self,
         r: &mut Recording<'_>,
@@ -389,7 +390,7 @@ impl Shore {
         Ok(())
     }
 
-    /// Where it lies on the particles' water. `general`: as above.
+    /// Pass `contact`. `general`: the frame needs the general pipeline.
     pub fn record_contact(
         &self,
         r: &mut Recording<'_>,
@@ -403,21 +404,21 @@ impl Shore {
         Ok(())
     }
 
-    /// The foam: along shores, at contacts on the host's surface, what of the sun's light does not come there, on the
-    /// particles' water.
+    /// The foam image: shoreline foam, contact foam on the host's surface, the sunlight missing on them,
+    /// contact foam on the particles' water.
     pub fn image(&self) -> &Image {
         self.shoreline.image()
     }
 
-    /// The tiles that have foam on the host's surface, the draw of their quads; how many there are in a row of a frame, and
-    /// where in the list they begin.
+    /// Tiles with foam on the host's surface, and the draw of their quads; number of tiles per row of a frame,
+    /// and offset in the list.
     pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, [u32; 2]) {
         let [list, arguments, _] = self.tiles.buffers();
         let [across, most] = self.tiles.places(extent);
         (list, arguments, [across, 3 * most])
     }
 
-    /// The layer of a frame of a size for the host.
+    /// The layer of a frame of this size, for the host.
     pub fn kept(&self, extent: vk::Extent2D) -> Layer {
         let image = self.image();
         Layer {

@@ -1,23 +1,24 @@
-//! Settings of shoreline foam (*Semi-procedural foam shader*, an indie developer's blog, 2019) and of contact foam
-//! (D. Lettier, *3D Game Shaders For Beginners*, Foam). Lengths are in the scene's unit, metres for what is said of
-//! defaults, which are for an island of a hundred of them.
+//! Settings of shoreline foam (*Semi-procedural foam shader*, an indie developer's blog, 2019) and of contact
+//! foam (D. Lettier, *3D Game Shaders For Beginners*, Foam). Lengths are in scene units. Defaults are in metres
+//! and suit an island about a hundred metres wide.
 
 use std::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::water::settings::range;
 
-/// Most layers of the web.
+/// Maximum number of foam texture layers.
 pub const LAYERS: usize = 4;
 
-/// What of shoreline and contact foam costs memory or pipelines.
+/// Configuration of shoreline and contact foam: what costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShoreConfig {
-    /// Where foam begins and ends in a pixel.
+    /// How the edge of foam within a pixel is computed.
     pub edge: Edge,
-    /// Edge of the web's texture in texels, a power of two from 16 to 2048, default 512. 25⅓ bytes each.
+    /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. 25⅓ bytes per
+    /// texel.
     pub web_size: u32,
-    /// What the built-in web and noise are made of, default 1.
+    /// Seed of the built-in foam texture and noise, default 1.
     pub seed: u32,
 }
 
@@ -38,44 +39,44 @@ impl ShoreConfig {
     }
 }
 
-/// The edge of shoreline foam.
+/// How the edge of shoreline foam within a pixel is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Edge {
-    /// As much of a pixel as the foam covers of it, by the derivatives of the foam and by what of it is too fine for the
-    /// pixel. Default: it neither crawls nor sparkles.
+    /// The fraction of the pixel that foam covers, from the foam's derivatives and the variance of detail finer
+    /// than the pixel. Default: it neither crawls nor sparkles.
     Smooth,
-    /// A pixel is foam or not: the source's.
+    /// A pixel is foam or not, as in the blog.
     Clip,
-    /// As alpha to coverage of four samples averages to: quarters of what [`Smooth`](Self::Smooth) says, dithered over two by
-    /// two pixels.
+    /// The average of four alpha-to-coverage samples: [`Smooth`](Self::Smooth) quantised to quarters and
+    /// dithered over 2×2 pixels.
     Coverage,
 }
 
-/// How shoreline and contact foam look.
+/// Appearance of shoreline and contact foam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShoreLook {
-    /// Seconds since some beginning, finite; what moves is found from it in 64 bits. Default 0.
+    /// Time in seconds, finite. Motion is derived from it in 64 bits. Default 0.
     pub time: f64,
-    /// All repeats after so many seconds, [0.1, 1e6]: speeds are rounded to whole numbers of periods. `None` (default): it
-    /// does not.
+    /// Period after which everything repeats, seconds, [0.1, 1e6]: speeds are rounded to whole cycles per
+    /// period. `None` (default): no repetition.
     pub period: Option<f32>,
     /// Foam along shores.
     pub shoreline: ShorelineLook,
-    /// Foam round what stands in the water.
+    /// Foam around objects in the water.
     pub contact: ContactLook,
 }
 
 /// Zero-mean seamless noise over the water's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Its largest value, [-1000, 1000], in the unit of what it is added to.
+    /// Maximum value, [-1000, 1000], in the unit of the quantity that it modulates.
     pub amplitude: f32,
-    /// Repetitions a metre, [0, 100]; its coarsest cells are a quarter of one wide.
+    /// Repetitions per metre, [0, 100]. The coarsest cells are a quarter of a repetition wide.
     pub scale: f32,
 }
 
 impl Noise {
-    /// None.
+    /// No noise.
     pub const NONE: Self = Self { amplitude: 0.0, scale: 0.0 };
 
     const fn new(amplitude: f32, scale: f32) -> Self {
@@ -88,77 +89,81 @@ impl Noise {
     }
 }
 
-/// Shoreline foam: what is foam where
+/// Shoreline foam. There is foam where
 ///
 /// `wave_ratio · (sin((frequency + n₁)·v + phase) + a·v + b) + web_ratio · (web + a'·v + b') ≥ threshold + n₂`
 ///
-/// with v 0 at the sea's edge, 1 at the shore, 2 inland (the blog, Sec. IV to VIII).
+/// with the shore coordinate v 0 at the sea's edge of the foam, 1 at the shore line and 2 inland (the blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShorelineLook {
-    /// Metres of foam to sea and inland of the shore, (0, 1e6], where v is found from a distance; default 12 and 3. A strip
-    /// has its own v.
+    /// Width of the foam seawards and inland of the shore line, metres, (0, 1e6], default 12 and 3, where v
+    /// comes from a distance. A strip has its own v.
     pub reach: [f32; 2],
-    /// Radians of the waves per v, [0, 1000], default 13: two of them from the sea's edge to the shore.
+    /// Wave frequency in radians per v, [0, 1000], default 13: two waves between the sea's edge and the shore
+    /// line.
     pub frequency: f32,
-    /// Radians a second, [-1000, 1000], default -0.9: towards the shore; more than 0, out to sea, as the blog's.
+    /// Wave speed in radians per second, [-1000, 1000], default -0.9. Negative runs towards the shore, positive
+    /// out to sea, as in the blog.
     pub speed: f32,
-    /// How much of the speed is a coming and going, 0 (none) to 1 (all), default 0.35.
+    /// Share of the motion that oscillates, 0 (none) to 1 (all), default 0.35.
     pub swing: f32,
-    /// Radians of that to either side, [0, 1000], default 2.2, and seconds of it, [0.1, 1e6], default 7.
+    /// The oscillation's amplitude in radians, [0, 1000], default 2.2, and its period in seconds, [0.1, 1e6],
+    /// default 7.
     pub swing_by: [f32; 2],
-    /// On the frequency; default 5, 1/90 m.
+    /// Noise added to the frequency. Default 5, 1/90 m.
     pub frequency_noise: Noise,
-    /// On the speed, radians a second; default 0.35, 1/90 m. It swings, or places would drift apart without end.
+    /// Noise added to the speed, radians per second. Default 0.35, 1/90 m. It oscillates, because places would
+    /// otherwise drift apart without limit.
     pub speed_noise: Noise,
-    /// Seconds of that swing, [0.1, 1e6], default 11.
+    /// Period of that oscillation, seconds, [0.1, 1e6], default 11.
     pub speed_period: f32,
-    /// The waves' a and b, [-100, 100]; default 1.1 and -0.75.
+    /// Slope a and offset b of the waves over v, [-100, 100], default 1.1 and -0.75.
     pub wave_rise: [f32; 2],
-    /// Waves are no less than this, [-100, 100]; `None` (default): the mix has no floor, the blog's first steps have 0.
+    /// Lower limit of the waves, [-100, 100]. `None` (default): no limit. The blog's first steps use 0.
     pub floor: Option<f32>,
-    /// Of the waves in the mix, [0, 100], default 0.34.
+    /// Weight of the waves in the mix, [0, 100], default 0.34.
     pub wave_ratio: f32,
-    /// Of the web in the mix, [0, 100], default 0.66.
+    /// Weight of the foam texture in the mix, [0, 100], default 0.66.
     pub web_ratio: f32,
-    /// The web's a' and b', [-100, 100]; default 0.95 and -0.62.
+    /// Slope a' and offset b' of the foam texture over v, [-100, 100], default 0.95 and -0.62.
     pub web_rise: [f32; 2],
-    /// Of the web; default two of them.
+    /// Layers of the foam texture. Default: two.
     pub layers: [WebLayer; LAYERS],
-    /// Bends the web, metres; default 0.7, 1/18 m.
+    /// Domain warp of the foam texture, metres. Default 0.7, 1/18 m.
     pub web_warp: Noise,
-    /// Metres a second by which that noise moves, [-1000, 1000], default 0.35 and 0.2.
+    /// Velocity of that warp's noise, metres per second, [-1000, 1000], default 0.35 and 0.2.
     pub web_warp_speed: [f32; 2],
-    /// Foam is where the mix is at least this, [-100, 100], default 0.39.
+    /// Threshold of the mix from which there is foam, [-100, 100], default 0.39.
     pub threshold: f32,
-    /// On the threshold; default 0.1, 1/90 m.
+    /// Noise added to the threshold. Default 0.1, 1/90 m.
     pub threshold_noise: Noise,
-    /// On both affine parts, so that foam reaches farther here than there; default 0.22, 1/90 m.
+    /// Noise added to both offsets, so that the foam's reach varies along the shore. Default 0.22, 1/90 m.
     pub rise_noise: Noise,
-    /// Bends all but v, metres; default none.
+    /// Domain warp applied to everything except v, metres. Default none.
     pub warp: Noise,
-    /// Within so much v of the sea's edge foam ends, [0.001, 1], default 0.2; and of the inland edge.
+    /// Range of v over which foam fades out at the sea's edge and at the inland edge, [0.001, 1], default 0.2.
     pub fade: f32,
     /// Albedo, linear RGB, 0 to 1; default 0.9 of each.
     pub color: [f32; 3],
-    /// 0 to 1, default 1.
+    /// Opacity, 0 to 1, default 1.
     pub opacity: f32,
 }
 
-/// One layer of the web.
+/// One layer of the foam texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WebLayer {
-    /// How much of it there is in the web, [0, 1]; 0: none.
+    /// Weight of the layer, [0, 1], 0 = off.
     pub weight: f32,
-    /// Repetitions a metre, [0, 100].
+    /// Repetitions per metre, [0, 100].
     pub scale: f32,
-    /// Degrees by which it is turned.
+    /// Rotation in degrees.
     pub angle: f32,
-    /// Metres a second by which it moves, [-1000, 1000].
+    /// Velocity in metres per second, [-1000, 1000].
     pub speed: [f32; 2],
 }
 
 impl WebLayer {
-    /// None.
+    /// No layer.
     pub const NONE: Self = Self { weight: 0.0, scale: 0.0, angle: 0.0, speed: [0.0; 2] };
 }
 
@@ -198,29 +203,31 @@ impl Default for ShorelineLook {
     }
 }
 
-/// Contact foam: the more the nearer what is behind the water's surface lies (Lettier).
+/// Contact foam: the closer the scene is behind the water's surface, the more foam (Lettier).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLook {
-    /// Metres at which there is none left, on the host's surface, (0, 1e6], default 0.4 (the source has 4 in units of its
-    /// own).
+    /// Distance at which contact foam ends on the host's surface, metres, (0, 1e6], default 0.4. (The tutorial
+    /// has 4 in its own units.)
     pub depth: f32,
-    /// The same on the particles' water; `None` (default): four spacings.
+    /// The same distance on the particles' water. `None` (default): four spacings.
     pub particle_depth: Option<f32>,
-    /// What those metres are.
+    /// How that distance is measured.
     pub measure: Measure,
-    /// How much the mask takes away, 0 (none) to 1 (all where it is black), default 0.8.
+    /// Strength of the mask, 0 (none) to 1 (no foam where it is black), default 0.8.
     pub mask: f32,
-    /// Repetitions of the web a metre, which is the mask where the host has none, [0, 100], default 1/2.2.
+    /// Repetitions per metre of the foam texture that serves as mask if the host has none, [0, 100], default
+    /// 1/2.2.
     pub mask_scale: f32,
-    /// Metres a second by which it moves, [-1000, 1000], default 0.05 and 0.03.
+    /// Velocity of that texture, metres per second, [-1000, 1000], default 0.05 and 0.03.
     pub mask_speed: [f32; 2],
-    /// Albedo, linear RGB, 0 to 1, default the source's (0.8, 0.85, 0.92 in sRGB); with `lit` of 0 radiance, [0, ∞).
+    /// Albedo, linear RGB, 0 to 1, default the tutorial's (0.8, 0.85, 0.92 in sRGB). With `lit` of 0 it is a
+    /// radiance, [0, ∞).
     pub color: [f32; 3],
-    /// What of its light is the sun's and the sky's, 0 (it glows by itself) to 1 (default).
+    /// Share of its light that comes from sun and sky, 0 (it emits light) to 1 (default).
     pub lit: f32,
-    /// On the host's surface, 0 (none) to 1 (default).
+    /// Opacity on the host's surface, 0 (none) to 1 (default).
     pub opacity: f32,
-    /// On the particles' water, 0 (none, default) to 1.
+    /// Opacity on the particles' water, 0 (none, default) to 1.
     pub particle_opacity: f32,
 }
 
@@ -241,14 +248,14 @@ impl Default for ContactLook {
     }
 }
 
-/// How far what is behind the surface is from it.
+/// How the distance between the surface and the scene behind it is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
-    /// The distance between both points of the pixel: what the source's demo does. Default.
+    /// The distance between both points of the pixel, as in the tutorial's program. Default.
     Distance,
-    /// The difference of their depths along the view: what its text says.
+    /// The difference of their depths along the view, as in the tutorial's text.
     View,
-    /// Of their heights; no foam where what is behind is not below.
+    /// The difference of their heights. No foam where the scene behind is not below.
     Vertical,
 }
 
@@ -262,7 +269,7 @@ impl ShoreLook {
         self.contact.check()
     }
 
-    /// Where something that goes round `rate` times a second is, 0 to 1.
+    /// Phase, 0 to 1, of a motion with `rate` cycles per second.
     pub(crate) fn turned(&self, rate: f64) -> f64 {
         let rate = match self.period {
             Some(period) => (rate * f64::from(period)).round() / f64::from(period),

@@ -1,11 +1,11 @@
-//! Pass `shoreline`: foam on the host's water surface, along shores (*Semi-procedural foam shader*) and round what stands in
-//! it (Lettier, Foam).
+//! Pass `shoreline`: foam on the host's water surface, along shores (*Semi-procedural foam shader*) and around
+//! objects (Lettier, Foam).
 //!
-//! What a pixel's foam is comes of its place on the surface alone: it needs the scene's depth and no mesh. A strip of the
-//! host's is drawn; then go the tiles that may have some (`shore-tiles`), two by two pixels at a time.
-//! What has foam goes to `composite` as runs of tiles.
-//! Reads: tiles, scene depth, the surface's, the map of distances, the strip, web, noise, mask. Writes: foam, RGBA8: along shores,
-//! at contacts, what of the sun's light does not come there, 0 (`contact`'s); the runs, their draw.
+//! A pixel's foam depends only on its position on the surface: the pass needs the scene's depth and no mesh. A
+//! host's strip, if there is one, is drawn first. Then the tiles that may contain foam (`shore-tiles`) are
+//! processed, 2×2 pixels at a time. Foam is handed to `composite` as runs of tiles.
+//! Reads: tiles, scene depth, the surface's, the map of distances, the strip, web, noise, mask. Writes: foam,
+//! RGBA8: along shores, at contacts, sunlight that is missing there, 0 (`contact`'s); the runs, their draw.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -29,7 +29,7 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 use crate::water::{Recording, Window};
 
-/// Read by what shades.
+/// Read by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
@@ -60,14 +60,14 @@ fn desc(config: &Config) -> ImageDesc<'static> {
 
 /// The pass.
 pub struct Shore {
-    /// For what most frames have, and for all there is (glsl/include/shore.glsl): of each list of tiles.
+    /// Pipelines for most frames, and for the general case (glsl/include/shore.glsl), one per tile list.
     shade: [[Pipeline; 3]; 2],
     strip: Pipeline,
     strip_tiles: Pipeline,
     target: Target,
 }
 
-/// Specialisation of the edge.
+/// Specialisation constant of the edge.
 pub fn edge_constant(shore: &ShoreConfig) -> (u32, u32) {
     let edge = match shore.edge {
         Edge::Clip => 0,
@@ -118,7 +118,7 @@ impl Shore {
         &self.target.image
     }
 
-    /// `general`: the frame has more than most have.
+    /// `general`: the frame needs the general pipeline.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

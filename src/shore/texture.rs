@@ -1,33 +1,33 @@
-//! Textures of shoreline foam: the distance from a pattern, a web of foam, noise. All wrap round.
+//! Textures of shoreline foam: the distance from a pattern, a foam texture, noise. All are seamless.
 //!
-//! Shoreline foam cuts a picture off at a threshold; where the picture says how far it is to the nearest line of a
-//! pattern, the lines thin and swell as the threshold moves (*Semi-procedural foam shader*, Sec. V). Filters of picture
-//! editors stop at the border there; here nothing does.
+//! Shoreline foam thresholds a picture. If the picture holds the distance to the nearest line of a pattern,
+//! lines thin and swell as the threshold moves (*Semi-procedural foam shader*, Sec. V). Filters of picture
+//! editors stop at the border; here nothing does.
 //!
-//! Nothing here is a transcendental function: a seed gives the same texture on every machine.
+//! No transcendental function is used: a seed gives the same texture on every machine.
 
 use crate::random::{Random, pcg};
 
-/// What has no texel of the pattern to be near to.
+/// Distance of a texel without any pattern.
 const NOWHERE: i64 = i64::MAX;
 
-/// Distance from each texel's centre to that of the nearest texel of the pattern, in texels; the picture wraps round
-/// both ways. Infinite everywhere where there is no pattern.
+/// Distance from each texel's centre to that of the nearest texel of the pattern, in texels, with the picture
+/// repeating in both directions. Infinite everywhere if the pattern is empty.
 ///
-/// Exact but for the rounding of the root, in a time that grows as the number of texels: along the columns, then the
-/// lower envelope of a parabola of each column's (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*,
-/// 2012), which goes on for half a row beyond both ends.
+/// Exact except for the rounding of the root, in linear time: along the columns, then the lower envelope of one
+/// parabola per column (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012), which
+/// extends half a row beyond both ends.
 ///
 /// `pattern` is `width` × `height` texels, row by row.
 ///
 /// # Panics
-/// Where it is not.
+/// `pattern` has another length.
 pub fn distance_transform(pattern: &[bool], width: usize, height: usize) -> Vec<f32> {
     squares(pattern, width, height).into_iter().map(root).collect()
 }
 
-/// The same inverted, as shoreline foam wants it: 1 on the pattern, and linearly less to 0 at `reach` texels from it and
-/// beyond. 0 everywhere where there is no pattern; the pattern alone where `reach` is not above 0.
+/// The inverted distance, as shoreline foam uses it: 1 on the pattern, falling linearly to 0 at `reach` texels.
+/// 0 everywhere if the pattern is empty; only the pattern if `reach` is not above 0.
 ///
 /// # Panics
 /// As [`distance_transform`].
@@ -108,12 +108,12 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
 const OCTAVES: u32 = 4;
 const NOISE_CELLS: usize = 4;
 
-/// Four channels of smooth noise, independent of each other: gradient noise (Perlin, *Improving Noise*, 2002: its second
-/// derivative is continuous), of 4, 8, 16 and 32 cells a side, each with half the amplitude of the one before. `edge`²
-/// texels, row by row; the texture wraps round.
+/// Four independent channels of smooth, seamless noise: gradient noise (Perlin, *Improving Noise*, 2002: its
+/// second derivative is continuous) with 4, 8, 16 and 32 cells per side, each octave with half the amplitude of
+/// the previous. `edge`² texels, row by row.
 ///
-/// In [−1, 1]: of each channel the mean is 0 and the largest absolute value 1 (a single texel is 0). A seed gives the same
-/// noise at every size, but for the mean and the largest value of its texels.
+/// In [−1, 1]: each channel has mean 0 and maximum absolute value 1 (a single texel is 0). A seed gives the
+/// same noise at every size, except for this normalisation.
 pub fn noise(edge: u32, seed: u32) -> Vec<[f32; 4]> {
     let mut random = Random::new(seed ^ 0x6e6f_6973);
     let octaves: Vec<Lattice<4>> =
@@ -193,14 +193,14 @@ impl<const N: usize> Lattice<N> {
 /// Texels a side of which the web is made, or nearly, where fewer are asked for: those are means of them.
 const FINE: u32 = 1024;
 
-/// A web of foam as the sea leaves it on a shore: filaments between round cells of very different sizes, thicker where
-/// they meet, some of them torn. `edge`² texels, row by row; the texture wraps round, and shows the same at every size. It
-/// is to be 5 to 15 m long: the widest cells are a fifth of it, filaments a five-hundredth.
+/// A foam texture as the sea leaves it on a shore: filaments between round cells of very different sizes,
+/// thicker where they meet, some of them torn. `edge`² texels, row by row, seamless, the same at every size. It
+/// is meant to be 5 to 15 m wide: the largest cells are a fifth of it, filaments a five-hundredth.
 ///
-/// An exact [`distance_transform`], inverted: 1 on the filaments, a seventh of the area, and 0 where it is farthest from
-/// all. In between it is laid out by area, so that it is known what a threshold cuts out: of the area without the
-/// filaments, the share 1 − t is at t or above. Texels that hold filaments and other area are the mean. From one texel to
-/// the next it is 0.2 at most where there are 512 a side, and less where there are more.
+/// An exact [`distance_transform`], inverted: 1 on the filaments, which are a seventh of the area, and 0
+/// farthest from them. Values in between are remapped to uniform area, so that the effect of a threshold is
+/// known: outside the filaments the fraction 1 − t of the area is at t or above. Texels partly on filaments
+/// hold the mean. Neighbouring texels differ by at most 0.2 at 512 per side, and less at larger sizes.
 pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     let share = (FINE / edge.max(1)).max(1) as usize;
     let fine = edge as usize * share;
@@ -219,8 +219,8 @@ pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     means
 }
 
-/// 1 where a distance is 0; elsewhere the share of those above 0 that are greater, and half of those that are equal; of the
-/// greatest 0.
+/// 1 where a distance is 0. Elsewhere the share of the larger ones among the distances above 0, plus half of
+/// the equal ones; 0 for the largest.
 fn by_area(squares: &[i64]) -> Vec<f32> {
     let most = squares.iter().copied().max().filter(|most| *most != NOWHERE).unwrap_or(0);
     let mut counts = vec![0_u32; most as usize + 1];
@@ -241,35 +241,37 @@ fn by_area(squares: &[i64]) -> Vec<f32> {
     squares.iter().map(|square| values.get(*square as usize).copied().unwrap_or(0.0)).collect()
 }
 
-/// Radii of the cells' cores: the largest, above the smallest, and each of the one before. All lengths are of an edge.
+/// Radii of the cells' cores relative to the side length: the largest, the smallest, and the ratio of
+/// successive ones.
 const LARGEST: f32 = 0.09;
 const SMALLEST: f32 = 0.006;
 const NEXT: f32 = 0.95;
-/// Places that are tried for the largest; for others more, as there is room for more of them.
+/// Attempts to place the largest core; smaller ones get more, as there is room for more of them.
 const TRIES: f32 = 3.0;
-/// How much of a core's radius may lie in a larger one.
+/// Maximum overlap of a core with a larger one, relative to its radius.
 const OVERLAP: f32 = 0.3;
-/// Cells a side and amplitude of what bends the filaments, on the whole and in detail.
+/// Cells per side and amplitude of the warp of the filaments, coarse and fine.
 const BENDS: [(usize, f32); 2] = [(6, 0.06), (20, 0.01)];
-/// Width of a filament, and how much it varies.
+/// Width of a filament, and its variation.
 const WIDTH: f32 = 0.0022;
 const WIDTH_VARIES: f32 = 0.6;
-/// How far from a junction filaments begin to thicken, of the core's radius.
+/// Distance from a junction at which filaments begin to thicken, relative to the core's radius.
 const FILLET: f32 = 0.8;
-/// The share of filaments that are torn, where both cores are of that radius at least, and how far from a junction they
-/// end, of the smaller one's radius.
+/// Share of filaments that are torn, minimum radius of both cores for that, and distance of the tear from a
+/// junction, relative to the smaller radius.
 const TORN: f32 = 0.35;
 const TORN_RADIUS: f32 = 0.03;
 const TORN_LENGTH: f32 = 0.8;
-/// How near a junction filaments begin to be like those they meet there, of the core's radius, and at most.
+/// Distance from a junction at which filaments blend with those they meet, relative to the core's radius, and
+/// its maximum.
 const BLEND: f32 = 0.5;
 const BLEND_MOST: f32 = 0.015;
-/// Tiles a side, each of which knows the cores that matter in it.
+/// Tiles per side, each with a list of the cores that affect it.
 const TILES: usize = 64;
-/// How much [`Cells::within`] is taken to change with the place at most: 2 or 3 of itself, the rest by the bending.
+/// Bound on the gradient of [`Cells::within`]: 2 or 3 from the distances, the rest from the warp.
 const STEEP: f32 = 5.0;
 
-/// A disc, of an edge.
+/// A disc, relative to the side length.
 #[derive(Clone, Copy)]
 struct Core {
     center: [f32; 2],
@@ -277,7 +279,7 @@ struct Core {
 }
 
 impl Core {
-    /// How far a place, in [0, 1), is from its rim, across the borders if that is nearer; less than 0 inside.
+    /// Distance of a point in [0, 1) from the disc's rim, periodic; negative inside.
     fn distance(&self, [x, y]: [f32; 2]) -> f32 {
         let across = |a: f32, b: f32| {
             let d = (a - b).abs();
@@ -288,12 +290,12 @@ impl Core {
     }
 }
 
-/// Cells of foam over the unit square, which wraps round: each place is of the core whose rim is nearest (the Voronoi
-/// diagram of discs, whose borders are hyperbolas). Discs are thrown where there is room, the largest first, so that small
-/// ones fill the gaps of large ones, as bubbles do.
+/// Foam cells over the periodic unit square: each point belongs to the core whose rim is nearest (the Voronoi
+/// diagram of discs, whose borders are hyperbolas). Discs are placed at random where there is room, the largest
+/// first, so that small ones fill the gaps of large ones, as bubbles do.
 struct Cells {
     cores: Vec<Core>,
-    /// Of each tile, which of them.
+    /// Core indices of each tile.
     tiles: Vec<Vec<u16>>,
     bends: [Lattice<2>; 2],
     seed: u32,
@@ -320,7 +322,7 @@ impl Cells {
         Self { cores, tiles, bends, seed: pcg(seed) }
     }
 
-    /// Where filaments are, of so many texels a side.
+    /// The filaments, on `edge`² texels.
     fn pattern(&self, edge: usize) -> Vec<bool> {
         let center = |i: usize| (i as f32 + 0.5) / edge as f32;
         let mut pattern = vec![false; edge * edge];
@@ -336,7 +338,7 @@ impl Cells {
         pattern
     }
 
-    /// How far within its cell a place is, beyond the filaments: less than 0 in them, and a lower bound where it is more.
+    /// Distance of a point from the filaments inside its cell: negative on them, and a lower bound otherwise.
     fn within(&self, x: f32, y: f32) -> f32 {
         let bends = [self.bends[0].at(x, y), self.bends[1].at(x, y)];
         let bent = |v: f32, i: usize| {
@@ -399,14 +401,14 @@ impl Cells {
         rounded(fillet) - width * (1.0 - torn * third / (TORN_LENGTH * smaller))
     }
 
-    /// Of two cells, in [0, 1).
+    /// Random number of a pair of cells, in [0, 1).
     fn chance(&self, a: u16, b: u16) -> f32 {
         let pair = u32::from(a.min(b)) << 16 | u32::from(a.max(b));
         (pcg(self.seed ^ pcg(pair)) >> 8) as f32 / (1 << 24) as f32
     }
 }
 
-/// The cores that are one of the three nearest anywhere in the tile about a place, or nearly the second.
+/// The cores that are among the three nearest, or nearly the second, anywhere in a tile.
 fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
     let distances: Vec<f32> = cores.iter().map(|core| core.distance(center)).collect();
     let mut nearest = [f32::INFINITY; 3];

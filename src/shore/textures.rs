@@ -1,5 +1,5 @@
-//! Pass `web`: the textures of shoreline and contact foam, all levels of them: made once, the web again from an image of
-//! the host's.
+//! Pass `web`: the textures of shoreline and contact foam with all mip levels, made once; the foam texture
+//! again from an image of the host.
 //!
 //! Reads: texels. Writes: the web (mean, mean of the square, slopes) and the noise, RGBA16F.
 
@@ -23,11 +23,11 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
-/// Edge of the noise.
+/// Side length of the noise texture.
 const NOISE: u32 = 256;
 /// How all of them are read.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-/// Most levels of both, of 2048 and 256 texels.
+/// Maximum number of mip levels of both, at 2048 and 256 texels.
 const MOST_LEVELS: u32 = 12 + 9;
 
 #[repr(C)]
@@ -40,7 +40,7 @@ struct Push {
 }
 shader::assert_layout!(shader::SHORE_TEXTURE_COMP, "Push", Push { part, size, first, before });
 
-/// One of them: its floats as they come, its levels packed, its image.
+/// One texture: its floats as computed, its packed levels, its image.
 struct Texture {
     edge: u32,
     first: Pipeline,
@@ -48,7 +48,7 @@ struct Texture {
     floats: Buffer,
     halves: Buffer,
     image: Image,
-    /// Of each level.
+    /// Descriptor sets, one per level.
     sets: Vec<vk::DescriptorSet>,
 }
 
@@ -107,7 +107,8 @@ impl Texture {
         [(0, Resource::buffer(&self.floats)), (1, Resource::buffer(&self.halves)), (2, image)]
     }
 
-    /// Makes all levels and copies them to the image. `host`: what the first is of, with its set.
+    /// Records all levels and their copy to the image. `host`: pipeline and set of the first level, if it comes
+    /// from the host.
     fn record(
         &self,
         gpu: &Gpu,
@@ -182,7 +183,7 @@ pub struct Textures {
     config: ShoreConfig,
     web: Texture,
     noise: Texture,
-    /// The web of an image of the host's.
+    /// The foam texture from an image of the host.
     hosts: Pipeline,
     _setup: Descriptors,
     sampler: Owned<vk::Sampler>,
@@ -214,12 +215,12 @@ impl Textures {
         })
     }
 
-    /// Whether they are what a configuration asks for.
+    /// Whether they fit a configuration.
     pub fn fits(&self, config: &ShoreConfig) -> bool {
         (self.config.web_size, self.config.seed) == (config.web_size, config.seed)
     }
 
-    /// The built-in ones.
+    /// Records the built-in textures.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         gpu.begin_label(cmd, c"web");
         for texture in [&self.web, &self.noise] {
@@ -257,7 +258,7 @@ impl Textures {
         Resource::Sampled(self.noise.image.view, self.sampler.handle)
     }
 
-    /// Edges of the web and of the noise.
+    /// Side lengths of foam texture and noise.
     pub fn edges(&self) -> [f32; 2] {
         [self.web.edge as f32, self.noise.edge as f32]
     }

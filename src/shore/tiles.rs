@@ -1,7 +1,8 @@
-//! Pass `shore-tiles`: where foam may lie on the host's surface, by tiles of pixels. Not in the sources: most of a picture
-//! has none, and what tells is much less than what it is.
+//! Pass `shore-tiles`: lists the screen tiles that may contain foam on the host's surface. Not in the sources:
+//! most of a picture has none, and this test is much cheaper than shading.
 //!
-//! Reads: scene depth, the surface's, the map of distances; the particles' depth for `contact`. Writes: lists of tiles, dispatches over them.
+//! Reads: scene depth, the surface's, the map of distances; the particles' depth for `contact`. Writes: lists
+//! of tiles, dispatches over them.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -21,31 +22,31 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// How often a picture of tiles is halved: they are 8 pixels wide and high (glsl/include/shore_lists.glsl).
+/// Number of halvings from pixels to tiles: tiles are 8×8 (glsl/include/shore_lists.glsl).
 const LEVEL: u32 = 3;
-/// Tiles of a run at most (glsl/include/shore_runs.glsl).
+/// Maximum number of tiles per run (glsl/include/shore_runs.glsl).
 const LONGEST: u32 = 16;
-/// Lists: of tiles that may have shoreline foam, contact foam, both; of runs of those that have any; of tiles that may have
-/// contact foam on the particles' water.
+/// Number of lists: tiles that may contain shoreline foam, contact foam, both; runs of tiles with any; tiles
+/// that may contain contact foam on the particles' water.
 const LISTS: u32 = 5;
-/// A quad's draw of no tiles; dispatches over none and how many they are (likewise).
+/// Arguments of an empty draw and empty dispatches, with their tile counts (likewise).
 const NO_TILES: [[u32; 4]; 6] =
     [[4, 0, 0, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0]];
-/// Where the dispatch over the fourth list is among them, in bytes.
+/// Byte offset of the dispatch over the fourth list.
 pub const COAT_DISPATCH: u64 = 64;
-/// Over the fifth.
+/// Byte offset of the dispatch over the fifth list.
 pub const CONTACT_DISPATCH: u64 = 80;
 /// How `shoreline` reads the lists.
 const SHADED: Access = COMPUTE_READ.and(INDIRECT);
 /// How `composite` reads the runs and their draw.
 const READ: Access = COMPUTE_READ.and(VERTEX_READ).and(INDIRECT);
 
-/// Buffers by the size of the picture.
+/// Size-dependent buffers.
 struct Lists {
-    /// Tiles of a list.
+    /// Capacity of a list in tiles.
     most: u32,
     list: Buffer,
-    /// Of each tile whether it has foam.
+    /// One mark per tile: whether it has foam.
     marks: Buffer,
 }
 
@@ -74,12 +75,12 @@ impl Lists {
 
 /// The pass.
 pub struct Tiles {
-    /// For what most frames have, and for all there is (glsl/include/shore.glsl).
+    /// Pipelines for most frames, and for the general case (glsl/include/shore.glsl).
     pipelines: [Pipeline; 2],
-    /// Of the particles' water, likewise.
+    /// The same for the particles' water.
     on_particles: [Pipeline; 2],
     runs: Pipeline,
-    /// The draw of the tiles' quads, the dispatches over them.
+    /// Arguments of the draw of the tiles' quads and of the dispatches.
     arguments: Buffer,
     lists: Lists,
 }
@@ -116,17 +117,17 @@ impl Tiles {
         Ok(())
     }
 
-    /// The lists, the dispatches over them and the draw of the fourth, what marks a tile.
+    /// The lists, their dispatches and the draw of the fourth, the marks.
     pub fn buffers(&self) -> [&Buffer; 3] {
         [&self.lists.list, &self.arguments, &self.lists.marks]
     }
 
-    /// How many tiles there are in a row of a frame, and the most of a list.
+    /// Number of tiles per row of a frame, and capacity of a list.
     pub fn places(&self, extent: vk::Extent2D) -> [u32; 2] {
         [extent_in_tiles(extent).width, self.lists.most]
     }
 
-    /// `general`: the frame has more than most have.
+    /// `general`: the frame needs the general pipeline.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -178,8 +179,8 @@ impl Tiles {
         Ok(())
     }
 
-    /// Where there may be contact foam on the particles' water, whose depth this is; the list and the dispatch are for
-    /// reading then.
+    /// Lists the tiles that may contain contact foam on the particles' water, from its depth. List and dispatch
+    /// are readable afterwards.
     pub fn record_on_particles(
         &self,
         r: &mut Recording<'_>,
@@ -206,7 +207,7 @@ impl Tiles {
         Ok(())
     }
 
-    /// The tiles that `shoreline` has marked, as runs for `composite`.
+    /// Merges the tiles that `shoreline` has marked to runs, for `composite`.
     pub fn record_runs(&self, r: &Recording<'_>) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let [list, arguments, marks] = self.buffers();

@@ -1,11 +1,11 @@
-//! Pass `back`: the surface of the back sheet, for where the front sheet covers it.
+//! Pass `back`: the surface of the back layer where the front layer covers it.
 //!
-//! Not in the source. One level coarser than the front sheet's smoothing and one sample a texel: it
-//! is only seen through water. It joins the levels in the smoothing images, so that every form of the
-//! smoothing takes it along. Only what is near a boundary is made, of those that `thickness` has left;
-//! the nearest of each block of texels comes first, so that most spheres need not look at them all.
-//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its levels both
-//! smoothing images, plan, each tile's work.
+//! Not in the thesis. It is one level coarser than the front layer's smoothing, with one sample per texel,
+//! because it is only seen through water. It joins the levels in the smoothing images, so every form of the
+//! smoothing processes it. Only tiles near a boundary that `thickness` has left are computed. The nearest depth
+//! of each block of texels is found first, so that most spheres skip the texels.
+//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its levels both smoothing
+//! images, plan, each tile's work.
 
 use ash::vk;
 
@@ -36,16 +36,16 @@ pub struct Back {
     small: Pipeline,
     large: Pipeline,
     plan: Pipeline,
-    /// Eye depth of the back sheet, unsmoothed.
+    /// Eye depth of the back layer, unsmoothed.
     image: Image,
-    /// Its first level, and how many it has.
+    /// Its first level, and its number of levels.
     level: u32,
     levels: u32,
-    /// Of each block of 16×16 pixels the nearest boundary.
+    /// Nearest boundary of each block of 16×16 pixels.
     blocks: Buffer,
 }
 
-/// What the sheet joins.
+/// Smoothing resources that the layer joins.
 pub struct Into<'a> {
     pub smooth: &'a Smooth,
     pub plan: &'a Image,
@@ -101,7 +101,7 @@ impl Back {
         Ok(())
     }
 
-    /// What it joins comes as `level` left it and leaves so.
+    /// The smoothing resources are in the state in which `level` leaves them, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

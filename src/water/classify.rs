@@ -1,9 +1,9 @@
-//! Pass `classify`: foam phases by Weber number, once per step of the simulation (thesis Sec. 3.2;
-//! Listing A.14 culls hard where Sec. 3.2.1 lets a particle be both: here it is both).
+//! Pass `classify`: surface foam by Weber number, once per simulation step (thesis Sec. 3.2; Listing A.14 culls
+//! hard where Sec. 3.2.1 lets a particle be both water and foam: here it is both).
 //!
-//! State follows the particle's id, in a hash table that each step writes anew from that of the
-//! step before: particles may be reordered, be born and vanish, and no step depends on their order. Tables longer than
-//! a binding may be are in parts, each a hash table by itself, and each step goes through them one after the other.
+//! State is stored by particle id in a hash table. Each step writes a new table from the previous one:
+//! particles may be reordered, appear and vanish, and no step depends on their order. A table larger than one
+//! binding is split into parts, each its own hash table; each step processes them one after the other.
 //! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 use ash::vk;
@@ -26,13 +26,14 @@ use crate::gpu::timing::Timer;
 
 /// Bytes of a row of the tables.
 pub const ROW: u64 = 20;
-/// Particles of a dispatch at most: 64 a group, 65 535 groups.
+/// Maximum number of particles per dispatch: 65 535 groups of 64.
 const MOST_CHUNK: u32 = 1 << 21;
-/// Bytes of a part at most: every device binds as many, so that what one has saved fits any other.
+/// Maximum bytes of a part: every device can bind this much, so a saved state fits any device.
 const MOST_PART: u64 = 1 << 27;
-/// Rows that parts are a multiple of: 64 are 1280 bytes, a multiple of every device's offset alignment.
+/// Parts are multiples of this number of rows: 64 are 1280 bytes, a multiple of every device's offset
+/// alignment.
 const PART_UNIT: u64 = 64;
-/// Particles that chunks are a multiple of, where there are several: the foam of 32 is 256 bytes.
+/// Chunks are multiples of this number of particles, if there are several: the foam of 32 is 256 bytes.
 const CHUNK_UNIT: u32 = 32;
 /// Bytes of a particle's foam and age.
 const FOAM: u64 = 8;
@@ -95,16 +96,16 @@ shader::assert_layout!(
     }
 );
 
-/// How the tables are cut.
+/// Division of the tables into parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Parts {
-    /// Rows of a part.
+    /// Rows per part.
     rows: u32,
     count: u32,
 }
 
 impl Parts {
-    /// For so many particles, where so many bytes can be bound.
+    /// The division for a number of particles and a maximum binding size.
     fn new(max_particles: u32, range: u32) -> Option<Self> {
         // Two of three taken keep the searches short.
         let rows = u64::from(max_particles) * 3 / 2 + 1;
@@ -121,7 +122,7 @@ impl Parts {
         u32::try_from(rows * count).is_ok().then_some(parts)
     }
 
-    /// Rows of all.
+    /// Total number of rows.
     fn all(self) -> u32 {
         self.rows * self.count
     }
@@ -136,7 +137,7 @@ impl Parts {
 /// The pass.
 pub struct Classify {
     pipeline: Pipeline,
-    /// Tables of the step before and of this one, in turn.
+    /// Tables of the previous step and of this one, alternating.
     tables: [Buffer; 2],
     parts: Parts,
     /// Foam (0 to 1) and age (seconds) of each particle of the last step, in its order.
@@ -173,12 +174,12 @@ impl Classify {
         ROW * u64::from(self.parts.all())
     }
 
-    /// The table that holds the state, when `odd` steps were recorded or not.
+    /// The table that holds the state after an odd or even number of steps.
     pub fn table(&self, odd: bool) -> &Buffer {
         &self.tables[usize::from(odd)]
     }
 
-    /// Empties the table that holds the state.
+    /// Clears the table that holds the state.
     pub fn record_clear(&self, gpu: &Gpu, cmd: vk::CommandBuffer, odd: bool) {
         let table = self.table(odd).handle;
         gpu.barriers(cmd, &[], &[buffer(table, COMPUTE_READ_WRITE.and(COPY_READ), CLEAR)]);
@@ -208,7 +209,7 @@ impl Classify {
         gpu.barriers(cmd, &[], &[buffer(table, used, COMPUTE_READ_WRITE)]);
     }
 
-    /// One step: from the table that holds the state to the other one.
+    /// Records one step, from the table that holds the state to the other one.
     pub fn record(
         &self,
         gpu: &Gpu,
@@ -301,7 +302,7 @@ impl Classify {
         Ok(())
     }
 
-    /// What goes with a dispatch, but for which particles it is over.
+    /// Push constants of a dispatch, except for its range of particles.
     fn push(&self, step: &Step<'_>, [velocity, density, id]: [Window; 3], part: u32) -> Push {
         let settings = step.settings;
         let [air_x, air_y, air_z] = settings.air;
@@ -335,7 +336,7 @@ impl Classify {
         self.tables.iter().map(|table| table.size).sum::<u64>() + self.foam.size
     }
 
-    /// Sets of a step.
+    /// Number of descriptor sets per step.
     pub fn sets(&self) -> u32 {
         self.max_particles.div_ceil(self.chunk).max(1) * self.parts.count
     }

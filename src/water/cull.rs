@@ -1,13 +1,12 @@
-//! Pass `cull`: the border between the host's particles and ours (thesis Sec. 4.3).
+//! Pass `cull`: the border between the host's particles and the library's (thesis Sec. 4.3).
 //!
-//! Drops NaN and infinite particles, sets spray aside by density, tests the rest against the
-//! frustum and compacts the survivors into eye-space spheres of 16 bytes: small sprites from the
-//! front of the list, large ones from its back. Every later pass reads only that list, by indirect
-//! draws and dispatches. Unlike the source the test runs on the GPU, and a host without packets
-//! has each particle tested.
+//! Drops NaN and infinite particles, classifies low-density ones as spray, culls the rest against the frustum,
+//! and compacts the survivors to eye-space spheres of 16 bytes: small sprites from the front of the list, large
+//! ones from its back. Every later pass reads only that list, by indirect draws and dispatches. Unlike in the
+//! thesis the test runs on the GPU, and without packets each particle is tested.
 //!
-//! More particles than one storage-buffer range are processed in chunks, each with its own counts
-//! and its own part of the list.
+//! Particles beyond one storage-buffer range are processed in chunks, each with its own counts and its own part
+//! of the list.
 
 use ash::vk;
 use bytemuck::{NoUninit, Pod, Zeroable};
@@ -55,9 +54,9 @@ const _: () =
     assert!(shader::WATER_CULL_COMP.offset("Counts", "foam_groups") == FOAM_GROUPS as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DROPPED as usize);
 
-/// Particles of a chunk at most: 64 an invocation group, 65 535 groups.
+/// Maximum number of particles per chunk: 65 535 groups of 64.
 const MOST_CHUNK: u32 = 1 << 21;
-/// Workgroups over large sprites; more sprites share them.
+/// Maximum number of workgroups over large sprites; if there are more sprites, a group processes several.
 const MOST_LARGE_GROUPS: u32 = 4096;
 
 #[repr(C)]
@@ -110,14 +109,14 @@ struct EndPush {
     most_groups: u32,
 }
 
-/// Particles that chunks hold a multiple of: 16 spheres are 256 bytes, as are 64 of the shares that go
-/// with foam.
+/// Chunks hold a multiple of this number of particles: 16 spheres are 256 bytes, as are 64 of the shares that
+/// accompany foam.
 pub fn chunk_unit(config: &Config) -> u32 {
     if config.foam { 64 } else { 16 }
 }
 
-/// Particles of a chunk and how many chunks there are: a chunk of every stream can be bound at
-/// once, and the chunks' parts of the list begin at offsets that every device can bind.
+/// Number of particles per chunk, and of chunks: one chunk of every stream fits in a binding, and the chunks'
+/// parts of the list begin at offsets that every device can bind.
 pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) {
     let range = u64::from(limits.max_storage_buffer_range).saturating_sub(256);
     let own = match (config.foam, config.spray) {
@@ -134,17 +133,17 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
     (size, config.max_particles.max(1).div_ceil(size))
 }
 
-/// Bytes of a particle in a list: its sphere, and its shape where it is an ellipsoid.
+/// Bytes of a list entry: the sphere, and the shape of an ellipsoid.
 fn entry_bytes(config: &Config) -> u32 {
     if shape::is_on(config) { 32 } else { 16 }
 }
 
-/// Whether passes after `cull` go over the host's particles again.
+/// Whether passes after `cull` read the host's particles again.
 fn goes_over_particles(config: &Config) -> bool {
     config.foam || config.spray || config.motion || config.noise.is_some() || config.cast.is_some()
 }
 
-/// Bytes of a chunk's members: whole words, from offsets on that every device can bind.
+/// Bytes of a chunk's members: whole words, at offsets that every device can bind.
 fn member_bytes(chunk_size: u32) -> u64 {
     u64::from(chunk_size.div_ceil(8)).next_multiple_of(256)
 }
@@ -159,12 +158,12 @@ pub const STREAM_USE: Access = COMPUTE_READ.and(VERTEX_READ);
 pub struct SphereList {
     /// `Counts` of every chunk.
     pub counts: Buffer,
-    /// Centre and radius of each sphere, behind that of an ellipsoid its shape (glsl/include/ellipsoid.glsl): small
-    /// sprites from the front of each chunk's part, large ones from its back.
+    /// Centre and radius of each sphere, followed by the shape of an ellipsoid (glsl/include/ellipsoid.glsl):
+    /// small sprites from the front of each chunk's part, large ones from its back.
     pub spheres: Buffer,
-    /// The share of its particle that each is, where others are foam.
+    /// The water share of each particle, if others are foam.
     pub shares: Option<Buffer>,
-    /// Of each of the host's particles a bit: whether a packet holds it. For passes that go over these again.
+    /// One bit per host particle: whether a packet holds it. For passes that read them again.
     pub members: Option<Buffer>,
     pub chunk_size: u32,
     pub chunks: u32,
@@ -179,18 +178,18 @@ pub struct Chunk {
     pub counts: Resource,
     /// The chunk's part of the list as a resource.
     pub spheres: Resource,
-    /// The chunk's shares, or anything where all are whole.
+    /// The chunk's shares, or a stand-in if all are 1.
     pub shares: Resource,
-    /// Which of its particles are in packets, or anything where there are none.
+    /// Members of its packets, or a stand-in without packets.
     pub members: Resource,
     /// Byte offset of `Counts` in its buffer.
     pub arguments: u64,
-    /// Spheres the part can hold.
+    /// Capacity of the part in spheres.
     pub capacity: u32,
 }
 
 impl SphereList {
-    /// Room for the configuration's particles, in chunks that can be bound.
+    /// A list for the configuration's particles, in chunks that can be bound.
     pub fn new(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
         let (chunk_size, chunks) = chunks(&gpu.limits, config);
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
@@ -219,7 +218,7 @@ impl SphereList {
         })
     }
 
-    /// The same with shares, where the configuration has foam, and members, where it has passes that ask for them.
+    /// The same, with shares if the configuration has foam, and members if passes need them.
     fn of_host(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
         let mut list = Self::new(gpu, config, name)?;
         if goes_over_particles(config) {
@@ -309,7 +308,7 @@ impl Cull {
         })
     }
 
-    /// Empties a list: its counts become those of no particles, or of `count`.
+    /// Clears a list: its counts become those of no particles, or of `count`.
     fn record_begin(
         &self,
         r: &Recording<'_>,
@@ -339,7 +338,7 @@ impl Cull {
         Ok(())
     }
 
-    /// Makes a list's dispatches from its counts.
+    /// Records the computation of a list's dispatch arguments from its counts.
     fn record_end(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         r.descriptors.bind(gpu, cmd, &self.end, &[(1, Resource::buffer(&list.counts))])?;
@@ -354,13 +353,13 @@ impl Cull {
         Ok(())
     }
 
-    /// Empties another list, before [`end_list`](Self::end_list) closes it.
+    /// Clears another list, until [`end_list`](Self::end_list) completes it.
     pub fn begin_list(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
         let unread = Resource::buffer(&self.list.counts);
         self.record_begin(r, list, unread, 0, false, 0)
     }
 
-    /// Closes another list.
+    /// Completes another list.
     pub fn end_list(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
         self.record_end(r, list)
     }
@@ -498,12 +497,12 @@ impl Cull {
     }
 }
 
-/// Particles of which every stream holds the value, at most so many.
+/// Number of particles for which every stream holds a value, at most `max_particles`.
 pub fn most(particles: &Particles, max_particles: u32) -> u32 {
     streams(particles).map(capacity).fold(max_particles, u32::min)
 }
 
-/// Particles of which a stream holds the value, of so many bytes: the last one needs no more.
+/// Number of particles for which a stream holds a value of `bytes` bytes; the last one needs no full stride.
 pub fn capacity((stream, bytes): (&Stream, u64)) -> u32 {
     match stream.size.saturating_sub(stream.offset).checked_sub(bytes) {
         Some(left) => u32::try_from(left / u64::from(stream.stride.max(4)) + 1).unwrap_or(u32::MAX),
@@ -551,12 +550,12 @@ pub struct Window {
     pub resource: Resource,
     /// At which that particle lies in it.
     pub word: u32,
-    /// In words; 0: there is no such stream.
+    /// Stride in words; 0 for an absent stream.
     pub stride: u32,
 }
 
 impl Window {
-    /// None when the stream ends before the particle: none is there, the count was clamped.
+    /// `None` if the stream ends before the first particle: the count was clamped, and there is none.
     pub fn new(gpu: &Gpu, stream: &Stream, first: u32) -> Option<Self> {
         let start = stream.offset + u64::from(first) * u64::from(stream.stride);
         let aligned = start - start % gpu.limits.min_storage_buffer_offset_alignment.max(4);
@@ -571,8 +570,8 @@ impl Window {
         })
     }
 
-    /// Of a stream and of others that need not be there: in place of these the first is bound, and not
-    /// read. None when one of all ends before the particle.
+    /// Windows of a stream and of optional ones. An absent stream is replaced by the first, which is bound and
+    /// not read. `None` if any ends before the first particle.
     pub fn all<const N: usize>(
         gpu: &Gpu,
         stream: &Stream,

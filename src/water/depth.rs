@@ -1,8 +1,8 @@
 //! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
 //!
-//! Exact nearest hit of each pixel's ray with each sphere, where the source offsets a billboard by
-//! N_z·r, which is wrong off the axis and near the eye. Two ways with the same picture: sprites
-//! with MIN blending, and a compute shader with integer atomics on the same image.
+//! The exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a billboard by
+//! N_z·r, which is wrong off the axis and near the camera. Two paths with the same picture: sprites with MIN
+//! blending, and a compute shader with integer atomics on the same image.
 //! Reads: the list of `front`. Writes: depth, R32F, EMPTY where there is no water.
 
 use ash::vk;
@@ -47,7 +47,7 @@ pub struct Depth {
     pub image: Image,
 }
 
-/// Points or quads of a splat pass.
+/// Draw of points or quads of a splat pass.
 pub fn sprites(
     gpu: &Gpu,
     vertex: shader::Shader,
@@ -129,12 +129,12 @@ impl Depth {
         Ok(())
     }
 
-    /// Small sprites are drawn as points.
+    /// Whether small sprites are drawn as points.
     pub fn uses_points(&self) -> bool {
         matches!(self.path, Path::Raster { .. })
     }
 
-    /// Largest small sprite in pixels: what a point may be, or what one invocation should do.
+    /// Size limit of small sprites in pixels: the largest point, or what one invocation should process.
     pub fn point_limit(&self, gpu: &Gpu) -> f32 {
         match self.path {
             // The footprint's margin, and the snapping, on top.
@@ -190,7 +190,7 @@ impl Depth {
 /// Faster than sprites on lavapipe at every size, and on an H200 (docs/performance.md).
 pub const DEFAULT_SPLAT: Splat = Splat::Compute;
 
-/// Draws all chunks' sprites inside a render pass: points, then quads.
+/// Draws the sprites of all chunks inside a render pass: points, then quads.
 pub fn draw_sprites(
     r: &mut Recording<'_>,
     list: &SphereList,
@@ -221,7 +221,7 @@ pub fn draw_sprites(
     Ok(())
 }
 
-/// Dispatches all chunks' sprites: small ones an invocation each, large ones a group each.
+/// Dispatches the sprites of all chunks: one invocation per small one, one group per large one.
 pub fn dispatch_sprites(
     r: &mut Recording<'_>,
     list: &SphereList,

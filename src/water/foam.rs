@@ -1,24 +1,28 @@
-//! Pass `foam`: the frontmost foam and how much there is (thesis Sec. 3.2, 4.6.2 and 4.8).
+//! Pass `foam`: depth and thickness of surface foam (thesis Sec. 3.2, 4.6.2 and 4.8).
 //!
-//! Particles with foam are sprites along their motion; where they are slow or come towards the eye
-//! they turn into discs, smoothly (the source switches, which pops). A ray meets a sprite's plane
-//! exactly. Thickness is in metres, as that of the water: what a particle is foam of it is no water.
-//! Nothing pops or flickers: the depth's sprite is whole before its foam can be seen, none is narrower
-//! than what texels can hold, finer noise fades, the front layer ends softly, and so do sprites where they
+//! Particles with foam are sprites stretched along their motion. Slow ones, and those that move towards the
+//! camera, change smoothly to discs (the thesis switches, which pops). A ray intersects a sprite's plane
+//! exactly. Thickness is in metres, as that of the water: the foam part of a particle is subtracted from its
+//! water.
+//!
+//! Nothing pops or flickers: a depth sprite has its full size before its foam becomes visible, no sprite is
+//! narrower than a texel can represent, finer noise fades, the front layer ends softly, and so do sprites that
 //! sink into the scene.
-//! Depth and thickness are of one resolution, a quarter by default (the source's depth is full): what is
-//! seen of foam is its thickness, and a finer depth only has more fragments, most of which lose. Outlines
-//! are the thickness', which ends softly; the scene's are told a pixel (glsl/include/foam_texels.glsl).
-//! Two ways, as the water's thickness: quads that are blended, and invocations with integer atomics.
-//! Sprites are few texels wide, so that a triangle's setup costs as much as its fragments; a lost depth is
-//! found by a read; what is behind the front layer, mostly nothing, is counted by itself. Both sum whole
-//! steps, in any order.
-//! How foam drifts is summed on the screen, coarsely, for the lace that it carries along.
-//! Spray is none: as the density falls `spray` takes over.
-//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
-//! where there is none; foam thickness, RGBA32F: metres of all, of the layer right behind the frontmost, of
-//! what of that layer the sun lights (of sprites: a mask is the pixels'), and of all times `d / (d + s)`, d from
-//! a spacing s behind the frontmost on.
+//!
+//! Depth and thickness have one resolution, a quarter by default (the thesis' depth is full): thickness is the
+//! visible quantity, and a finer depth only has more fragments, most of which lose. Outlines are those of the
+//! thickness, which ends softly; those of the scene are resolved per pixel (glsl/include/foam_texels.glsl).
+//!
+//! Two paths, as for the water's thickness: blended quads, and invocations with integer atomics. Sprites cover
+//! few texels, so a triangle's set-up costs as much as its fragments; a depth that loses is rejected by one
+//! read; what is behind the front layer, usually nothing, is counted separately. Both paths sum fixed-point
+//! steps, in any order. The foam's velocity is summed coarsely on the screen, for the lace that it advects.
+//!
+//! Spray is no foam: as the density falls `spray` takes over.
+//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there
+//! is none; foam thickness, RGBA32F: metres in total, of the layer right behind the frontmost, of the sunlit
+//! part of that layer (by sprite; a mask applies per pixel), and the total times `d / (d + s)`, d the distance
+//! from a spacing s behind the frontmost on.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -48,9 +52,9 @@ use crate::gpu::target::Target;
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 64;
 
-/// Both images are read by compute (`reduce`) and by what shades.
+/// Both images are read by compute (`reduce`) and by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-/// What shades reads how foam drifts.
+/// Shading passes read the foam's velocity.
 const DRIFT_READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
@@ -90,7 +94,7 @@ shader::assert_layout!(
     }
 );
 
-/// What an image is for.
+/// Content of an image.
 #[derive(Clone, Copy)]
 enum Kind {
     Depth,
@@ -164,32 +168,32 @@ impl Blended {
     }
 }
 
-/// Whether there are shadows of the sprites: a mask's are the pixels'.
+/// Whether sprites have shadows; a mask applies per pixel instead.
 fn lit(config: &Config) -> bool {
     config.cast.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
 }
 
-/// Words that the compute path has of each texel; the first two are bits of depths, of the frontmost or, where there
-/// is none before it, of the scene, and of that.
+/// Words per texel of the compute path. The first two are depth bits: of the frontmost foam, or of the scene if
+/// there is none in front of it; and of the scene.
 pub fn words_of(config: &Config) -> u32 {
     if lit(config) { 6 } else { 5 }
 }
 
-/// Bytes of all.
+/// Bytes of all words.
 pub fn word_bytes(config: &Config) -> u64 {
     let size = reduced(config.extent, config.thickness_level);
     4 * u64::from(words_of(config)) * u64::from(size.width) * u64::from(size.height)
 }
 
-/// What the compute path has.
+/// State of the compute path.
 struct Splats {
-    /// Of the depth and of the thickness.
+    /// Pipelines of depth and thickness.
     each: [Pipeline; 2],
     begin: Pipeline,
     resolve: Pipeline,
     depth: Image,
     thickness: Image,
-    /// Of each texel the depths of foam and scene, and whole steps of all thicknesses.
+    /// Depths of foam and scene and fixed-point sums of all thicknesses, per texel.
     words: Buffer,
 }
 
@@ -277,10 +281,10 @@ enum Path {
     Compute(Box<Splats>),
 }
 
-/// Pixels from node to node of what it is known of how foam drifts, and words of a node (glsl/include/foam_drift.glsl).
+/// Pixels between the nodes of the velocity grid, and words per node (glsl/include/foam_drift.glsl).
 const DRIFT: [u32; 2] = [16, 4];
 
-/// For frames of an extent.
+/// The velocity grid for an extent.
 fn drift(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
     let [cell, words] = DRIFT;
     let nodes = |pixels: u32| u64::from(pixels.div_ceil(cell) + 1);
@@ -295,7 +299,7 @@ pub struct Foam {
     drifting: Pipeline,
     drift: Buffer,
     path: Path,
-    /// Times that both images are halved.
+    /// Number of halvings of both images.
     pub level: u32,
 }
 
@@ -347,7 +351,7 @@ impl Foam {
         }
     }
 
-    /// [`words_of`] each texel, COMPUTE_READ after the pass; the raster path has none.
+    /// [`words_of`] per texel, in the compute-read state after the pass; `None` on the raster path.
     pub fn words(&self) -> Option<&Buffer> {
         match &self.path {
             Path::Raster(_) => None,
@@ -355,7 +359,7 @@ impl Foam {
         }
     }
 
-    /// How it drifts, [`DRIFT_READ`] after the pass.
+    /// Velocity grid, in the state [`DRIFT_READ`] after the pass.
     pub fn drift(&self) -> &Buffer {
         &self.drift
     }
@@ -368,7 +372,7 @@ impl Foam {
         }
     }
 
-    /// `list`: of `cull`, for its counts.
+    /// `list`: the one of `cull`, for its counts.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

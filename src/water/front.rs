@@ -1,9 +1,9 @@
-//! Pass `front`: the spheres that can show, for the depth pass.
+//! Pass `front`: the spheres that can be visible, for the depth pass.
 //!
-//! Not in the source, which draws every particle. For each cell of 4×4 pixels the nearest depth at
-//! which one sphere covers all of it is found first; a sphere that lies behind that in every cell
-//! it touches is left out. Exact: the depth image is the same to the bit. In a splashing pool nine
-//! layers deep six of ten spheres go; in deeper water the depth pass costs what its surface costs.
+//! Not in the thesis, which draws every particle. First the nearest depth at which one sphere covers a whole
+//! cell of 4×4 pixels is found for each cell. A sphere that lies behind that depth in every cell it touches is
+//! removed. This is exact: the depth image is the same to the bit. In a splashing pool nine layers deep it
+//! removes six of ten spheres; in deeper water the depth pass costs what its surface costs.
 //! Reads: the list of `cull`. Writes: cells, the front list.
 
 use ash::vk;
@@ -22,7 +22,7 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// Edge of a cell in pixels.
+/// Side length of a cell in pixels.
 const CELL: u32 = 4;
 
 #[repr(C)]
@@ -33,7 +33,7 @@ struct Push {
     rows: i32,
 }
 
-/// Bytes of the cells of a size.
+/// Bytes of the cells for an extent.
 pub fn cell_bytes(extent: vk::Extent2D) -> u64 {
     4 * u64::from(extent.width.div_ceil(CELL)) * u64::from(extent.height.div_ceil(CELL))
 }
@@ -45,7 +45,7 @@ pub struct Front {
     cells: Buffer,
     columns: u32,
     rows: u32,
-    /// The spheres that can show.
+    /// The spheres that can be visible.
     pub list: SphereList,
 }
 
@@ -130,7 +130,7 @@ impl Front {
         Ok(())
     }
 
-    /// One invocation a small sphere of every chunk.
+    /// Dispatches one invocation per small sphere of every chunk.
     fn dispatch(&self, r: &Recording<'_>, cull: &Cull, pipeline: &Pipeline) -> Result<(), Error> {
         for (all, front) in cull.list.chunks().zip(self.list.chunks()) {
             r.descriptors.bind(

@@ -1,13 +1,12 @@
-//! Pass `gaps`: where water stands before water with air between.
+//! Pass `gaps`: the boundary between two layers of water with air between.
 //!
-//! Not in the source, whose thickness and refraction take all water behind a pixel for one body
-//! (its limitation, Fig. 5.13): a drop before a pool is as dark and bends light as much as the pool.
-//! Each cell of 8×8 pixels has 32 slices of depth, from its nearest sphere on, half a spacing each.
-//! Every sphere marks those that it fills; the middle of the last air before a body of water, or
-//! of the first before a drop where there is no body, is the boundary between a front sheet and a back sheet. By
-//! slices, not by sorting: atomics on two words a cell, whatever the number of particles. Boundaries
-//! are handed to the cells near them and blended: where the sheets touch, the water that the
-//! thickness finds at the boundary makes them one, smoothly (and removes it).
+//! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its
+//! limitation, Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool. Each
+//! cell of 8×8 pixels has 32 depth slices of half a spacing, from its nearest sphere on. Every sphere marks the
+//! slices that it fills. The boundary between front and back layer is the middle of the last air in front of a
+//! body of water, or of the first air in front of a drop if there is no body. Slices instead of sorting: atomics
+//! on two words per cell, for any number of particles. Boundaries are dilated to cells nearby and blended. Where
+//! the layers touch, the water that `thickness` finds at the boundary merges them smoothly and removes it.
 //! Reads: the lists of `front` and `cull`. Writes: boundaries, the farthest of each block of texels.
 
 use ash::vk;
@@ -31,9 +30,9 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// Edge of a cell in pixels.
+/// Side length of a cell in pixels.
 const CELL: u32 = 8;
-/// Edge of a block in pixels.
+/// Side length of a block in pixels.
 const BLOCK: u32 = 16;
 
 /// The constant of sheets.glsl.
@@ -46,7 +45,7 @@ pub const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
 
 /// The pass.
 pub struct Gaps {
-    /// Small and large spheres.
+    /// Pipelines for small and large spheres.
     nearest: [Pipeline; 2],
     marks: [Pipeline; 2],
     find: Pipeline,
@@ -55,12 +54,12 @@ pub struct Gaps {
     farthest: Pipeline,
     /// Nearest depth of every cell, then its marks.
     cells: Buffer,
-    /// Eye depth between the two sheets of each cell, as found and as spread.
+    /// Eye depth between the two layers of each cell, as found and as dilated.
     found: Buffer,
     spread_out: Buffer,
-    /// The same of each texel of the thickness; EMPTY where there is but one.
+    /// Eye depth between the two layers of each thickness texel; EMPTY where there is only one.
     pub boundaries: Buffer,
-    /// Of each block of 16×16 pixels the farthest boundary, for `thickness`.
+    /// Farthest boundary of each block of 16×16 pixels, for `thickness`.
     pub blocks: Buffer,
     level: u32,
 }
@@ -76,7 +75,7 @@ fn blocks(extent: vk::Extent2D) -> vk::Extent2D {
     vk::Extent2D { width: extent.width.div_ceil(BLOCK), height: extent.height.div_ceil(BLOCK) }
 }
 
-/// Bytes of the longest of what is bound whole.
+/// Bytes of the largest buffer that is bound as a whole.
 pub fn bytes_bound(config: &Config) -> u64 {
     let thick = reduced(config.extent, config.thickness_level);
     let boundaries = 4 * u64::from(thick.width) * u64::from(thick.height);
@@ -152,7 +151,7 @@ impl Gaps {
         Ok(())
     }
 
-    /// The nearest sphere of a cell is among those that can show.
+    /// The nearest sphere of a cell is always among the visible ones.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -211,14 +210,14 @@ impl Gaps {
     }
 }
 
-/// A number for each block, for `dispatch_blocks`.
+/// A buffer with one value per block, for `dispatch_blocks`.
 pub fn blocks_buffer(gpu: &Gpu, name: &str, config: &Config) -> Result<Buffer, Error> {
     let blocks = blocks(config.extent);
     let size = 4 * u64::from(blocks.width) * u64::from(blocks.height);
     Buffer::new(gpu, name, size, vk::BufferUsageFlags::STORAGE_BUFFER, MemoryLocation::GpuOnly)
 }
 
-/// The farthest or the nearest boundary of each block, as the pipeline has it (gaps_blocks.comp).
+/// Computes the farthest or the nearest boundary of each block, depending on the pipeline (gaps_blocks.comp).
 pub fn dispatch_blocks(
     r: &Recording<'_>,
     pipeline: &Pipeline,

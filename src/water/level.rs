@@ -1,13 +1,12 @@
-//! Pass `level`: the reduction again at coarser resolutions, for what is so near that its iterations
-//! would pass the cap. Each pixel shows the level that its distance asks for, and between two of them
-//! goes from one to the other.
+//! Pass `level`: the reduction repeated at coarser resolutions, for water so near that its iterations would
+//! exceed the cap. Each pixel shows the level that its distance selects, and blends between two.
 //!
-//! Not in the source, whose cap leaves near water rough. A level coarser needs a quarter of the
-//! iterations for the same width. The levels share the smoothing images, and so do those of the back
-//! sheet (pass `back`); the tile list holds the tiles of all of them, so that every form of the smoothing
-//! runs all in its one dispatch or draw.
-//! Reads: depth, each tile's work. Writes: marks and list of the tiles that are made, the coarsest level needed; for
-//! those tiles both smoothing images, plan, each tile's work.
+//! Not in the thesis, whose cap leaves near water rough. One level coarser needs a quarter of the iterations
+//! for the same width. The levels share the smoothing images, also with those of the back layer (pass `back`).
+//! The tile list holds the tiles of all levels, so every form of the smoothing processes all of them in one
+//! dispatch or draw.
+//! Reads: depth, each tile's work. Writes: marks and list of the tiles that are needed, the coarsest level
+//! needed; for those tiles both smoothing images, plan, each tile's work.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -30,24 +29,25 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::water::settings::{Rule, WaterSettings};
 
-/// Most levels coarser than the configured one.
+/// Maximum number of levels coarser than the configured one.
 pub const MOST_COARSENING: u32 = 3;
-/// The first of the back sheet among the levels.
+/// Index of the back layer's first level.
 const BACK: usize = 4;
-/// The next level fades in from this part of the most iterations on, until at twice that it is alone. The width is 6
-/// to 8 texels then, 3 to 4 of the next one, which still has all that is left of the surface.
+/// Fraction of the maximum iterations at which the next level begins to fade in; at twice that it is used
+/// alone. The width is then 6 to 8 texels, or 3 to 4 of the next level, which still holds all remaining detail
+/// of the surface.
 const FADE: f32 = 0.25;
 
-/// No groups, one in each of the other directions, no tile, no level: `Marked` of glsl/include/level.glsl.
+/// Initial value of `Marked` (glsl/include/level.glsl): no groups in x, one in y and z, no tile, no level.
 pub const NONE_MARKED: [u32; 5] = [0, 1, 1, 0, 0];
 
-/// Levels coarser that a configuration may go: the other rules are the source's, with its cap.
+/// Number of coarser levels of a configuration; 0 for the other rules, which keep the thesis' cap.
 pub fn coarsening(config: &Config) -> u32 {
     if config.rule == Rule::ConstantWidth { config.coarsening } else { 0 }
 }
 
-/// The levels that a configuration has, in the order in which they are placed: which of
-/// [`SmoothingLevels`], and how much coarser than the first.
+/// The levels of a configuration in placement order: index in [`SmoothingLevels`], and number of halvings from
+/// the first.
 fn levels(config: &Config) -> impl Iterator<Item = (usize, u32)> {
     let (coarsening, two) = (coarsening(config), config.sheets > 1);
     (0..=MOST_COARSENING).flat_map(move |coarser| {
@@ -78,8 +78,9 @@ fn in_rows(sizes: &[(usize, vk::Extent2D)]) -> Placed {
     (extent, origins)
 }
 
-/// Each, the largest first, where the image grows the least, right of one that is there or at the left edge, and below
-/// one or at the top. None where one has no room in an image of so many texels.
+/// Places the levels, the largest first, where the image grows least: to the right of a placed one or at the
+/// left edge, and below one or at the top. `None` if one does not fit in an image of at most `most` texels per
+/// side.
 fn anywhere(sizes: &[(usize, vk::Extent2D)], most: u32) -> Option<Placed> {
     let (mut extent, mut origins) = ([0; 2], [[0; 2]; 7]);
     let mut taken: Vec<[[u32; 2]; 2]> = Vec::new();
@@ -102,24 +103,24 @@ fn anywhere(sizes: &[(usize, vk::Extent2D)], most: u32) -> Option<Placed> {
     Some((extent, origins))
 }
 
-/// How the levels lie in the smoothing images.
+/// Layout of the levels in the smoothing images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Atlas {
     /// Size of the images.
     pub extent: vk::Extent2D,
-    /// Tiles a row.
+    /// Tiles per row.
     pub columns: u32,
     /// Rows of tiles.
     pub rows: u32,
     /// Tiles of the first level.
     pub first: u32,
-    /// First texel of each level, multiples of the tile's edge.
+    /// First texel of each level, a multiple of the tile size.
     origins: [[u32; 2]; 7],
 }
 
 impl Atlas {
-    /// In rows: the first level in one, the others beside each other as far as it is wide. Where that is more than the
-    /// device's images are high, wherever there is room in what they may be; larger than that where there is none.
+    /// In rows: the first level in one, the others beside each other up to its width. If that is too high for
+    /// the device's images, wherever they fit; if they do not fit at all, larger than that.
     pub fn new(config: &Config, most: u32) -> Self {
         let first = reduced(config.extent, config.smoothing_level);
         let sizes: Vec<_> = levels(config)
@@ -134,12 +135,12 @@ impl Atlas {
         Self { extent: vk::Extent2D { width, height }, columns, rows, first, origins }
     }
 
-    /// On a device.
+    /// The layout on a device.
     pub fn of(gpu: &Gpu, config: &Config) -> Self {
         Self::within(config, &gpu.limits)
     }
 
-    /// Where a device has such limits: the levels are drawn into.
+    /// The layout within a device's limits for attachments.
     pub fn within(config: &Config, limits: &vk::PhysicalDeviceLimits) -> Self {
         let drawn = limits.max_framebuffer_width.min(limits.max_framebuffer_height);
         let [x, y] = limits.max_viewport_dimensions;
@@ -153,7 +154,7 @@ impl Atlas {
 }
 
 impl SmoothingLevels {
-    /// Of a frame of a size.
+    /// The levels of a frame of this size.
     pub(crate) fn new(
         config: &Config,
         lens: &Lens,
@@ -198,9 +199,9 @@ struct Parts {
 
 /// The pass.
 pub struct Level {
-    /// There are none when the configuration never goes coarser.
+    /// `None` if the configuration has no coarser levels.
     parts: Option<Parts>,
-    /// What is to be made, [`NONE_MARKED`] from `reduce` on.
+    /// Marks of the required tiles, [`NONE_MARKED`] after `reduce`.
     pub marked: Buffer,
 }
 
@@ -223,7 +224,7 @@ impl Level {
         })
     }
 
-    /// Both smoothing images and the plan come as `reduce` wrote them and leave so.
+    /// Both smoothing images and the plan are in the state in which `reduce` wrote them, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

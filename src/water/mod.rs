@@ -1,5 +1,5 @@
-//! Layered particle water (Bagar 2010; Bagar, Scherzer, Wimmer, EGSR 2010; on van der Laan, Green,
-//! Sainz, I3D 2009). A pass a file; `Water::record` lists them in order.
+//! Layered particle water (Bagar 2010; Bagar, Scherzer, Wimmer, EGSR 2010; on van der Laan, Green, Sainz, I3D
+//! 2009). One pass per file; `Water::record` lists them in order.
 
 mod back;
 mod classify;
@@ -60,13 +60,13 @@ pub(crate) fn smoothing_extent(config: &Config, limits: &vk::PhysicalDeviceLimit
     level::Atlas::within(config, limits).extent
 }
 
-/// Bytes of the longest of what is bound whole beside the sums of thickness and the words of foam.
+/// Bytes of the largest buffer that is bound as a whole, besides the sums of thickness and the words of foam.
 pub(crate) fn water_bytes(config: &Config) -> u64 {
     let gaps = if config.sheets > 1 { gaps::bytes_bound(config) } else { 0 };
     gaps.max(front::cell_bytes(config.extent)).max(split::list_bytes(config))
 }
 
-/// What every pass records with.
+/// Recording context of every pass.
 pub(crate) struct Recording<'a> {
     pub gpu: &'a Gpu,
     pub cmd: vk::CommandBuffer,
@@ -76,27 +76,27 @@ pub(crate) struct Recording<'a> {
     pub extent: vk::Extent2D,
     /// The frame's uniform block.
     pub uniforms: Resource,
-    /// Its [`SmoothingLevels`](crate::SmoothingLevels).
+    /// The frame's [`SmoothingLevels`](crate::SmoothingLevels).
     pub levels: Resource,
-    /// The numbers of bubble foam.
+    /// The uniforms of bubble foam.
     pub bubbles: Resource,
-    /// Those of shoreline and contact foam.
+    /// The uniforms of shoreline and contact foam.
     pub shore: Resource,
-    /// Whether diffuse particles fade behind the water's surface by the source's falloff, or are of other shapes, lives or
-    /// sizes than the source's.
+    /// Whether whitewater uses the paper's falloff behind the water's surface, or shapes, lives or sizes other
+    /// than the paper's.
     pub shaped: bool,
-    /// Where that takes over from sprites of diffuse particles, if it does.
+    /// Distances at which blobs replace whitewater sprites, if they do.
     pub hand_over: Option<Resource>,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
-    /// What tells where the sun does not come.
+    /// Shadow resources of the sun.
     pub sunlight: Sunlight,
-    /// Ends the smoothing by the host's own look at the queries (headless only).
+    /// Lets the host end the smoothing by reading the queries (headless only).
     pub read_back: Option<ReadBack<'a>>,
 }
 
-/// Submits a command buffer, waits for it, looks at one query of the pool; hands back a fresh
-/// command buffer to go on with, and whether any sample was counted.
+/// Submits a command buffer, waits for it, and reads one query of the pool. Returns a fresh command buffer and
+/// whether any sample was counted.
 pub(crate) type ReadBack<'a> = &'a mut dyn FnMut(
     vk::CommandBuffer,
     vk::QueryPool,
@@ -120,12 +120,12 @@ impl Recording<'_> {
     }
 }
 
-/// What else is drawn, whose passes come in between those of the water.
+/// Other techniques whose passes are interleaved with the water's.
 #[derive(Clone, Copy)]
 pub(crate) struct Beside<'a> {
-    /// Its maps are made of the particles on the screen.
+    /// Its maps use the counts of `cull`.
     pub light: Option<&'a Light>,
-    /// Where they are has to be known before the tiles are that are drawn.
+    /// Foam and blobs have to be drawn before tile classification, which also lists their tiles.
     pub diffuse: Option<(&'a Foam, Option<&'a DiffuseParticles>)>,
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
 }
@@ -136,20 +136,20 @@ pub(crate) struct WaterLayers<'a> {
     pub depth: &'a Image,
     pub thickness: &'a Image,
     pub split: &'a split::Split,
-    /// Thickness of two sheets, and the depth between them; none where there is one everywhere.
+    /// Thickness of two layers, and the depth between them; `None` with one layer.
     pub sheets: Option<&'a Image>,
     pub boundaries: Option<&'a Buffer>,
-    /// Depth and thickness of the foam, where there may be some.
+    /// Depth and thickness of the foam, if enabled.
     pub foam: Option<[&'a Image; 2]>,
-    /// How that drifts: read by compute and by fragments.
+    /// Its velocity grid: read by compute and fragment shaders.
     pub drift: Option<&'a Buffer>,
-    /// Spray, where there may be some.
+    /// Spray, if enabled.
     pub spray: Option<&'a Image>,
-    /// Height of the surface noise, where it is drawn.
+    /// Height of the surface noise, if enabled.
     pub noise: Option<&'a Image>,
 }
 
-/// The passes that tell two sheets apart.
+/// The passes that separate two layers.
 struct Sheets {
     gaps: gaps::Gaps,
     back: back::Back,
@@ -208,7 +208,7 @@ impl Water {
         })
     }
 
-    /// Replaces what depends on the extent.
+    /// Recreates the size-dependent state.
     pub fn resize(
         &mut self,
         gpu: &Gpu,
@@ -322,7 +322,7 @@ impl Water {
         Ok(())
     }
 
-    /// Where the smoothing of a frame of a size is in its images.
+    /// Layout of the smoothing levels of a frame of this size.
     pub fn smoothing_levels(
         &self,
         config: &Config,
@@ -333,7 +333,7 @@ impl Water {
         SmoothingLevels::new(config, lens, frame, settings, &self.tiles.atlas)
     }
 
-    /// What `composite` reads.
+    /// Layers that `composite` reads.
     pub fn layers(&self) -> WaterLayers<'_> {
         WaterLayers {
             smoothed: &self.smooth.a,
@@ -349,12 +349,12 @@ impl Water {
         }
     }
 
-    /// Depth between the two sheets of each cell.
+    /// Depth between the two layers of each cell.
     pub fn boundaries(&self) -> Option<vk::Buffer> {
         self.sheets.as_ref().map(|sheets| sheets.gaps.boundaries.handle)
     }
 
-    /// Counts of all spheres and of those that can show, 256 bytes a chunk.
+    /// Counts of all spheres and of the visible ones, 256 bytes per chunk.
     pub fn counts(&self) -> ParticleCounts {
         ParticleCounts {
             all: self.cull.list.counts.handle,
@@ -363,17 +363,17 @@ impl Water {
         }
     }
 
-    /// Particles with their shapes, where they are ellipsoids.
+    /// Particles with their shapes, if they are ellipsoids.
     pub fn shaped(&self) -> Option<vk::Buffer> {
         self.shape.as_ref().map(|own| own.shaped.handle)
     }
 
-    /// The tiles of the smoothing at work.
+    /// Work of the smoothing: its tiles.
     pub fn tiles(&self) -> vk::Buffer {
         self.tiles.arguments.handle
     }
 
-    /// Samples counted by the smoothing's queries, when it has them.
+    /// Samples counted by the smoothing's queries, if it has them.
     pub fn query_results(&self) -> Option<(vk::Buffer, u32)> {
         self.smooth.query_results()
     }

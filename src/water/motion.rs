@@ -1,18 +1,19 @@
 //! Pass `motion`: motion vectors, for motion blur, denoising and temporal anti-aliasing.
 //!
-//! Not in the sources. Of each pixel, in pixels of the frame (row 0 on top), from where what it shows
-//! was in the frame before to where it is in this one: of water and foam the surface's own motion and
-//! the camera's, of the rest the scene's by the camera alone, at its depth or, where nothing is, at
-//! infinity by rotation alone. The surface's motion is a mean of the velocities of the particles near
-//! it, within a radius behind the frontmost wholly and no farther than three, weighted as their
-//! thickness; it is not that of what is seen through the water. Sums are of integers at the
-//! resolution of the thickness, of the nearest and of the farthest surface in each texel, so that
-//! outlines keep both sides' motion; a pixel takes what lies on its own surface. Spray has none of its
-//! own: a pixel under droplets has the motion of what is behind them.
-//! RG32F: half floats would be a thirty-second of a pixel off at a hundred, half a pixel at a thousand.
-//! Foam counts where it hides half of what is behind it.
-//! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface,
-//! scene depth.
+//! Not in the sources. A vector is, in pixels of the frame (row 0 on top), the position of the visible point in
+//! this frame minus its position in the previous frame. For water and foam it has the surface's own motion and
+//! the camera's. For the scene it has the camera's alone, at the scene's depth or, for the background, at
+//! infinity (rotation alone). The surface's motion is the thickness-weighted mean velocity of the particles
+//! near it, fully within one radius behind the frontmost and fading out at three. It is not the motion of what
+//! is visible through the water. Sums are integers at the resolution of the thickness, for the nearest and the
+//! farthest surface in each texel, so that both sides of an outline keep their motion; a pixel takes the one of
+//! its own surface. Spray has no motion of its own: a pixel below droplets has the motion of what is behind
+//! them.
+//!
+//! The format is RG32F: half floats would be wrong by a thirty-second of a pixel at a hundred pixels and by
+//! half a pixel at a thousand. Foam counts where it hides half of what is behind it.
+//! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene
+//! depth.
 //! Writes: motion, RG32F, all of it.
 
 use ash::vk;
@@ -37,7 +38,7 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// How the host finds the layer.
+/// State of the layer for the host.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 #[repr(C)]
@@ -71,7 +72,7 @@ shader::assert_layout!(
     }
 );
 
-/// What it is made from, each as fragments sample it; they come back so.
+/// Inputs, sampled by fragment shaders before and after.
 pub struct Surfaces<'a> {
     pub depth: &'a Image,
     /// Its depth and its thickness.
@@ -90,7 +91,7 @@ pub struct Motion {
     level: u32,
 }
 
-/// Surfaces told apart in a texel: one where it is a pixel.
+/// Surfaces distinguished per texel: one if a texel is a pixel.
 fn surfaces(level: u32) -> u32 {
     if level == 0 { 1 } else { 2 }
 }
@@ -105,8 +106,7 @@ fn sum_bytes(config: &Config, level: u32) -> u64 {
     32 * u64::from(surfaces(level)) * texels(config, level)
 }
 
-/// The resolution: that of the thickness, or the finest below at which the device binds the sums at
-/// once.
+/// Number of halvings: as the thickness, or the first further one at which the sums fit in one binding.
 fn level(gpu: &Gpu, config: &Config) -> u32 {
     let range = u64::from(gpu.limits.max_storage_buffer_range);
     (config.thickness_level..32).find(|level| sum_bytes(config, *level) <= range).unwrap_or(32)
@@ -160,7 +160,7 @@ impl Motion {
         Ok(())
     }
 
-    /// `list`: of `cull`, for its counts.
+    /// `list`: the one of `cull`, for its counts.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

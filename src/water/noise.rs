@@ -1,15 +1,16 @@
-//! Pass `noise`: the baseline's surface noise (van der Laan, Green, Sainz, I3D 2009, as the thesis tells
-//! it in Sec. 2.5): detail finer than the particles, which moves with them.
+//! Pass `noise`: the baseline's surface noise (van der Laan, Green, Sainz, I3D 2009, as described in the
+//! thesis, Sec. 2.5): detail finer than the particles, which moves with them.
 //!
-//! Each particle has one octave of gradient noise under a Gaussian, fixed to it by its id, less the deeper
-//! it lies below the surface. The sum is a height on the front surface: `composite` turns its normals by
-//! it and, as the baseline's foam, adds grey by its magnitude (glsl/include/ripples.glsl).
-//! Decided, where what is known of the baseline leaves it open: the pattern lies along the world's axes;
-//! the surface is that of the spheres before they are smoothed; the depth below it is of a particle's
-//! nearest point, so that what is at the surface counts whole; sums are of whole steps, so that the order
-//! does not show. The noise is about 0: a calm pool has as much of it as a fall.
-//! Reads: the counts of `cull`, the host's particles, water depth. Writes: noise, R32F, 0 where there is
-//! no water.
+//! Each particle has one octave of gradient noise under a Gaussian, fixed to it by its id, which fades with its
+//! depth below the surface. The sum is a height on the front surface: `composite` turns its normals by it and,
+//! as the baseline's foam, adds grey by its magnitude (glsl/include/ripples.glsl).
+//!
+//! Choices where the description of the baseline leaves them open: the pattern is aligned with the world's
+//! axes; the surface is that of the unsmoothed spheres; the depth below it is that of a particle's nearest
+//! point, so that particles at the surface count fully; sums use fixed-point steps, so that the order does not
+//! matter. The noise has zero mean: a calm pool has as much of it as a fall.
+//! Reads: the counts of `cull`, the host's particles, water depth. Writes: noise, R32F, 0 where there is no
+//! water.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -69,7 +70,7 @@ pub struct Noise {
     sprites: Sprites,
     draw: Pipeline,
     target: Target,
-    /// Of its resolution.
+    /// Number of halvings of its resolution.
     pub level: u32,
 }
 
@@ -113,12 +114,12 @@ impl Noise {
         self.target.resize(gpu, &desc(config, self.level), retired)
     }
 
-    /// The height, of which [`NoiseLook`](super::NoiseLook) says how much 1 is.
+    /// The height; [`NoiseLook`](super::NoiseLook) sets the scale.
     pub fn image(&self) -> &Image {
         &self.target.image
     }
 
-    /// `list`: of `cull`, for its counts. `depth`: of the water, sampled by fragments.
+    /// `list`: the one of `cull`, for its counts. `depth`: of the water, sampled by fragment shaders.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -1,9 +1,9 @@
-//! Pass `reduce`: hides what lies behind the scene, reduces the depth to the resolution of the
-//! smoothing (nearest of each block, as the source's downsampling, thesis Sec. 4.7) and plans each
-//! pixel's iterations and step from the depth before any smoothing.
+//! Pass `reduce`: rejects water behind the scene, downsamples the depth to the resolution of the smoothing
+//! (nearest of each block, as the thesis' downsampling, Sec. 4.7), and computes each pixel's iteration count
+//! and step from the unsmoothed depth.
 //!
-//! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images,
-//! plan, each tile's work; that of the coarser levels' tiles, and what `level` counts of them, is emptied.
+//! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan, each tile's
+//! work; clears the work of the coarser levels' tiles and the counters of `level`.
 
 use ash::vk;
 
@@ -29,20 +29,20 @@ use crate::water::settings::Rule;
 /// The plan after a frame: read by every form of the smoothing.
 pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
-/// What is reduced.
+/// Depths that are reduced.
 pub struct Depths<'a> {
     pub water: &'a Image,
-    /// Where there is some of either its tiles are drawn too.
+    /// Foam and spray depth: tiles with either are drawn too.
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
-    /// Of diffuse particles.
+    /// Whitewater depth.
     pub diffuse: Option<&'a Image>,
-    /// Of bubble foam.
+    /// Bubble-foam depth.
     pub bubbles: Option<&'a Image>,
 }
 
 impl Depths<'_> {
-    /// What glsl/include/beside.glsl reads, or anything where there is none.
+    /// Bindings of glsl/include/beside.glsl, with stand-ins for absent images.
     pub fn beside(&self, r: &Recording<'_>) -> [(u32, Resource); 4] {
         let nearest = r.gpu.samplers.nearest;
         let bound = |image: Option<&Image>| {
@@ -66,7 +66,7 @@ pub struct Reduce {
     pub level: u32,
 }
 
-/// Iterations more than stability asks for, glsl/include/plan.glsl.
+/// Iterations beyond those that stability requires (glsl/include/plan.glsl).
 pub const MORE: u32 = 2;
 
 /// Number of a rule in the shaders.
@@ -121,7 +121,7 @@ impl Reduce {
         Ok(())
     }
 
-    /// `level` hands on what is written here.
+    /// `level` transitions what is written here.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -1,55 +1,55 @@
-//! Settings of the layered water. Lengths scale with the particles: the look does not change with
+//! Settings of the layered water. Lengths scale with the particle spacing, so the look does not change with
 //! resolution or unit.
 
-/// Drawn radius over particle spacing, as in the source's demo.
+/// Drawn radius divided by particle spacing, as in the thesis' demo.
 pub const RADIUS_PER_SPACING: f32 = 0.656;
 
-/// How particles become pixels. Both ways give the same picture.
+/// How particles are rasterized. Both paths give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Splat {
-    /// Point sprites (quads where a point does not fit) with fixed-function blending.
+    /// Point sprites with fixed-function blending, and quads where a point sprite does not fit.
     Raster,
     /// A compute shader with atomics.
     Compute,
 }
 
-/// How the pixels with water are shaded. Both ways give the same picture.
+/// How pixels with water are shaded. Both paths give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
-    /// A render pass over the tiles that hold water: the output is a colour attachment.
+    /// A render pass over the tiles that hold water. The output is a colour attachment.
     Raster,
-    /// A compute shader over the same tiles: the output is a storage image.
+    /// A compute shader over the same tiles. The output is a storage image.
     Compute,
 }
 
-/// What the host says of the sun's shadows.
+/// Which shadow information the host hands in ([`Sun::shadow`](crate::Sun::shadow)), and how it is filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shadows {
-    /// A mask of the screen.
+    /// A screen-space mask, 1 where the sun shines.
     Mask,
-    /// A depth map as the light sees the scene, with percentage-closer filtering.
+    /// A shadow map of the scene, with percentage-closer filtering.
     Map,
-    /// The same map, filtered before it is compared: shadows as soft as one likes, at one cost. The pass
-    /// `convolution` (convolution shadow maps, which the thesis takes).
+    /// The same map as a convolution shadow map, which the thesis uses: it is filtered before the depth
+    /// comparison, so a shadow of any softness costs the same. Adds the pass `convolution`.
     Convolution(Convolution),
 }
 
 pub use crate::light::Convolution;
 
-/// Filter of the host's shadow map with [`Shadows::Convolution`] (Annen et al. 2007).
+/// Filter of the host's shadow map for [`Shadows::Convolution`] (Annen et al. 2007).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShadowFilter {
-    /// Width of the box that the map is filtered by in texels of the map, [0, 256], default 3: the
-    /// footprint of [`Shadows::Map`]. Texels of our images are the least there is.
+    /// Width of the box filter in texels of the map, [0, 256], default 3, which is the footprint of
+    /// [`Shadows::Map`]. It is never narrower than a texel of the library's own filtered image.
     pub width: f32,
-    /// Damping α of the series' terms, [0, 2], default 1. Without, light and shade ring by a twentieth;
-    /// with more of it shadows begin later behind what casts them.
+    /// Damping α of the Fourier terms, [0, 2], default 1. With 0, lit and shadowed areas ring by a twentieth.
+    /// Larger values move the start of a shadow away from its caster.
     pub damping: f32,
-    /// Parts of the rise by which the comparison is moved away from the light, [0, 1]. Default 1: what
-    /// touches its occluder is in the sun; 0: half in its shade, where it begins earlier.
+    /// Shadow bias as a fraction of the reconstruction ramp, [0, 1]. With 1, the default, a point that touches
+    /// its occluder is lit. With 0 it is half in shadow, and shadows begin closer to their caster.
     pub offset: f32,
-    /// Factor about one half that makes the comparison steeper, [1, 4], default 1.25; it takes from the
-    /// soft edge as much. Over 1.04 it clips what is left of the ringing.
+    /// Contrast of the reconstructed comparison around one half, [1, 4], default 1.25. It narrows the soft edge
+    /// by the same factor. Values above 1.04 clip the remaining ringing.
     pub scale: f32,
 }
 
@@ -68,87 +68,90 @@ impl ShadowFilter {
     }
 }
 
-/// How far the composite goes: each holds those before it (the source's debug views).
+/// How many layers the composite contains, as in the thesis' debug views. Each value includes those before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Ladder {
-    /// The scene as it is refracted.
+    /// The refracted scene.
     Background,
-    /// And the water behind the frontmost foam.
+    /// Adds the water behind the frontmost foam.
     BackWater,
-    /// And foam.
+    /// Adds foam.
     Foam,
-    /// And the water before it, or all where there is none.
+    /// Adds the water in front of the foam, or all water where there is no foam.
     FrontWater,
-    /// And reflections, highlights and spray.
+    /// Adds reflections, highlights and spray: the complete picture.
     #[default]
     Whole,
 }
 
-/// How many iterations a pixel of the smoothing gets, and how large its steps are.
+/// How many smoothing iterations a pixel gets, and how large its steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {
-    /// The source's: r_w / (C d) iterations of curvature-proportional steps (thesis, Sec. 3.1).
+    /// The thesis' rule: r_w / (C d) iterations of curvature-proportional steps (Sec. 3.1).
     Source,
-    /// Mean curvature flow to a constant width along the surface, whatever distance and slant.
+    /// Mean curvature flow to a constant width along the surface, at any distance and slant.
     ConstantWidth,
-    /// The baseline: the source's step, a fixed count for all pixels (van der Laan et al. 2009).
+    /// The baseline: a fixed iteration count for all pixels, with the thesis' step (van der Laan et al. 2009).
     Fixed(u32),
 }
 
-/// Form of the smoothing. All give the same surface.
+/// Implementation of the smoothing. All give the same surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Smoothing {
-    /// Raster passes; an occlusion query every fifth iteration stops the rest on the GPU.
+    /// Raster passes. An occlusion query every fifth iteration stops the rest on the GPU.
     Query(Gate),
-    /// A dispatch an iteration, over the tiles that still have active pixels.
+    /// One dispatch per iteration, over the tiles that still have active pixels.
     Tiles,
-    /// Several iterations a dispatch in shared memory, over the tiles that have active pixels.
+    /// Several iterations per dispatch in shared memory, over the tiles that have active pixels.
     Fused,
 }
 
-/// What stops the iterations after the query said so. No gate waits for the host.
+/// How the GPU skips the remaining iterations once the query has found no active pixel. None waits for the
+/// host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Gate {
     /// An indirect draw count (`drawIndirectCount`).
     DrawCount,
     /// Conditional rendering (`VK_EXT_conditional_rendering`).
     Predicate,
-    /// The vertex shader moves the tiles off the screen; needs nothing.
+    /// The vertex shader moves the tiles off the screen. Needs no feature.
     VertexCull,
 }
 
 /// Uniform settings of the layered water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaterSettings {
-    /// Rest spacing of the particles (twice the solver's particle radius), scene units, [1e-6, ∞).
+    /// Rest distance between particles (twice the solver's particle radius), scene units, [1e-6, ∞), default
+    /// 0.05.
     pub spacing: f32,
     /// Rest density in the unit of the density stream, [1e-6, ∞), default 1000.
     pub rest_density: f32,
-    /// Below this fraction of the rest density a particle is spray: left out (with
-    /// [`Config::spray`](crate::Config) [`SprayLook::densities`] count instead). [0, ∞), default
-    /// 0.35 (an isolated particle reads 0.318 with the usual cubic spline).
+    /// Particles below this fraction of the rest density are spray and are left out of the water, [0, ∞),
+    /// default 0.35 (an isolated particle has 0.318 with the usual cubic spline). With
+    /// [`Config::spray`](crate::Config), [`SprayLook::densities`] replace it.
     pub density_threshold: f32,
-    /// From this fraction on a particle has its full radius. Default 0.45.
+    /// Fraction of the rest density from which a particle has its full radius. Default 0.45.
     pub density_full: f32,
-    /// Width of the smoothing along the surface in drawn radii, [0, ∞), default 1.5: at 0.7 the
-    /// lattice of the particles shows, 2.5 is silk. (`ConstantWidth`; `Source` has its own 4.8.)
+    /// Width of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. At 0.7 the particle
+    /// lattice shows; 2.5 looks like silk. For [`Rule::ConstantWidth`]; [`Rule::Source`] has its own width of
+    /// 4.8.
     pub smoothing_width: f32,
-    /// Depth steps over this many drawn radii are silhouettes, not smoothed over. Default 5.3.
+    /// Depth steps larger than this are silhouettes and are not smoothed across. Drawn radii, default 5.3.
     pub depth_falloff: f32,
-    /// Shapes of the particles, with [`Kernels::Ellipsoids`].
+    /// Shape of the particles with [`Kernels::Ellipsoids`].
     pub ellipsoids: Ellipsoids,
-    /// What a particle adds to the thickness.
+    /// Thickness that one particle adds.
     pub amplitude: Amplitude,
     /// Optical properties.
     pub medium: Medium,
     /// Fresnel reflectance.
     pub fresnel: Fresnel,
-    /// How what the surface mirrors and its highlight come to what is behind. Default [`Compositing::Mixed`].
+    /// How reflection and highlight combine with the light from behind. Default [`Compositing::Mixed`].
     pub compositing: Compositing,
-    /// How the scene under the water looks. Default [`Bed::Submerged`].
+    /// Appearance of the scene under water. Default [`Bed::Submerged`].
     pub bed: Bed,
-    /// Strength of the refraction's displacement, [0, ∞), default 0.25; it tends to a sixteenth of
-    /// the picture's height.
+    /// Strength of the refraction's displacement, [0, ∞), default 0.25. The displacement approaches a sixteenth
+    /// of the picture's height at most.
     pub refraction: f32,
     /// Strength of the sun's highlight, [0, ∞), default 1.
     pub specular: f32,
@@ -179,8 +182,8 @@ impl Default for WaterSettings {
 }
 
 impl WaterSettings {
-    /// The water of the thesis' demo for particles of a spacing: its unit of the thickness, colours, reflectance, highlight
-    /// and composite.
+    /// The water of the thesis' demo for a particle spacing: its unit of thickness, colours, reflectance,
+    /// highlight and composite.
     pub fn thesis(spacing: f32) -> Self {
         let Medium::Source { base, falloff } = Medium::source(spacing) else {
             return Self::default();
@@ -208,74 +211,79 @@ impl WaterSettings {
 /// a of twice the drawn radius and the kernel's integral J = 0.34.
 const SOURCE_VOLUMES: f32 = 3.86;
 
-/// How what the surface mirrors and the sun's highlight come to what is behind them.
+/// How reflection and the sun's highlight combine with the light from behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Compositing {
-    /// What is mirrored takes the place of as much of the light from behind; the highlight is added. Less of both where
-    /// water is thinner than a quarter of the drawn radius. The surface is that of the water before the frontmost foam,
-    /// where there is any, else of that behind; foam lies where its middle is.
+    /// Reflection replaces its share of the light from behind; the highlight is added. Both fade where water is
+    /// thinner than a quarter of the drawn radius. The shaded surface is that of the water in front of the
+    /// frontmost foam, or of the water behind it if there is none in front. Foam is placed at its mean depth.
     Mixed,
-    /// The source's (thesis, Listing A.20): both are added to all the light from behind, weighted by
-    /// `sat(1 − a_wf + a_f)·(1 − a_wf)`, where `a_wf` and `a_f` are what comes through the water before the frontmost
-    /// foam (by [`Medium::Source`]'s last falloff; of a physical medium the mean of the channels) and through the foam.
-    /// All foam is at the frontmost, and rays that are mirrored down see the environment's ground.
+    /// The thesis' composite (Listing A.20): both are added to the full light from behind, with the weight
+    /// `sat(1 − a_wf + a_f)·(1 − a_wf)`. `a_wf` is the transmittance of the water in front of the frontmost
+    /// foam (by the last falloff of [`Medium::Source`]; for a physical medium the mean of the channels), `a_f`
+    /// that of the foam. All foam is placed at the frontmost depth, and rays reflected downwards see the
+    /// environment's ground.
     Source,
 }
 
-/// How the scene looks where it lies under the water: where that fills seven tenths or more of the room before it, the
-/// less the nearer to a half.
+/// Appearance of the scene where it lies under water: where water fills seven tenths or more of the space in
+/// front of it, fading out to a half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Bed {
-    /// As darker as it is for being wet (Lekner and Dorf 1988): by the reflectance of the surface on the way in, its radiance
-    /// over n² on the way out, and what is thrown back inside, by a reflectance of its own that is told from its colour and
-    /// [`Light::irradiance`](crate::Light::irradiance). Grey of 0.4 keeps 0.65, white all, but for what the medium takes
-    /// of the light on its way down, sun and sky, and on its bent way to the eye. The index of refraction n is that of
-    /// [`Fresnel::Schlick`]'s f0, else 1.333.
+    /// Darkened as a wet surface is (Lekner and Dorf 1988). Light enters through the surface's Fresnel
+    /// transmittance, leaves with its radiance divided by n², and is reflected back inside in between. The
+    /// scene's reflectance is estimated from its colour and [`Light::irradiance`](crate::Light::irradiance).
+    /// Grey of 0.4 keeps 0.65, white keeps everything. In addition the medium absorbs sun and sky light on the
+    /// way down and the view ray on its refracted way to the camera. The index of refraction n is that of the
+    /// f0 of [`Fresnel::Schlick`], otherwise 1.333.
     Submerged,
-    /// As if it were dry, behind the water straight on (the thesis).
+    /// As if it were dry, straight behind the water (the thesis).
     Source,
 }
 
-/// What is seen through water with air behind it: jets, crowns, drops, sheets.
+/// What is visible through water with air behind it: jets, crowns, drops, sheets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exit {
-    /// Light is bent where it enters the water and where it leaves it, by the slope of both surfaces and the index of
-    /// refraction n that [`Bed`] says, or totally reflected there; what it meets of the scene is looked for on the screen, in 4
-    /// steps, and the rest is the environment (Wyman 2005).
+    /// Light refracts at both surfaces, or is totally reflected at the second, by the slopes of both and the
+    /// index of refraction that [`Bed`] describes. The exit ray is intersected with the scene on the screen in
+    /// 4 steps; rays that miss see the environment (Wyman 2005).
     TwoInterfaces,
-    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis), as that is under water with both.
+    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis). Where the scene is
+    /// under the water, both variants show it so.
     Straight,
 }
 
-/// What of a particle is drawn.
+/// Shape that each particle is drawn as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kernels {
     /// A sphere, as in the thesis.
     Spheres,
-    /// An ellipsoid of the same volume by where its neighbours are (Yu and Turk 2013): flat in a sheet, long in a stream, round inside
-    /// the water; as [`WaterSettings::ellipsoids`] says. Of particles in packets all that there are count as neighbours, also those in
-    /// no packet. The light's maps, foam, spray, motion vectors, and what tells two sheets apart go by spheres still.
+    /// An ellipsoid of the same volume, fitted to the neighbours (Yu and Turk 2013) as
+    /// [`WaterSettings::ellipsoids`] says: flat in a sheet, elongated in a stream, round inside the water. All
+    /// particles count as neighbours, also those in no packet. Light maps, foam, spray, motion vectors and the
+    /// separation of two layers still use spheres.
     Ellipsoids,
 }
 
-/// How ellipsoids come from neighbours. Of no effect without [`Kernels::Ellipsoids`].
+/// How ellipsoids are fitted. No effect without [`Kernels::Ellipsoids`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoids {
-    /// Radius within which particles are neighbours, in spacings, [1, 4], default 2.5. They count by `1 − (d/reach)³`. The time
-    /// that the pass takes grows with its cube.
+    /// Radius within which particles are neighbours, in spacings, [1, 4], default 2.5. A neighbour at distance
+    /// d has the weight `1 − (d/reach)³`. The time of the pass grows with the cube of this radius.
     pub reach: f32,
-    /// Longest half-axis over the shortest, at most, [1, 8], default 2.5 (the source: 4). 1: spheres.
+    /// Maximum ratio of the longest to the shortest half-axis, [1, 8], default 2.5 (the paper: 4). 1 gives
+    /// spheres.
     pub ratio: f32,
-    /// Sum of the neighbours' weights from which on a particle is an ellipsoid, [0, 64], default 8: there are 2.9 in a line
-    /// of particles, 11 in a sheet of one layer, 32 inside. Up to half of it a particle is a sphere, as small drops are (the
-    /// source: up to 25 neighbours).
+    /// Sum of neighbour weights from which a particle is an ellipsoid, [0, 64], default 8. The sum is 2.9 in a
+    /// line of particles, 11 in a single sheet, 32 inside. Up to half of the setting a particle is a sphere, as
+    /// small drops are (the paper: up to 25 neighbours).
     pub fewest: f32,
-    /// Radius of a particle with so few neighbours that it is a sphere, in what it would be, [0.25, 1], default 1 (the
-    /// source: 0.5). It holds the same volume.
+    /// Radius of a particle with so few neighbours that it is a sphere, as a factor, [0.25, 1], default 1 (the
+    /// paper: 0.5). Its volume stays the same.
     pub lone: f32,
-    /// How far a particle is drawn on the way to the middle of itself and its neighbours, less what these are on average, at the
-    /// surface above all (by the source water would shrink from its walls); [0, 1], default 0.9 as the source. Sheets and
-    /// rims are smooth. 0 saves half the time of the pass.
+    /// How far a particle moves towards the weighted centre of its neighbourhood, [0, 1], default 0.9 as in the
+    /// paper; sheets and rims become smooth. The neighbours' average displacement is subtracted, or water would
+    /// shrink away from its walls as in the paper. 0 saves half the time of the pass.
     pub centred: f32,
 }
 
@@ -305,15 +313,15 @@ pub(crate) const WATER_INDEX: f32 = 1.333;
 /// Height of a particle's thickness sprite `√(1 − ρ²)·exp(−2ρ²)` at its centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Amplitude {
-    /// Its integral over the sprite is the particle's volume, spacing³: the thickness is metres of
-    /// water, and does not depend on how many particles resolve it. Default.
+    /// The sprite's integral is the particle's volume, spacing³. Thickness is then metres of water, independent
+    /// of the number of particles. Default.
     Volume,
-    /// The source's 0.8 times the sprite's width (thesis, Listing A.15): a sprite holds about four
-    /// particle volumes, and finer particles make more water.
+    /// The thesis' 0.8 times the sprite's width (Listing A.15). A sprite then holds about four particle
+    /// volumes, and finer particles make more water.
     Source,
 }
 
-/// How light is lost and gained on its way through the water.
+/// How light is absorbed, scattered and emitted on its way through the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Medium {
     /// Beer's law per channel, with single scattering of the ambient light.
@@ -323,25 +331,25 @@ pub enum Medium {
         /// Scattering per metre, linear RGB, [0, ∞).
         scattering: [f32; 3],
     },
-    /// Beer's law per channel, with multiple scattering: an endless body of it looks as bright as its diffuse reflectance
-    /// makes it in [`Light::irradiance`](crate::Light::irradiance), and less of it less, by the share of the light from
-    /// behind that it takes.
+    /// Beer's law per channel, with multiple scattering. An infinitely deep body shows its diffuse reflectance under
+    /// [`Light::irradiance`](crate::Light::irradiance). A thinner one shows it in proportion to the light from behind that
+    /// it blocks.
     ///
-    /// Scattering is taken as isotropic (similarity relation), so that a coefficient that was measured has to be reduced: of
-    /// dense media, as milk, `(1 - g)` of it by the mean cosine g; of natural waters, whose reflectance goes by what is
-    /// scattered backwards, twice the backscattering coefficient. The reflectance of a half space is van de Hulst's
+    /// Scattering is isotropic (similarity relation), so a measured coefficient has to be reduced: for dense media such as
+    /// milk multiply it by `1 - g` with the mean cosine g; for natural waters, whose reflectance depends on backscattering,
+    /// use twice the backscattering coefficient. The reflectance of a half space is van de Hulst's
     /// `(1 - s)(1 - 0.139 s)/(1 + 1.17 s)`, `s = √(absorption/(absorption + scattering))` (Multiple Light Scattering, 1980),
-    /// and what the surface throws back inside is added as [`Bed::Submerged`] says. The surface is shaded as a matte one by
-    /// the sun, the scene's shadows and [`Light::shade`](crate::Light::shade); shadows of the fluid on itself are not.
+    /// plus the internal reflection that [`Bed::Submerged`] describes. The surface is shaded as a matte one by the sun, the
+    /// scene's shadows and [`Light::shade`](crate::Light::shade). The fluid does not shadow itself.
     Turbid {
         /// Absorption per metre, linear RGB, [0, ∞).
         absorption: [f32; 3],
         /// Reduced scattering per metre, linear RGB, [0, ∞).
         scattering: [f32; 3],
-        /// Radiance that an endless body of it emits, linear RGB, [0, ∞): of hot media, as lava.
+        /// Radiance that an infinitely deep body emits, linear RGB, [0, ∞), for hot media such as lava.
         emission: [f32; 3],
     },
-    /// The source's: `mix(base·exp(−k T), background, exp(−k_a T))` (thesis, Eq. 3.5 to 3.7).
+    /// The thesis' medium: `mix(base·exp(−k T), background, exp(−k_a T))` (thesis, Eq. 3.5 to 3.7).
     Source {
         /// Colour of thin water, linear RGB, [0, 1].
         base: [f32; 3],
@@ -351,14 +359,14 @@ pub enum Medium {
 }
 
 /// Presets. Red, green and blue are 610, 550 and 465 nm, next to the dominant wavelengths of the primaries of Rec. 709 (611,
-/// 549 and 464 nm), but where the source measured with the three channels of a camera. The numbers hold for metres: of a
-/// scene that is drawn larger than it is meant, as a glass of beer simulated four metres wide, [`thinned`](Self::thinned)
-/// makes the same picture.
+/// 549 and 464 nm), except where the publication measured with the three channels of a camera. All numbers are per metre.
+/// For a scene that is simulated larger than it is meant, such as a glass of beer four metres wide, [`thinned`](Self::thinned)
+/// gives the right picture.
 impl Medium {
     /// Pure water: absorption by Pope and Fry (Applied Optics 36, 1997, Table 3), scattering by Morel (1974, fresh water).
     /// Colourless in a glass, blue over ten metres.
     pub const CLEAR: Self = Self::turbid([0.264, 0.0565, 0.0101], [0.000_94, 0.001_47, 0.003_04]);
-    /// A pool: three times denser than pure water, so that a metre of it is visibly blue-green. By eye.
+    /// A pool: absorbs about four times as much as pure water, so that a metre is visibly blue-green. Chosen by eye.
     pub const POOL: Self =
         Self::Physical { absorption: [1.1, 0.24, 0.11], scattering: [0.014, 0.03, 0.04] };
     /// A lake, green: 3 mg/m³ of chlorophyll as in [`OCEAN`](Self::OCEAN), and dissolved organic matter of 0.4 per metre at
@@ -367,15 +375,15 @@ impl Medium {
     /// Clear ocean, Jerlov's type IB: 0.1 mg/m³ of chlorophyll (Mobley, Light and Water, 1994), absorption by Prieur and
     /// Sathyendranath (Limnol. Oceanogr. 26, 1981) as Mobley has it (Eq. 3.27, Table 3.7), scattering by Gordon and Morel
     /// (1983), of which 0.0183 is backwards (Petzold's particles), and that of sea water (Morel 1974). Its diffuse
-    /// attenuation is that of Jerlov's table (Marine Optics, 1976, Table XXVII) to a fifth.
+    /// attenuation agrees with Jerlov's table (Marine Optics, 1976, Table XXVII) to a fifth.
     pub const OCEAN: Self = Self::turbid([0.273, 0.0639, 0.0252], [0.0036, 0.004_55, 0.007_07]);
     /// A river, tan: 100 g/m³ of silt, which scatters 0.51 m²/g (Babin et al., Limnol. Oceanogr. 48, 2003), 0.0183 of it
     /// backwards, and absorbs 0.031 m²/g at 443 nm, falling by 0.0123 per nm; dissolved organic matter of 1 per metre there
     /// (Babin et al., J. Geophys. Res. 108(C7), 2003).
     pub const RIVER: Self = Self::turbid([0.715, 1.04, 3.05], [1.87, 1.87, 1.87]);
     /// A lake under a glacier, turquoise: 20 g/m³ of rock flour, fine and pale. It scatters 1 m²/g, twice what silt does,
-    /// and absorbs 0.003 m²/g at 443 nm, a tenth; estimates, so that water takes the red and flour a little of the blue, by
-    /// which Aas and Bogen explain the colour (Water Resources Research 24, 1988).
+    /// and absorbs 0.003 m²/g at 443 nm, a tenth of silt's. Both are estimates, such that water absorbs the red and flour a
+    /// little of the blue, which is how Aas and Bogen explain the colour (Water Resources Research 24, 1988).
     pub const GLACIER: Self = Self::turbid([0.272, 0.0726, 0.0559], [0.733, 0.733, 0.735]);
     /// Whole milk (Jensen et al., A Practical Model for Subsurface Light Transport, 2001, Fig. 5: per millimetre, reduced
     /// scattering; red, green and blue of a camera). Index of refraction 1.35.
@@ -404,14 +412,14 @@ impl Medium {
         Self::Turbid { absorption, scattering, emission: [0.0; 3] }
     }
 
-    /// The source's demo for particles of this spacing.
+    /// The thesis' demo, scaled to a particle spacing.
     pub fn source(spacing: f32) -> Self {
         let k = 0.138 / spacing;
         Self::Source { base: [0.306, 0.545, 0.957], falloff: [0.784 * k, 0.784 * k, 0.588 * k, k] }
     }
 
-    /// The medium with so much of what absorbs and scatters in a metre, [0, ∞): 0.1 is tenfold dilution, or a scene that is
-    /// ten times as large as what it stands for. What it emits stays.
+    /// The medium with absorption and scattering multiplied by `share`, [0, ∞). 0.1 is a tenfold dilution, or a
+    /// scene ten times as large as the object it shows. Emission stays.
     pub fn thinned(self, share: f32) -> Self {
         let times = |k: [f32; 3]| k.map(|k| share * k);
         match self {
@@ -430,7 +438,7 @@ impl Medium {
     }
 }
 
-/// Share of light that the surface reflects, from the cosine between normal and view.
+/// Reflectance of the surface, from the cosine between normal and view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fresnel {
     /// Schlick's approximation; water has f0 = 0.02.
@@ -438,7 +446,7 @@ pub enum Fresnel {
         /// Reflectance at normal incidence, [0, 1].
         f0: f32,
     },
-    /// The source's `bias + scale·(1 − n·v)^power` (thesis, Listing A.19 with its sign mended).
+    /// The thesis' `bias + scale·(1 − n·v)^power` (Listing A.19, with its sign corrected).
     Source {
         /// Default 0.1.
         bias: f32,
@@ -450,32 +458,34 @@ pub enum Fresnel {
 }
 
 impl Fresnel {
-    /// Of a liquid of an index of refraction, [1, ∞): water 1.333, beer 1.345, milk 1.35, honey 1.49.
+    /// The reflectance of a liquid by its index of refraction, [1, ∞): water 1.333, beer 1.345, milk 1.35,
+    /// honey 1.49.
     pub const fn of_index(n: f32) -> Self {
         let root = (n - 1.0) / (n + 1.0);
         Self::Schlick { f0: root * root }
     }
 }
 
-/// Foam formation: which particles are foam, by Weber number.
+/// Surface foam formation: which of the water's particles are foam, by Weber number.
 ///
-/// `We = scale·ρ·|v − air|²`; a particle foams while it is at the threshold or above, with times to
-/// come and go that differ from particle to particle (thesis, Sec. 3.2).
+/// `We = scale·ρ·|v − air|²`. A particle foams while its Weber number is at the threshold or above. Onset and decay times vary
+/// from particle to particle (thesis, Sec. 3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoamSettings {
-    /// Weber number per density and squared speed, (0, ∞): the particle's diameter over the surface
-    /// tension ([`weber`](Self::weber)), or another reduced form.
+    /// Weber number per density and squared speed, (0, ∞): the particle diameter divided by the surface tension
+    /// ([`weber`](Self::weber)), or another reduced form.
     pub scale: f32,
-    /// Weber number from which on a particle foams, (0, ∞). It does not transfer between
-    /// simulations: take it from the data, such as the 95th percentile over a sequence.
+    /// Weber number from which a particle foams, (0, ∞). It does not transfer between simulations: derive it
+    /// from the data, for example as the 95th percentile over a sequence.
     pub threshold: f32,
-    /// Mean seconds that foam takes to dissolve, (0, ∞), default 1; each particle 0.5 to 1.5 of it.
+    /// Mean time in which foam dissolves, seconds, (0, ∞), default 1. Each particle has 0.5 to 1.5 times this.
     pub foam_lifetime: f32,
-    /// World velocity of the air, default 0.
+    /// World velocity of the air, scene units per second, default 0.
     pub air: [f32; 3],
-    /// Density where no stream gives one, or gives 0 (a particle just emitted), (0, ∞), default 1000.
+    /// Density where no stream gives one, or where it is 0 (a particle that was just emitted), (0, ∞), default
+    /// 1000.
     pub rest_density: f32,
-    /// Of the random times.
+    /// Seed of the random times.
     pub seed: u32,
 }
 
@@ -483,13 +493,13 @@ pub struct FoamSettings {
 pub const SURFACE_TENSION: f32 = 0.0728;
 
 impl FoamSettings {
-    /// The full Weber number `ρ v² l / σ` of particles of a spacing (m), in SI units.
+    /// The full Weber number `ρ v² l / σ` in SI units, for a particle spacing in metres.
     pub fn weber(spacing: f32, threshold: f32) -> Self {
         Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
     }
 
-    /// The reduced form of the source's demo, `1e-5·ρ·v²` with v in 1/1.43 spacings per second; its
-    /// thresholds are 50 to 110, default 80.
+    /// The reduced form of the thesis' demo, `1e-5·ρ·v²` with v in 1/1.43 spacings per second. Its thresholds
+    /// are 50 to 110, default 80.
     pub fn reduced(spacing: f32, threshold: f32) -> Self {
         let speed = 1.43 / spacing;
         Self {
@@ -522,66 +532,66 @@ impl FoamSettings {
     }
 }
 
-/// How foam looks. Of no effect without [`Config::foam`](crate::Config).
+/// Appearance of surface foam. No effect without [`Config::foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoamLook {
-    /// Light that foam takes away, per metre of it along the ray, [0, ∞), default 0.4 / spacing: two layers hide
-    /// half.
+    /// Extinction per metre of foam along the ray, [0, ∞), default 0.4 / spacing: two layers of foam particles
+    /// hide half.
     pub extinction: f32,
-    /// How fast its colour turns to that of the front with the foam right behind the frontmost, per
-    /// metre, [0, ∞), default 0.15 / spacing.
+    /// How fast the colour approaches [`front_color`](Self::front_color) with the thickness of the front layer,
+    /// per metre, [0, ∞), default 0.15 / spacing.
     pub front_extinction: f32,
-    /// Power p of the source's other rule, [0, 64]: the front colour's share is the foam there over the
-    /// layer's depth, to the power p. 0 (default): the rule above.
+    /// Exponent p of the thesis' alternative rule, [0, 64]: the share of the front colour is (front-layer
+    /// thickness / layer depth)^p. With 0, the default, `front_extinction` applies.
     pub front_power: f32,
-    /// Depth of that layer, scene units, [0, ∞), default 60 spacings (the source's 7 shows drops
-    /// before the foam as discs: it begins anew behind each); it ends within a spacing more.
+    /// Depth of the front layer, scene units, [0, ∞), default 60 spacings, with a soft end of one spacing. (The
+    /// thesis' 7 spacings show drops in front of foam as discs, because the layer begins anew behind each.)
     pub front_depth: f32,
-    /// Speed at which a sprite is stretched to twice its width, spacings a second, (0, ∞), default 21.
+    /// Speed at which a sprite is stretched to twice its width, spacings per second, (0, ∞), default 21.
     pub motion_threshold: f32,
-    /// Strength of a noise of its own in each sprite that tears it, as the source has it, 0 (none, default) to 1; it
-    /// fades where its cells are less than two texels of the thickness wide. In the place of the pattern: of the two
-    /// one has to be 0.
+    /// Strength of a noise per sprite, as in the thesis, 0 (off, default) to 1. It fades where its cells are
+    /// smaller than two texels of the thickness. Either this or [`pattern`](Self::pattern) has to be 0.
     pub noise: f32,
-    /// Cells of that noise that pass in a second of a particle's age, [0, 1e3], default 2.
+    /// Cells of that noise that pass per second of a particle's age, [0, 1e3], default 2.
     pub noise_rate: f32,
-    /// How much thicker it is here than there by a noise in space that the foam carries along, [0, 2], default 1: a
-    /// tenth of it is twice as thick or more, a tenth a quarter or less. Not in the source; 0: none of that, as a
-    /// [`noise`](Self::noise) needs it.
+    /// Strength of the advected clumping noise, [0, 2], default 1, 0 = off. At 1 a tenth of the foam is at
+    /// least twice as thick, and a tenth is a quarter as thick or less. Not in the thesis. Has to be 0 if
+    /// [`noise`](Self::noise) is used.
     pub pattern: f32,
-    /// Width of the largest of the clumps, spacings, (0, 1e3], default 3.
+    /// Size of the largest clumps, spacings, (0, 1e3], default 3.
     pub pattern_size: f32,
-    /// Seconds after which a clump is drawn out and another has taken its place, (0, 1e3], default 1.
+    /// Time after which a stretched clump has been replaced by a new one, seconds, (0, 1e3], default 1.
     pub pattern_period: f32,
-    /// How much thin foam is torn into threads with clear holes between them, which close where there is much of it, [0, 1]:
-    /// as much of the picture is hidden as by smooth foam. Default 0: none of that, thin foam is a veil. Not in the source.
+    /// How much thin foam is torn into threads with clear holes, which close where foam is thick, [0, 1],
+    /// default 0: thin foam is a veil. The covered area is that of smooth foam. Not in the thesis.
     pub lace: f32,
-    /// Width of the cells of the largest holes, spacings, (0, 1e3], default 4. Those of less than two pixels are not drawn.
+    /// Size of the largest holes' cells, spacings, (0, 1e3], default 4. Cells smaller than two pixels are not
+    /// drawn.
     pub lace_size: f32,
-    /// The time of the frame in seconds, by which the pattern moves on; default 0. One that stands still leaves the
-    /// pattern where it is in space, and foam moves through it.
+    /// Time of the frame in seconds, which advances the pattern. Default 0. If it stays constant the pattern
+    /// stays in place and foam moves through it.
     pub time: f64,
-    /// Thickness below which foam is less than it is, scene units, [0, ∞), default a spacing: a veil
-    /// reads as steam. Not in the source; 0: none of that.
+    /// Foam thinner than this fades out, scene units, [0, ∞), default one spacing, 0 = off: without it, thin
+    /// veils look like steam. Not in the thesis.
     pub veil: f32,
-    /// How much its shape shows: light lost where its front layer is turned from the sun, [0, 2],
+    /// How strongly the front layer's relief is shaded: light lost where it faces away from the sun, [0, 2],
     /// default 0.35.
     pub relief: f32,
-    /// How much the light on it goes by the shape of a whole splash, [0, 1]: the foam within six spacings turns it to the sun
-    /// or away, which leaves it the sky's light, and dims the sky in hollows. Default 0: not at all. Not in the source.
+    /// How strongly foam is shaded by the shape of the whole splash, [0, 1], default 0 = off. The foam within
+    /// six spacings turns a point towards the sun or away from it, where only sky light remains, and dims the
+    /// sky in hollows. Not in the thesis.
     pub shape: f32,
-    /// Sunlight that it takes from what is behind it, per metre, [0, ∞), default 0.25 / spacing: less than
-    /// its extinction, for most of the light goes on.
+    /// Extinction of sunlight that foam casts as a shadow, per metre, [0, ∞), default 0.25 / spacing: less than
+    /// [`extinction`](Self::extinction), because most scattered light continues.
     pub shadow: f32,
-    /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.65 and white 0.9 (the
-    /// source's are colours on the screen, 0.25 and 1).
+    /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis' screen colour is 0.25.)
     pub back_color: [f32; 3],
-    /// As above.
+    /// Albedo of thick foam, linear RGB, 0 to 1, default white 0.9. (The thesis' screen colour is 1.)
     pub front_color: [f32; 3],
 }
 
 impl FoamLook {
-    /// The defaults for particles of a spacing.
+    /// The defaults for a particle spacing.
     pub fn of_spacing(spacing: f32) -> Self {
         Self {
             extinction: 0.4 / spacing,
@@ -606,9 +616,9 @@ impl FoamLook {
         }
     }
 
-    /// The thesis' foam for particles of a spacing: a noise of each sprite's own, opaque and without relief. Its numbers
-    /// are per unit of its own thickness and length (1.43 of them are a spacing); a sprite of it holds about 33 particle
-    /// volumes.
+    /// The thesis' foam for a particle spacing: a noise per sprite, opaque, without relief. Its numbers are per
+    /// unit of the thesis' own thickness and length (1.43 of them are a spacing), where a sprite holds about 33
+    /// particle volumes.
     pub fn thesis(spacing: f32) -> Self {
         let unit = 1.43 * 33.0 / spacing;
         Self {
@@ -663,45 +673,47 @@ impl FoamLook {
     }
 }
 
-/// How spray looks: particles that are too few together to be a body of water. Of no effect without
+/// Appearance of spray: particles too few together to form a body of water. No effect without
 /// [`Config::spray`](crate::Config).
 ///
-/// As its density falls a particle becomes spray, until it is nothing else. It is drawn as droplets round its centre, each streaking along its motion.
+/// As density drops, the particle fades from water to spray. Spray is drawn as droplets around the particle's
+/// centre, each stretched along its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SprayLook {
-    /// Share of the light that the middle of a droplet at rest takes away, [0, 1), default 0.5 (the
-    /// source: 0.4).
+    /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
-    /// Half-axis of a particle's spray in drawn radii, (0, 8], default 0.5 as the source. Its
-    /// droplets together are about as large.
+    /// Half-axis of a particle's spray in drawn radii, (0, 8], default 0.5 as in the thesis. Its droplets
+    /// together have about that size.
     pub size: f32,
-    /// The most droplets that a particle is drawn as, 1 (the source) to 64, default 16. If it is more than 1, each particle has
-    /// between a fifth and all of them, by its id. From three quarters of spray on a particle has fewer and larger ones and less
-    /// mist, down to 0.3 of both where it is nothing but spray: a lone particle is a few drops, torn water many.
+    /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. Above 1 each particle has
+    /// between a fifth and all of them, chosen by its id. From three quarters of spray on, a particle has fewer
+    /// and larger droplets and less mist, down to 0.3 of both where it is only spray: an isolated particle is a
+    /// few drops, torn water is many.
     pub droplets: u32,
-    /// Fractions of the rest density, rising, [0, ∞): below the first a particle is nothing but
-    /// spray, from the second on its water has its full radius and its foam is whole, from the third
-    /// on it is no spray. Default 0.6, 0.7, 0.85: lines of particles are spray (0.48 with the usual
-    /// cubic spline), sheets of one layer (0.70) hardly. They take the place of
-    /// [`WaterSettings::density_threshold`] and [`density_full`](WaterSettings::density_full).
+    /// Three rising fractions of the rest density, [0, ∞), default 0.6, 0.7, 0.85. Below the first a particle
+    /// is only spray. From the second on its water has the full radius and its foam is complete. From the third
+    /// on it is no spray. Lines of particles (0.48 with the usual cubic spline) are thus spray, single sheets
+    /// (0.70) hardly. They replace [`WaterSettings::density_threshold`] and
+    /// [`density_full`](WaterSettings::density_full).
     pub densities: [f32; 3],
-    /// How far they lie from its centre at most, in spacings, [0, 8], default 1.5; 0: nowhere else
-    /// (the source).
+    /// Maximum distance of droplets from the particle's centre, spacings, [0, 8], default 1.5; 0 as in the
+    /// thesis.
     pub spread: f32,
-    /// Droplets are also spread along the particle's velocity, by as far as it moves in up to so many seconds, forwards and
-    /// backwards: [0, 1], default 0. So torn water flies in strands.
+    /// Droplets are also spread along the particle's velocity, by its motion in up to this time, forwards and
+    /// backwards. Seconds, [0, 1], default 0. Torn water then flies in strands.
     pub stretch: f32,
-    /// Share of the light that the middle of a particle's mist takes away, [0, 1), default 0.05. Mist takes the place of the
-    /// first droplet where there are several.
+    /// Opacity at the centre of a particle's mist, [0, 1), default 0.05. Where a particle has several droplets,
+    /// mist replaces the first.
     pub mist: f32,
-    /// Half-axis of that mist in spacings, (0, 8], default 0.5.
+    /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
-    /// Seconds of motion that a droplet streaks over, [0, 1], default 1/250, as the water is drawn at an instant; as it is longer it is
-    /// thinner.
+    /// Exposure time of a droplet's streak, seconds, [0, 1], default 1/250. A longer streak is more
+    /// transparent. (The water itself is drawn at one instant.)
     pub shutter: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
-    /// Its light is added to that from behind (the source), not laid over it (default).
+    /// Whether its light is added to the light from behind (the thesis) instead of composited over it (default
+    /// false).
     pub additive: bool,
 }
 
@@ -724,7 +736,7 @@ impl Default for SprayLook {
 }
 
 impl SprayLook {
-    /// As the source has it: a sprite a particle, added.
+    /// The thesis' spray: one added sprite per particle.
     pub const SOURCE: Self = Self {
         opacity: 0.4,
         size: 0.5,
@@ -760,25 +772,23 @@ impl SprayLook {
     }
 }
 
-/// How the baseline's surface noise looks. Of no effect without [`Config::noise`](crate::Config).
+/// Appearance of the baseline's surface noise. No effect without [`Config::noise`](crate::Config).
 ///
-/// Each particle has a gradient noise of its own, which moves with it; together they are a height on the
-/// front surface of the water that turns its normals, and the baseline's foam: grey where it is high or
-/// low.
+/// Each particle has its own gradient noise, which moves with it. Their sum is a height on the front surface of
+/// the water, which turns its normals. It is also the baseline's foam: grey where the height is large or small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseLook {
-    /// Height that a noise of 1 has, in drawn radii, [0, 16], default 0.336 (the source of the number has
-    /// it as the weight of the derivatives, in a unit of its own). 0: flat.
+    /// Height of a noise value of 1, in drawn radii, [0, 16], default 0.336, 0 = flat. (The publication gives
+    /// this number as the weight of the derivatives, in a unit of its own.)
     pub weight: f32,
-    /// How fast a particle's noise falls with its depth below the surface: by e within the drawn radius
-    /// over this. [0, 64], default 2.
+    /// How fast a particle's noise fades with its depth below the surface, [0, 64], default 2: by a factor of e
+    /// per (drawn radius / falloff).
     pub falloff: f32,
     /// Half-axis of a particle's noise in drawn radii, (0, 8], default 2.
     pub size: f32,
-    /// Cells of the octave in a drawn radius, (0, 16], default 1: somewhat finer than the particles.
+    /// Noise cells per drawn radius, (0, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
-    /// Share of the foam's light that a noise of 1 adds to the picture, up to all of it, [0, 64]; default
-    /// 0: no such foam.
+    /// Foam light added per noise value of 1, clamped to all of it, [0, 64], default 0: no such foam.
     pub foam: f32,
     /// Its albedo, linear RGB, 0 to 1, default grey 0.5.
     pub color: [f32; 3],
@@ -791,7 +801,7 @@ impl Default for NoiseLook {
 }
 
 impl NoiseLook {
-    /// As the baseline has it, with its foam. How much grey, is not known: so that it shows.
+    /// The baseline, with its foam. The paper gives no foam strength; this value makes it visible.
     pub const SOURCE: Self =
         Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 1.0, color: [0.5; 3] };
 
@@ -809,7 +819,7 @@ impl NoiseLook {
     }
 }
 
-/// Of a setting whose range says no end: products of a few such numbers are still numbers.
+/// Upper limit of a setting whose range is open: products of a few such numbers stay finite.
 pub(crate) const GREATEST: f32 = 1.0e12;
 
 /// Checks a setting; the message names the field.

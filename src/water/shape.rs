@@ -1,12 +1,14 @@
-//! Pass `shape`: an ellipsoid for each particle in the place of its sphere (Yu and Turk, Reconstructing surfaces of
-//! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4), flat in sheets, long in
-//! streams, round inside, so that thin water is one body and not a heap of balls.
+//! Pass `shape`: replaces each particle's sphere by an ellipsoid (Yu and Turk, Reconstructing surfaces of
+//! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4): flat in sheets,
+//! elongated in streams, round inside, so that thin water is one body instead of a heap of balls.
 //!
-//! Not in the thesis. The neighbours are found by a grid in a hash table, made anew each frame; the weighted covariance of
-//! those within the reach has its eigenvalues by a fixed number of Jacobi's rotations. An ellipsoid holds its sphere's volume,
-//! so that thickness is metres as before, where theirs is scaled by a constant of the kernel; and it comes from a sphere by and by with
-//! the weights of the neighbours, where theirs is a sphere up to a number of them.
-//! Before `cull`, which goes over what this leaves in the place of the host's positions, once a frame: it does not know the view.
+//! Not in the thesis. Neighbours are found with a hashed grid, rebuilt each frame. The weighted covariance of
+//! the neighbours within reach is diagonalised by a fixed number of Jacobi rotations. An ellipsoid has its
+//! sphere's volume, so thickness stays in metres; the paper scales by a kernel constant. A sphere becomes an
+//! ellipsoid gradually with the weights of its neighbours; the paper keeps a sphere up to a number of them.
+//!
+//! It runs once per frame before `cull`, which reads its result instead of the host's positions; it does not
+//! know the view.
 //! Reads: positions. Writes: the grid, shaped.
 
 use ash::vk;
@@ -28,11 +30,11 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::scan::{self, Scan};
 use crate::gpu::shader;
 
-/// Groups of a dispatch at most: their invocations go on from particle to particle.
+/// Maximum number of groups per dispatch; their invocations loop over the remaining particles.
 const MOST_GROUPS: u32 = 4096;
 /// Bytes of a particle with its shape (glsl/include/shaped.glsl).
 const SHAPED: u32 = 24;
-/// How what a frame leaves is used until the next one.
+/// State of the result until the next frame.
 const AFTER: Access = COMPUTE_READ.and(COPY_READ);
 
 #[repr(C)]
@@ -100,7 +102,8 @@ pub fn is_on(config: &Config) -> bool {
     config.kernels == Kernels::Ellipsoids
 }
 
-/// Bytes of what is bound whole, of all particles: these with their shapes, and where each bucket of the grid ends.
+/// Bytes of the largest buffer that is bound as a whole: particles with their shapes, or ends of the grid
+/// buckets.
 pub fn bytes_bound(config: &Config) -> u64 {
     let particles = u64::from(config.max_particles);
     if is_on(config) {
@@ -110,12 +113,12 @@ pub fn bytes_bound(config: &Config) -> u64 {
     }
 }
 
-/// Descriptor sets of the pass: its own, the scan's, two a chunk.
+/// Descriptor sets of the pass: its own, those of the scan, two per chunk.
 pub fn sets(config: &Config, chunks: u32) -> u32 {
     if is_on(config) { 2 + scan::SETS + 2 * chunks } else { 0 }
 }
 
-/// A power of two, of which every device binds as many words.
+/// Number of buckets: a power of two that fits in every device's binding.
 fn buckets(config: &Config) -> u32 {
     config.max_particles.clamp(1, 1 << 25).next_power_of_two()
 }
@@ -127,14 +130,14 @@ pub struct Shape {
     shape: Pipeline,
     centre: Pipeline,
     scan: Scan,
-    /// How many particles there are in each bucket, then where it begins, then where it ends.
+    /// Counts of the buckets, then their begins, then their ends.
     buckets: Buffer,
-    /// Particles by their buckets, and how many they are.
+    /// Particles sorted by bucket, and their number.
     places: Buffer,
     counts: Buffer,
-    /// In their order: how far each is from the middle of its neighbours.
+    /// In their order: offset of each from the centre of its neighbours.
     shifts: Buffer,
-    /// In the order of the host's particles: place and shape.
+    /// In the host's order: position and shape.
     pub shaped: Buffer,
     many: u32,
     chunk_size: u32,
@@ -166,7 +169,8 @@ impl Shape {
         })
     }
 
-    /// The particles with shapes and without their host's positions: its buffers are read by compute from here on.
+    /// Returns the particles with shapes in place of the host's positions; their buffers are in the
+    /// compute-read state.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -244,7 +248,7 @@ impl Shape {
         Ok(Particles { positions, before: COMPUTE_READ, ..*particles })
     }
 
-    /// Goes over the host's positions.
+    /// Dispatches over the host's positions.
     fn record_chunks(
         &self,
         r: &Recording<'_>,

@@ -1,9 +1,9 @@
 //! Pass `smooth`: adaptive curvature flow (thesis Sec. 3.1 and 4.7; van der Laan et al. 2009).
 //!
-//! Two images change places with each iteration. All forms do the same arithmetic on the same plan
-//! and give the same surface, in image `a`: a dispatch an iteration over the tiles with work left,
-//! several iterations a dispatch in shared memory, or the source's raster passes that an occlusion
-//! query ends (in `smooth_query`). What the source decides on the CPU, the GPU decides here.
+//! Two images are swapped with each iteration. All forms do the same arithmetic on the same plan and give the
+//! same surface, in image `a`: one dispatch per iteration over the tiles with work left, several iterations per
+//! dispatch in shared memory, or the thesis' raster passes that an occlusion query ends (in `smooth_query`).
+//! The GPU decides what the thesis decides on the CPU.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
@@ -55,9 +55,9 @@ struct FusedPush {
     arguments_index: u32,
 }
 
-/// What is to be done.
+/// Plan and tiles of the smoothing.
 pub struct Work<'a> {
-    /// Iterations and step of each pixel.
+    /// Iteration count and step of each pixel.
     pub plan: &'a Image,
     pub tiles: &'a Tiles,
 }
@@ -72,9 +72,9 @@ enum Form {
 pub struct Smooth {
     form: Form,
     iterations: u32,
-    /// Holds the reduced depth before, the smoothed surface after.
+    /// The reduced depth before, the smoothed surface after.
     pub a: Image,
-    /// The other one.
+    /// The second image of the ping-pong.
     pub b: Image,
 }
 
@@ -136,7 +136,8 @@ impl Smooth {
         Ok(())
     }
 
-    /// Both images come as `reduce` left them, in GENERAL; `a` leaves sampled by fragments.
+    /// Both images are in the state in which `reduce` left them, GENERAL, before. `a` is sampled by fragment
+    /// shaders after.
     pub fn record(&self, r: &mut Recording<'_>, work: &Work<'_>) -> Result<(), Error> {
         let scope = r.begin(c"smooth");
         match &self.form {
@@ -148,9 +149,9 @@ impl Smooth {
         Ok(())
     }
 
-    /// A dispatch an iteration over the tiles with work left. A tile runs one iteration more than
-    /// it needs, in which its pixels are copied: its result is then in both images, whatever their
-    /// roles in its neighbours' later iterations.
+    /// One dispatch per iteration over the tiles with work left. A tile runs one iteration more than it needs,
+    /// which copies its pixels: its result is then in both images, whatever their roles in its neighbours'
+    /// later iterations.
     fn record_tiles(
         &self,
         r: &mut Recording<'_>,
@@ -166,7 +167,7 @@ impl Smooth {
         })
     }
 
-    /// The same with several iterations a dispatch, and one dispatch more that copies.
+    /// Several iterations per dispatch, and one dispatch more that copies.
     fn record_fused(
         &self,
         r: &mut Recording<'_>,
@@ -185,8 +186,8 @@ impl Smooth {
         })
     }
 
-    /// Dispatches that read one image and write the other in turn. `push` sets the constants of a
-    /// dispatch and says which arguments it takes.
+    /// Dispatches that alternately read one image and write the other. `push` returns the constants of a
+    /// dispatch and its arguments.
     fn record_dispatches(
         &self,
         r: &mut Recording<'_>,
@@ -251,7 +252,7 @@ impl Smooth {
         Ok(())
     }
 
-    /// The samples counted by the queries, when the form has them.
+    /// The samples counted by the queries, if the form has them.
     pub fn query_results(&self) -> Option<(vk::Buffer, u32)> {
         match &self.form {
             Form::Query(query) => Some((query.results.handle, query.blocks)),
@@ -267,7 +268,7 @@ impl Smooth {
     }
 }
 
-/// Tiles is the fastest on lavapipe by far; on an H200 fused takes half of its time (docs/performance.md).
+/// Tiles is the fastest on lavapipe by far; on an H200 fused takes half its time (docs/performance.md).
 fn default_form(gpu: &Gpu) -> Smoothing {
     if gpu.is_cpu() { Smoothing::Tiles } else { Smoothing::Fused }
 }

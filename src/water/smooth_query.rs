@@ -1,10 +1,10 @@
-//! Pass `smooth`, form Query: the source's raster passes, ended by an occlusion query every fifth
-//! iteration (thesis Sec. 4.7, Listing A.11), decided on the GPU alone.
+//! Pass `smooth`, form Query: the thesis' raster passes, ended by an occlusion query every fifth iteration
+//! (Sec. 4.7, Listing A.11), decided on the GPU alone.
 //!
-//! A block is five iterations and a copy back, so that the result always lies in the same image.
-//! Its fifth iteration counts the pixels that are still active, by a draw of its own without colour
-//! writes; one invocation turns the count into the next block's predicate. What that gates depends
-//! on the gate; a skipped block costs its empty render passes only.
+//! A block is five iterations and a copy back, so that the result is always in the same image. Its fifth
+//! iteration counts the pixels that are still active, with a draw of its own without colour writes. One
+//! invocation turns the count into the predicate of the next block. What that predicate gates depends on the
+//! gate; a skipped block costs only its empty render passes.
 //! Reads: smoothing images, plan, tile list. Writes: smoothing images, query results, predicates.
 
 use ash::vk;
@@ -30,9 +30,9 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::{Gate, Rule};
 
-/// Iterations of a block: the source's query interval.
+/// Iterations per block: the thesis' query interval.
 pub const BLOCK: u32 = 5;
-/// Bytes a predicate: bound, counted and predicated by itself.
+/// Bytes per predicate: each is bound, counted and predicated by itself.
 const PREDICATE_STRIDE: u64 = 256;
 
 #[repr(C)]
@@ -47,7 +47,7 @@ struct Push {
 pub struct Query {
     gate: Gate,
     pass: vk::RenderPass,
-    /// Of image `a`, of image `b`.
+    /// Framebuffers of images `a` and `b`.
     framebuffers: [Owned<vk::Framebuffer>; 2],
     iterate: Pipeline,
     count: Pipeline,
@@ -56,9 +56,9 @@ pub struct Query {
     pool: Owned<vk::QueryPool>,
     /// Samples active in iterations 5, 10, …; 0 for blocks that did not run.
     pub results: Buffer,
-    /// One word a block, [`PREDICATE_STRIDE`] apart.
+    /// One word per block, [`PREDICATE_STRIDE`] apart.
     pub predicates: Buffer,
-    /// Blocks recorded.
+    /// Number of recorded blocks.
     pub blocks: u32,
 }
 
@@ -184,7 +184,7 @@ impl Query {
         }
     }
 
-    /// The images come in GENERAL from `reduce`; both leave sampled by fragments.
+    /// The images are in GENERAL before; both are sampled by fragment shaders after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -361,7 +361,7 @@ impl Query {
         }
     }
 
-    /// The draw that is counted: pixels still active in this iteration.
+    /// The counted draw: pixels still active in this iteration.
     fn draw_counted(
         &self,
         r: &Recording<'_>,
@@ -382,7 +382,7 @@ impl Query {
         unsafe { r.gpu.device.cmd_end_query(r.cmd, self.pool.handle, query) };
     }
 
-    /// The block's count to the next block's predicate.
+    /// Converts the block's count to the next block's predicate.
     fn record_gate(&self, r: &Recording<'_>, set: vk::DescriptorSet, block: u32) {
         let (gpu, cmd) = (r.gpu, r.cmd);
         // SAFETY: outside a render pass; WAIT makes the GPU wait for the query, not the host.

@@ -1,10 +1,10 @@
-//! Pass `split`: which of the tiles with water hold two sheets, which hold foam, and in which coarser levels of the
-//! smoothing show.
+//! Pass `split`: sorts the tiles with water by whether they hold two layers, foam, and coarser smoothing
+//! levels.
 //!
-//! Not in the source. Shading two sheets costs twice what shading one does, and foam half as much again;
-//! where all stands in one shader, a CPU, and in part a GPU, pays for it everywhere.
-//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the arguments of
-//! `composite`.
+//! Not in the thesis. Shading two layers costs twice as much as shading one, and foam half as much again. In a
+//! single shader a CPU, and partly a GPU, would pay for it everywhere.
+//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the
+//! arguments of `composite`.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -29,22 +29,22 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// Kinds of tiles: one sheet or two, without foam or with it, at the first level alone or not.
+/// Kinds of tiles: one layer or two, without or with foam, first level only or not.
 pub const KINDS: u32 = 8;
-/// Where in the arguments the dispatches begin, in bytes: after a draw of each kind.
+/// Byte offset of the dispatches in the arguments: after one draw per kind.
 pub const DISPATCHES: u64 = 16 * KINDS as u64;
 
 /// The pass.
 pub struct Split {
     split: Pipeline,
     end: Pipeline,
-    /// Tiles of each kind: one sheet, two, the same with foam, all these with coarser levels; each list has room
-    /// for all of the first level.
+    /// Tiles of each kind: one layer, two, the same with foam, all these with coarser levels. Each list has
+    /// room for all tiles of the first level.
     pub lists: Buffer,
     lengths: Buffer,
-    /// Draws, then dispatches, of each kind.
+    /// Draws, then dispatches, one per kind.
     pub arguments: Buffer,
-    /// Most tiles of a list.
+    /// Capacity of a list in tiles.
     pub most: u32,
 }
 

@@ -1,13 +1,15 @@
-//! Pass `spray`: particles too few together to be a body of water (thesis Sec. 4.3 and 4.9.5).
+//! Pass `spray`: droplets of low-density particles, which are too few together to form a body of water (thesis
+//! Sec. 4.3 and 4.9.5).
 //!
-//! What of a particle its density makes spray is drawn as droplets round it, each a sprite that faces
-//! the eye and streaks along its motion; `composite` lays them over all else. The source draws one
-//! sprite a particle, added to the picture, which shows as a disc near the eye. Sums of optical depth
-//! need no order: each droplet adds whole steps, so fine ones that far droplets, which are thinned to be a pixel wide,
-//! are many of them still, and what is less than one is rounded by chance (glsl/include/whole_steps.glsl).
-//! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray,
-//! RG32F (RG16F, of coarser steps, where a device does not blend that), optical depth of the droplets before scene
-//! and water, and how much of it the sun lights.
+//! The part of a particle that its density classifies as spray is drawn as droplets around it, each a sprite
+//! that faces the camera and streaks along its motion; `composite` lays them over everything else. The thesis
+//! adds one sprite per particle to the picture, which shows as a disc near the camera. Sums of optical depth
+//! need no order: each droplet adds fixed-point steps. The steps are so fine that distant droplets, which are
+//! thinned to be a pixel wide, still add several; fractions of a step are rounded stochastically
+//! (glsl/include/whole_steps.glsl).
+//! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (RG16F,
+//! with coarser steps, where a device does not blend that): optical depth of the droplets in front of scene and
+//! water, and its sunlit part.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -32,7 +34,7 @@ use crate::gpu::target::Target;
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 32;
 
-/// Read by compute (`reduce`) and by what shades.
+/// Read by compute (`reduce`) and by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
@@ -72,7 +74,7 @@ shader::assert_layout!(
 pub struct Spray {
     sprites: Sprites,
     draw: Pipeline,
-    /// Optical depth, a full-resolution texel each.
+    /// Optical depth, at full resolution.
     target: Target,
 }
 
@@ -116,13 +118,13 @@ impl Spray {
         self.target.resize(gpu, &desc(gpu, config), retired)
     }
 
-    /// Optical depth of the droplets, and of those that the sun lights.
+    /// Optical depth of the droplets, and of their sunlit part.
     pub fn image(&self) -> &Image {
         &self.target.image
     }
 
-    /// `list`: of `cull`, for its counts. `depth`: of the water, as its pass left it; it comes back
-    /// so.
+    /// `list`: the one of `cull`, for its counts. `depth`: of the water, in the state in which pass `depth`
+    /// leaves it, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -1,5 +1,5 @@
-//! What passes over the host's particles share: the binding of the streams they read, chunk by chunk,
-//! and for `foam`, `spray` and `noise` the sprites that such a pass lists and a draw or a dispatch reads.
+//! Shared by passes over the host's particles: the binding of the streams that they read, chunk by chunk, and
+//! for `foam`, `spray` and `noise` the list of sprites that a draw or a dispatch reads.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -16,16 +16,17 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader::Shader;
 
-/// Workgroups over a chunk at most; more particles share them. With 64 invocations each they fill the
-/// largest device; groups past the count, which the CPU need not know, would be started for nothing.
+/// Maximum number of workgroups per chunk; if there are more particles an invocation processes several. With 64
+/// invocations each they fill the largest device. The CPU need not know the count, and groups beyond it would
+/// be started for nothing.
 const MOST_GROUPS: u32 = 4096;
 
-/// A dispatch over the particles, an invocation each.
+/// A dispatch over the particles, one invocation each.
 pub struct Over<'a, const N: usize> {
     pub particles: &'a Particles,
-    /// What is read beside the positions; of one that is not there the window's stride is 0.
+    /// Streams besides the positions; the window of an absent one has stride 0.
     pub streams: [&'a Option<Stream>; N],
-    /// Of the positions; the streams follow.
+    /// Binding of the positions; the streams follow.
     pub binding: u32,
 }
 
@@ -35,8 +36,8 @@ impl<const N: usize> Over<'_, N> {
         self.binding + 1 + N as u32
     }
 
-    /// One chunk of `list`. `own`: the pass' other resources. `push`: its constants, from the chunk's
-    /// first particle, the positions and the streams.
+    /// Records one chunk of `list`. `own`: the pass' other resources. `push`: builds its constants from the
+    /// chunk's first particle, the positions and the streams.
     pub fn record<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -62,20 +63,21 @@ impl<const N: usize> Over<'_, N> {
     }
 }
 
-/// Sprites of the particles of one kind: listed by a dispatch, drawn by an instance each, or by an
-/// invocation.
+/// Sprites of one kind: listed by a dispatch, then drawn with one instance each, or processed by one invocation
+/// each.
 pub struct Sprites {
     list: Pipeline,
     buffer: Buffer,
     /// Bytes of a sprite.
     size: u64,
-    /// How they are read.
+    /// State in which they are read.
     read: Access,
 }
 
 impl Sprites {
-    /// `shader`, specialised by `constants`: lists them. Its bindings are the frame's uniforms, positions,
-    /// streams, `Counts`, sprites, members, and what is the pass' own. `read`: by a draw's vertices, or by compute.
+    /// `shader`, specialised by `constants`, lists them. Its bindings are the frame's uniforms, positions,
+    /// streams, `Counts`, sprites, members, and the pass' own. `read`: by a draw's vertex shader, or by
+    /// compute.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -95,8 +97,8 @@ impl Sprites {
         })
     }
 
-    /// Lists them. `list`: of `cull`, for its counts, which come and go as [`LIST_USE`]. `own`, `push`: as
-    /// [`Over::record`].
+    /// Lists them. `list`: the one of `cull`, for its counts, in the state [`LIST_USE`] before and after.
+    /// `own`, `push`: as [`Over::record`].
     pub fn record<P: NoUninit, const N: usize>(
         &self,
         r: &Recording<'_>,
@@ -127,8 +129,8 @@ impl Sprites {
         Ok(())
     }
 
-    /// Draws them, inside a render pass; they are binding 1. `arguments`: where in `Counts` those of
-    /// the draw are.
+    /// Draws them inside a render pass; they are binding 1. `arguments`: offset of the draw's arguments in
+    /// `Counts`.
     pub fn draw(
         &self,
         r: &Recording<'_>,
@@ -149,9 +151,9 @@ impl Sprites {
         Ok(())
     }
 
-    /// The same by a dispatch, outside a render pass; `Counts` are binding 4. By exactly as many groups as
-    /// there are sprites for: a CPU shares them among its threads beforehand, many without work at the end
-    /// leave all of it to one.
+    /// Processes them by a dispatch outside a render pass; `Counts` are binding 4. It has exactly as many
+    /// groups as there are sprites for: a CPU distributes groups to threads in advance, and empty groups at the
+    /// end would leave all work to one.
     pub fn splat(
         &self,
         r: &Recording<'_>,
@@ -173,7 +175,7 @@ impl Sprites {
         Ok(())
     }
 
-    /// A chunk's part of them.
+    /// A chunk's part of the sprites.
     fn chunk(&self, list: &SphereList, index: u32) -> Resource {
         let bytes = self.size * u64::from(list.chunk_size);
         Resource::Buffer(self.buffer.handle, bytes * u64::from(index), bytes)

@@ -1,17 +1,17 @@
-//! Pass `thickness`: metres of water along z at each pixel (thesis Sec. 3.2.2, Eq. 3.4 as its
-//! Listing A.15 has it).
+//! Pass `thickness`: metres of water along z per pixel (thesis Sec. 3.2.2, Eq. 3.4 as in Listing A.15).
 //!
-//! The amplitude is such that a sprite's integral over its plane is the particle's volume (the
-//! source's unit is arbitrary): absorption is per metre, and the look does not depend on how many
-//! particles resolve the same water. At a quarter of the resolution by default, upsampled by `composite` with
-//! the weights of the surface. Two ways: additive sprites, and fixed-point atomic sums, whose
-//! order is no matter.
-//! Where `gaps` has found two sheets a second image holds that of each, and of a window of a spacing
-//! round the boundary: water there says that they are one.
-//! With foam there is a second channel, of the water before the frontmost (the source asks once a
-//! particle, Listing A.14; here it is once a fragment).
-//! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `foam`. Writes: thickness, R32F or RG32F;
-//! sheets, RGBA32F (front, back, window).
+//! The amplitude is such that a sprite's integral over its plane is the particle's volume (the thesis' unit is
+//! arbitrary). Absorption is then per metre, and the look does not depend on how many particles resolve the
+//! same water. A quarter of the resolution by default, upsampled by `composite` with the weights of the
+//! surface. Two paths: additive sprites, and fixed-point atomic sums, which are independent of the order.
+//!
+//! Where `gaps` has found two layers a second image holds the thickness of each, and of a window of one spacing
+//! around the boundary: water in that window means that the layers are one.
+//!
+//! With foam there is a second channel, the water in front of the frontmost foam (the thesis decides this per
+//! particle, Listing A.14; here it is per fragment).
+//! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `foam`. Writes: thickness,
+//! R32F or RG32F; sheets, RGBA32F (front, back, window).
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -57,15 +57,15 @@ enum Path {
     },
 }
 
-/// Pipelines of the compute path for the front sheet and the window.
+/// Pipelines of the compute path for the front layer and the window.
 struct Apart {
     small: Pipeline,
     large: Pipeline,
     resolve: Pipeline,
 }
 
-/// Bytes of the compute path's sums: two words a texel of all water, with foam of what is before it, and with two
-/// sheets of the front one and of the window.
+/// Bytes of the compute path's sums: two words per texel for all water, with foam two for the water in front of
+/// it, and with two layers two each for the front one and the window.
 pub fn sum_bytes(config: &Config) -> u64 {
     let size = reduced(config.extent, config.thickness_level);
     let sums = u64::from(config.foam) + if config.sheets > 1 { 3 } else { 1 };
@@ -75,11 +75,11 @@ pub fn sum_bytes(config: &Config) -> u64 {
 /// The pass.
 pub struct Thickness {
     path: Path,
-    /// Thickness along z, of all water.
+    /// Thickness along z of all water.
     pub image: Image,
-    /// The same of each of two sheets.
+    /// Thickness of each of two layers.
     pub sheets: Option<Image>,
-    /// Times halved.
+    /// Number of halvings.
     pub level: u32,
 }
 
@@ -224,7 +224,7 @@ impl Thickness {
         Ok(())
     }
 
-    /// Without boundaries there is one sheet.
+    /// Without boundaries there is one layer.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -1,8 +1,8 @@
-//! Pass `tiles`: the list of 16×16 tiles (of reduced pixels, of all levels) that hold water,
-//! sorted by their iterations, and the arguments of every draw and dispatch over them.
+//! Pass `tiles`: the list of 16×16 tiles (of smoothing texels, all levels) that hold water, sorted by their
+//! iteration counts, and the arguments of every draw and dispatch over them.
 //!
-//! Not in the source, which runs full-screen quads: with the iterations planned, the tiles that
-//! still work in iteration i are a prefix of the list, so that one counting sort writes all gates.
+//! Not in the thesis, which draws full-screen quads. Iteration counts are known in advance, so the tiles that
+//! are still active in iteration i are a prefix of the list, and one counting sort writes all gates.
 //! Reads: each tile's work, levels. Writes: list, arguments.
 
 use ash::vk;
@@ -21,13 +21,13 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// Edge of a tile in reduced pixels.
+/// Side length of a tile in smoothing texels.
 pub const TILE: u32 = 16;
-/// Workgroups of a dispatch over tiles; more tiles share them.
+/// Maximum number of workgroups over tiles; if there are more tiles, a group processes several.
 pub const MOST_GROUPS: u32 = 65_535;
 /// Arguments of 16 bytes: the draw of all tiles, 257 dispatches, the dispatch of all tiles.
 const ARGUMENTS: u64 = 16 * 259;
-/// Offset of the last.
+/// Byte offset of the last.
 pub const ALL_TILES: u64 = 16 * 258;
 
 #[repr(C)]
@@ -40,14 +40,14 @@ struct Push {
 /// The pass.
 pub struct Tiles {
     pipeline: Pipeline,
-    /// Most iterations + 1 of each tile, row by row; 0 without water.
+    /// Maximum iterations + 1 of each tile, row by row; 0 without water.
     pub work: Buffer,
-    /// Indices of tiles with water, most work first.
+    /// Indices of tiles with water, largest work first.
     pub list: Buffer,
-    /// `[0]` a draw of all of them (strip of four, one instance each); `[i]` the dispatch of
+    /// `[0]`: a draw of all tiles (a strip of four vertices, one instance each). `[i]`: the dispatch of
     /// iteration i, with the number of tiles in its fourth word.
     pub arguments: Buffer,
-    /// How they lie.
+    /// Layout of the levels.
     pub atlas: Atlas,
 }
 

@@ -1,20 +1,20 @@
-//! What is solid besides a step's own: distances at the points of a grid.
+//! Solids besides those of a step: a distance field on a grid.
 
 use glam::Vec3;
 
 use crate::error::Error;
 
-/// Distances from a solid of any shape, negative inside, at the points of a grid; between them they are even. Beyond the
-/// grid there is nothing.
+/// Signed distances from a solid of any shape, negative inside, at the points of a grid, interpolated linearly
+/// in between. Outside the grid there is nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
-    /// Points each way, 2 to 1024; x runs fastest.
+    /// Points along each axis, 2 to 1024; x varies fastest.
     pub points: [u32; 3],
-    /// The first point.
+    /// Position of the first point.
     pub corner: [f32; 3],
-    /// From one to the next.
+    /// Distance between neighbouring points.
     pub edge: f32,
-    /// As many as there are points.
+    /// Distances, one per point.
     pub distances: Vec<f32>,
 }
 
@@ -35,7 +35,7 @@ impl DistanceField {
         Ok(())
     }
 
-    /// Whether a device binds it all at once, up to so many bytes.
+    /// Checks that the field fits in one binding of `most` bytes.
     pub(super) fn check_binding(&self, most: u32) -> Result<(), Error> {
         let bytes = size_of_val(&self.distances[..]);
         if bytes as u64 <= u64::from(most) {
@@ -48,9 +48,10 @@ impl DistanceField {
         Err(Error::bad("DistanceField", why))
     }
 
-    /// Of a mesh (three corners a triangle), on a grid of points `edge` apart that goes `margin` beyond it. The inside is
-    /// where the mesh winds round a point (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation using
-    /// Generalized Winding Numbers, 2013): it may have holes and cross itself. By all triangles for each point, once.
+    /// The field of a mesh (three corners per triangle), on a grid with points `edge` apart and a margin of
+    /// `margin` around it. A point is inside by its winding number (Jacobson, Kavan, Sorkine-Hornung, Robust
+    /// Inside-Outside Segmentation using Generalized Winding Numbers, 2013), so the mesh may have holes and
+    /// intersect itself. The cost is points times triangles.
     ///
     /// # Errors
     /// No triangles, corners that are not finite, more than 1024 points in a row.
@@ -105,7 +106,7 @@ fn to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
     along(a, b).min(along(b, c)).min(along(c, a))
 }
 
-/// Of a triangle seen from 0 (Van Oosterom, Strackee 1983).
+/// Solid angle of a triangle seen from the origin (Van Oosterom, Strackee 1983).
 fn solid_angle([a, b, c]: [Vec3; 3]) -> f32 {
     let (x, y, z) = (a.length(), b.length(), c.length());
     let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;

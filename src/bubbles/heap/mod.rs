@@ -1,9 +1,8 @@
-//! Pass `heap`: blobs that move (Huszár, Szécsi, Sec. 6), on the GPU, where the source has the CPU.
+//! Pass `heap`: blob dynamics on the GPU (Huszár, Szécsi, Sec. 6; the paper uses the CPU).
 //!
-//! A blob is a ball: neighbours pull each other when near and push when nearer, all fall, roll and rub on what is solid.
-//! One that is torn off splits in two, and these again. A step is cut into several, in each of which a hashed grid finds
-//! the neighbours. Those of a bucket stand in the order of their ids, so that the same blobs move the same in every run,
-//! whatever their order.
+//! A blob is a ball: near neighbours attract, nearer ones repel, all fall, roll and rub on solids. A torn-off
+//! blob splits in two, repeatedly. A step has several substeps, each of which finds neighbours with a hashed
+//! grid. Buckets are sorted by id, so the same blobs move identically in every run, in any order.
 //! Reads: the host's streams and solids. Writes: balls, turns, ids, velocities.
 
 mod field;
@@ -89,7 +88,7 @@ shader::assert_layout!(
 
 struct Pipelines {
     set: Pipeline,
-    /// Numbers, which.
+    /// Two dispatches: counts, then entries.
     place: [Pipeline; 2],
     order: Pipeline,
     run: Pipeline,
@@ -110,7 +109,7 @@ struct Buffers {
 }
 
 impl Buffers {
-    /// What there is of each blob, as every shader binds it.
+    /// Buffers of the blobs' attributes, as every shader binds them.
     fn blobs(&self) -> [(u32, Resource); 6] {
         let own = [&self.balls, &self.turns, &self.ids, &self.drifts, &self.spins];
         std::array::from_fn(|i| match own.get(i) {
@@ -121,14 +120,14 @@ impl Buffers {
 }
 
 struct HeapSlot {
-    /// Of `record_set` and of a step: one command buffer may have both.
+    /// Descriptors of `record_set` and of a step: one command buffer may have both.
     setting: Descriptors,
     descriptors: Descriptors,
     timer: Timer,
     solids: Buffer,
 }
 
-/// Blobs of bubble foam that move. Views share them.
+/// A simulation of bubble-foam blobs. Views share it.
 pub struct Heap {
     gpu: Arc<Gpu>,
     config: HeapConfig,
@@ -136,21 +135,22 @@ pub struct Heap {
     buffers: Buffers,
     scan: Scan,
     slots: Vec<HeapSlot>,
-    /// Buckets of the grid.
+    /// Number of grid buckets.
     buckets: u32,
-    /// Points of the field of distances each way, its corner and edge.
+    /// Points of the distance field along each axis, its corner and point distance.
     field: ([u32; 3], [f32; 4]),
     count: u32,
-    /// The largest radius, by which cells are.
+    /// The largest radius, which sizes the grid cells.
     largest: f32,
 }
 
 impl Heap {
-    /// Makes pipelines and memory: 140 to 144 bytes a place, 4 a point of the field, for each slot 48 a solid; there are
-    /// 2^[`halvings`](HeapConfig::halvings) places a blob. `field`: what is solid besides the steps' own.
+    /// Makes pipelines and memory: 140 to 144 bytes per slot, 4 per point of the field, and for each frame in
+    /// flight 48 per solid. There are 2^[`halvings`](HeapConfig::halvings) slots per blob. `field`: solids
+    /// besides those of the steps.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(
         context: &Context,
         config: &HeapConfig,
@@ -255,8 +255,8 @@ impl Heap {
         })
     }
 
-    /// Records that these are the blobs: as the host has them, at rest or with velocities (3×f32, m/s). `largest`: the
-    /// largest of their radii, by which neighbours are looked for.
+    /// Records the initial blobs: the host's, at rest or with velocities (3×f32, m/s). `largest` is their
+    /// largest radius, which sizes the grid cells.
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command.
@@ -276,7 +276,10 @@ impl Heap {
         let most = ("HeapConfig.max_blobs", self.config.max_blobs);
         let count = check::count(fields, blobs.count, most, &self.gpu.limits)?;
         if matches!(blobs.count, Count::Gpu { .. }) {
-            return Err(Error::bad("Blobs.count", "of a buffer: known to the host expected"));
+            return Err(Error::bad(
+                "Blobs.count",
+                "Count::Gpu, expected Count::Cpu: the CPU sizes the simulation",
+            ));
         }
         let most = ("what the device binds of all blobs", self.stride());
         blobs.balls.check("Blobs.balls", 16, count, most)?;
@@ -449,8 +452,8 @@ impl Heap {
         Stream { buffer: self.buffers.spins.handle, ..self.velocities() }
     }
 
-    /// How many there may be with the halves of those that were set: `Config::bubbles` must have as many. Places that none
-    /// has are all 0.
+    /// Maximum number of blobs, including the halves of split ones. `Config::bubbles` has to allow as many.
+    /// Unused slots are all zeros.
     pub fn count(&self) -> u32 {
         self.count << self.config.halvings
     }
@@ -477,22 +480,22 @@ impl Heap {
             + self.slots.iter().map(|slot| slot.solids.size).sum::<u64>()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);
         gpu.destroy();
     }
 
-    /// Longest stride of a stream of all blobs.
+    /// Maximum stride of a stream, so that all blobs fit in one binding.
     fn stride(&self) -> u32 {
         (self.gpu.limits.max_storage_buffer_range / self.config.max_blobs) & !3
     }
 
-    /// Everything that can be wrong with a step.
+    /// Validates a step.
     fn check(&self, step: &HeapStep<'_>) -> Result<(), Error> {
         check::step(["HeapStep.slot", "HeapStep.dt"], step.slot, self.slots.len(), step.dt)?;
         range("HeapStep.dt", step.dt, 0.0, 1.0)?;

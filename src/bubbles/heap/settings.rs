@@ -1,4 +1,4 @@
-//! What a heap is asked for: how blobs move, what they run against, how many there are.
+//! Settings of the blob simulation: how blobs move, what they collide with, and how many there are.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -12,40 +12,44 @@ const MOST_SUBSTEPS: u32 = 64;
 /// How blobs move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeapSettings {
-    /// m/s², default (0, −9.81, 0).
+    /// Gravity, m/s², default (0, −9.81, 0).
     pub gravity: [f32; 3],
-    /// What the air takes of their speed, 1/s, [0, 100], default 0.8.
+    /// Linear air drag, 1/s, [0, 100], default 0.8.
     pub drag: f32,
-    /// How far apart neighbours rest, in sums of their radii, (0, 1), default 0.75: they lie in each other.
+    /// Rest distance between neighbours, relative to the sum of their radii, (0, 1), default 0.75: they
+    /// overlap.
     pub rest: f32,
-    /// How near they pull each other, in sums of their radii, above `rest` to 1.2, default 0.95.
+    /// Distance within which neighbours attract each other, relative to the sum of their radii, from `rest` to
+    /// 1.2, default 0.95.
     pub reach: f32,
-    /// How much they push, m/s² a metre, (0, 100 000], default 4000.
+    /// Repulsion, m/s² per metre, (0, 100 000], default 4000.
     pub stiffness: f32,
-    /// How much they pull at most, m/s², [0, 1000], default 12.
+    /// Maximum attraction, m/s², [0, 1000], default 12.
     pub cohesion: f32,
-    /// What two that touch take of each other's speed, along and across, 1/s, [0, 100], default 12 and 6.
+    /// Damping of the relative velocity of two touching blobs, along and across their axis, 1/s, [0, 100],
+    /// default 12 and 6.
     pub damping: [f32; 2],
-    /// Distance at which solids begin, in radii, (0, 1], default 0.85: foam clings to what it lies on.
+    /// Distance at which solids begin to repel, in radii, (0, 1], default 0.85: foam adheres to what it lies
+    /// on.
     pub contact: f32,
-    /// How much solids push, m/s² a metre, (0, 100 000], default 20 000.
+    /// Repulsion of solids, m/s² per metre, (0, 100 000], default 20 000.
     pub solidity: f32,
-    /// What solids take of the speed along their normal, 1/s, [0, 200], default 60.
+    /// Damping of the velocity along a solid's normal, 1/s, [0, 200], default 60.
     pub solid_damping: f32,
     /// Coefficient of friction on solids, [0, 10], default 0.35.
     pub friction: f32,
-    /// Level of water that they float on, metres; default: none.
+    /// Level of the water that blobs float on, metres. Default `None`: no water.
     pub water: Option<f32>,
-    /// Density of the foam over the water's, [0.01, 10], default 0.2.
+    /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
-    /// A blob splits in two where those that it touches have less than so many times its volume, [0, 100], default 2.5: one
-    /// that is torn off becomes a clump of four and more. With [`HeapConfig::halvings`].
+    /// A blob splits in two if the blobs that it touches have less than this many times its volume, [0, 100],
+    /// default 2.5. A torn-off blob becomes a clump of four and more. With [`HeapConfig::halvings`].
     pub support: f32,
-    /// For so long, seconds, [0, 10], default 0.1.
+    /// Time that a blob must be isolated before it splits, seconds, [0, 10], default 0.1.
     pub alone: f32,
-    /// In which its halves part: one shrinks as the other grows out of it. Seconds, [0.01, 10], default 0.5.
+    /// Duration of a split, seconds, [0.01, 10], default 0.5: one half shrinks as the other grows out of it.
     pub parting: f32,
-    /// Parts of a step, 1 to 64, default 4: forces are stable to parts of 1/200 s.
+    /// Substeps per step, 1 to 64, default 4. Forces are stable for substeps of up to 1/200 s.
     pub substeps: u32,
 }
 
@@ -102,28 +106,28 @@ impl HeapSettings {
     }
 }
 
-/// What blobs run against.
+/// What blobs collide with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solid {
-    /// All that lies behind a plane: `normal · x < distance`.
+    /// A half space: everything behind a plane, `normal · x < distance`.
     Plane {
         /// Unit length.
         normal: [f32; 3],
-        /// Of the plane from 0, along the normal.
+        /// Distance of the plane from the origin along the normal, metres.
         distance: f32,
     },
-    /// A box.
+    /// An oriented box.
     Box {
-        /// Its middle.
+        /// Centre.
         center: [f32; 3],
-        /// Half its edges.
+        /// Half-extents.
         half: [f32; 3],
-        /// How it is turned: a unit quaternion, the real part last.
+        /// Orientation: a unit quaternion, the real part last.
         turn: [f32; 4],
     },
 }
 
-/// The same for the shader (glsl/include/solid.glsl).
+/// A solid as the shader reads it (glsl/include/solid.glsl).
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuSolid {
@@ -163,34 +167,34 @@ impl Solid {
     }
 }
 
-/// What fixes the memory of a [`Heap`](super::Heap).
+/// Configuration of a [`Heap`](super::Heap): what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HeapConfig {
-    /// Most blobs, 1 to 2^20.
+    /// Maximum number of blobs, 1 to 2^20.
     pub max_blobs: u32,
-    /// Most solids of a step, default 64.
+    /// Maximum number of solids per step, default 64.
     pub max_solids: u32,
-    /// How often a blob may split in two ([`HeapSettings::support`]), 0 to 6, default 0. There are places for 2^halvings
-    /// times `max_blobs`, 2^20 in all at most.
+    /// Maximum number of successive splits of a blob ([`HeapSettings::support`]), 0 to 6, default 0. The heap
+    /// has 2^halvings times `max_blobs` slots, at most 2^20.
     pub halvings: u32,
 }
 
 impl HeapConfig {
-    /// The defaults for so many blobs.
+    /// The defaults for a maximum number of blobs.
     pub fn new(max_blobs: u32) -> Self {
         Self { max_blobs, max_solids: 64, halvings: 0 }
     }
 }
 
-/// One step of a heap.
+/// One step of the simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct HeapStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// Seconds, [0, 1].
+    /// Duration in seconds, [0, 1].
     pub dt: f32,
     /// Uniform settings.
     pub settings: &'a HeapSettings,
-    /// What is solid, as it is at the step's end.
+    /// Solids, in their state at the end of the step.
     pub solids: &'a [Solid],
 }

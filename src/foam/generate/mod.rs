@@ -1,15 +1,15 @@
-//! Diffuse particles of a fluid that has none: spray, foam and bubbles by where the water traps air, where its waves
-//! break and how fast it is (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for particle-based
-//! fluids, 2012).
+//! Whitewater emission for a fluid that has none: spray, foam and bubbles where the water traps air, where its
+//! waves break and where it is fast (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for
+//! particle-based fluids, 2012).
 //!
-//! A step finds the fluid's neighbours by a hashed grid, moves the diffuse particles on, and adds new ones. What they
-//! are made of is summed in whole steps, places are given by prefix sums and random numbers belong to ids: a
-//! sequence gives the same particles in every run, and however it is cut into jobs
-//! ([`Generator::record_save`]). Only where more than 256 of the fluid share a bucket of the grid, thirty times what
-//! water has in a cell, does it depend on the device which of them are looked at. Of a single frame a snapshot
-//! ([`Generator::record_snapshot`]) has what a steady flow like it would have left: by the water that each particle of the
-//! fluid comes from.
-//! Reads: the fluid's positions, velocities and ids. Writes: diffuse particles, potentials.
+//! A step finds the fluid's neighbours with a hashed grid, advances the whitewater particles, and emits new
+//! ones. Emission is summed in fixed-point steps, slots come from prefix sums, and random numbers depend on
+//! ids. A sequence therefore gives the same particles in every run, however it is cut into jobs
+//! ([`Generator::record_save`]). The exception: if more than 256 fluid particles share a grid bucket, thirty
+//! times what water holds in a cell, the device decides which of them are visited. For a single frame a
+//! snapshot ([`Generator::record_snapshot`]) gives what a steady flow would have left, by tracing each fluid
+//! particle back along the flow.
+//! Reads: the fluid's positions, velocities and ids. Writes: whitewater particles, potentials.
 
 mod passes;
 pub mod settings;
@@ -35,7 +35,7 @@ struct GeneratorSlot {
     timer: Timer,
 }
 
-/// Spray, foam and bubbles of one body of water, made of its particles step by step. Views share them.
+/// Whitewater of one body of water, emitted from its particles step by step. Views share it.
 pub struct Generator {
     gpu: Arc<Gpu>,
     config: GenerateConfig,
@@ -48,10 +48,10 @@ pub struct Generator {
 }
 
 impl Generator {
-    /// Makes pipelines and memory: 76 to 80 bytes a particle of the fluid, 44 a diffuse one.
+    /// Makes pipelines and memory: 76 to 80 bytes per fluid particle, 44 per whitewater particle.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(context: &Context, config: &GenerateConfig) -> Result<Self, Error> {
         config.check()?;
         let gpu = Gpu::new(context);
@@ -75,12 +75,12 @@ impl Generator {
         }
     }
 
-    /// Records one step: the diffuse particles move on, and the fluid makes new ones. Never submits, waits or
+    /// Records one step: whitewater particles advance, and the fluid emits new ones. Never submits, waits or
     /// allocates device memory.
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command; after any other error discard the
-    /// command buffer and tell with [`abandon`](Self::abandon).
+    /// command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
     /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
@@ -93,9 +93,10 @@ impl Generator {
         self.record_any(cmd, step, false)
     }
 
-    /// Records a snapshot in place of a step: the diffuse particles that there would be if the fluid had moved like this for
-    /// as long as foam lives, whatever was before. What each particle's water made is looked for back along the flow, at 15
-    /// moments; foam is as old as that is long ago. [`GenerateStep::dt`] is of no effect. Steps may follow.
+    /// Records a snapshot instead of a step: the whitewater that there would be if the fluid had always moved
+    /// as it does now, whatever was before. The fluid is traced back along the flow to 15 moments of the
+    /// longest lifetime; what was emitted then is aged accordingly. [`GenerateStep::dt`] has no effect. Steps
+    /// may follow.
     ///
     /// # Errors
     /// As [`record_step`](Self::record_step).
@@ -133,7 +134,7 @@ impl Generator {
         Ok(())
     }
 
-    /// Records that there are no diffuse particles again.
+    /// Records a reset to no whitewater particles.
     ///
     /// # Safety
     /// As [`record_step`](Self::record_step).
@@ -142,9 +143,9 @@ impl Generator {
         self.passes.record_clear(&self.gpu, cmd);
     }
 
-    /// The diffuse particles after the last step, for [`Frame::diffuse`](crate::Frame::diffuse) of renderers on the
-    /// same queue whose [`DiffuseConfig::max_stride`](super::DiffuseConfig) is 16 or more. Their buffers are transfer
-    /// sources too.
+    /// The whitewater particles after the last step, for [`Frame::diffuse`](crate::Frame::diffuse) of renderers
+    /// on the same queue whose [`DiffuseConfig::max_stride`](super::DiffuseConfig) is at least 16. Their
+    /// buffers also have transfer-source usage.
     pub fn particles(&self) -> DiffuseParticles {
         let buffers = &self.passes.buffers;
         let [particles, drifts, kinds] =
@@ -174,16 +175,17 @@ impl Generator {
         Stream { buffer: own.handle, size, offset: 0, stride: stride as u32 }
     }
 
-    /// Of each particle of the last step's fluid, in its order, four `f32`: trapped air, wave crest, energy, number
-    /// of neighbours, as [`GenerateSettings`] has them; zeros of particles that take no part. Transfer source.
+    /// Potentials of each fluid particle of the last step, in its order, four `f32`: trapped air, wave crest,
+    /// energy, number of neighbours, in the units of [`GenerateSettings`]; zeros for particles that take no
+    /// part. Transfer source.
     pub fn potentials(&self) -> vk::Buffer {
         self.passes.buffers.potentials.handle
     }
 
-    /// Six `u32`: places in the streams of [`particles`](Self::particles) that were ever taken; particles of the last
-    /// step's fluid; of them those that take part; free places before the step's new particles; new particles, those
-    /// among them that were lost for want of room; all that ever were. Transfer source; as the potentials last
-    /// written by a compute shader, then free to be read.
+    /// Six `u32`: slots in the streams of [`particles`](Self::particles) that were ever used; fluid particles
+    /// of the last step; those of them that took part; free slots before the step's emission; emitted
+    /// particles, including those lost for lack of slots; all particles ever emitted. Transfer source; like the
+    /// potentials last written by a compute shader, then free to be read.
     pub fn counts(&self) -> vk::Buffer {
         self.passes.buffers.counts.handle
     }
@@ -193,9 +195,9 @@ impl Generator {
         self.passes.size()
     }
 
-    /// Records a copy of the state after the last step into a buffer of the host's, from which
-    /// [`record_restore`](Self::record_restore) brings it back, here or in another run with the same
-    /// configuration: a sequence goes on as if it had not been cut.
+    /// Records a copy of the state after the last step into a buffer of the host.
+    /// [`record_restore`](Self::record_restore) restores it, here or in another run with the same
+    /// configuration, and the sequence continues as if it had not been interrupted.
     ///
     /// # Safety
     /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of
@@ -224,8 +226,8 @@ impl Generator {
         }
     }
 
-    /// Says that the step recorded last, with this slot, was thrown away: the state is that before it. Earlier steps
-    /// cannot be taken back; [`record_restore`](Self::record_restore) can.
+    /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before
+    /// it. Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore).
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(own) = self.slots.get_mut(slot.0 as usize) {
             own.timer.abandon();
@@ -240,10 +242,10 @@ impl Generator {
         self.passes.memory()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);

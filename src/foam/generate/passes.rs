@@ -19,9 +19,9 @@ use crate::gpu::shader;
 use crate::gpu::timing::Timer;
 use crate::water::{Window, capacity, each_once};
 
-/// Groups of a dispatch at most: their invocations go on from place to place.
+/// Maximum number of groups per dispatch; their invocations loop over the remaining items.
 pub const MOST_GROUPS: u32 = 4096;
-/// Particles of a chunk at most, as many as the device binds of a stride.
+/// Maximum number of particles per chunk, as many as fit in one binding of a stride.
 const MOST_CHUNK: u32 = 1 << 24;
 
 /// Words of the counts (glsl/include/generate_types.glsl).
@@ -36,12 +36,12 @@ pub enum Counts {
 
 /// Bytes of the counts.
 const COUNTS: u64 = 24;
-/// Bytes of a diffuse particle: position and age, velocity and id, kind.
+/// Bytes of a whitewater particle: position and age, velocity and id, kind.
 pub const PARTICLE: u64 = 16;
 pub const DRIFT: u64 = 16;
 pub const KIND: u64 = 4;
 
-/// How diffuse particles and potentials are used after a step.
+/// How whitewater particles and potentials are used after a step.
 pub const AFTER: Access = COMPUTE_READ.and(COPY_READ);
 
 #[repr(C)]
@@ -187,7 +187,7 @@ impl Push {
 }
 
 struct Pipelines {
-    /// Of a count that the host knows, and of one in a buffer.
+    /// Pipelines for a CPU count and for one in a buffer.
     begin: [Pipeline; 2],
     count: Pipeline,
     fill: Pipeline,
@@ -196,30 +196,30 @@ struct Pipelines {
     advance: Pipeline,
     free: Pipeline,
     trace: Pipeline,
-    /// Of a step, and of a snapshot.
+    /// Pipelines of a step and of a snapshot.
     emit: [Pipeline; 2],
     end: Pipeline,
 }
 
-/// What the passes read and write.
+/// Buffers of the passes.
 pub struct Buffers {
     pub counts: Buffer,
-    /// Where each bucket's particles end.
+    /// End of each bucket in the particle list.
     buckets: Buffer,
     places: Buffer,
     motions: Buffer,
-    /// Of a snapshot its stages, once the normals are not needed any more.
+    /// Surface normals; in a snapshot its stages, after the normals have been used.
     normals: Buffer,
-    /// What each makes, as a share of the most.
+    /// Emission rate of each particle, relative to the maximum.
     rates: Buffer,
-    /// In the order of the step's particles: trapped air, wave crest, energy, neighbours.
+    /// Potentials in the order of the step's particles: trapped air, wave crest, energy, neighbours.
     pub potentials: Buffer,
-    /// How many diffuse particles each of the fluid's makes, then how many those before it do.
+    /// Number of whitewater particles that each fluid particle emits, then its exclusive prefix sum.
     wanted: Buffer,
     pub particles: Buffer,
     pub drifts: Buffer,
     pub kinds: Buffer,
-    /// Which slots are free, then how many before each are.
+    /// Flags of free slots, then their exclusive prefix sum.
     gone: Buffer,
     free: Buffer,
 }
@@ -267,7 +267,7 @@ impl Buffers {
         ]
     }
 
-    /// What lives from step to step, with its bytes for so many: a buffer may be larger.
+    /// Persistent buffers, with their used bytes for `most` particles.
     fn state(&self, most: u32) -> [(&Buffer, u64); 4] {
         let most = u64::from(most);
         [
@@ -279,7 +279,7 @@ impl Buffers {
     }
 }
 
-/// All of it.
+/// All passes of the generator.
 pub struct Passes {
     pipelines: Pipelines,
     pub buffers: Buffers,
@@ -289,7 +289,7 @@ pub struct Passes {
     chunk: u32,
 }
 
-/// Where a step is recorded.
+/// Recording state of a step.
 struct Recorder<'a> {
     gpu: &'a Gpu,
     cmd: vk::CommandBuffer,
@@ -297,7 +297,7 @@ struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    /// What compute wrote is there for what follows.
+    /// Barrier: compute writes become visible to what follows.
     fn wait(&self) {
         let both = COMPUTE_READ_WRITE;
         let barrier = [vk::MemoryBarrier2::default()
@@ -366,12 +366,12 @@ impl Passes {
         })
     }
 
-    /// Sets of a step: one each, three scans, two a chunk.
+    /// Descriptor sets per step: one per pass, three scans, two per chunk.
     pub fn sets(&self) -> u32 {
         7 + 3 * scan::SETS + 2 * self.config.max_fluid.div_ceil(self.chunk)
     }
 
-    /// None of any diffuse particle.
+    /// Records that there are no whitewater particles.
     pub fn record_clear(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         let counts = self.buffers.counts.handle;
         gpu.barriers(cmd, &[], &[buffer(counts, AFTER, CLEAR)]);
@@ -490,7 +490,7 @@ impl Passes {
         Ok(())
     }
 
-    /// The fluid's particles by their buckets.
+    /// Records pass `grid`.
     fn record_grid(
         &self,
         r: &Recorder<'_>,
@@ -561,7 +561,7 @@ impl Passes {
         Ok(())
     }
 
-    /// The diffuse particles that there are, and the slots that are free then.
+    /// Records pass `advance`: existing particles, then the free slots.
     fn record_advance(
         &self,
         r: &Recorder<'_>,
@@ -586,7 +586,7 @@ impl Passes {
         r.dispatch(&self.pipelines.free, &resources, push, most)
     }
 
-    /// New ones, and how many there are then.
+    /// Records pass `emit`, and the final counts.
     fn record_emit(
         &self,
         r: &Recorder<'_>,

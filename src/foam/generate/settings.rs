@@ -1,21 +1,22 @@
-//! Settings of the generator of diffuse particles (Ihmsen et al. 2012).
+//! Settings of whitewater emission (Ihmsen et al. 2012).
 
 use crate::error::Error;
 use crate::water::settings::{GREATEST, range};
 
-/// What fixes the memory of a [`Generator`](super::Generator).
+/// Configuration of a [`Generator`](super::Generator): what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GenerateConfig {
-    /// Most particles of the fluid in a step, at least 1.
+    /// Maximum number of fluid particles per step, at least 1.
     pub max_fluid: u32,
-    /// Longest stride of their streams in bytes, a multiple of 4, default 16.
+    /// Maximum stride of their streams in bytes, a multiple of 4, default 16.
     pub max_stride: u32,
-    /// Most diffuse particles at a time, at least 1. Those beyond are not made, and counted.
+    /// Maximum number of whitewater particles alive at a time, at least 1. Excess ones are not emitted, and are
+    /// counted.
     pub max_particles: u32,
 }
 
 impl GenerateConfig {
-    /// The defaults for so many particles of the fluid and so many diffuse ones.
+    /// The defaults for these maximum numbers of fluid and whitewater particles.
     pub fn new(max_fluid: u32, max_particles: u32) -> Self {
         Self { max_fluid, max_stride: 16, max_particles }
     }
@@ -37,50 +38,55 @@ impl GenerateConfig {
     }
 }
 
-/// From where on a potential makes diffuse particles, and where it does so fully (`τmin`, `τmax` of Eq. 1): they
-/// do not transfer between simulations. The source's limits are an artist's; the 99.9th percentile of a
-/// sequence's potentials ([`Generator::potentials`](super::Generator::potentials)) and a tenth of it do.
+/// Range of a potential over which emission rises from none to the full rate (`τmin`, `τmax` of Eq. 1). Limits
+/// do not transfer between simulations. The paper's are an artist's choice. Good values are the 99.9th
+/// percentile of a sequence's potentials ([`Generator::potentials`](super::Generator::potentials)) for the
+/// maximum, and a tenth of it for the minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// None is made up to it, [0, most).
+    /// Potential up to which nothing is emitted, [0, most).
     pub least: f32,
-    /// From it on as many as the rate says, (least, ∞).
+    /// Potential from which the full rate applies, (least, ∞).
     pub most: f32,
 }
 
-/// What of a fluid turns into spray, foam and bubbles, and what becomes of them.
+/// How a fluid emits spray, foam and bubbles, and how these move and age.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GenerateSettings {
-    /// Spacing of the fluid's particles, scene units, (0, ∞). Neighbours are nearer than two.
+    /// Spacing of the fluid's particles, scene units, (0, ∞). Particles nearer than two spacings are
+    /// neighbours.
     pub spacing: f32,
-    /// Limits of the speed at which neighbours meet, weighted and summed (Sec. 3.1.1), scene units per second.
+    /// Limits of the trapped-air potential: the weighted sum of the speeds at which neighbours approach (Sec.
+    /// 3.1.1), scene units per second.
     pub trapped_air: Limits,
-    /// Limits of how much the surface bends where it moves outwards (Sec. 3.1.2), no unit.
+    /// Limits of the wave-crest potential: the curvature of a surface that moves outwards (Sec. 3.1.2), no
+    /// unit.
     pub wave_crest: Limits,
-    /// Limits of half the squared speed (Sec. 3.1.3 per mass), squared scene units per second.
+    /// Limits of the kinetic energy per mass, half the squared speed (Sec. 3.1.3), squared scene units per
+    /// second.
     pub energy: Limits,
-    /// Diffuse particles a second that a particle of the fluid makes of trapped air at most, [0, 1e18]; of all it
-    /// makes 64 a step at most.
+    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. The total of a
+    /// fluid particle is limited to 64 per step.
     pub trapped_air_rate: f32,
-    /// The same of wave crests.
+    /// Maximum emission of one fluid particle from wave crests, particles per second.
     pub wave_crest_rate: f32,
-    /// Seconds that foam lives, least and most, (0, ∞), default 2 and 5; spray and bubbles do not age.
+    /// Minimum and maximum lifetime of foam, seconds, (0, ∞), default 2 and 5. Spray and bubbles do not age.
     pub lifetime: [f32; 2],
     /// Acceleration, scene units per second squared, default (0, −9.81, 0).
     pub gravity: [f32; 3],
-    /// How many times gravity lifts a bubble, [0, 64], default 2 (k_b of Eq. 7).
+    /// Buoyancy of a bubble relative to gravity, [0, 64], default 2 (k_b of Eq. 7).
     pub buoyancy: f32,
-    /// What share of the water's velocity a bubble takes on in a step, [0, 1], default 0.8 (k_d of Eq. 7).
+    /// Share of the water's velocity that a bubble takes on in a step, [0, 1], default 0.8 (k_d of Eq. 7).
     pub drag: f32,
-    /// Box outside of which none lives, least and most corner; default `None`: spray, which does not age, falls for
-    /// ever then, and its room is not free.
+    /// Box (minimum and maximum corner) outside which particles die. Default `None`: spray, which does not age,
+    /// then falls forever and keeps its slot.
     pub bounds: Option<[[f32; 3]; 2]>,
-    /// Of the random numbers.
+    /// Seed of the random numbers.
     pub seed: u32,
 }
 
 impl GenerateSettings {
-    /// The defaults for limits of trapped air, wave crests and energy, and a rate of both.
+    /// The defaults, with limits of trapped air, wave crests and energy (in this order), and one rate for both sources.
     pub fn new(spacing: f32, limits: [Limits; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;
         Self {
@@ -99,11 +105,10 @@ impl GenerateSettings {
         }
     }
 
-    /// Checks the ranges; the message names the field.
-    /// What each step checks: for a host that wants to know before.
+    /// Checks the ranges, as each step does.
     ///
     /// # Errors
-    /// What is not in the range that its field tells.
+    /// [`Error::BadInput`] with the field that is out of its documented range.
     pub fn check(&self) -> Result<(), Error> {
         let most = 1.0e18;
         range("GenerateSettings.spacing", self.spacing, 1.0e-18, 1.0e18)?;

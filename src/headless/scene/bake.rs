@@ -1,5 +1,5 @@
-//! From a scene to vertices: large triangles are split, so that there are enough vertices for the
-//! light that is baked into them.
+//! Turns a scene into vertices with baked light. Large triangles are subdivided so that the vertices are
+//! dense enough for it.
 
 use std::collections::HashMap;
 
@@ -16,11 +16,12 @@ pub struct Vertex {
     pub position: [f32; 3],
     pub normal: [f32; 3],
     pub uv: [f32; 2],
-    /// Share of the sky that is seen; irradiance of bounced sunlight over the sun's.
+    /// x: visible fraction of the sky. yzw: irradiance of sunlight after one bounce, divided by the sun's.
     pub light: [f32; 4],
-    /// Albedo of what is seen beside the sky, weighted by how much of it is seen.
+    /// Mean albedo of the surfaces seen over the hemisphere, counting the sky as 0.
     pub around: [f32; 3],
-    /// How far the smooth surface that is meant bulges over the facets; of the backdrop, the share of the sun that is seen.
+    /// Distance by which the smooth surface that the facets approximate bulges over them. For the backdrop:
+    /// visible fraction of the sun.
     pub bulge: f32,
 }
 
@@ -33,10 +34,10 @@ impl Vertex {
 /// A part of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// Of `Scene.meshes`.
+    /// Index into `Scene.meshes`.
     Mesh(usize),
     Ground,
-    /// Of `Scene.backdrop`.
+    /// Index into `Scene.backdrop`.
     Backdrop(usize),
 }
 
@@ -54,13 +55,13 @@ pub struct Baked {
     pub batches: Vec<Batch>,
 }
 
-/// Longest edge of a lit triangle: this part of the scene's diagonal.
+/// Longest edge of a lit triangle: the scene's diagonal divided by this.
 const EDGES: f32 = 45.0;
-/// Vertices that splitting may make in one mesh.
+/// Largest number of vertices that subdivision may make in one mesh.
 const MOST: usize = 400_000;
 
-/// Lights the scene as it is at rest: what moves takes its light with it, and the sun's shadow is
-/// drawn anew.
+/// Bakes the light of the scene at rest. Moving meshes keep their baked light; only the shadow map follows
+/// them.
 pub fn bake(scene: &Scene) -> Baked {
     let (low, high) = scene.bounds();
     let diagonal = (high - low).length().max(1e-6);
@@ -90,7 +91,7 @@ pub fn bake(scene: &Scene) -> Baked {
 }
 
 impl Baked {
-    /// The vertices in the frame that is drawn.
+    /// The vertices with the poses of [`Scene::frame`].
     pub fn placed(&self, scene: &Scene) -> Vec<Vertex> {
         let mut vertices = self.vertices.clone();
         for batch in &self.batches {
@@ -98,7 +99,7 @@ impl Baked {
             let Some(pose) = scene.pose(mesh) else { continue };
             let turn = pose.inverse().transpose();
             let indices = batch.first as usize..(batch.first + batch.count) as usize;
-            // A mesh's vertices follow each other; those of others are of other batches.
+            // The vertices of a mesh are contiguous and belong to one batch.
             let (low, high) = self.indices[indices]
                 .iter()
                 .fold((u32::MAX, 0), |(low, high), i| (low.min(*i), high.max(*i)));
@@ -120,11 +121,12 @@ impl Baked {
     }
 }
 
-/// How far the ground goes from its middle, in sizes of the scene, and where its fade begins.
+/// Distance from its centre to which the ground extends, and the range over which it fades, in diagonals of
+/// the scene.
 pub const GROUND_REACH: f32 = 60.0;
 pub const GROUND_FADE: [f32; 2] = [6.0, 45.0];
 
-/// A mesh in world space; vertices that cannot be drawn take their triangles with them.
+/// A mesh in world space. A triangle with a vertex that is not finite is dropped.
 pub fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
     let normal_matrix = mesh.transform.inverse().transpose();
     let mut vertices: Vec<Vertex> = mesh
@@ -154,7 +156,7 @@ pub fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
             let (i, j) = (t[i] as usize, t[j] as usize);
             let (p, q) = (vertices[i], vertices[j]);
-            // Of a circle's arc over a chord: an eighth of the chord times the turn.
+            // Height of a circle's arc over its chord: an eighth of the chord times the turn of the normal.
             let turn = Vec3::from(q.normal) - Vec3::from(p.normal);
             let bulge = (0.125 * turn.dot(q.at() - p.at())).max(0.0);
             vertices[i].bulge = p.bulge.max(bulge);
@@ -164,8 +166,8 @@ pub fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
     (vertices, indices)
 }
 
-/// Splits until no edge is longer. Whether an edge is split is a matter of that edge alone, so
-/// neighbours agree and there are no T-junctions.
+/// Subdivides until no edge is longer than `longest`. The decision for an edge depends on that edge alone, so
+/// both triangles agree and no T-junctions appear.
 fn split(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, longest: f32) {
     for _ in 0..16 {
         let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
@@ -185,7 +187,7 @@ fn split(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, longest: f32) {
                 }))
             };
             let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
-            // Turned so that the case is one of: none, the first edge, the first two, all.
+            // Rotated so that the split edges are one of: none, the first, the first two, all.
             match (ab, bc, ca) {
                 (None, None, None) => out.extend([a, b, c]),
                 (Some(x), Some(y), Some(z)) => out.extend([a, x, z, x, b, y, z, y, c, x, y, z]),
@@ -215,12 +217,12 @@ fn halfway(p: &Vertex, q: &Vertex) -> Vertex {
     }
 }
 
-/// A grid, even round the scene and ever coarser outwards, to the ground's end.
+/// A grid over the ground, uniform around the scene and coarser outwards.
 fn ground_grid(ground: &Ground, low: Vec3, high: Vec3, longest: f32) -> (Vec<Vertex>, Vec<u32>) {
     let diagonal = (high - low).length().max(1e-6);
     let axis = |low: f32, high: f32| {
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low) + 0.3 * diagonal);
-        // Light varies less out here than in corners.
+        // Light on the ground varies less than in corners.
         let cells = (half / (1.2 * longest)).ceil().clamp(4.0, 120.0);
         let mut side: Vec<f32> = (0..=cells as u32).map(|i| half * i as f32 / cells).collect();
         let mut step = half / cells;

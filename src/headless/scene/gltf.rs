@@ -1,6 +1,6 @@
-//! glTF 2.0 with triangles, base colours and base-colour textures. Own, since the crate for it (gltf
-//! 1.4) panics on some damaged files, as on a component type that does not fit its use, and takes data
-//! that lie outside their buffer for none; images are decoded by the `image` crate.
+//! Reads glTF 2.0: triangles, base colours and base-colour textures. The reader is our own, because the gltf
+//! crate (1.4) panics on some damaged files, for example on a component type that does not fit its use, and
+//! ignores data outside their buffer. The `image` crate decodes images.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -124,7 +124,7 @@ struct GltfImage {
     buffer_view: Option<usize>,
 }
 
-/// Extensions that change nothing that is read here.
+/// Extensions that do not affect what is read here.
 const HARMLESS: &[&str] = &["KHR_materials_unlit", "KHR_materials_specular", "KHR_materials_ior"];
 
 pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
@@ -158,7 +158,7 @@ pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
     let (mut visited, mut size) = (0, 0);
     while let Some((index, parent, depth)) = stack.pop() {
         visited += 1;
-        // A node graph that is no tree grows without end; in a tree each is met once.
+        // A graph that is not a tree would be walked without end; in a tree each node is visited once.
         if depth > 256 || visited > document.nodes.len() {
             return Err("nodes are nested more than 256 deep, or have more than one parent".into());
         }
@@ -167,7 +167,7 @@ pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
         stack.extend(node.children.iter().map(|&child| (child, transform, depth + 1)));
         let Some(mesh) = node.mesh else { continue };
         for primitive in &at(&document.meshes, mesh, "mesh")?.primitives {
-            // 4 is a list of triangles.
+            // Mode 4 is a list of triangles.
             if primitive.mode.unwrap_or(4) != 4 {
                 continue;
             }
@@ -187,7 +187,7 @@ pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
     Ok(scene)
 }
 
-/// The JSON and the BIN chunk of a binary file; a text file is JSON alone.
+/// The JSON chunk and the BIN chunk of a `.glb`; a `.gltf` file is JSON only.
 fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     let Some(rest) = bytes.strip_prefix(b"glTF") else { return Ok((bytes, None)) };
     let word = |bytes: &[u8]| -> Option<usize> {
@@ -220,7 +220,7 @@ fn at<'a, T>(list: &'a [T], index: usize, what: &str) -> Result<&'a T, String> {
     list.get(index).ok_or_else(|| format!("expected a {what} below {}, found {index}", list.len()))
 }
 
-/// A file beside the scene's.
+/// Reads a file in the scene's folder.
 fn file(folder: Option<&Path>, uri: &str) -> Result<Vec<u8>, String> {
     if uri.contains(':') || uri.contains('%') {
         let start: String = uri.chars().take(24).collect();
@@ -253,7 +253,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The bytes of a view.
+    /// The bytes of a buffer view, and its stride if it has one.
     fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), String> {
         let view = at(&self.document.buffer_views, index, "buffer view")?;
         let buffer = at(&self.buffers, view.buffer, "buffer")?;
@@ -269,7 +269,7 @@ impl Reader<'_> {
         Ok((bytes, view.byte_stride))
     }
 
-    /// Elements of `N` components, each converted by its type.
+    /// Reads the elements of an accessor with `N` components, each converted from its type.
     fn read<T: Copy + Default, const N: usize>(
         &self,
         index: usize,
@@ -298,7 +298,7 @@ impl Reader<'_> {
         let end = last
             .and_then(|last| last.checked_add(accessor.byte_offset))
             .and_then(|start| start.checked_add(N * size));
-        // Stride 0 would make any count of elements out of a few bytes.
+        // With stride 0, a few bytes could give any number of elements.
         if stride < N * size || end.is_none_or(|end| end > bytes.len()) {
             return Err(format!(
                 "accessor {index}: {} elements, {stride} bytes apart, in {} bytes",
@@ -371,7 +371,7 @@ impl Reader<'_> {
         Ok(mesh)
     }
 
-    /// The material, and which texture coordinates it wants.
+    /// The material, and the index of the texture coordinates that it uses.
     fn material(
         &self,
         material: &GltfMaterial,
@@ -385,7 +385,7 @@ impl Reader<'_> {
         let mut made = Material::new([r, g, b], roughness, Pattern::Plain);
         let Some(info) = &pbr.base_color_texture else { return Ok((made, 0)) };
         let texture = at(&self.document.textures, info.index, "texture")?;
-        // A texture without a source is one of an optional extension.
+        // A texture without a source belongs to an optional extension.
         if let Some(source) = texture.source {
             if let std::collections::hash_map::Entry::Vacant(entry) = images.entry(source) {
                 let image = at(&self.document.images, source, "image")?;

@@ -1,5 +1,5 @@
-//! Scenes from files: glTF binary, Wavefront OBJ, and the project's own JSON. A bad file is an
-//! error that says what was expected and what was found; nothing in a file makes this panic.
+//! Reads scene files: glTF binary, Wavefront OBJ, and the project's own JSON. A bad file gives an error that
+//! says what was expected and what was found; no file makes the reader panic.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -21,14 +21,14 @@ pub struct SceneError {
     pub why: String,
 }
 
-/// Vertices and triangles that a file may have.
+/// Largest number of vertices, and of triangles, in a file.
 pub(super) const MOST: usize = 20_000_000;
 
 impl Scene {
     /// Reads a scene by its file's extension: `.glb`, `.obj` or `.json`.
     ///
     /// # Errors
-    /// Any other extension; and as the loader of the format.
+    /// Another extension, or an error of the format's loader.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
@@ -46,15 +46,15 @@ impl Scene {
     /// Reads the default scene of a glTF file: triangles, base colours and base colour textures.
     ///
     /// # Errors
-    /// The file cannot be read, is no glTF 2.0, or has what is not supported here: sparse,
-    /// compressed or base64 data.
+    /// The file cannot be read, is no glTF 2.0, or uses an unsupported feature: sparse, compressed or base64
+    /// data.
     pub fn load_glb(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
         super::gltf::parse(&bytes, path.parent()).map_err(|why| at(path, why))
     }
 
-    /// The same from memory, where no file lies beside it.
+    /// Reads a glTF scene from memory, without other files.
     ///
     /// # Errors
     /// As [`load_glb`](Self::load_glb), and where it names other files.
@@ -72,7 +72,7 @@ impl Scene {
         Self::parse_obj(&bytes).map_err(|why| at(path, why))
     }
 
-    /// The same from memory.
+    /// Reads a Wavefront file from memory.
     ///
     /// # Errors
     /// What was expected, what was found, and in which line.
@@ -80,10 +80,9 @@ impl Scene {
         super::obj::parse(bytes)
     }
 
-    /// Reads the project's own format: boxes, cylinders and tubes (upright, or turned), spheres, a
-    /// ground, a camera, and for parts that move, by their names, a pose in each frame.
-    /// Boxes whose names begin with `basin` form a basin: their faces that look into it are tiled,
-    /// with a dark row at the pool's level.
+    /// Reads the project's own format: boxes, cylinders and tubes (upright or rotated), spheres, a ground, a
+    /// camera, and for moving parts, by their names, a pose per frame. Boxes whose names begin with `basin`
+    /// form a basin: their inward faces are tiled, with a dark row at the pool's level.
     ///
     /// # Errors
     /// The file cannot be read, is no JSON of this form, or names an unknown material.
@@ -149,8 +148,8 @@ struct FileSphere {
     radius: f32,
 }
 
-/// Bodies that move: where their origin is in each frame, x y z, and how they are turned about it,
-/// x y z w, from how their parts are listed.
+/// Meshes that move together. For each frame: the position of the body's origin (x y z) and the rotation
+/// about it (quaternion x y z w), both applied to the parts as listed.
 #[derive(Deserialize)]
 struct FileMotion {
     parts: Vec<String>,
@@ -210,7 +209,7 @@ impl Scene {
             })
         };
         let positive = |value: f32, what: &str, of: &str| {
-            // JSON numbers beyond the range of f32 become infinite.
+            // A JSON number beyond the range of f32 becomes infinite.
             if value.is_finite() && value > 0.0 {
                 Ok(())
             } else {
@@ -235,7 +234,8 @@ impl Scene {
             }
             let outside = material(&part.material, &part.name)?;
             let (centre, half) = (Vec3::from(part.centre), Vec3::from(part.half));
-            // A face looks into the basin when it lies within its bounds and faces their middle.
+            // A face belongs to the inside of the basin if it lies within the basin's bounds and faces their
+            // centre.
             let inner = |face: usize| {
                 let normal = FACES[face];
                 let at = centre + normal * half;
@@ -330,7 +330,7 @@ impl Scene {
     }
 }
 
-/// Normals for a mesh without: smooth over edges of less than 40 degrees, sharp elsewhere.
+/// Makes the normals of a mesh without: smooth across edges of less than 40 degrees, sharp elsewhere.
 pub(super) fn make_normals(mesh: &mut Mesh) {
     let crease = 40_f32.to_radians().cos();
     let place = |mesh: &Mesh, i: u32| mesh.positions[i as usize].map(f32::to_bits);
@@ -355,7 +355,8 @@ pub(super) fn make_normals(mesh: &mut Mesh) {
         for &i in t {
             let sum: Vec3 = at[&place(mesh, i)]
                 .iter()
-                // A vertex of very many faces is no smooth surface: enough is enough.
+                // At most 64 faces count: a vertex with more lies on no smooth surface, and the time stays
+                // bounded.
                 .take(64)
                 .map(|&other| faces[other])
                 .filter(|other| other.normalize_or_zero().dot(own) > crease)

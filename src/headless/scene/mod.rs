@@ -1,6 +1,5 @@
-//! The stand-in scene of the headless renderer: opaque meshes and a ground under a sky with a sun,
-//! so that water has something to run over, to refract and to be hidden by. An engine that embeds
-//! the library draws its own.
+//! The scene of the headless renderer: opaque meshes and a ground under a sky with a sun. Water needs them to
+//! run over, to refract and to be hidden by. An engine that embeds the library draws its own scene.
 
 pub(in crate::headless) mod bake;
 mod gltf;
@@ -21,46 +20,47 @@ pub use sea::{Liquid, Sea};
 
 use crate::environment::Sky;
 
-/// What stands around the water. World space: right-handed, y up.
+/// Surroundings of the water. World space: right-handed, y up.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Opaque meshes; they cast and receive shadows.
     pub meshes: Vec<Mesh>,
     /// The sun.
     pub sun: SunLight,
-    /// A level ground, which goes to the horizon and fades into the sky there, or ends where it is said to.
+    /// A level ground. It extends to the horizon, where it fades into the sky, or to its `reach`.
     pub ground: Option<Ground>,
-    /// The camera that the scene's file suggests.
+    /// The camera that the scene file suggests.
     pub camera: Option<Viewpoint>,
-    /// How meshes move from frame to frame; those in none stand still.
+    /// Motion of meshes from frame to frame. Meshes in none are static.
     pub motions: Vec<Motion>,
-    /// The frame that is drawn; [`Headless::scene_frame`](super::Headless::scene_frame) draws another.
+    /// The frame that is drawn. [`Headless::scene_frame`](super::Headless::scene_frame) draws another.
     pub frame: u64,
     /// Water or lava that meshes and ground stand in.
     pub sea: Option<Sea>,
-    /// When the frame is, in seconds: the sea goes by it.
+    /// Time of the frame in seconds, which moves the sea.
     pub time: f64,
-    /// Opaque meshes far around, which close the picture: lawns, hedges, trees, a room's walls. They are drawn under sun and
-    /// sky as they are, unsplit; at each of their vertices few rays find how much of sky and sun other things leave. They
-    /// cast no shadow on [`meshes`](Self::meshes) or water and lend them no light; neither [`bounds`](Self::bounds), nor
-    /// the shadow map, nor the ground are laid round them. They stand still.
+    /// Distant opaque meshes that close the picture: lawns, hedges, trees, a room's walls. They are lit by sun
+    /// and sky without subdivision; few rays per vertex find the visibility of sky and sun. They cast no shadow
+    /// on [`meshes`](Self::meshes) or water and reflect no light to them. [`bounds`](Self::bounds), shadow map
+    /// and ground ignore them. They are static.
     pub backdrop: Vec<Mesh>,
-    /// World units over which air takes the contrast of [`ground`](Self::ground) and [`backdrop`](Self::backdrop) to 1/e,
-    /// towards the environment's colour at the horizon, (0, ∞); none, the default: clear air. Meshes stand in clear air.
+    /// Distance over which air reduces the contrast of [`ground`](Self::ground) and
+    /// [`backdrop`](Self::backdrop) to 1/e, towards the environment's colour at the horizon. World units, (0,
+    /// ∞). `None`, the default: clear air. Meshes are always in clear air.
     pub haze: Option<f32>,
-    /// World units that are a metre to procedural surfaces, whose grain is metric, (0, ∞); none, the default: 1.
+    /// World units per metre for procedural surfaces, whose grain is metric, (0, ∞). `None`, the default: 1.
     pub metre: Option<f32>,
 }
 
 /// Meshes that move as one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Their places in [`Scene::meshes`].
+    /// Indices into [`Scene::meshes`].
     pub meshes: Vec<usize>,
     /// The frame of the first pose.
     pub first_frame: u64,
-    /// World space to world space, from where the meshes' own transforms leave them: one a frame.
-    /// What comes before the first is as in the first, what comes after the last as in the last.
+    /// One pose per frame, world space to world space, applied after the meshes' own transforms. Before the
+    /// first and after the last frame the pose is constant.
     pub poses: Vec<Mat4>,
 }
 
@@ -74,12 +74,12 @@ impl Motion {
     }
 }
 
-/// A camera as scene files give it.
+/// A camera from a scene file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
     /// Position.
     pub eye: [f32; 3],
-    /// What it looks at.
+    /// Point that it looks at.
     pub target: [f32; 3],
     /// The direction that is up in the picture.
     pub up: [f32; 3],
@@ -124,10 +124,10 @@ impl Default for SunLight {
 pub struct Ground {
     /// Its height.
     pub y: f32,
-    /// What it is made of.
+    /// Material.
     pub material: Material,
-    /// How far it goes along x and z from the middle of the scene's [`bounds`](Scene::bounds), in world units, (0, ∞);
-    /// none: to the horizon.
+    /// Extent along x and z from the centre of the scene's [`bounds`](Scene::bounds), world units, (0, ∞).
+    /// `None`: to the horizon.
     pub reach: Option<f32>,
 }
 
@@ -142,29 +142,29 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// A texture coordinate for each vertex (v = 0 on top), or none at all.
     pub uvs: Vec<[f32; 2]>,
-    /// Three for each triangle.
+    /// Vertex indices, three per triangle.
     pub indices: Vec<u32>,
-    /// What it is made of.
+    /// Material.
     pub material: Material,
-    /// To world space. Patterns lie in the mesh's frame where it is turned, else in the world's,
-    /// so that they go on from one mesh to the next.
+    /// Transform to world space. Patterns are in the mesh's frame if it is rotated, otherwise in the world's,
+    /// so that they continue from one mesh to the next.
     pub transform: Mat4,
 }
 
-/// How a surface looks.
+/// Appearance of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Albedo, linear RGB, 0 to 1.
     pub base_color: [f32; 3],
-    /// 0 mirror-like, 1 matt.
+    /// Roughness, 0 mirror-like to 1 matte.
     pub roughness: f32,
-    /// What is drawn on it.
+    /// Procedural pattern.
     pub pattern: Pattern,
-    /// Multiplies the base colour.
+    /// Texture that multiplies the base colour.
     pub texture: Option<Arc<Texture>>,
 }
 
-/// A picture on a surface; repeats.
+/// A repeating picture on a surface.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Texture {
     /// Width in texels.
@@ -207,8 +207,8 @@ pub enum Pattern {
         /// Width of a slab; it is half as long again.
         size: f32,
     },
-    /// Sand round the height of the [`Sea`] (of 0 where there is none), grass above, rock where it is steep, weed
-    /// here and there under water.
+    /// Sand around the height of the [`Sea`] (0 without one), grass above, rock where it is steep, some weed
+    /// under water.
     Island {
         /// How high over the sea sand reaches.
         beach: f32,
@@ -217,7 +217,7 @@ pub enum Pattern {
     Rock,
     /// Leaves of bushes and hedges.
     Leaves,
-    /// Leaves of trees and hedges in masses, lit through where the sun is behind them.
+    /// Leaves of trees and hedges in masses, translucent against the sun.
     Foliage,
     /// Grass, mown in stripes along z.
     Lawn {
@@ -270,7 +270,7 @@ impl Material {
         "paving", "island", "rock",
     ];
 
-    /// Mean colour of all of it, for light that bounces off.
+    /// Mean colour of the whole pattern, for bounced light.
     fn albedo(&self) -> Vec3 {
         let base = Vec3::from(self.base_color);
         let Some(texture) = &self.texture else { return base };
@@ -285,17 +285,17 @@ impl Material {
 }
 
 impl Scene {
-    /// Corners of the meshes (not the ground), wherever they move, in world space; a unit box where
-    /// there is none.
+    /// Bounding box of the meshes (not the ground) over their whole motion, in world space; a unit box if there
+    /// are none.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         self.bounds_in(Mat4::IDENTITY).unwrap_or((Vec3::splat(-0.5), Vec3::splat(0.5)))
     }
 
-    /// The same in another space; none where there is nothing.
+    /// The bounding box in another space; `None` for an empty scene.
     fn bounds_in(&self, space: Mat4) -> Option<(Vec3, Vec3)> {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for (index, mesh) in self.meshes.iter().enumerate() {
-            // In all frames, so that the ground and the shadow map, which are laid round it, hold still.
+            // Over all frames, so that the ground and the shadow map, which depend on the box, do not move.
             let poses = match self.motion_of(index) {
                 Some(motion) => &motion.poses[..],
                 None => &[Mat4::IDENTITY],
@@ -314,7 +314,7 @@ impl Scene {
         low.cmple(high).all().then_some((low, high))
     }
 
-    /// What a world unit is to procedural surfaces, in metres.
+    /// Metres per world unit for procedural surfaces.
     fn metres_per_unit(&self) -> f32 {
         self.metre.map_or(1.0, f32::recip)
     }
@@ -324,7 +324,7 @@ impl Scene {
         motions.find(|motion| motion.meshes.contains(&mesh))
     }
 
-    /// What moves a mesh to where it is in the frame that is drawn; none where it stands still.
+    /// Motion of a mesh to its pose in the frame that is drawn; `None` if it is static.
     fn pose(&self, mesh: usize) -> Option<Mat4> {
         self.motion_of(mesh).map(|motion| motion.pose(self.frame))
     }

@@ -1,4 +1,4 @@
-//! Wavefront OBJ: all faces as one mesh.
+//! Reads Wavefront OBJ: all faces as one mesh.
 
 use std::collections::HashMap;
 
@@ -28,7 +28,7 @@ pub fn parse(bytes: &[u8]) -> Result<Scene, String> {
                     lacks_normals |= key[2] == 0;
                     let next = mesh.positions.len() as u32;
                     corners.push(*known.entry(key).or_insert_with(|| {
-                        // Indices begin at 1; 0 says there is none.
+                        // Indices begin at 1; 0 means none.
                         mesh.positions.push(points[key[0] - 1]);
                         let uv: [f32; 2] = if key[1] > 0 { uvs[key[1] - 1] } else { [0.0; 2] };
                         mesh.uvs.push([uv[0], 1.0 - uv[1]]);
@@ -51,7 +51,7 @@ pub fn parse(bytes: &[u8]) -> Result<Scene, String> {
                     mesh.indices.extend([corners[0], pair[0], pair[1]]);
                 }
             }
-            // Groups, materials, lines and what else there may be are not drawn.
+            // Groups, materials, lines and other records are ignored.
             _ => {}
         }
         if mesh.indices.len() > 3 * MOST || points.len() > MOST {
@@ -83,7 +83,8 @@ fn numbers<'a, const N: usize>(
     Ok(out)
 }
 
-/// `p`, `p/t`, `p//n` or `p/t/n`, from 1, or backwards from −1; as indices from 1, 0 for none.
+/// Parses `p`, `p/t`, `p//n` or `p/t/n`. Indices count from 1, or backwards from −1. Returns indices from 1,
+/// 0 for none.
 fn corner(word: &str, counts: [usize; 3]) -> Result<[usize; 3], String> {
     let mut key = [0; 3];
     for (k, part) in word.split('/').enumerate() {

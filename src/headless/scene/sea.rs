@@ -1,4 +1,4 @@
-//! A level sea, drawn by the pixels' rays: what it is made of, and its waves at a time.
+//! A level sea, drawn by a ray per pixel: its properties, and its waves at a given time.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,55 +7,56 @@ use glam::DVec2;
 use super::Scene;
 use crate::error::Error;
 
-/// Waves that are summed.
+/// Number of waves that are summed.
 pub(super) const WAVES: usize = 18;
-/// A wave's length over that of the next longer one.
+/// Ratio of a wave's length to that of the next longer wave.
 const SHORTER: f64 = 0.79;
-/// A wave's steepness over that of the next longer one.
+/// Ratio of a wave's steepness to that of the next longer wave.
 const FLATTER: f64 = 0.93;
 /// Metres per second squared.
 const GRAVITY: f64 = 9.81;
 
-/// A level sheet of water or lava that reaches to the horizon, with gentle waves on it. Lengths in metres, y up.
+/// A level sheet of water or lava that extends to the horizon, with gentle waves. Lengths in metres, y up.
 ///
-/// It is seen and not there: the scene's depth stays that of what is under it, and so does its shadow map. Water
-/// absorbs and scatters light along the bent ray, but what is seen through it lies where it would without: refraction
-/// moves no edge, only patterns waver. The sun's light gathers on the floor (caustics). Solids cast no shadow on the
-/// surface, which mirrors the environment and the sun alone. An eye below the level sees none of it.
+/// It is visible but not in the depth buffer: the scene's depth and shadow map stay those of the ground below.
+/// Water absorbs and scatters light along the refracted ray, but shows the scene along the straight one:
+/// refraction moves no edge, only patterns waver. Sunlight is focused on the floor (caustics). Solids cast no
+/// shadow on the surface, which reflects only the environment and the sun. A camera below the level does not
+/// see it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sea {
-    /// Height of the level it waves about, default 0.
+    /// Mean height, default 0.
     pub level: f32,
-    /// Light that water absorbs in a metre, linear RGB, 1/m, [0, ∞), default that of a clear sea.
+    /// Absorption, linear RGB, 1/m, [0, ∞), default that of a clear sea.
     pub absorption: [f32; 3],
-    /// Light that water scatters, alike in all directions, in a metre, linear RGB, 1/m, [0, ∞), default that of a clear
-    /// sea.
+    /// Isotropic scattering, linear RGB, 1/m, [0, ∞), default that of a clear sea.
     pub scattering: [f32; 3],
-    /// Height of the largest waves from trough to crest, m, [0, ∞), default 0.22; 0: a mirror. Lava has none.
+    /// Height of the largest waves from trough to crest, m, [0, ∞), default 0.22; 0 is a mirror. Lava has none.
     pub waves: f32,
-    /// Length of the largest waves, m, (0, ∞), default 11; of lava, of the plates of its crust.
+    /// Length of the largest waves, m, (0, ∞), default 11. For lava: size of its crust's plates.
     pub length: f32,
-    /// Where the largest waves go, or lava flows: world x and z; any length but zero; default [0.8, 0.6].
+    /// Direction of the largest waves, or of the lava's flow: world x and z, any length except 0, default [0.8,
+    /// 0.6].
     pub towards: [f32; 2],
-    /// Seconds after which all is as it was, (0, ∞); none, the default: never. The waves' speeds are rounded to it;
-    /// lava comes and goes in two layers.
+    /// Period after which everything repeats, seconds, (0, ∞). `None`, the default: never. Wave speeds are
+    /// rounded to it; lava cross-fades two layers.
     pub period: Option<f32>,
-    /// What it is made of, default water.
+    /// Liquid, default water.
     pub liquid: Liquid,
 }
 
-/// What a [`Sea`] is made of.
+/// Liquid of a [`Sea`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Liquid {
-    /// Clear, to its absorption and scattering.
+    /// Transparent, by its absorption and scattering.
     #[default]
     Water,
-    /// Opaque: a dark crust with glowing cracks. It casts no light, but for a guess at its glow on what stands over it
-    /// by height and slope alone, as if it were below everywhere.
+    /// Opaque: a dark crust with glowing cracks. It casts no light, except for an estimate of its glow on
+    /// surfaces above, from height and slope alone, as if lava were below everywhere.
     Lava {
-        /// Radiance where it is hottest, linear RGB in the unit of the output, [0, ∞).
+        /// Radiance of the hottest parts, linear RGB in the unit of the output, [0, ∞).
         radiance: [f32; 3],
-        /// How fast it flows, m/s.
+        /// Speed of its flow, m/s.
         speed: f32,
     },
 }
@@ -76,12 +77,12 @@ impl Default for Sea {
 }
 
 impl Liquid {
-    /// Lava as bright as it is by daylight, that creeps.
+    /// Slow lava with its brightness in daylight.
     pub const LAVA: Self = Self::Lava { radiance: [6.0, 3.2, 0.2], speed: 0.5 };
 }
 
 impl Sea {
-    /// Whether it looks the same at all times.
+    /// Whether it is static.
     pub fn rests(&self) -> bool {
         match self.liquid {
             Liquid::Water => self.waves == 0.0,
@@ -118,23 +119,24 @@ impl Sea {
         Ok(())
     }
 
-    /// Where the largest waves go, of length one.
+    /// Direction of the largest waves, normalized.
     fn ahead(&self) -> DVec2 {
         DVec2::from(self.towards.map(f64::from)).normalize_or(DVec2::X)
     }
 
-    /// Waves at a time in seconds: radians a metre along x and z, height over the level, phase. The longest first.
+    /// The waves at a time in seconds, the longest first: wave number along x and z in rad/m, amplitude in
+    /// metres, phase.
     pub(super) fn waves_at(&self, time: f64) -> [[f32; 4]; WAVES] {
         let longest = TAU / f64::from(self.length);
         let steepest = 0.5 * f64::from(self.waves) * longest;
         std::array::from_fn(|i| {
             let n = i as f64;
             let number = longest * SHORTER.powf(-n);
-            // Evenly about the way of the largest, however many they are; the short ones go farther astray.
+            // The directions spread evenly around that of the largest wave; short waves deviate more.
             let aside = (n * 0.618_034 + 0.5).fract() - 0.5;
             let turn = aside * PI * (0.5 + 0.6 * n / WAVES as f64);
             let wave = number * self.ahead().rotate(DVec2::from_angle(turn));
-            // On deep water.
+            // Dispersion of waves on deep water.
             let mut rate = (GRAVITY * number).sqrt();
             if let Some(period) = self.period {
                 let whole = TAU / f64::from(period);
@@ -146,8 +148,8 @@ impl Sea {
         })
     }
 
-    /// How far lava has flown, in metres; the same of the loop before, and its share of the picture: it comes in place
-    /// of this one's towards the loop's end. None where it never ends.
+    /// Distance that the lava has flown, in metres. With a period also that of the previous loop and its
+    /// weight: towards the loop's end it replaces the current one. `None` without a period.
     pub(super) fn drift_at(&self, time: f64) -> (f32, Option<[f32; 2]>) {
         let speed = match self.liquid {
             Liquid::Lava { speed, .. } => f64::from(speed),
@@ -169,7 +171,7 @@ impl Sea {
 }
 
 impl Scene {
-    /// The sea at the time that is drawn, if it can be.
+    /// The sea at [`Scene::time`], or an error if a value is out of range.
     pub(super) fn checked_sea(&self) -> Result<Option<&Sea>, Error> {
         let Some(sea) = &self.sea else { return Ok(None) };
         sea.check()?;

@@ -6,7 +6,7 @@ use glam::{Mat4, Quat, Vec3};
 
 use super::{Material, Mesh};
 
-/// Outward normals of a box's faces, in the order +x −x +y −y +z −z.
+/// Outward normals of a box's faces in the order +x −x +y −y +z −z.
 pub const FACES: [Vec3; 6] = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
 
 /// A rotation from a file, x y z w.
@@ -110,13 +110,13 @@ impl Mesh {
         let mut mesh = Self { name: "tube".into(), material, transform, ..Self::default() };
         let half = 0.5 * height;
         let cut = Vec3::new(-slope, 1.0, 0.0).normalize();
-        // A rim at a radius: at the top or the bottom.
+        // A rim with a given radius, at the top or the bottom.
         let rim = |out: Vec3, radius: f32, top: bool| {
             let at = out * radius;
             at + Vec3::Y * if top { half + slope * at.x } else { -half }
         };
-        // Strips from rim to rim: outside, bore, top, bottom. Each goes round counter-clockwise
-        // seen from above, from its first edge to its second, which has its face outside.
+        // Strips between two rims: outside, bore, top, bottom. Each strip goes counter-clockwise as seen from
+        // above; with the first rim and then the second its face points outside.
         let strips = [
             (radius, false, radius, true),
             (bore, true, bore, false),

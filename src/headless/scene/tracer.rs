@@ -1,6 +1,5 @@
-//! Light that does not come straight from the sun or the sky, by rays from each vertex: how much of
-//! the sky is seen, sunlight that bounces once off the other surfaces, and their albedo.
-//! Deterministic: the same directions everywhere.
+//! Bakes indirect light by rays from each vertex: visibility of the sky, sunlight after one bounce off
+//! another surface, and the albedo of the surroundings. Deterministic: every vertex uses the same directions.
 
 use std::collections::HashMap;
 
@@ -9,14 +8,15 @@ use glam::{Quat, Vec3};
 use super::bake::{Vertex, world};
 use super::{Mesh, Scene};
 
-/// Rays a vertex.
+/// Rays per vertex.
 const RAYS: usize = 64;
-/// Rays a vertex of the backdrop, and those of them to the sun, which is so wide there (tangent): leaves blur its shadows.
+/// Rays per vertex of the backdrop: to the hemisphere (near, far) and to the sun. The sun is taken as wide
+/// (tangent of its angular radius), because leaves blur shadows.
 const FEW: usize = 6;
 const FEWEST: usize = 4;
 const SUNS: usize = 2;
 const PENUMBRA: f32 = 0.06;
-/// How far rays are cast for it, in reaches of what is near.
+/// Distance up to which the backdrop is lit by rays, in multiples of the near range.
 const FAR: f32 = 14.0;
 
 struct Triangle {
@@ -26,7 +26,8 @@ struct Triangle {
     albedo: Vec3,
 }
 
-/// Leaf: `count` triangles from `first`. Inner: children `first` and `first + 1`.
+/// A leaf has `count` triangles from `first`. An inner node has `count` 0 and the children `first` and `first
+/// + 1`.
 struct Node {
     low: Vec3,
     high: Vec3,
@@ -38,17 +39,17 @@ struct Hit {
     distance: f32,
     normal: Vec3,
     albedo: Vec3,
-    /// From behind: the ray began inside a solid.
+    /// The ray hit a back face: it began inside a solid.
     inside: bool,
 }
 
-/// Rays against the unsplit triangles, which are few.
+/// Traces rays against the triangles before subdivision.
 pub struct Tracer {
     triangles: Vec<Triangle>,
     nodes: Vec<Node>,
     ground: Option<(f32, Vec3)>,
     sun: Vec3,
-    /// How far a ray starts off its surface.
+    /// Offset of a ray's origin from its surface.
     lift: f32,
     directions: Vec<Vec3>,
 }
@@ -58,7 +59,8 @@ impl Tracer {
         Self::of(&scene.meshes, |_, _| true, scene, diagonal)
     }
 
-    /// Of some meshes on the ground of a scene, but for what is too far away.
+    /// Traces `meshes` on the scene's ground. `counts` gets a corner and the length of a triangle, and leaves
+    /// out distant ones.
     fn of<'a>(
         meshes: impl IntoIterator<Item = &'a Mesh>,
         counts: impl Fn(Vec3, f32) -> bool,
@@ -75,7 +77,7 @@ impl Tracer {
                     continue;
                 }
                 let mut normal = (b - a).cross(c - a).normalize_or_zero();
-                // Winding is not trusted: the given normal says where outside is.
+                // The winding is not reliable; the vertex normal tells the outside.
                 if normal.dot(vertices[t[0] as usize].normal.into()) < 0.0 {
                     normal = -normal;
                 }
@@ -129,16 +131,16 @@ impl Tracer {
         self.build(child + 1, first + middle, end);
     }
 
-    /// The nearest hit, or any when that is enough.
+    /// The nearest hit; with `any`, the first hit found.
     fn trace(&self, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
         self.trace_to(f32::INFINITY, from, along, any)
     }
 
-    /// The same, of what begins nearer than a reach.
+    /// The same with hits nearer than `reach` only.
     fn trace_to(&self, reach: f32, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
         let inverse = along.recip();
         let mut best: Option<(f32, usize)> = None;
-        // A median split halves: 64 levels would be 2^64 triangles.
+        // Each level halves the triangles, so 64 levels are never reached.
         let mut stack = [0u32; 64];
         let mut depth = 1;
         while depth > 0 && !self.triangles.is_empty() {
@@ -147,12 +149,12 @@ impl Tracer {
             let (a, b) = ((node.low - from) * inverse, (node.high - from) * inverse);
             let near = a.min(b).max_element().max(0.0);
             let far = a.max(b).min_element();
-            // A ray in the plane of a face is NaN here, and goes on.
+            // A ray in the plane of a box's face gives NaN here and is not rejected.
             if near > far || near > reach || best.is_some_and(|(t, _)| near > t) {
                 continue;
             }
             if node.count == 0 {
-                // The child whose middle comes first along the ray is taken first.
+                // Visit the child first whose centre comes first along the ray.
                 let [a, b] = [0, 1].map(|k| &self.nodes[node.first as usize + k]);
                 let later = u32::from((b.low + b.high - a.low - a.high).dot(along) > 0.0);
                 stack[depth] = node.first + later;
@@ -190,8 +192,8 @@ impl Tracer {
         hit
     }
 
-    /// Bakes the light of vertices; those inside of solids take it from their neighbours, so that
-    /// no darkness leaks out from under a wall.
+    /// Bakes the light of the vertices. A vertex inside a solid takes the light of its neighbours, so that no
+    /// darkness leaks out from under a wall.
     pub fn light(&self, vertices: &mut [Vertex], indices: &[u32], is_mesh: bool) {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
         let size = vertices.len().div_ceil(threads).max(1);
@@ -237,7 +239,7 @@ impl Tracer {
         let normal = Vec3::from(vertex.normal);
         let from = vertex.at() + normal * self.lift;
         let frame = Quat::from_rotation_arc(Vec3::Z, normal);
-        // Where there is ground, sky is what is above the horizon.
+        // With a ground, only directions above the horizon count as sky.
         let is_sky = |d: Vec3| self.ground.is_none() || d.y > 0.0;
         let (mut sky, mut seen, mut rays, mut inside) = (0.0_f32, 0.0_f32, 0.0_f32, 0);
         let (mut bounced, mut around) = (Vec3::ZERO, Vec3::ZERO);
@@ -267,14 +269,14 @@ impl Tracer {
         let [r, g, b] = (bounced * share).to_array();
         vertex.light = [visible, r, g, b];
         vertex.around = (around * share).to_array();
-        // Single sheets are seen from behind: only what is nearly all inside is in a solid. A
-        // vertex below the ground is of no use either.
+        // Single sheets have back faces without being solids, so a vertex counts as inside only if at least 70 %
+        // of its rays hit back faces. A vertex of a mesh below the ground counts as inside too.
         let buried = is_mesh && self.ground.is_some_and(|(y, _)| from.y < y);
         inside * 10 < RAYS * 7 && !buried
     }
 }
 
-/// Cosine-weighted about +z, by a Fibonacci spiral.
+/// Cosine-weighted directions around +z on a Fibonacci spiral.
 fn directions(count: usize) -> Vec<Vec3> {
     (0..count)
         .map(|i| {
@@ -285,11 +287,10 @@ fn directions(count: usize) -> Vec<Vec3> {
         .collect()
 }
 
-/// Light of the backdrop: by few rays, as it is far and much of it is leaves; by as many as the meshes' where it is near
-/// them.
+/// Bakes the light of the backdrop: with as many rays as the meshes near them, with few rays elsewhere.
 pub struct Around {
     all: Tracer,
-    /// Keeps the sun off the backdrop; the meshes do it by their shadow map.
+    /// Finds whether the backdrop hides the sun; the meshes' own shadow is in the shadow map.
     backdrop: Tracer,
     few: Vec<Vec3>,
     fewest: Vec<Vec3>,
@@ -323,7 +324,7 @@ impl Around {
         }
     }
 
-    /// Lights vertices; what lies in a solid is dark, as leaves are between two bushes.
+    /// Bakes the light of the vertices. What lies inside a solid stays dark, like leaves between two bushes.
     pub fn light(&self, vertices: &mut [Vertex]) {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
         let size = vertices.len().div_ceil(threads).max(1);
@@ -332,7 +333,7 @@ impl Around {
                 scope.spawn(move || {
                     let mut last = Vertex { position: [f32::MAX; 3], ..Vertex::default() };
                     for vertex in part {
-                        // Corners of one leaf are lit alike.
+                        // The corners of a leaf share their light.
                         let same = vertex.normal == last.normal
                             && vertex.at().distance(last.at()) < 0.05 * self.near;
                         if same {
@@ -351,14 +352,14 @@ impl Around {
     fn light_vertex(&self, vertex: &mut Vertex) {
         let away = vertex.at().distance(self.middle);
         if away > FAR * self.near {
-            // Of what haze hides half, what looks up sees the sky, and all the sun.
+            // Haze hides about half of it: no rays, but full sun, and sky by the slope alone.
             vertex.bulge = 1.0;
             let down = 0.5 - 0.5 * vertex.normal[1];
             vertex.light = [1.0 - 0.6 * down, 0.0, 0.0, 0.0];
             return;
         }
         let near = away < self.near;
-        // (What is far off hides little of the sky of a tree.)
+        // Distant objects hide little of a tree's sky, hence the limited reach.
         let (directions, reach) = match near {
             true => (&self.all.directions, f32::INFINITY),
             false => (&self.few, self.near),
@@ -378,7 +379,8 @@ impl Around {
                 Some(hit) if hit.inside => {}
                 Some(hit) => {
                     around += hit.albedo;
-                    // What hides it from the sun hides this as well, or about so.
+                    // No ray from the hit point to the sun: the visibility of the sun at the vertex is used for
+                    // it, below.
                     bounced += hit.albedo * hit.normal.dot(self.all.sun).max(0.0);
                 }
             }
@@ -393,7 +395,7 @@ impl Around {
 }
 
 impl Triangle {
-    /// Möller and Trumbore 1997.
+    /// Ray against triangle after Möller and Trumbore 1997.
     fn hit(&self, from: Vec3, along: Vec3) -> Option<f32> {
         let p = along.cross(self.edges[1]);
         let determinant = self.edges[0].dot(p);

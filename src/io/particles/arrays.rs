@@ -1,5 +1,5 @@
-//! Numbers of one attribute that lie together, those of another attribute elsewhere: how legacy VTK (text) and VTK XML
-//! keep them, there in a segment for each piece of the file. Each attribute is read with a place of its own.
+//! Attributes stored one after the other, as in legacy VTK (text) and VTK XML, there in one segment per piece
+//! of the file. Each attribute is read with its own position.
 
 use std::sync::Arc;
 
@@ -10,14 +10,14 @@ use super::plan::{CHUNK, Stream, Track, changed};
 use super::source::{Content, Source};
 use super::text::Text;
 
-/// The numbers of an attribute in one piece.
+/// The part of an attribute's values that lies in one piece of the file.
 #[derive(Clone)]
 pub(super) struct Segment<'a> {
-    /// What they are in, and from where to where they or others of it may be.
+    /// Where the values are stored, and the byte range that may hold them (and values of other attributes).
     pub(super) content: Content<'a>,
     pub(super) start: u64,
     pub(super) end: u64,
-    /// Numbers, not particles.
+    /// Number of values: components times particles.
     pub(super) count: u64,
     pub(super) ty: AttributeType,
     pub(super) stored: Stored,
@@ -26,24 +26,25 @@ pub(super) struct Segment<'a> {
 /// How numbers are stored.
 #[derive(Clone, Copy)]
 pub(super) enum Stored {
-    /// As words, behind which others come.
+    /// Text; other values may follow the last one.
     Words,
-    /// As words of an element of their own, of which errors tell the place: bytes from the start, and its line.
+    /// Text of an XML element that holds these values only. Errors are reported at the element: its byte
+    /// offset and its line.
     OwnWords(u64, Place),
-    /// As bytes; of errors in them the place, in bytes from the start.
+    /// Binary, with the byte offset at which errors are reported.
     Bytes(Encoding, u64),
 }
 
-/// An attribute.
+/// An attribute with all its segments, in the order of the particles.
 #[derive(Clone)]
 pub(super) struct Array<'a> {
-    /// What it is called in errors.
+    /// Name for error messages.
     pub(super) name: String,
     pub(super) components: usize,
     pub(super) segments: Vec<Segment<'a>>,
 }
 
-/// An attribute as it is read; `column` as for all of its segments.
+/// Makes the track that reads an attribute. `column` has the name and type that hold for all segments.
 pub(super) fn track<'a>(column: Column, array: Array<'a>) -> Track<'a> {
     let length = array.segments.iter().fold(0_u64, |sum, s| sum.saturating_add(s.count));
     let what = array.name.clone();
@@ -56,10 +57,10 @@ pub(super) fn track<'a>(column: Column, array: Array<'a>) -> Track<'a> {
     Track { columns: vec![column], lengths: Some(vec![length]), what, open: Box::new(open) }
 }
 
-/// Numbers of which the first are asked for.
+/// Number of values that [`first`] returns at most.
 const ASKED: usize = 1 << 10;
 
-/// The first numbers of a segment, where they are sound.
+/// The first values of a segment; `None` if they cannot be read.
 pub(super) fn first(segment: Segment<'_>, ty: AttributeType) -> Option<Vec<f64>> {
     ty.size()?;
     let count = usize::try_from(segment.count).unwrap_or(usize::MAX).min(ASKED);
@@ -73,27 +74,28 @@ pub(super) fn first(segment: Segment<'_>, ty: AttributeType) -> Option<Vec<f64>>
     (0..column.data.len()).map(|i| column.data.f64(i)).collect()
 }
 
-/// Sources of an earlier segment, which lead on to the next: of the file, where that is packed.
+/// Sources that were opened for an earlier segment and can be read on for the next one. A packed file can
+/// only be read forwards, so opening it anew would unpack it from the start.
 #[derive(Default)]
 pub(super) struct Spare<'a> {
     pub(super) data: Option<Source<'a>>,
     pub(super) sizes: Option<Source<'a>>,
 }
 
-/// An attribute on the way.
+/// Reads an attribute segment by segment.
 struct ArrayStream<'a> {
     array: Arc<Array<'a>>,
     used: bool,
-    /// The segment that comes next.
+    /// Index of the next segment.
     next: usize,
     current: Option<Current<'a>>,
     spare: Spare<'a>,
 }
 
-/// A segment on the way.
+/// The segment that is being read.
 struct Current<'a> {
     numbers: Numbers<'a>,
-    /// That are still to come.
+    /// Number of values that are not read yet.
     left: u64,
 }
 
@@ -123,7 +125,7 @@ impl Stream for ArrayStream<'_> {
     }
 
     fn finish(&mut self) -> Result<u64, ReadError> {
-        // Of one that has no meaning nothing was read yet.
+        // An attribute without a meaning has not been read so far: check its text now.
         let mut room = Vec::new();
         while !self.used && self.next < self.array.segments.len() {
             let ty = self.array.segments.get(self.next).map_or(AttributeType::F32, |s| s.ty);
@@ -141,7 +143,8 @@ impl Stream for ArrayStream<'_> {
 }
 
 impl<'a> ArrayStream<'a> {
-    /// Appends some of the next numbers, `left` at most, to those of `all` that are there; says how many.
+    /// Appends up to `left` of the next values to `column`, which will hold `all` of them, and returns how
+    /// many it appended.
     fn some(
         &mut self,
         left: u64,
@@ -198,7 +201,7 @@ impl<'a> ArrayStream<'a> {
         Ok(Current { numbers, left: segment.count })
     }
 
-    /// After the last number of a segment.
+    /// Called after the last value of a segment: checks that no more follow, and keeps the source.
     fn close(&mut self, segment: &Segment<'a>, current: Current<'a>) -> Result<(), ReadError> {
         match current.numbers {
             Numbers::Words(mut text) => {
@@ -222,7 +225,7 @@ impl<'a> ArrayStream<'a> {
 }
 
 impl Segment<'_> {
-    /// Puts the place of an error in an element's text at the element.
+    /// Moves an error in an element's text to the place of the element.
     fn relocated(&self, error: ReadError) -> ReadError {
         match (error, &self.stored) {
             (ReadError::Malformed { expected, found, .. }, Stored::OwnWords(_, place)) => {

@@ -14,7 +14,7 @@ use super::columns::{AttributeType, PLACED, Table};
 use super::error::{Place, ReadError};
 use super::rows::{Field, Layout, Rows};
 
-/// What the header says, of a file or the beginning of one.
+/// Parses the header of a file or of its beginning.
 pub(super) fn layout(bytes: &[u8], gzip: bool, asked: &Asked) -> Result<Layout, ReadError> {
     let mut cursor = Cursor::new(bytes);
     cursor.take(5, "the BGEO magic")?;

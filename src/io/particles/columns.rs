@@ -80,10 +80,10 @@ impl std::fmt::Display for AttributeType {
     }
 }
 
-/// The name and shape of one attribute of a file.
+/// Name and shape of one attribute in a file.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Attribute {
-    /// As the file has it.
+    /// Name in the file.
     pub name: String,
     /// Values per particle; 3 for a vector.
     pub components: usize,
@@ -91,10 +91,10 @@ pub struct Attribute {
     pub ty: AttributeType,
 }
 
-/// An attribute that was asked for by name.
+/// An attribute that was requested by name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Extra {
-    /// As the file has it.
+    /// Name in the file.
     pub name: String,
     /// One value per particle; NaN where the file has no number.
     pub values: Vec<f64>,

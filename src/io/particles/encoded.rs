@@ -1,8 +1,10 @@
-//! Numbers of VTK XML as bytes: as they are or in base64, packed in blocks or not.
+//! Binary arrays of VTK XML: raw or base64, compressed in blocks or uncompressed.
 //!
-//! Before them is a header of `UInt32` or `UInt64`: uncompressed, the number of bytes; compressed, the number of blocks,
-//! their size, the size of a last smaller one (or 0), and the packed size of each. In base64 the header of compressed
-//! data is encoded apart, padding included. Of a list of sizes nothing is kept: it is read again beside the blocks.
+//! A header of `UInt32` or `UInt64` words comes before the values. Without compression it is the number of
+//! bytes. With compression it is the number of blocks, the size of a block, the size of a smaller last block
+//! (or 0), and the compressed size of each block. In base64, the header of compressed data is encoded
+//! separately, with its own padding. The list of compressed sizes is not kept in memory: a second source
+//! reads it again beside the blocks.
 
 use base64::Engine;
 use base64::engine::general_purpose::{STANDARD, STANDARD_NO_PAD};
@@ -16,32 +18,32 @@ use super::error::{Place, ReadError};
 use super::plan::changed;
 use super::source::{Content, Source, truncated};
 
-/// Characters of base64 that are decoded at a time: whole groups of four.
+/// Number of base64 characters decoded at a time: a multiple of 4.
 const CHARACTERS: u64 = 1 << 14;
-/// Packed bytes that are read at a time.
+/// Number of compressed bytes read at a time.
 const PACKED: u64 = 1 << 14;
-/// Bytes that are unpacked at a time: a block as VTK makes them.
+/// Number of bytes decompressed at a time: the block size that VTK writes.
 const UNPACKED: u64 = 1 << 15;
-/// Sizes of blocks that are read at a time.
+/// Number of block sizes read at a time.
 const SIZES: u64 = 1 << 8;
 
-/// How numbers become bytes.
+/// How the values are encoded.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Encoding {
     pub(super) base64: bool,
     pub(super) compression: Compression,
     pub(super) big_endian: bool,
-    /// Headers of 64 bits.
+    /// Header words have 64 bits instead of 32.
     pub(super) wide: bool,
 }
 
 impl Encoding {
-    /// Bytes of a word of a header.
+    /// Bytes per header word.
     fn word(self) -> u64 {
         if self.wide { 8 } else { 4 }
     }
 
-    /// Words of a header.
+    /// Decodes header words.
     fn words(self, bytes: &[u8]) -> Vec<u64> {
         let ty = if self.wide { AttributeType::U64 } else { AttributeType::U32 };
         let mut data = Data::for_type(ty);
@@ -52,13 +54,13 @@ impl Encoding {
         }
     }
 
-    /// Bytes of the file that these bytes take, in a run of their own.
+    /// Number of bytes in the file that hold so many decoded bytes, encoded on their own.
     fn stored(self, bytes: u64) -> u64 {
         if self.base64 { bytes.div_ceil(3).saturating_mul(4) } else { bytes }
     }
 }
 
-/// The bytes of an array, on the way.
+/// Decodes the bytes of an array, from the first to the last.
 pub(super) struct Encoded<'a> {
     big_endian: bool,
     bytes: Bytes<'a>,
@@ -70,11 +72,11 @@ enum Bytes<'a> {
     Blocks(Box<Blocks<'a>>),
 }
 
-/// An array for errors.
+/// Name and place of an array for error messages.
 #[derive(Clone)]
 struct Named {
     what: String,
-    /// Where it begins.
+    /// Byte offset of the array.
     offset: u64,
 }
 
@@ -89,7 +91,8 @@ impl Named {
 }
 
 impl<'a> Encoded<'a> {
-    /// Reads the header, which must be that of as many numbers as the segment has; `spare`: sources that may lead there.
+    /// Reads the header and checks that it promises as many values as the segment has. `spare` holds sources
+    /// that may be read on instead of opening the file again.
     pub(super) fn open(
         segment: &Segment<'a>,
         encoding: Encoding,
@@ -114,7 +117,7 @@ impl<'a> Encoded<'a> {
         let first = head.words(1)?.first().copied().unwrap_or(0);
         let bytes = if encoding.compression == Compression::None {
             let run = if head.is_ended() {
-                // Some writers encode the header apart, padding included.
+                // Some writers encode the header of uncompressed data separately, with its own padding.
                 Run::new(head.source, encoding, array, first)?
             } else {
                 head.extended(word.saturating_add(first))?
@@ -182,25 +185,25 @@ impl<'a> Encoded<'a> {
     }
 }
 
-/// Bytes that stand as they are, or together in base64.
+/// A contiguous range of the file: raw bytes, or base64 that was encoded in one go.
 struct Run<'a> {
     source: Source<'a>,
     encoding: Encoding,
     array: Named,
-    /// Bytes in all, and those that were given.
+    /// Decoded bytes: the total, and how many were returned.
     bytes: u64,
     gone: u64,
-    /// What of the file is still to come, and what has come.
+    /// Encoded bytes: how many are still unread, and how many were read.
     left: u64,
     passed: u64,
     text: Vec<u8>,
-    /// Bytes, and how many of them were given.
+    /// Decoded bytes that are buffered, and how many of them were returned.
     decoded: Vec<u8>,
     given: usize,
 }
 
 impl<'a> Run<'a> {
-    /// So many bytes, all of which are there.
+    /// A range of `bytes` decoded bytes; an error if the file is shorter.
     fn new(
         source: Source<'a>,
         encoding: Encoding,
@@ -222,11 +225,11 @@ impl<'a> Run<'a> {
         run.extended(bytes)
     }
 
-    /// Makes it one of so many bytes in all.
+    /// Changes the total number of decoded bytes.
     fn extended(mut self, bytes: u64) -> Result<Self, ReadError> {
         self.bytes = bytes;
         self.left = self.encoding.stored(bytes).saturating_sub(self.passed);
-        // Nothing comes behind padding.
+        // Padding ends base64: nothing may follow it.
         let padded = (self.decoded.len() as u64) < self.passed / 4 * 3;
         if self.encoding.base64 && self.left > 0 && padded {
             let pad = self.text.iter().position(|b| *b == b'=').unwrap_or(0);
@@ -240,7 +243,7 @@ impl<'a> Run<'a> {
         Ok(self)
     }
 
-    /// Whether nothing was decoded beside what was given, which padding ends.
+    /// Whether all that was decoded was also returned, so that padding ended there.
     fn is_ended(&self) -> bool {
         !self.encoding.base64 || self.given == self.decoded.len()
     }
@@ -271,7 +274,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The next characters, of which the last of all may be padding: what follows them is another array.
+    /// Decodes the next characters. Only the last group of the range may be padded: what follows it is
+    /// another array.
     fn decode(&mut self) -> Result<(), ReadError> {
         let count = self.left.min(CHARACTERS);
         self.text.clear();
@@ -282,7 +286,7 @@ impl<'a> Run<'a> {
         let engine: &GeneralPurpose = if count == self.left { &STANDARD } else { &STANDARD_NO_PAD };
         self.decoded.clear();
         self.given = 0;
-        // Line breaks inside are allowed by the standard, though no known writer makes them.
+        // The standard allows line breaks inside base64; no known writer makes them, and they are an error here.
         engine
             .decode_vec(&self.text, &mut self.decoded)
             .map_err(|e| self.not_base64(self.passed, &e))?;
@@ -290,7 +294,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// What is wrong in the characters that were read last, told by its place among all of the run.
+    /// Error of the characters that were read last, with its position counted from the start of the range.
     fn not_base64(&self, passed: u64, error: &DecodeError) -> ReadError {
         let passed = passed as usize;
         let error = match *error {
@@ -317,14 +321,14 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The next words of a header.
+    /// Reads the next header words.
     fn words(&mut self, count: u64) -> Result<Vec<u64>, ReadError> {
         let mut bytes = Vec::new();
         self.fill(count * self.encoding.word(), &mut bytes)?;
         Ok(self.encoding.words(&bytes))
     }
 
-    /// The sum of the next words.
+    /// Reads the next header words and returns their sum.
     fn sum(&mut self, count: u64) -> Result<u64, ReadError> {
         let mut sum = 0_u64;
         let mut left = count;
@@ -337,21 +341,22 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Packed blocks on the way.
+/// Decompresses the blocks of an array one after the other.
 struct Blocks<'a> {
-    /// Their packed sizes, and those that were read ahead.
+    /// Reads the compressed sizes, some of them ahead.
     sizes: Run<'a>,
     ahead: std::vec::IntoIter<u64>,
     packed: Run<'a>,
     count: u64,
-    /// The block that comes next; bytes of the one before, and those of it that are still to come.
+    /// Number of blocks that were started. Then the size of the current block, and how much of it is still to
+    /// be decompressed.
     next: u64,
     size: u64,
     left: u64,
-    /// Bytes of a block, and of the last one.
+    /// Size of a block, and of the last one.
     block: u64,
     last: u64,
-    /// Bytes, and how many of them were given.
+    /// Decompressed bytes that are buffered, and how many of them were returned.
     unpacked: Vec<u8>,
     given: usize,
     inflate: Option<Inflate>,
@@ -374,7 +379,7 @@ impl Blocks<'_> {
         Ok(())
     }
 
-    /// Unpacks some bytes, all of a block where they can't be had one after the other.
+    /// Decompresses the next bytes. LZ4 and LZMA blocks are decompressed whole.
     fn unpack(&mut self) -> Result<(), ReadError> {
         if self.left > 0 {
             return self.inflate();
@@ -400,7 +405,8 @@ impl Blocks<'_> {
         if found == size { Ok(()) } else { Err(self.short(size, found)) }
     }
 
-    /// Always so many bytes of a block at a time, however many are asked for: faults are told by them.
+    /// Decompresses the next [`UNPACKED`] bytes of a zlib block. The number does not depend on how many are
+    /// asked for, so that an error message is the same however the file is read.
     fn inflate(&mut self) -> Result<(), ReadError> {
         let count = self.left.min(UNPACKED) as usize;
         let inflate = self.inflate.get_or_insert_default();
@@ -417,7 +423,7 @@ impl Blocks<'_> {
         }
         self.left -= count as u64;
         if self.left == 0 {
-            // Its end alone tells whether it was sound.
+            // Only the end of the stream has the checksum.
             if inflate.read(&mut self.packed, &mut [0])? > 0 {
                 let what = self.packed.array.what.clone();
                 return Err(ReadError::TooLarge { what, limit: self.size });
@@ -427,7 +433,7 @@ impl Blocks<'_> {
         Ok(())
     }
 
-    /// A block has other bytes than it must.
+    /// Error of a block whose decompressed size is wrong.
     fn short(&self, size: u64, found: u64) -> ReadError {
         let array = &self.packed.array;
         let expected = format!("{size} bytes in block {} of {}", self.next - 1, array.what);
@@ -435,14 +441,14 @@ impl Blocks<'_> {
     }
 }
 
-/// A block that is unpacked one stretch after the other.
+/// Decompresses a zlib block a stretch at a time.
 struct Inflate {
     state: flate2::Decompress,
     input: Vec<u8>,
     used: usize,
-    /// Packed bytes that are not read yet.
+    /// Compressed bytes of the block that are not read yet.
     packed: u64,
-    /// Bytes that came out.
+    /// Decompressed bytes of the block so far.
     done: u64,
     ended: bool,
 }
@@ -455,14 +461,14 @@ impl Default for Inflate {
 }
 
 impl Inflate {
-    /// The next block, of so many packed bytes.
+    /// Starts a block of `packed` compressed bytes.
     fn start(&mut self, packed: u64) {
         self.state.reset(true);
         self.input.clear();
         (self.used, self.packed, self.done, self.ended) = (0, packed, 0, false);
     }
 
-    /// Unpacks some bytes; none at the end of the block.
+    /// Decompresses the next bytes into `out` and returns their number, 0 at the end of the block.
     fn read(&mut self, from: &mut Run<'_>, out: &mut [u8]) -> Result<usize, ReadError> {
         while !self.ended {
             if self.used == self.input.len() && self.packed > 0 {
@@ -503,13 +509,14 @@ impl Inflate {
 }
 
 impl Run<'_> {
-    /// A block that is unpacked as a whole.
+    /// Decompresses a block whole.
     fn unpack_block(&self, block: &[u8], size: u64) -> Result<Vec<u8>, ReadError> {
         let (array, what) = (&self.array, &self.array.what);
         let size = usize::try_from(size).unwrap_or(usize::MAX);
         match self.encoding.compression {
             Compression::Lz4 => {
-                // A byte of LZ4 stands for 255 at most: no more is set aside for a header that lies.
+                // LZ4 expands by a factor of 255 at most, so no more memory is allocated, whatever the header
+                // says.
                 if size > block.len().saturating_mul(255).saturating_add(64) {
                     return Err(array.malformed(
                         format!("LZ4 data for {size} bytes in {what}"),
@@ -520,7 +527,7 @@ impl Run<'_> {
                     array.malformed(format!("sound LZ4 data in {what}"), e.to_string())
                 })
             }
-            // The dictionary is set aside whole, so it is bounded: level 9 takes 64 MiB.
+            // The decoder allocates the whole dictionary. The limit allows 64 MiB, as level 9 needs.
             Compression::Lzma => {
                 let reader = lzma_rust2::XzReader::new_mem_limit(block, true, 66 << 10);
                 unpack(reader, size, what, array.offset as usize)

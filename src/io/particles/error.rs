@@ -1,4 +1,4 @@
-//! What can go wrong with a particle file.
+//! Errors of reading and writing particle files.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! Sound files of formats that are not read, told by their first bytes: what they are, and the way out.
+//! Valid files of unsupported formats, recognised by their first bytes: what they are, and what to do.
 
 use super::error::ReadError;
 

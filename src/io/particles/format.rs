@@ -1,11 +1,11 @@
-//! Which format a file is: by its first bytes, and by its name only where they leave it open.
+//! Detection of a file's format: by its first bytes, and by its name only where they are ambiguous.
 
 use std::path::Path;
 
 use super::error::ReadError;
 use super::foreign;
 
-/// What the name of a file says about its content. Only a hint.
+/// Format hint from a file name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Extension {
@@ -42,7 +42,7 @@ pub enum Extension {
 }
 
 impl Extension {
-    /// The hint of a path; `.gz` at the end is passed over.
+    /// The hint of a path; a trailing `.gz` is ignored.
     pub fn from_path(path: &Path) -> Self {
         let lower = |p: &Path| p.extension().map(|e| e.to_string_lossy().to_lowercase());
         let mut extension = lower(path);
@@ -97,7 +97,7 @@ pub enum Compression {
     Lzma,
 }
 
-/// What a file was.
+/// Format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
@@ -208,7 +208,7 @@ pub enum WriteFormat {
 }
 
 impl WriteFormat {
-    /// The format a name asks for: `.bgeo`, `.bgeo.gz`, `.vtu`, `.ply` or `.npz`.
+    /// The format for a name: `.bgeo`, `.bgeo.gz`, `.vtu`, `.ply` or `.npz`.
     pub fn from_path(path: &Path) -> Option<Self> {
         let gzip = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
         match (Extension::from_path(path), gzip) {

@@ -1,4 +1,5 @@
-//! The elements of an XML file without the long texts among them, which alone make it large: where these are is kept.
+//! Parses the XML of a VTK file without its long texts. They are nearly all of the file's size, so only their
+//! places are kept.
 
 use roxmltree::{Document, Node};
 
@@ -6,53 +7,56 @@ use super::error::{Place, ReadError};
 use super::source::Content;
 use super::text::Text;
 
-/// What ends the XML of a VTK file where bytes of another kind follow.
+/// The XML ends here if binary data follows.
 const APPENDED: &[u8] = b"<AppendedData";
 
-/// A text that is longer stays in the file.
+/// Longest text in bytes that is kept in memory.
 const LONGEST: u64 = 64;
 
-/// Bytes that are looked at at a time.
+/// Number of bytes scanned at a time.
 const CHUNK: usize = 1 << 14;
 
-/// The beginning of a file, up to its appended data or its end.
+/// The XML of a file, up to its appended data or its end.
 pub(super) struct Head {
-    /// With one character in place of each long text: a space where it is nothing but space, else a digit.
+    /// The XML with each long text replaced by one character: a space if the text is only white space,
+    /// otherwise a digit.
     text: String,
     cuts: Vec<Cut>,
-    /// Bytes before it: a byte order mark.
+    /// Length of the byte order mark before it.
     mark: u64,
     /// Where the appended data begins in the file.
     pub(super) appended: Option<u64>,
 }
 
-/// A text that stayed in the file.
+/// A text that is not in memory.
 struct Cut {
-    /// Of the character in its place.
+    /// Index in [`Head::text`] of the character that replaces it.
     at: usize,
-    /// From its first byte to its last that is no space; empty where there are none.
+    /// Byte range in the file from its first to its last character that is not white space; empty if there is
+    /// none.
     start: u64,
     end: u64,
-    /// Bytes and lines that are missing, up to here and with it.
+    /// Number of bytes and lines left out so far, this text included.
     bytes: u64,
     lines: u64,
-    /// Whether a line ends in it, and its bytes in the last line.
+    /// Whether it has a line break, and its number of bytes after the last one.
     breaks: bool,
     column: u64,
 }
 
-/// Where the text of an element is.
+/// The text of an element.
 pub(super) enum Words<'d> {
-    /// In memory.
+    /// It is in memory.
     Here(&'d str),
-    /// In the file, from one byte to another.
+    /// It is in this byte range of the file.
     There(u64, u64),
-    /// Parts of it are in the file, among others that are more than characters.
+    /// It is partly in the file, with entities or CDATA between, and cannot be read from there.
     Mixed,
 }
 
 impl Head {
-    /// Reads the beginning of a file. `cut`: without its long texts, so that it takes no more memory than what it says.
+    /// Reads the XML of a file. With `cut`, long texts are left out, so that memory use is proportional to
+    /// the structure and not to the data.
     pub(super) fn read(content: &Content<'_>, cut: bool) -> Result<Self, ReadError> {
         let mut text = Text::of(content)?;
         let mark = text.at();
@@ -76,7 +80,7 @@ impl Head {
             }
             text.skip(length as u64, "the header")?;
         };
-        // What is before the appended data lacks the end of its root.
+        // The closing tag of the root element comes after the appended data.
         if appended.is_some() {
             scan.out.extend(b"</VTKFile>");
         }
@@ -93,20 +97,20 @@ impl Head {
             let line = lines.next().unwrap_or_default();
             let column = line.char_indices().nth(position.col.saturating_sub(1) as usize);
             let at = before + column.map_or(line.len(), |(i, _)| i);
-            // What it says is of what is left of the file.
+            // The parser's position counts in the shortened text; make it one in the file.
             let there = format!(" at {}:{}", self.line(at), self.column(at));
             let found = e.to_string().replace(&format!(" at {position}"), &there);
             ReadError::malformed("well-formed XML", found, Place::Line(self.line(at)))
         })
     }
 
-    /// Where in the file an element begins, in bytes from its start.
+    /// Byte offset of an element in the file.
     pub(super) fn offset(&self, node: &Node<'_, '_>) -> u64 {
         let at = node.range().start;
         file_offset(&self.cuts, self.mark, at)
     }
 
-    /// The line in which an element begins.
+    /// The line at which an element begins.
     pub(super) fn place(&self, node: &Node<'_, '_>) -> Place {
         Place::Line(self.line(node.range().start))
     }
@@ -117,7 +121,7 @@ impl Head {
         1 + missing + head.iter().filter(|b| **b == b'\n').count() as u64
     }
 
-    /// Characters of the line up to a place and with it.
+    /// Column of the character at `at`, from 1, in characters.
     fn column(&self, at: usize) -> u64 {
         let characters =
             |from, to| self.text.get(from..to).map_or(0, |text: &str| text.chars().count() as u64);
@@ -133,7 +137,7 @@ impl Head {
         column + characters(from, at)
     }
 
-    /// The first text of an element that is more than space.
+    /// The first text of an element that is not only white space.
     pub(super) fn words<'d>(&self, node: &Node<'d, '_>) -> Words<'d> {
         let texts = node.children().filter(Node::is_text);
         let mut texts = texts.filter_map(|child| Some((child, child.text()?)));
@@ -151,7 +155,7 @@ impl Head {
     }
 }
 
-/// The last cut before a place.
+/// The last cut before an index.
 fn before(cuts: &[Cut], at: usize) -> Option<&Cut> {
     cuts.partition_point(|cut| cut.at < at).checked_sub(1).and_then(|i| cuts.get(i))
 }
@@ -160,26 +164,26 @@ fn file_offset(cuts: &[Cut], mark: u64, at: usize) -> u64 {
     mark + at as u64 + before(cuts, at).map_or(0, |cut| cut.bytes)
 }
 
-/// What the next byte is in.
+/// What the next byte belongs to.
 #[derive(Clone, Copy)]
 enum State {
     Text,
-    /// Since this byte of the head.
+    /// A tag that begins at this index of the text.
     Tag(usize),
     Quoted(u8),
-    /// Up to these bytes.
+    /// A comment or the like, up to these bytes.
     Until(&'static [u8]),
-    /// A reference to a character, since this byte.
+    /// A character reference that begins at this index of the text.
     Reference(usize),
 }
 
-/// Bytes of a reference; one that is longer is a fault.
+/// Longest character reference in bytes.
 const REFERENCE: usize = 16;
 
-/// On the way through a file.
+/// State of the scan.
 struct Scan {
     out: Vec<u8>,
-    /// How much of that is known to be UTF-8.
+    /// Number of bytes at the start of `out` that are known to be UTF-8.
     valid: usize,
     cuts: Vec<Cut>,
     state: State,
@@ -188,26 +192,28 @@ struct Scan {
     mark: u64,
 }
 
-/// Characters between elements that stand for themselves.
+/// A run of plain characters, see [`is_plain`].
 #[derive(Default)]
 struct Run {
     length: u64,
-    /// Those of the last line.
+    /// Number of bytes after the last line break.
     column: u64,
-    /// How many of them are at the end of the head.
+    /// Number of these bytes that `out` ends with.
     kept: usize,
     lines: u64,
-    /// The bytes before the first that is no space, and those up to the last; none where all are.
+    /// Range of the run from its first to behind its last byte that is not white space; `None` if there is
+    /// none.
     words: Option<(u64, u64)>,
 }
 
-/// Whether a byte between elements stands for itself alone, so that it can be left out.
+/// Whether a byte of text stands for itself, so that a run of such bytes can be left out.
 fn is_plain(byte: u8) -> bool {
     matches!(byte, b'\t' | b'\n' | b'\r' | b' '..=b'~') && !matches!(byte, b'<' | b'>' | b'&')
 }
 
 impl Scan {
-    /// Takes the next bytes, none at the end; gives the place of the appended data, which ends the scan.
+    /// Scans the next bytes; an empty chunk means the end of the file. Returns the offset of the appended
+    /// data where it finds it, which ends the scan.
     fn chunk(&mut self, chunk: &[u8]) -> Option<u64> {
         let mut rest = chunk;
         while let Some((&byte, behind)) = rest.split_first() {
@@ -236,7 +242,7 @@ impl Scan {
         None
     }
 
-    /// Characters of a text, which is kept until it is too long.
+    /// Adds plain characters to the run, and drops the run from `out` once it is too long.
     fn plain(&mut self, some: &[u8]) {
         let run = &mut self.run;
         let space = |b: &u8| b.is_ascii_whitespace();
@@ -281,7 +287,7 @@ impl Scan {
         self.out.push(if run.words.is_some() { b'0' } else { b' ' });
     }
 
-    /// Fails where what there is can't become UTF-8; `all`: nothing more comes.
+    /// Fails if the text cannot become UTF-8. `all` says that no bytes will follow.
     fn check(&mut self, all: bool) -> Result<(), ReadError> {
         self.valid = self.valid.min(self.out.len());
         let new = self.out.get(self.valid..).unwrap_or_default();
@@ -302,7 +308,7 @@ impl Scan {
     fn step(&mut self, byte: u8) {
         let start = self.out.len() - 1;
         self.state = match (self.state, byte) {
-            // In an attribute it is a fault, which the parser finds; what comes behind it may be text again.
+            // In an attribute this is an error, which the parser reports. What follows may be text again.
             (State::Text | State::Tag(_) | State::Quoted(_) | State::Reference(_), b'<') => {
                 State::Tag(start)
             }

@@ -1,8 +1,9 @@
-//! The beginning of a table in text: what separates its fields, what its columns are called, and where its rows begin.
+//! Detects the beginning of a text table: the separator of its fields, the names of its columns, and where
+//! its rows begin.
 //!
-//! Names stand in the line before the rows, with or without `#` before them; programs write comments and lines of their
-//! own above it. A line is that of the names where positions are among them and the line of numbers that follows has as
-//! many fields.
+//! The names are in the line before the rows, with or without `#` in front; some programs write comments and
+//! other lines above it. A line counts as the line of names if it contains names of positions and has as many
+//! fields as the next line of numbers.
 
 use super::bytes::parse_number;
 use super::error::ReadError;
@@ -10,30 +11,30 @@ use super::names::have_positions;
 use super::source::Content;
 use super::text::Text;
 
-/// Lines in which the names are looked for.
+/// Number of lines searched for the names.
 const LINES: usize = 64;
 
-/// What a table begins with.
+/// The beginning of a table.
 pub(super) struct Heading {
-    /// What separates fields; none where blanks do, and whatever stands among them.
+    /// Separator of the fields; `None` for white space, which may come with other separators.
     pub(super) delimiter: Option<u8>,
-    /// Those of the columns; none where there is no line of names.
+    /// Names of the columns; empty without a line of names.
     pub(super) names: Vec<String>,
-    /// Where the rows begin, in bytes and in lines.
+    /// Where the rows begin: byte offset, and number of lines before.
     pub(super) at: u64,
     pub(super) line: u64,
-    /// Lines before the names, or before the rows, that are neither empty nor comments.
+    /// Number of lines before the names (or rows) that are neither empty nor comments.
     pub(super) passed: u64,
 }
 
-/// A line, and where the next one begins.
+/// A line, its byte offset, and that of the next line.
 pub(super) struct Line {
     pub(super) text: Vec<u8>,
     pub(super) start: u64,
     pub(super) next: u64,
 }
 
-/// The first lines of a text.
+/// The first [`LINES`] lines of a file.
 pub(super) fn lines(content: &Content<'_>) -> Result<Vec<Line>, ReadError> {
     let mut text = Text::of(content)?;
     let mut lines = Vec::new();
@@ -46,7 +47,7 @@ pub(super) fn lines(content: &Content<'_>) -> Result<Vec<Line>, ReadError> {
     Ok(lines)
 }
 
-/// Without the mark of a comment, and whether there was one.
+/// The line without its comment mark, and whether it had one.
 fn uncommented(line: &[u8]) -> (&[u8], bool) {
     let line = line.trim_ascii();
     let mark = [&b"#"[..], b"%", b"//"].iter().find_map(|mark| line.strip_prefix(*mark));
@@ -56,18 +57,18 @@ fn uncommented(line: &[u8]) -> (&[u8], bool) {
     }
 }
 
-/// Whether a line is passed over.
+/// Whether a line is empty or a comment.
 pub(super) fn is_comment(line: &[u8]) -> bool {
     let (rest, marked) = uncommented(line);
     marked || rest.is_empty() || is_zone(rest) || begins(rest, b"TITLE")
 }
 
-/// Whether a line of Tecplot begins the rows of a zone.
+/// Whether a line is a Tecplot `ZONE` record, which begins its rows.
 pub(super) fn is_zone(line: &[u8]) -> bool {
     begins(line, b"ZONE")
 }
 
-/// Whether a line begins with a word of Tecplot's.
+/// Whether a line begins with a Tecplot keyword.
 fn begins(line: &[u8], word: &[u8]) -> bool {
     let line = line.trim_ascii_start();
     let behind = line.get(word.len()..).and_then(<[u8]>::first);
@@ -75,13 +76,13 @@ fn begins(line: &[u8], word: &[u8]) -> bool {
     ends && line.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
 }
 
-/// The names that Tecplot has behind a word and a sign.
+/// The names in a Tecplot `VARIABLES =` record.
 fn variables(line: &[u8]) -> Option<&[u8]> {
     let rest = line.get(b"VARIABLES".len()..).filter(|_| begins(line, b"VARIABLES"))?;
     rest.trim_ascii_start().strip_prefix(b"=")
 }
 
-/// What separates the fields of a line of numbers. Where others do, commas are those of decimals.
+/// The separator of a line of numbers. A comma is a decimal comma if there is another separator.
 pub(super) fn delimiter(line: &[u8]) -> Option<u8> {
     let line = line.trim_ascii();
     let comma = line.contains(&b',');
@@ -96,7 +97,7 @@ pub(super) fn delimiter(line: &[u8]) -> Option<u8> {
     [b'\t', b'|'].into_iter().find(|d| line.contains(d))
 }
 
-/// The fields of a line, without those behind the last separator.
+/// The fields of a line, without empty ones at its end.
 pub(super) fn fields(line: &[u8], delimiter: Option<u8>) -> Vec<String> {
     let Some(delimiter) = delimiter else { return words(line) };
     let mut reader = csv::ReaderBuilder::new();
@@ -112,7 +113,7 @@ pub(super) fn fields(line: &[u8], delimiter: Option<u8>) -> Vec<String> {
     fields
 }
 
-/// Names between blanks, each with the units in brackets and quotes that it has.
+/// Splits a line at white space; units in brackets and quoted names stay whole.
 fn words(line: &[u8]) -> Vec<String> {
     let text = String::from_utf8_lossy(line);
     let mut words: Vec<String> = Vec::new();
@@ -143,13 +144,13 @@ fn words(line: &[u8]) -> Vec<String> {
     words.iter().map(|word| word.trim_matches(['"', '\'']).trim().to_string()).collect()
 }
 
-/// A number as it may stand in a field of this table; an empty field is none.
+/// Whether a field is a number; an empty field counts as one.
 pub(super) fn is_number(field: &str, delimiter: Option<u8>) -> bool {
     let decimal = || delimiter != Some(b',') && number_with_comma(field.as_bytes()).is_some();
     field.is_empty() || parse_number(field.as_bytes()).is_some() || decimal()
 }
 
-/// A number whose decimals stand behind a comma.
+/// Parses a number with a decimal comma.
 pub(super) fn number_with_comma(field: &[u8]) -> Option<f64> {
     let comma = field.iter().position(|b| *b == b',')?;
     let mut field = field.to_vec();
@@ -187,7 +188,7 @@ impl Heading {
         Self::unnamed(lines, passed)
     }
 
-    /// Where rows begin that have no names with positions among them.
+    /// The heading of a table without names of positions.
     fn unnamed(lines: &[Line], passed: impl Fn(usize) -> u64) -> Self {
         let numbers = |line: &Line| {
             let separator = delimiter(&line.text);
@@ -202,7 +203,7 @@ impl Heading {
             }
             let (separator, all, fields) = numbers(line);
             if all && fields.len() >= 2 {
-                // Names of which none is a position are those of the columns all the same.
+                // Names are used even if none of them is a position.
                 let names = before.filter(|names| names.len() == fields.len());
                 return Self {
                     delimiter: separator,

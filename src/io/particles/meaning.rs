@@ -1,20 +1,20 @@
-//! What an attribute is taken as.
+//! Meaning of an attribute.
 
-/// What became of an attribute, or of three of them.
+/// Meaning of an attribute, or of three that form a vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Meaning {
     /// Centres of the particles.
     Position,
-    /// How fast they move.
+    /// Velocities.
     Velocity,
     /// Mass densities.
     Density,
-    /// Numbers that follow a particle over the frames.
+    /// Numbers that stay with a particle from frame to frame.
     Id,
-    /// Time left to live, of diffuse particles.
+    /// Remaining lifetime of whitewater particles.
     Lifetime,
-    /// What a particle is, as a number: of a diffuse particle 0 foam, 1 spray, 2 bubble.
+    /// Kind of a particle, as a number; for whitewater 0 foam, 1 spray, 2 bubble.
     Kind,
 }
 

@@ -1,8 +1,8 @@
 //! Particle caches: the files that SPH solvers, Houdini, ParaView and NumPy write.
 //!
-//! [`read`] takes one file and gives its [`Particles`]; [`sequence`] turns what a user names (a file, a glob
-//! or a `%04d` pattern) into numbered frames; [`estimate_spacing`] guesses the rest spacing where the file
-//! does not say it, [`estimate_densities`] the densities; [`write()`] writes four of the formats.
+//! [`read`] reads one file into [`Particles`]. [`sequence`] expands user input (a file, a glob or a `%04d`
+//! pattern) to numbered frames. [`estimate_spacing`] and [`estimate_densities`] estimate rest spacing and
+//! densities that a file lacks. [`write()`] writes four of the formats.
 //!
 //! | format | read | written |
 //! | --- | --- | --- |
@@ -19,18 +19,19 @@
 //! | dumps of LAMMPS and LIGGGHTS, text | yes | |
 //! | HDF5 (VTKHDF, PySPH, H5Part, H5MD, arrays in a group) and XDMF | with the feature `hdf5` | |
 //!
-//! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory: all of these
-//! formats but JSON, HDF5 and XDMF.
+//! [`Parts`] reads the same particles in parts, for files that are too large for memory: all of these formats
+//! except JSON, HDF5 and XDMF.
 //!
-//! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
-//! Names may have any case, blanks and units: `Pos.x [m]` is `pos_x`. A sound file that can't be taken for one frame of particles is
-//! refused with what it is and what to do; what is taken in one of several ways is told in [`Particles::warnings`].
+//! Any of them may be compressed with gzip. The content decides the format; the extension is only a hint. Case,
+//! blanks and units in names are ignored: `Pos.x [m]` is `pos_x`. A valid file that is not one frame of
+//! particles is refused, with what it is and what to do. Ambiguous interpretations are reported in
+//! [`Particles::warnings`].
 //!
-//! Lengths and times are taken as they are; nothing is scaled or reordered. Ghosts are left out. An origin is taken off only
-//! positions in double precision that lie very far out ([`Particles::origin`]).
+//! Lengths and times are kept as they are; nothing is scaled or reordered. Ghosts are left out. An origin is
+//! subtracted only from double-precision positions that are very far away ([`Particles::origin`]).
 //!
 //! A reader never panics and trusts no count in a header: it allocates in proportion to the bytes that are
-//! there. What decompresses to more than 16 MiB + 64 times the file's size is refused.
+//! there. Content that decompresses to more than 16 MiB + 64 times the file's size is refused.
 #![forbid(unsafe_code)]
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
@@ -89,7 +90,7 @@ pub use write::{write, write_to};
 
 /// One frame of particles as read from a file.
 ///
-/// All vectors that are present have the same length, and the same order as the file.
+/// All present vectors have the same length and the file's order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Particles {
     /// Centres, in the file's unit of length. May hold NaN or infinities: see [`count_non_finite`].
@@ -98,32 +99,33 @@ pub struct Particles {
     pub velocities: Option<Vec<[f32; 3]>>,
     /// Mass densities, in the file's unit.
     pub densities: Option<Vec<f32>>,
-    /// Numbers that follow a particle over the frames. Negative, fractional or larger ones are dropped, with
-    /// a warning.
+    /// Numbers that stay with a particle from frame to frame. Negative, fractional or too large ones are
+    /// dropped, with a warning.
     pub ids: Option<Vec<u32>>,
-    /// Time left to live, of diffuse particles. At or below zero the particle dies with the next frame.
+    /// Remaining lifetime of whitewater particles. At or below zero a particle dies with the next frame.
     pub lifetimes: Option<Vec<f32>>,
-    /// What a diffuse particle is: 0 foam, 1 spray, 2 bubble. Other values are kept as they are.
+    /// Kind of a whitewater particle: 0 foam, 1 spray, 2 bubble. Other values are kept.
     pub kinds: Option<Vec<u32>>,
     /// Every attribute in the file, read or not, positions included.
     pub attributes: Vec<Attribute>,
-    /// Which of them became what, by their names: positions first. What is in no list here was passed over.
+    /// Meanings of attributes, by their names, positions first. Attributes in no list were ignored.
     pub meanings: Vec<(Meaning, Vec<String>)>,
-    /// What was asked for beside, by [`read_with`].
+    /// Attributes requested with [`read_with`].
     pub extras: Vec<Extra>,
-    /// The time of the frame, where the file says it, in its unit.
+    /// Time of the frame in the file's unit, if the file has it.
     pub time: Option<f64>,
-    /// What was taken off the positions of the file, in double precision, so that 32-bit floats tell particles apart that lie
-    /// far from the origin; else 0. Frames of a sequence may differ in it: see [`move_to`](Self::move_to).
+    /// Offset that was subtracted from the file's positions in double precision, so that 32-bit floats can
+    /// distinguish particles far from the origin; otherwise 0. Frames of a sequence may differ in it: see
+    /// [`move_to`](Self::move_to).
     pub origin: [f64; 3],
-    /// What the file was.
+    /// Format of the file.
     pub format: Format,
-    /// What a user should know: values dropped, parts not read, positions that are no numbers.
+    /// Warnings for the user: dropped values, unread parts, non-finite positions.
     pub warnings: Vec<String>,
 }
 
 impl Particles {
-    /// Particles that have only positions; the format is the raw one and there are no attributes to list.
+    /// Particles with positions only. The format is the raw one, and no attributes are listed.
     pub fn from_positions(positions: Vec<[f32; 3]>) -> Self {
         Self {
             positions,
@@ -142,18 +144,20 @@ impl Particles {
         }
     }
 
-    /// Takes particles out: those for which `kept` has false. What is beyond its end is kept.
+    /// Removes the particles for which `kept` is false. Particles beyond its end are kept.
     pub fn retain(&mut self, kept: &[bool]) {
         survey::retain(self, kept);
     }
 
-    /// Appends the particles of another file of the same frame. What not both have is dropped with a warning, and so are ids that
-    /// both have of different particles; [`extras`](Self::extras) are NaN where one of them has none.
+    /// Appends the particles of another file of the same frame. Attributes that only one of them has are dropped, with a
+    /// warning, and so are ids that both files give to different particles. [`extras`](Self::extras) are NaN where one of
+    /// them has none.
     pub fn append(&mut self, other: Self) {
         join::append(self, other);
     }
 
-    /// Gives the particles another [`origin`](Self::origin), such as that of the first frame of a sequence.
+    /// Changes the [`origin`](Self::origin), for example to that of a sequence's first frame, and adjusts the
+    /// positions so that each particle stays where it is.
     pub fn move_to(&mut self, origin: [f64; 3]) {
         if self.origin != origin {
             let ([x, y, z], [a, b, c]) = (self.origin, origin);
@@ -200,15 +204,15 @@ fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
         .map_err(|reason| ReadError::File { path: path.to_path_buf(), reason: Box::new(reason) })
 }
 
-/// The particles of a file of HDF5, or of one that names such; none of another.
+/// Reads a file of HDF5, or one that names such a file; `None` for any other.
 #[cfg(feature = "hdf5")]
 fn of_hdf5(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
     let read = hdf5::read(path, asked).or_else(|| xdmf::read(path, asked))?;
     Some(read.map_err(|error| parts::named(path, error)))
 }
 
-/// Reads one file, and beside what [`read`] gives attributes of one number each by name, into [`Particles::extras`]: case,
-/// blanks, `_ - . :` and units in brackets say nothing in a name. What is not there is no error.
+/// Reads one file like [`read`], and also scalar attributes by name into [`Particles::extras`]. Case, blanks,
+/// `_ - . :` and units in brackets are ignored in names. A missing attribute is no error.
 ///
 /// # Errors
 /// Those of [`read`].
@@ -216,12 +220,12 @@ pub fn read_with(path: &Path, extras: &[&str]) -> Result<Particles, ReadError> {
     read_asked(path, &Asked::new(extras))
 }
 
-/// Whether these are names of one attribute, as [`read_with`] has it.
+/// Whether two names denote one attribute, by the rules of [`read_with`].
 pub fn same_name(a: &str, b: &str) -> bool {
     names::plain(a) == names::plain(b)
 }
 
-/// Reads one file that lies in memory. `hint` decides only where the content does not: text and raw triples.
+/// Reads a file from memory. `hint` decides only where the content does not: text and raw triples.
 ///
 /// # Errors
 /// Says what was expected, what was found, where, and what to do. It never panics, whatever the bytes.
@@ -270,8 +274,8 @@ fn read_plain(
     }
 }
 
-/// How many positions have a NaN or an infinity in them. They stay in the arrays, so that the indices hold;
-/// the renderer drops them.
+/// Number of positions with a NaN or an infinity. They stay in the arrays, so that indices stay valid; the
+/// renderer drops them.
 pub fn count_non_finite(positions: &[[f32; 3]]) -> usize {
     positions.iter().filter(|p| !p.iter().all(|c| c.is_finite())).count()
 }

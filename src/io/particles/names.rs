@@ -1,8 +1,8 @@
-//! What names of attributes mean, however programs spell them.
+//! Meanings of attribute names, in the spellings of different programs.
 //!
-//! Case, blanks and `_ - . :` say nothing, and neither does a unit in brackets: `Pos.x [m]`, `pos_x` and `PosX` are one
-//! name. Components are `x y z`, or numbers from 0 or 1, bare or in brackets: `Points:0`, `v_1`, `velocity[2]`. What
-//! begins with `particle` or `part` means what the rest does: `Part id`, `particle_velocity_x`.
+//! Case, blanks, `_ - . :` and units in brackets are ignored: `Pos.x [m]`, `pos_x` and `PosX` are one name.
+//! Components are `x y z`, or numbers from 0 or 1, bare or in brackets: `Points:0`, `v_1`, `velocity[2]`. A
+//! prefix `particle` or `part` is ignored: `Part id`, `particle_velocity_x`.
 
 /// Names with a meaning, as [`plain`] gives them, the surest first.
 pub(super) type Names = &'static [&'static str];

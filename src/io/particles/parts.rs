@@ -1,4 +1,4 @@
-//! Particles of a file a part after the other.
+//! Reads the particles of a file in parts.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -15,21 +15,22 @@ use super::{bgeo, comma, geo, lammps, numpy, ply, table, vtk_legacy, vtk_xml, xy
 /// Bytes that tell the format.
 const START: u64 = 1 << 16;
 
-/// The particles of a file, a part after the other: together they are those that [`read`](super::read) gives.
+/// The particles of a file in parts. Together they are the particles that [`read`](super::read) returns.
 ///
-/// The file is read twice. The first time finds all there is to find fault with, so that nothing has to be undone
-/// later, and what only all particles tell: how many there are, whether an attribute has to be dropped, what a user should
-/// know. The second time gives the parts. Where all particles fit into one part it is kept from the first time.
+/// The file is read twice. The first pass finds every fault, so that nothing has to be revoked later, and
+/// everything that only all particles show: their number, attributes that have to be dropped, warnings. The
+/// second pass returns the parts. If all particles fit in one part, it is kept from the first pass.
 ///
-/// In memory are 160 bytes at most for each particle of a part, one part that was given before among them; 2 MiB (of VTK
-/// within gzip 4 MiB), or one particle as it lies in the file where that is larger; and the header of the file. The
-/// header of VTK XML are its elements without the texts that are longer than 64 characters. A block that LZ4 or LZMA has
-/// packed is unpacked as a whole, by LZMA with a dictionary of 64 MiB at most.
+/// Memory use is at most 160 bytes per particle of a part, including one previous part; 2 MiB (4 MiB for VTK in
+/// gzip), or one particle's size in the file if that is larger; and the header. The header of VTK XML consists
+/// of its elements without texts longer than 64 characters. A block packed with LZ4 or LZMA is unpacked as a
+/// whole, LZMA with a dictionary of at most 64 MiB.
 ///
-/// This holds for all formats but JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
-/// by deflate, and VTK XML whose texts have references (`&#32;`) or CDATA in them. Those are read as a whole: see
-/// [`in_memory`](Self::in_memory), but for the last, of which the header alone is as long as the file. Attributes of VTK
-/// have places of their own in the file: what gzip has packed is unpacked for each of them.
+/// This holds for all formats except JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ arrays in Fortran order, NPZ in gzip or
+/// with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`) or CDATA. Those
+/// are read as a whole (see [`in_memory`](Self::in_memory)), except the last, whose header alone is as long as
+/// the file. Attributes of VTK have separate positions in the file: gzip content is unpacked once per
+/// attribute.
 pub struct Parts<'a> {
     about: Particles,
     total: usize,
@@ -49,10 +50,10 @@ enum Rest<'a> {
 }
 
 impl Parts<'static> {
-    /// Particles of a part where nothing speaks for another number.
+    /// Default number of particles per part.
     pub const USUAL: usize = 1 << 17;
 
-    /// Opens a file for parts of `most` particles, of which the last may have fewer; 0 is taken as 1.
+    /// Opens a file for parts of `most` particles; the last may have fewer. 0 counts as 1.
     ///
     /// # Errors
     /// Those of [`read`](super::read).
@@ -60,9 +61,9 @@ impl Parts<'static> {
         Self::open_with(path, most, |_| {})
     }
 
-    /// The same, and shows each part as it is when it is read for the first time: what is looked for in all particles
-    /// takes no time of its own. Of a part that is shown `ids` and `kinds` may be there that are dropped in the end; of a
-    /// file that can't be read in parts all particles are shown as one.
+    /// Opens a file as [`open`](Self::open) does, and shows each part as soon as it is first read, so that a
+    /// scan over all particles needs no extra pass. A shown part may still have `ids` and `kinds` that are
+    /// dropped in the end. A file that cannot be read in parts is shown as one part.
     ///
     /// # Errors
     /// Those of [`read`](super::read), after some parts were shown.
@@ -97,8 +98,8 @@ impl Parts<'static> {
     }
 }
 
-/// The [`origin`](Particles::origin) that a file has taken off, by its first particles alone where it can be read in parts: that of
-/// the first frame is a good one for all of a sequence, see [`Particles::move_to`].
+/// The [`origin`](Particles::origin) of a file, from its first particles alone if it can be read in parts. That
+/// of the first frame suits a whole sequence, see [`Particles::move_to`].
 ///
 /// # Errors
 /// Those of [`read`](super::read) that come before the particles.
@@ -133,7 +134,7 @@ pub(super) fn named(path: &Path, error: ReadError) -> ReadError {
 }
 
 impl<'a> Parts<'a> {
-    /// Reads a file that lies in memory, as [`read_bytes`](super::read_bytes) does.
+    /// Reads a file from memory, as [`read_bytes`](super::read_bytes) does.
     ///
     /// # Errors
     /// Those of [`read_bytes`](super::read_bytes).
@@ -200,18 +201,18 @@ impl<'a> Parts<'a> {
         Ok(Self { about, total, most, rest, path: None })
     }
 
-    /// Particles of all parts together.
+    /// Total number of particles.
     pub fn total(&self) -> usize {
         self.total
     }
 
-    /// What all particles have in common: a list is there, without any particles, where each part has it; format,
-    /// attributes and warnings are those of the file, and parts have no attributes and warnings of their own.
+    /// Properties of all particles: a vector is present, but empty, if each part has it. Format, attributes and
+    /// warnings are those of the file; parts have none of their own.
     pub fn about(&self) -> &Particles {
         &self.about
     }
 
-    /// Whether all particles are in memory: a file of few, or of a format that can't be read in parts.
+    /// Whether all particles are in memory: a small file, or a format that cannot be read in parts.
     pub fn in_memory(&self) -> bool {
         matches!(self.rest, Rest::Memory(..))
     }

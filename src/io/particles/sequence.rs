@@ -1,4 +1,4 @@
-//! From what a user names to numbered frames.
+//! Expands user input to numbered frames.
 
 use std::cmp::Ordering;
 use std::ops::RangeInclusive;
@@ -10,10 +10,10 @@ use super::steps::Step;
 /// One file of a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// The number in its name; where names have none, or a time, its place in the order, from 0.
+    /// Number in its name; if names have none, or a time, its index in the order, from 0.
     pub number: u64,
-    /// The time in its name or in that of its folder, in the unit of who wrote it: of names whose numbers have a point or
-    /// an exponent (`t0.32`, `0.32/cloud`, `4.0e-04`).
+    /// Time in its name or in that of its folder, in its author's unit, if the numbers have a point or an
+    /// exponent (`t0.32`, `0.32/cloud`, `4.0e-04`).
     pub time: Option<f64>,
     /// The file.
     pub path: PathBuf,
@@ -34,14 +34,14 @@ impl Frame {
     }
 }
 
-/// Why inputs give no frames.
+/// Why inputs yield no frames.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SequenceError {
-    /// Nothing was named.
+    /// No input.
     #[error("no input; name a file, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'")]
     NoInput,
-    /// A plain name that is no file.
+    /// A plain name that is not a file.
     #[error("{input}: no such file; check the name, or use a pattern such as 'fluid_*.bgeo'")]
     NotFound {
         /// As given.
@@ -53,20 +53,20 @@ pub enum SequenceError {
         /// As given.
         input: String,
     },
-    /// A pattern that fits no file.
+    /// A pattern that matches no file.
     #[error("{pattern}: no file fits; {near}")]
     NoMatch {
         /// As given.
         pattern: String,
-        /// What is there instead.
+        /// Similar names that exist.
         near: String,
     },
-    /// A pattern that cannot be understood.
+    /// An invalid pattern.
     #[error("{pattern}: expected {expected}")]
     Pattern {
         /// As given.
         pattern: String,
-        /// What it should be.
+        /// Expected form.
         expected: String,
     },
     /// All files lie outside the range.
@@ -85,7 +85,7 @@ pub enum SequenceError {
         /// Largest number found.
         highest: u64,
     },
-    /// Two files of one number.
+    /// Two files with one number.
     #[error("{} and {} are both frame {number}: a sequence has one file for each; {advice}", first.display(), second.display())]
     Twice {
         /// The number.
@@ -97,20 +97,20 @@ pub enum SequenceError {
         /// What to do.
         advice: String,
     },
-    /// A piece of a frame among several files, which would be taken for a frame.
+    /// A piece of a frame among several files, which would be mistaken for a frame.
     #[error("{} is a piece of the frame {}: give that one, or a pattern of its kind", file.display(), index.display())]
     Piece {
         /// The piece.
         file: PathBuf,
-        /// What lists it.
+        /// The index that lists it.
         index: PathBuf,
     },
-    /// The folder or a file could not be looked at.
+    /// A folder or file could not be listed.
     #[error("cannot list {}: {reason}; check the name and the permissions", path.display())]
     Io {
-        /// What was being listed.
+        /// The path.
         path: PathBuf,
-        /// What the system says.
+        /// The system's reason.
         reason: std::io::Error,
     },
 }
@@ -138,13 +138,13 @@ pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
 
 /// Expands inputs to the frames of one sequence, in the order of their numbers.
 ///
-/// An input is a file, a list of files with times (`.pvd`, `.series` of ParaView), a pattern with `*`, `?` or `[...]`, or one with `%d` or `%04d` in the file's name. A name
-/// that is a file is taken as that file, whatever is in it. All inputs together are one sequence, so that a
-/// pattern the shell has expanded gives the same as one it has not. The number of a frame is the run of digits
-/// in its name that differs from file to file (the last such), so `run2_frame_10` is frame 10; of a pattern with `%d` it is
-/// the number there. Where the names of all files are alike it is in that of their folders (`10/cloud.vtp`). A number with
-/// a point or an exponent is a time, and a minus that stands behind another sign belongs to it (`step--1`): these order
-/// the frames, which are counted from 0.
+/// An input is a file, a list of files with times (ParaView's `.pvd` and `.series`), a pattern with `*`, `?` or
+/// `[...]`, or one with `%d` or `%04d` in the file name. A name that exists is taken literally. All inputs
+/// together are one sequence, so a pattern that the shell has expanded gives the same result. A frame's number
+/// is the last run of digits in its name that differs between files, so `run2_frame_10` is frame 10; for a
+/// pattern with `%d` it is the number there. If all file names are alike, the number is in their folders
+/// (`10/cloud.vtp`). A number with a point or an exponent is a time, and a minus after another sign belongs to
+/// it (`step--1`). Times order the frames, which are then counted from 0.
 ///
 /// # Errors
 /// Says which input gave nothing, and what is there instead. Every input must give a file.

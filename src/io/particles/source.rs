@@ -14,7 +14,7 @@ use super::error::{Place, ReadError};
 pub(super) trait Bytes: Read + Seek + Send {}
 impl<T: Read + Seek + Send> Bytes for T {}
 
-/// A file that is read at several places in turn.
+/// A file that is read alternately at several positions.
 #[derive(Clone)]
 pub(super) struct Input<'a> {
     file: Arc<Mutex<Box<dyn Bytes + 'a>>>,

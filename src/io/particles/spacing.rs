@@ -1,24 +1,24 @@
-//! Guesses at the rest spacing and at densities, for files that do not say them.
+//! Estimates of rest spacing and densities, for files that lack them.
 
 use super::survey::{DOUBLED, Repeats};
 
-/// How many particles are asked for their nearest neighbours.
+/// Number of particles for which the nearest neighbours are searched.
 const QUERIES: usize = 16_384;
 
-/// The rest spacing (twice the solver's particle radius) from the positions alone, in their unit; `None` where
-/// there are not two finite, distinct positions near each other.
+/// Estimates the rest spacing (twice the solver's particle radius) from positions, in their unit; `None`
+/// without two finite, distinct, nearby positions.
 ///
-/// The median distance to the third nearest neighbour, over an even choice of particles: exact where they stand
-/// on their first cubic grid, and within 5 % on most frames of moving fluid (10 % where most of it is spray),
-/// where the nearest neighbour alone reads 12 to 28 % low. Means something for fluids only, not for spray and foam.
-/// It is the same on every run, and a few strays, doubles, NaN or infinities do not move it.
+/// It is the median distance to the third nearest neighbour of a uniform subset: exact on an initial cubic
+/// grid, and within 5 % for most frames of moving fluid (10 % if most of it is spray). The nearest neighbour
+/// alone would be 12 to 28 % too low. It is meaningful for fluids only, not for spray and foam. It is the same
+/// in every run, and a few outliers, duplicates, NaN or infinities do not affect it.
 pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
     let mut points: Vec<[f32; 3]> =
         positions.iter().copied().filter(|p| p.iter().all(|c| c.is_finite())).collect();
     let mut repeats = Repeats::default();
     points.iter().for_each(|p| repeats.add_place(*p));
     if repeats.share() > DOUBLED {
-        // Copies of the nearest would be taken for the next.
+        // Duplicates of a neighbour would count as the next neighbour.
         points.sort_unstable_by_key(|p| p.map(|c| (c + 0.0).to_bits()));
         points.dedup();
     }
@@ -38,9 +38,9 @@ pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
     Some(*median)
 }
 
-/// Densities of particles of a spacing as fractions of the rest density: the sums of the cubic spline that
-/// reaches two spacings. An isolated particle reads 0.318, a line 0.48, a sheet of one layer 0.70, a body of water
-/// about 1. Of positions that are not finite 0.
+/// Estimates densities as fractions of the rest density, for a particle spacing: sums of the cubic spline with
+/// a support of two spacings. An isolated particle has 0.318, a line 0.48, a single sheet 0.70, a body of water
+/// about 1. Non-finite positions give 0.
 pub fn estimate_densities(positions: &[[f32; 3]], spacing: f32) -> Vec<f32> {
     let finite = |p: &[f32; 3]| p.iter().all(|c| c.is_finite());
     let points: Vec<[f32; 3]> = positions.iter().copied().filter(finite).collect();
@@ -54,12 +54,12 @@ pub fn estimate_densities(positions: &[[f32; 3]], spacing: f32) -> Vec<f32> {
 struct Grid {
     cell: f64,
     origin: [f64; 3],
-    /// Key of the cell and the point.
+    /// Key of the point's cell, and the point.
     points: Vec<(u64, [f32; 3])>,
 }
 
 impl Grid {
-    /// A grid whose occupied cells hold a few points each, wherever the strays are.
+    /// A grid whose occupied cells hold a few points each; outliers do not coarsen it.
     fn fit(points: &[[f32; 3]]) -> Option<Self> {
         let step = points.len().div_ceil(4096);
         let mut low = [0.0; 3];
@@ -80,7 +80,7 @@ impl Grid {
         if longest <= 0.0 {
             return None;
         }
-        // A sheet or a line has no volume: every side counts as a sliver at least.
+        // A sheet or a line has no volume: each side counts as at least 1 % of the longest.
         let volume: f64 = extent.iter().map(|e| e.max(1e-2 * longest)).product();
         let mut cell = (volume / points.len() as f64).cbrt();
         let mut grid = Self { cell, origin: low, points: Vec::new() };
@@ -114,7 +114,8 @@ impl Grid {
         [(x, ox), (y, oy), (z, oz)].map(|(c, o)| ((f64::from(c) - o) / self.cell).floor() as i64)
     }
 
-    /// 21 bits an axis. Far strays may share a key with other cells, which costs a look, not a wrong answer.
+    /// Key of a cell: 21 bits per axis. Distant outliers may share a key with other cells, which costs time
+    /// but changes no result.
     fn key(&self, cell: [i64; 3]) -> u64 {
         cell.iter().fold(0, |key, c| key << 21 | (c.wrapping_add(1 << 20) as u64 & 0x1f_ffff))
     }
@@ -124,7 +125,7 @@ impl Grid {
         self.points.get(start..).unwrap_or_default()
     }
 
-    /// Sum of the spline round a point; cells are two spacings wide.
+    /// Sum of the spline kernel around a point. Cells are two spacings wide.
     fn density(&self, p: [f32; 3], spacing: f32) -> f32 {
         let [x, y, z] = self.cell_of(p);
         let mut sum = 0.0;
@@ -134,7 +135,7 @@ impl Grid {
             *key = self.key([shift(x, i), shift(y, i / 3), shift(z, i / 9)]);
         }
         keys.sort_unstable();
-        // Far cells may share a key; none may count twice.
+        // Distant cells may share a key; each key is counted once.
         for run in keys.chunk_by(|a, b| a == b) {
             let Some(key) = run.first() else { continue };
             let same = self.row(*key).iter().take_while(|(found, _)| found == key);
@@ -143,8 +144,7 @@ impl Grid {
         sum
     }
 
-    /// Distance to the neighbour of this rank (1 to 3), the nearest being 1; `None` where fewer lie within two
-    /// cells, which makes the point a stray.
+    /// Distance to the nearest (rank 1), second or third neighbour; `None` if fewer lie within two cells.
     fn neighbour(&self, p: [f32; 3], rank: usize) -> Option<f32> {
         let [x, y, z] = self.cell_of(p);
         let mut best = [f32::INFINITY; 3];
@@ -152,7 +152,7 @@ impl Grid {
             for dx in -reach..=reach {
                 for dy in -reach..=reach {
                     for dz in -reach..=reach {
-                        // The second round looks at the shell only.
+                        // The second round searches only the shell around the first.
                         if reach == 2 && dx.abs().max(dy.abs()).max(dz.abs()) < 2 {
                             continue;
                         }
@@ -167,7 +167,7 @@ impl Grid {
                     }
                 }
             }
-            // Whatever is nearer than this lies in the cells that were looked at.
+            // All points nearer than this lie in the cells searched so far.
             let distance = best.get(rank - 1)?.sqrt();
             if f64::from(distance) <= reach as f64 * self.cell {
                 return Some(distance);
@@ -177,7 +177,7 @@ impl Grid {
     }
 }
 
-/// The cubic spline of a smoothing length of one, as a share of the rest density.
+/// The cubic spline kernel with smoothing length 1, as a fraction of the rest density.
 fn spline(q: f32) -> f32 {
     let (near, far) = ((1.0 - q).max(0.0), (2.0 - q).max(0.0));
     (0.25 * far.powi(3) - near.powi(3)) * std::f32::consts::FRAC_1_PI
@@ -187,7 +187,7 @@ fn squared(p: [f32; 3], q: [f32; 3]) -> f32 {
     p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-/// Keeps the three smallest. The point itself and its doubles, at distance zero, do not count.
+/// Keeps the three smallest distances. Distance 0 (the point itself and its duplicates) does not count.
 fn insert(best: &mut [f32; 3], new: f32) {
     let [a, b, c] = *best;
     if new <= 0.0 || new >= c {

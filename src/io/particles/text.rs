@@ -1,17 +1,17 @@
-//! Text of a file, a line or a word after the other: no more of it is in memory than a chunk, or a line or a word that
+//! Reads the text of a file by lines or words. Only one chunk of it is in memory, or one line or word if that
 //! is longer.
 
 use super::columns::{AttributeType, Data};
 use super::error::{Place, ReadError};
 use super::source::{Content, Source, truncated};
 
-/// Bytes that are read at a time.
+/// Number of bytes read at a time.
 const CHUNK: u64 = 1 << 16;
 
-/// On the way through a text, and what bytes may stand in it.
+/// A reader of text.
 pub(super) struct Text<'a> {
     source: Source<'a>,
-    /// Read until now, and how much of that is passed.
+    /// Bytes that were read, and how many of them were consumed.
     buffer: Vec<u8>,
     next: usize,
 }
@@ -21,7 +21,7 @@ impl<'a> Text<'a> {
         Self { source, buffer: Vec::new(), next: 0 }
     }
 
-    /// All of a file, without a byte order mark.
+    /// Starts at the beginning of the file, behind a byte order mark.
     pub(super) fn of(content: &Content<'a>) -> Result<Self, ReadError> {
         let mut text = Self::new(content.open(0, content.length())?);
         if text.ahead(3)?.starts_with(b"\xef\xbb\xbf") {
@@ -38,7 +38,7 @@ impl<'a> Text<'a> {
         self.buffer.get(self.next..).unwrap_or_default()
     }
 
-    /// Bytes of the file that are passed.
+    /// Byte offset of the next byte.
     pub(super) fn at(&self) -> u64 {
         self.source.at() - self.rest().len() as u64
     }
@@ -47,12 +47,12 @@ impl<'a> Text<'a> {
         Place::Byte(self.at())
     }
 
-    /// Bytes that are still to come.
+    /// Number of bytes not consumed yet.
     pub(super) fn left(&self) -> u64 {
         self.source.most_left() + self.rest().len() as u64
     }
 
-    /// Reads on behind what is not passed yet; false where nothing more comes.
+    /// Reads the next chunk into the buffer; false at the end of the file.
     fn more(&mut self) -> Result<bool, ReadError> {
         self.buffer.drain(..self.next);
         self.next = 0;
@@ -61,21 +61,21 @@ impl<'a> Text<'a> {
         if before < CHUNK as usize / 2 {
             some -= before as u64;
         } else {
-            // A long line: room grows by more than what is read.
+            // A line longer than the buffer: grow by whole chunks.
             self.buffer.reserve(CHUNK as usize);
         }
         self.source.fill(some, &mut self.buffer)?;
         Ok(self.buffer.len() > before)
     }
 
-    /// The next `count` bytes without passing them, or all there are.
+    /// The next `count` bytes, or all if fewer are left, without consuming them.
     pub(super) fn ahead(&mut self, count: usize) -> Result<&[u8], ReadError> {
         while self.rest().len() < count && self.more()? {}
         let rest = self.rest();
         Ok(rest.get(..count).unwrap_or(rest))
     }
 
-    /// How many bytes come before the next one that `ends`, where there is one.
+    /// Number of bytes before the next one for which `ends` holds, and whether there is such a byte.
     fn find(&mut self, ends: impl Fn(&u8) -> bool) -> Result<(usize, bool), ReadError> {
         let mut searched = 0;
         loop {
@@ -124,8 +124,8 @@ impl<'a> Text<'a> {
         Ok(Some(self.pass(length)).filter(|token| !token.is_empty()))
     }
 
-    /// Passes over all up to a byte and that as well, and gives what was before it, its beginning where it is long; none
-    /// where the byte does not come.
+    /// Consumes the bytes up to `end` and `end` itself. Returns those before it (only the first ones if there
+    /// are many), or `None` if `end` does not follow.
     pub(super) fn until(&mut self, end: u8) -> Result<Option<Vec<u8>>, ReadError> {
         let mut passed = Vec::new();
         loop {
@@ -149,7 +149,7 @@ impl<'a> Text<'a> {
         if left < count { Err(truncated(what, self.at(), count, left)) } else { Ok(()) }
     }
 
-    /// A few bytes that are no text.
+    /// Consumes `count` bytes, which need not be text.
     pub(super) fn take(&mut self, count: u64, what: &str) -> Result<&[u8], ReadError> {
         self.require(count, what)?;
         let (at, count) = (self.at(), count as usize);
@@ -160,7 +160,7 @@ impl<'a> Text<'a> {
         Ok(self.pass(count))
     }
 
-    /// Passes over bytes, without reading them where that is possible.
+    /// Consumes bytes, without reading them if possible.
     pub(super) fn skip(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         self.require(count, what)?;
         let there = count.min(self.rest().len() as u64);
@@ -187,13 +187,13 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// So many words are missing.
+    /// Error: the file ends, and so many words are missing.
     fn ended(&self, missing: u64, what: &str) -> ReadError {
-        // A number and its space take two bytes at least.
+        // A number and the space behind it take at least two bytes.
         truncated(what, self.at(), missing.saturating_mul(2).saturating_sub(1), 0)
     }
 
-    /// Passes over so many words.
+    /// Consumes so many words.
     pub(super) fn skip_words(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         let mut left = count;
         let mut inside = false;
@@ -213,7 +213,7 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// Passes over so many numbers, which have to be some.
+    /// Consumes so many words and checks that each is a number.
     pub(super) fn check_numbers(
         &mut self,
         ty: AttributeType,

@@ -9,9 +9,9 @@ use super::{Particles, WriteFormat};
 
 /// Writes one file.
 ///
-/// Positions and what else is present go out as `velocity`, `density`, `id`, `lifetime` and `type`, so that
-/// [`read`](super::read) gives the same particles back. The file is written under a temporary name beside it and
-/// renamed, so there is never half a file under its own name.
+/// Writes positions and the other present attributes as `velocity`, `density`, `id`, `lifetime` and `type`, so
+/// that [`read`](super::read) returns the same particles. The file is written under a temporary name beside it
+/// and renamed, so an incomplete file never has the final name.
 ///
 /// # Errors
 /// Vectors of different lengths, ids too large for BGEO (2^31 - 1), more particles than a format can count, and
@@ -39,7 +39,7 @@ fn create(path: &Path, particles: &Particles, format: WriteFormat) -> io::Result
     Ok(())
 }
 
-/// Writes the same to what the caller has opened.
+/// Writes to an open file or buffer.
 ///
 /// # Errors
 /// Those of [`write()`]; particles that can't be written are [`io::ErrorKind::InvalidInput`], and nothing is.

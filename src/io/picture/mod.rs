@@ -18,13 +18,13 @@ pub use tone::{Tone, aces, agx, neutral, srgb_decode, srgb_encode};
 /// Value of every depth channel where there is nothing.
 pub const EMPTY: f32 = 1.0e10;
 
-/// How the numbers of `R G B` are meant.
+/// Encoding of `R G B`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
-    /// Proportional to light, without a bound.
+    /// Linear light, unbounded.
     #[default]
     Linear,
-    /// sRGB's curve, 0 to 1: what a PNG holds.
+    /// sRGB's curve, 0 to 1, as in a PNG.
     Srgb,
 }
 
@@ -33,22 +33,22 @@ pub enum Encoding {
 pub struct Channel {
     /// Its name, `water.depth.Z`.
     pub name: String,
-    /// As many as the picture has pixels.
+    /// One value per pixel.
     pub data: Vec<f32>,
 }
 
-/// Named channels of one size, and text about them.
+/// Named channels of one size, with text attributes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers {
     /// Width in pixels.
     pub width: usize,
     /// Height in pixels.
     pub height: usize,
-    /// In no certain order; no name twice.
+    /// In any order; names are unique.
     pub channels: Vec<Channel>,
-    /// Name and text of each attribute. EXR files hold them as one JSON object, the attribute `whitewater`.
+    /// Name and text of each attribute. EXR files store them as one JSON object in the attribute `whitewater`.
     pub attributes: Vec<(String, String)>,
-    /// Of `R G B`.
+    /// Encoding of `R G B`.
     pub encoding: Encoding,
 }
 
@@ -58,8 +58,8 @@ impl Layers {
         Self { width, height, ..Self::default() }
     }
 
-    /// Adds a channel, or replaces the one of that name. A channel of a reduced resolution (halved `n` times,
-    /// rounded up each time) is brought to the picture's size by repeating its texels.
+    /// Adds a channel, or replaces the one of that name. A channel at a reduced resolution (halved `n` times,
+    /// rounded up each time) is enlarged to the picture's size by repeating its texels.
     ///
     /// # Errors
     /// [`PictureError::Size`] where `data` is neither of the picture's size nor a reduced one.
@@ -96,13 +96,12 @@ impl Layers {
         Ok(())
     }
 
-    /// The channel of a name.
+    /// The channel with a name.
     pub fn channel(&self, name: &str) -> Option<&[f32]> {
         self.channels.iter().find(|c| c.name == name).map(|c| c.data.as_slice())
     }
 
-    /// Red, green and blue of all pixels; `None` where the picture has no colour. A picture with `Y` alone is
-    /// grey.
+    /// Red, green and blue of all pixels; `None` without colour. A picture with only `Y` is grey.
     pub fn rgb(&self) -> Option<Vec<[f32; 3]>> {
         let one = |name| self.channel(name);
         let (r, g, b) = match (one("R"), one("G"), one("B")) {
@@ -112,12 +111,12 @@ impl Layers {
         Some(r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]).collect())
     }
 
-    /// The colour as a screen shows it, sRGB 0 to 1: the tone map of [`write_png`] on linear light.
+    /// The displayed colour, sRGB 0 to 1: linear light through the tone map of [`write_png`].
     pub fn display(&self, exposure: f32) -> Option<Vec<[f32; 3]>> {
         self.shown(&Display { exposure, ..Display::default() })
     }
 
-    /// The same by other means.
+    /// The displayed colour with another tone map.
     pub fn shown(&self, display: &Display) -> Option<Vec<[f32; 3]>> {
         let mut rgb = self.rgb()?;
         let alpha = self.channel("A").filter(|_| display.alpha);
@@ -133,19 +132,19 @@ impl Layers {
     }
 }
 
-/// How linear light is shown.
+/// Display of linear light: exposure and tone map.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Display {
-    /// Stops, any, default 0.
+    /// Exposure in stops, default 0.
     pub exposure: f32,
-    /// Default [`Tone::Neutral`].
+    /// Tone map, default [`Tone::Neutral`].
     pub tone: Tone,
-    /// Channel `A` is the share of a pixel that colours, multiplied by it, are of: in a PNG it is kept, and colours are those
-    /// of that share. Default false: all there is is shown.
+    /// Whether channel `A` is the opacity of premultiplied colours: a PNG then keeps it and has straight
+    /// colours. Default false: the picture is opaque.
     pub alpha: bool,
 }
 
-/// Why a picture could not be read or put together.
+/// Why a picture could not be read or assembled.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
@@ -184,7 +183,7 @@ pub enum PictureError {
     },
 }
 
-/// Reads an EXR (first layer, any channels), a PNG or a Radiance HDR; the content decides which it is.
+/// Reads an EXR (first layer, all channels), a PNG or a Radiance HDR, recognised by content.
 ///
 /// # Errors
 /// Says what was expected, and what was found.
@@ -215,8 +214,8 @@ pub fn write_exr(layers: &Layers, to: impl Write + Seek) -> std::io::Result<()> 
     exr::write(layers, to)
 }
 
-/// Writes the colour as an 8-bit sRGB PNG: exposure in stops, [`neutral`], and a dither of half a step against
-/// banding (the same on every run). A picture without colour is an error.
+/// Writes the colour as an 8-bit sRGB PNG: exposure in stops, the tone map [`neutral`], and a dither of half a
+/// step against banding (the same in every run). A picture without colour is an error.
 ///
 /// # Errors
 /// What the writer says.
@@ -224,7 +223,7 @@ pub fn write_png(layers: &Layers, exposure: f32, to: impl Write) -> std::io::Res
     write_png_as(layers, &Display { exposure, ..Display::default() }, to)
 }
 
-/// The same by other means.
+/// Writes the colour as a PNG with another tone map.
 ///
 /// # Errors
 /// As of [`write_png`].
@@ -232,8 +231,8 @@ pub fn write_png_as(layers: &Layers, display: &Display, to: impl Write) -> std::
     png::write(layers, display, to)
 }
 
-/// Writes numbers from 0 to 1 that are no colours, a texture of distances say, as a 16-bit PNG: `Y` grey, else `R G B A`.
-/// As they are, without a curve or dither; what is beyond is clamped.
+/// Writes values from 0 to 1 that are not colours, such as a texture of distances, as a 16-bit PNG: `Y` grey,
+/// or `R G B A`. Values are linear, undithered and clamped.
 ///
 /// # Errors
 /// What the writer says; a picture without those channels.

@@ -1,12 +1,12 @@
-//! Normals from depth, for files that hold no normal layer of the renderer's own.
+//! Normals from depth, for files without a normal layer.
 
 use super::EMPTY;
 
-/// Eye-space normals of a depth picture (x, y and z of each texel; towards the eye, which looks down -z).
+/// Eye-space normals of a depth picture (x, y and z per texel, towards the camera, which looks down -z).
 ///
-/// `slope` is scale x, scale y, offset x, offset y from texel centres to x / depth and y / depth. Of both
-/// neighbours of a texel the one at the nearer depth is used, so that normals do not bend at silhouettes. Zero
-/// where there is no surface.
+/// `slope` is scale x, scale y, offset x, offset y from texel centres to x / depth and y / depth. The neighbour
+/// with the closer depth is used on each axis, so that normals do not bend at silhouettes. Zero where there is
+/// no surface.
 pub fn normals(depth: &[f32], width: usize, height: usize, slope: [f32; 4]) -> [Vec<f32>; 3] {
     let [sx, sy, ox, oy] = slope;
     let at = |x: usize, y: usize| depth.get(y * width + x).copied().unwrap_or(EMPTY);

@@ -1,12 +1,12 @@
-//! From scene-referred light to a screen.
+//! Tone maps: from scene-referred light to a screen.
 
 /// Where the shoulder begins.
 const START: f32 = 0.72;
 
-/// The shoulder of Khronos' PBR Neutral tone map: colours below 0.72 stay what they are, what is brighter is
-/// pressed towards white with its hue kept. Its toe, which takes the 4 % that dielectrics reflect away from dark
-/// colours, is left out: it turns the shadows of a blue sky to ink. Negative and NaN input gives 0, infinite input
-/// white.
+/// The shoulder of Khronos' PBR Neutral tone map: colours below 0.72 are unchanged, brighter ones are
+/// compressed towards white with their hue kept. Its toe, which removes the 4 % that dielectrics reflect from
+/// dark colours, is omitted: it makes shadows under a blue sky nearly black. Negative and NaN input gives 0,
+/// infinite input white.
 pub fn neutral(c: [f32; 3]) -> [f32; 3] {
     const DESATURATION: f32 = 0.15;
     // NaN goes to 0.
@@ -24,12 +24,12 @@ pub fn neutral(c: [f32; 3]) -> [f32; 3] {
     })
 }
 
-/// From scene-referred light to what a screen shows, both linear Rec. 709.
+/// Tone map from scene-referred light to displayed light, both linear Rec. 709.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tone {
-    /// As it is; a screen clips it at 1, each channel by itself.
+    /// None: a screen clips each channel at 1.
     Linear,
-    /// [`neutral`]: what is below 0.72 as it is.
+    /// [`neutral`]: colours below 0.72 are unchanged.
     #[default]
     Neutral,
     /// [`aces`].
@@ -39,7 +39,7 @@ pub enum Tone {
 }
 
 impl Tone {
-    /// A colour in it. Negative and NaN input counts as 0, infinite input as the largest number.
+    /// Maps a colour. Negative and NaN input counts as 0, infinite input as the largest number.
     pub fn map(self, c: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Linear => c.map(light),
@@ -61,9 +61,9 @@ fn times(rows: [[f32; 3]; 3], c: [f32; 3]) -> [f32; 3] {
     rows.map(|row| row[0] * c[0] + row[1] * c[1] + row[2] * c[2])
 }
 
-/// The film curve of the Academy Color Encoding System: Stephen Hill's fit of its reference rendering and output
-/// transforms (RRT and ODT for sRGB). Light counts 1/0.6 times, as engines usually have it: mid grey is shown a
-/// little brighter than it is, and what is white and lit a little darker than white.
+/// The film curve of the Academy Color Encoding System: Stephen Hill's fit of its reference rendering and
+/// output transforms (RRT and ODT for sRGB). Light is multiplied by 1/0.6, as is usual in engines: mid grey is
+/// displayed slightly brighter than it is, lit white slightly darker than white.
 pub fn aces(c: [f32; 3]) -> [f32; 3] {
     const IN: [[f32; 3]; 3] = [
         [0.597_19, 0.354_58, 0.048_23],
@@ -83,10 +83,10 @@ pub fn aces(c: [f32; 3]) -> [f32; 3] {
     times(OUT, c).map(|v| v.clamp(0.0, 1.0))
 }
 
-/// Troy Sobotka's AgX, by the polynomial of Benjamin Wrensch for its curve: a film's, which takes bright colours to white
-/// by way of pale ones, where [`aces`] and a clipped screen keep them gaudy. Its range is sixteen and a half stops, four of
-/// them above white. Light counts twice, and what the curve gives is taken to the power of 1.35 (his "punchy" look), so
-/// that what is white and lit is nearly so on the screen.
+/// Troy Sobotka's AgX, with Benjamin Wrensch's polynomial for its curve: a film curve that turns bright colours
+/// pale on the way to white, where [`aces`] and clipping keep them saturated. Its range is sixteen and a half
+/// stops, four of them above white. Light is multiplied by 2, and the result is raised to the power 1.35 (his
+/// "punchy" look), so that lit white is nearly white on the screen.
 pub fn agx(c: [f32; 3]) -> [f32; 3] {
     const IN: [[f32; 3]; 3] = [
         [0.842_479_06, 0.078_433_6, 0.079_223_745],

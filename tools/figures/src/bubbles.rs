@@ -27,14 +27,14 @@ pub fn near(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("waterfall", frame, &more).map(|frame| frame.picture)
     });
     let [sprites, blobs] = panels;
-    grid(&[sprites?, blobs?], 2, &pictures(docs, "foam-near.png"))
+    grid(&[sprites?, blobs?], 2, &pictures(docs, "foam-near.jpg"))
 }
 
 /// Figure 6: one blob, whole and from near.
 pub fn one(tool: &Tool, docs: &Path) -> Outcome<()> {
     let near = "--eye 0.3,1.3,1.6 --target 0,1.1,0";
     let panels = [tool.bubbles("one", 1, "")?, tool.bubbles("one", 1, near)?];
-    grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-one.png"))
+    grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-one.jpg"))
 }
 
 /// What films are: thin and thick, all light and three wavelengths, the source's reflectance.
@@ -52,7 +52,7 @@ pub fn films(tool: &Tool, docs: &Path) -> Outcome<()> {
         Ok(tool.bubbles("one", 1, &format!("{FILMS} {settings}"))?.picture)
     };
     let panels: Result<Vec<_>, String> = looks.iter().map(panel).collect();
-    grid(&panels?, 3, &pictures(docs, "bubble-films.png"))
+    grid(&panels?, 3, &pictures(docs, "bubble-films.jpg"))
 }
 
 /// What an impostor's map and steps are worth: of a blob's pixels those whose depth is off by more than a hundredth of its
@@ -114,7 +114,7 @@ pub fn impostors(tool: &Tool, docs: &Path) -> Outcome<()> {
         Ok(tool.bubbles("one", 1, &format!("{near} {settings}"))?.picture)
     };
     let panels: Result<Vec<_>, String> = looks.iter().map(panel).collect();
-    grid(&panels?, 3, &pictures(docs, "bubble-impostors.png"))
+    grid(&panels?, 3, &pictures(docs, "bubble-impostors.jpg"))
 }
 
 /// Figure 7: dense foam, and its depth.
@@ -122,7 +122,7 @@ pub fn dense(tool: &Tool, docs: &Path) -> Outcome<()> {
     let near = "--eye 2.6,0.7,1.3 --target 1.2,0.12,0";
     let frame = tool.bubbles("slope:200", 150, near)?;
     let panels = [depth(&frame.layers, "bubbles.Z")?, frame.picture];
-    grid(&panels, 2, &pictures(docs, "bubble-foam.png"))
+    grid(&panels, 2, &pictures(docs, "bubble-foam.jpg"))
 }
 
 /// Figure 8: foam that slides down a slope.
@@ -131,11 +131,11 @@ pub fn slope(tool: &Tool, docs: &Path) -> Outcome<()> {
         .iter()
         .map(|number| Ok(tool.bubbles("slope", *number, "")?.picture))
         .collect();
-    grid(&panels?, 2, &pictures(docs, "bubble-slope.png"))
+    grid(&panels?, 2, &pictures(docs, "bubble-slope.jpg"))
 }
 
 /// Figure 9: a box of 5000 blobs; of a hundred as well.
 pub fn boxes(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels = [tool.bubbles("box", 1, "")?, tool.bubbles("box:100", 1, "")?];
-    grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-box.png"))
+    grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-box.jpg"))
 }

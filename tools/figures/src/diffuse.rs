@@ -17,7 +17,7 @@ pub fn seas(tool: &Tool, docs: &Path) -> Outcome<()> {
     let seas = [("wave", "820k"), ("ship", "9m"), ("lighthouse", "15m"), ("flood", "29m")];
     let panels: Result<Vec<_>, String> =
         seas.iter().map(|(sea, count)| tool.sea(sea, count, "640x480", "")).collect();
-    grid(&panels?, 2, &pictures(docs, "seas.png"))
+    grid(&panels?, 2, &pictures(docs, "seas.jpg"))
 }
 
 /// The same foam from near and from far, metres away.
@@ -26,7 +26,7 @@ pub fn distances(tool: &Tool, docs: &Path) -> Outcome<()> {
         .iter()
         .map(|metres| tool.sea_from(*metres, "flood", "29m", "640x480"))
         .collect();
-    grid(&panels?, 2, &pictures(docs, "diffuse-distances.png"))
+    grid(&panels?, 2, &pictures(docs, "diffuse-distances.jpg"))
 }
 
 /// Figure 8: above ours, below the same foam by volume ray-casting, which knows of emission and absorption alone: it
@@ -50,7 +50,7 @@ pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {
         ours.push(picture);
         theirs.push(cast);
     }
-    grid(&[ours, theirs].concat(), 3, &pictures(docs, "seas-ray-cast.png"))
+    grid(&[ours, theirs].concat(), 3, &pictures(docs, "seas-ray-cast.jpg"))
 }
 
 /// Linear, of what foam covers nearly whole.
@@ -74,7 +74,7 @@ pub fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.sea(sea, count, size, "passes = 0")?,
         tool.sea(sea, count, size, "")?,
     ];
-    grid(&panels, 2, &pictures(docs, "diffuse-layers.png"))
+    grid(&panels, 2, &pictures(docs, "diffuse-layers.jpg"))
 }
 
 /// Figures 4 to 6: the kinds' shapes and the intensity, by the formula and as they are drawn.
@@ -140,5 +140,5 @@ pub fn looks(tool: &Tool, docs: &Path) -> Outcome<()> {
     ];
     let panels: Result<Vec<_>, String> =
         looks.iter().map(|look| tool.sea("wave", "820k", "480x360", look)).collect();
-    grid(&panels?, 3, &pictures(docs, "diffuse-look.png"))
+    grid(&panels?, 3, &pictures(docs, "diffuse-look.jpg"))
 }

@@ -9,14 +9,16 @@ use crate::Outcome;
 use crate::bubbles;
 use crate::curves::{self, Curve};
 use crate::diffuse;
-use crate::panels::{self, amount, depth, grid, iterations, normals};
+use crate::panels::{self, amount, depth, grid, iterations, normals, save};
 use crate::shore;
 use crate::tool::{SIZE, Timed, Tool, sequence};
 
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 37] = [
+pub const ALL: [(&str, Figure); 39] = [
+    ("demo", demo),
+    ("film", film),
     ("noise-foam", noise_foam),
     ("thesis", thesis),
     ("layers", layers),
@@ -66,12 +68,23 @@ const RADIUS: f32 = 0.656 * 0.04;
 /// The basin and the pillar of the waterfall from near.
 const NEAR: &str = "--eye 1.1,0.95,1.9 --target 0.1,0.3,0 --fov 40";
 
+/// The README's picture, as `tools/demo` draws it.
+fn demo(tool: &Tool, docs: &Path) -> Outcome<()> {
+    save(&tool.demo()?, &pictures(docs, "waterfall.jpg"))
+}
+
+/// The README's moving picture: a second of the waterfall, 24 frames of it.
+fn film(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let view = "--eye 1.9,1.75,3.1 --target -0.3,0.48,0 --fov 34";
+    tool.film("waterfall", [171, 240, 3], view, &pictures(docs, "waterfall.webp"))
+}
+
 /// Figure 1.1: the baseline's noise foam beside foam of particles.
 fn noise_foam(tool: &Tool, docs: &Path) -> Outcome<()> {
     let noise = "--rule fixed:40 --foam none --spray none --noise foam";
     let panels =
         [tool.frame("waterfall", 240, noise)?.picture, tool.frame("waterfall", 240, "")?.picture];
-    grid(&panels, 2, &pictures(docs, "noise-foam.png"))
+    grid(&panels, 2, &pictures(docs, "noise-foam.jpg"))
 }
 
 /// The source's whole look beside ours.
@@ -84,7 +97,7 @@ fn thesis(tool: &Tool, docs: &Path) -> Outcome<()> {
             Ok::<_, String>(image::imageops::crop_imm(&picture, 60, 10, 400, 225).to_image())
         })
         .collect();
-    grid(&panels?, 2, &pictures(docs, "thesis.png"))
+    grid(&panels?, 2, &pictures(docs, "thesis.jpg"))
 }
 
 /// Figures 4.7 to 4.20: what each pass leaves.
@@ -107,7 +120,7 @@ fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
         without.picture,
         frame.picture,
     ];
-    grid(&panels, 3, &pictures(docs, "layers.png"))
+    grid(&panels, 3, &pictures(docs, "layers.jpg"))
 }
 
 /// Iterations of the three scenes' views, by the source's rule and by ours.
@@ -143,7 +156,7 @@ fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
         before = foam;
         panels.push(drawn.picture);
     }
-    grid(&panels, 2, &pictures(docs, "thresholds.png"))
+    grid(&panels, 2, &pictures(docs, "thresholds.jpg"))
 }
 
 /// The Weber number that a frame was drawn with, of the settings that it holds.
@@ -190,7 +203,7 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
             panels.push(image::imageops::crop_imm(&panel, 8, 4, 224, 126).to_image());
         }
     }
-    grid(&panels, 4, &pictures(docs, "fixed-counts.png"))
+    grid(&panels, 4, &pictures(docs, "fixed-counts.jpg"))
 }
 
 /// Figures 4.13 and 4.15: what one particle adds to the thickness of water and of foam, and what many add up to.
@@ -249,7 +262,7 @@ fn shadows(tool: &Tool, docs: &Path) -> Outcome<()> {
             Ok::<_, String>(tool.frame("waterfall", 240, &more)?.picture)
         })
         .collect();
-    grid(&panels?, 3, &pictures(docs, "shadows.png"))
+    grid(&panels?, 3, &pictures(docs, "shadows.jpg"))
 }
 
 /// Figures 5.5 and 5.6: the bamboo fills, tips and is empty, and the pouring from near.
@@ -261,7 +274,7 @@ fn bamboo(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("bamboo", 112, near)?.picture,
         tool.frame("bamboo", 112, &format!("{near} --foam none --spray none"))?.picture,
     ];
-    grid(&panels, 2, &pictures(docs, "bamboo-foam.png"))
+    grid(&panels, 2, &pictures(docs, "bamboo-foam.jpg"))
 }
 
 /// Figure 5.7, without and with foam; below it Figure 5.8's foam under the surface, and where foam is.
@@ -274,7 +287,7 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("waterfall", 240, under)?.picture,
         amount(&tool.frame("waterfall", 240, under)?.layers, "water.foam.thickness", 0.05)?,
     ];
-    grid(&panels, 2, &pictures(docs, "foam.png"))
+    grid(&panels, 2, &pictures(docs, "foam.jpg"))
 }
 
 /// Foam by a noise of each sprite's own, and by one that all share.
@@ -287,7 +300,7 @@ fn pattern(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("corridor", 233, &format!("{wave} {own}"))?.picture,
         tool.frame("corridor", 233, wave)?.picture,
     ];
-    grid(&panels, 2, &pictures(docs, "foam-pattern.png"))
+    grid(&panels, 2, &pictures(docs, "foam-pattern.jpg"))
 }
 
 /// Figure 5.13: one sheet of water, whose thickness counts what is behind the air, and two.
@@ -300,7 +313,7 @@ fn sheets(tool: &Tool, docs: &Path) -> Outcome<()> {
             Ok::<_, String>(frame.picture)
         })
         .collect();
-    grid(&panels?, 2, &pictures(docs, "sheets.png"))
+    grid(&panels?, 2, &pictures(docs, "sheets.jpg"))
 }
 
 /// The ways that the thesis compares, and ours. All see straight through water, as the thesis does: what a second refraction

@@ -3,10 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use image::RgbImage;
-use image::codecs::jpeg::JpegEncoder;
-
 use crate::Outcome;
+use crate::panels::save;
 use crate::tool::{Tool, sequence};
 
 /// What a picture is of.
@@ -56,7 +54,7 @@ const ALL: [Shown; 10] = [
             "double_dam_pillar/ParticleData_Fluid_52.bgeo",
             "--whitewater {caches}/double_dam_pillar/foam/foam_52.bgeo",
         ),
-        about: "The same later, with the diffuse particles of its FoamGenerator",
+        about: "The same later, with the whitewater of its FoamGenerator",
     },
     Shown {
         name: "inflow",
@@ -76,7 +74,7 @@ const ALL: [Shown; 10] = [
     Shown {
         name: "splashsurf",
         of: Of::Cache("splashsurf/dam_break_frame_23_24389_particles.bgeo", ""),
-        about: "A dam break, positions alone; a file of \
+        about: "A dam break, positions only; a file of \
                 [splashsurf](https://github.com/InteractiveComputerGraphics/splashsurf) (MIT)",
     },
     Shown {
@@ -85,9 +83,6 @@ const ALL: [Shown; 10] = [
         about: "SPHERIC's benchmark 2, a dam break on a box; [PySPH](https://github.com/pypr/pysph) (BSD), WCSPH",
     },
 ];
-
-/// The most bytes of a picture.
-const MOST: usize = 250_000;
 
 /// Draws all, or one, into the documents' folder `gallery`, and writes the page.
 pub fn draw(tool: &Tool, docs: &Path, public: &Path, only: Option<&str>) -> Outcome<()> {
@@ -104,9 +99,7 @@ pub fn draw(tool: &Tool, docs: &Path, public: &Path, only: Option<&str>) -> Outc
         let arguments = arguments(tool, shown, public)?;
         let png = tool.temporary("gallery.png");
         let picture = tool.draw(&arguments, &png)?;
-        let file = folder.join(format!("{}.jpg", shown.name));
-        let bytes = compressed(&picture)?;
-        std::fs::write(&file, bytes).map_err(|error| cannot(&file, error))?;
+        save(&picture, &folder.join(format!("{}.jpg", shown.name)))?;
     }
     let file = docs.join("gallery.md");
     std::fs::write(&file, page()).map_err(|error| cannot(&file, error))
@@ -136,26 +129,13 @@ fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> 
     }
 }
 
-/// As JPEG, of the highest quality that is small enough.
-fn compressed(picture: &RgbImage) -> Outcome<Vec<u8>> {
-    for quality in [94, 90, 86, 82, 78, 72, 66, 60, 50, 40, 30] {
-        let mut bytes = Vec::new();
-        let encoder = JpegEncoder::new_with_quality(&mut bytes, quality);
-        picture.write_with_encoder(encoder).map_err(|error| error.to_string())?;
-        if bytes.len() <= MOST {
-            return Ok(bytes);
-        }
-    }
-    Err(format!("a picture of {}x{} is over {MOST} bytes", picture.width(), picture.height()))
-}
-
 /// The page.
 fn page() -> String {
     let mut text = String::from(
-        "# Gallery\n\nDefault pictures: each is what its command draws, without a setting. All are made by\n\n```sh\n\
+        "# Gallery\n\nDefault pictures: each command draws its picture with no settings. These commands draw all of them:\n\n```sh\n\
          cargo build --release -p whitewater-cli -p whitewater-figures\n\
          target/release/whitewater-figures --caches DIR --gallery --public CACHES\n```\n\n\
-         DIR holds our own scenes (`whitewater simulate`), CACHES the public ones by the names below.\n",
+         DIR holds the project's own scenes (`whitewater simulate`), CACHES the public ones under the names below.\n",
     );
     for Shown { name, of, about } in &ALL {
         let about = about.replace("{splishsplash}", SPLISHSPLASH);
@@ -190,21 +170,5 @@ mod tests {
         assert!(!text.contains('{') && !text.contains("  "), "{text}");
         let names: std::collections::BTreeSet<_> = ALL.iter().map(|shown| shown.name).collect();
         assert_eq!(names.len(), ALL.len());
-    }
-
-    #[test]
-    fn pictures_are_small_enough() {
-        // Noise is the worst there is.
-        let mut state = 1_u32;
-        let noise = RgbImage::from_fn(1280, 720, |_, _| {
-            image::Rgb([(); 3].map(|()| {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                (state >> 24) as u8 / 4
-            }))
-        });
-        let bytes = compressed(&noise).expect("small enough");
-        assert!(bytes.len() <= MOST && bytes.starts_with(&[0xff, 0xd8]), "{}", bytes.len());
-        let grey = compressed(&RgbImage::new(64, 64)).expect("small enough");
-        assert!(grey.len() < bytes.len());
     }
 }

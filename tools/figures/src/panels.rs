@@ -1,7 +1,8 @@
-//! Layers as colours, and pictures side by side.
+//! Layers as colours, pictures side by side, and their files.
 
 use std::path::Path;
 
+use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{Rgb, RgbImage};
 use whitewater::io::picture::Layers;
@@ -188,9 +189,78 @@ pub fn grid(pictures: &[RgbImage], columns: u32, to: &Path) -> Outcome<()> {
         let (x, y) = (i % columns * (width + GAP), i / columns * (height + GAP));
         image::imageops::replace(&mut all, picture, x.into(), y.into());
     }
-    let bad = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", to.display());
-    let file = std::fs::File::create(to).map_err(|error| bad(&error))?;
-    // They are kept for good.
-    let encoder = PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive);
-    all.write_with_encoder(encoder).map_err(|error| bad(&error))
+    save(&all, to)
+}
+
+/// Size limit of a picture in the documents, in bytes: a page with ten of them loads in a second.
+pub const MAX_BYTES: usize = 250_000;
+
+/// Writes a picture for the documents: `.jpg` at the highest quality that fits in [`MAX_BYTES`], or `.png` (flat colours).
+///
+/// # Errors
+/// The picture does not fit, or the file cannot be written.
+pub fn save(picture: &RgbImage, to: &Path) -> Outcome<()> {
+    let bytes = match to.extension().is_some_and(|extension| extension == "png") {
+        true => png(picture),
+        false => jpeg(picture),
+    };
+    let bytes = bytes.map_err(|error| format!("{}: {error}", to.display()))?;
+    std::fs::write(to, bytes).map_err(|error| format!("cannot write {}: {error}", to.display()))
+}
+
+fn jpeg(picture: &RgbImage) -> Outcome<Vec<u8>> {
+    for quality in [94, 90, 86, 82, 78, 72, 66, 60, 50, 40, 30] {
+        let mut bytes = Vec::new();
+        let encoder = JpegEncoder::new_with_quality(&mut bytes, quality);
+        picture.write_with_encoder(encoder).map_err(|error| error.to_string())?;
+        if bytes.len() <= MAX_BYTES {
+            return Ok(bytes);
+        }
+    }
+    Err(format!("{}x{} pixels need more than {MAX_BYTES} bytes", picture.width(), picture.height()))
+}
+
+fn png(picture: &RgbImage) -> Outcome<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let encoder =
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
+    picture.write_with_encoder(encoder).map_err(|error| error.to_string())?;
+    match bytes.len() <= MAX_BYTES {
+        true => Ok(bytes),
+        false => Err(format!("{} bytes, over {MAX_BYTES}: make it a .jpg", bytes.len())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Uniform noise, the worst case of any codec.
+    fn noise() -> RgbImage {
+        let mut state = 1_u32;
+        RgbImage::from_fn(1280, 720, |_, _| {
+            image::Rgb([(); 3].map(|()| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (state >> 24) as u8 / 4
+            }))
+        })
+    }
+
+    #[test]
+    fn pictures_are_small_enough() {
+        let bytes = jpeg(&noise()).expect("small enough");
+        assert!(bytes.len() <= MAX_BYTES && bytes.starts_with(&[0xff, 0xd8]), "{}", bytes.len());
+        let grey = jpeg(&RgbImage::new(64, 64)).expect("small enough");
+        assert!(grey.len() < bytes.len());
+    }
+
+    #[test]
+    fn the_ending_says_the_format() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let [small, large] = ["a.png", "b.png"].map(|name| folder.path().join(name));
+        save(&RgbImage::new(8, 8), &small).expect("small enough");
+        assert!(std::fs::read(small).expect("is there").starts_with(b"\x89PNG"));
+        let error = save(&noise(), &large).expect_err("too large for a PNG");
+        assert!(error.contains("make it a .jpg") && !large.exists(), "{error}");
+    }
 }

@@ -36,7 +36,7 @@ pub fn steps(tool: &Tool, docs: &Path) -> Outcome<()> {
         Ok(tool.shore("archipelago", 40, &format!("{BEACH} {settings}"))?.picture)
     };
     let panels: Result<Vec<_>, String> = looks.iter().map(panel).collect();
-    grid(&panels?, 3, &pictures(docs, "shore-steps.png"))
+    grid(&panels?, 3, &pictures(docs, "shore-steps.jpg"))
 }
 
 /// By the map, by a strip, by the screen's depth.
@@ -53,7 +53,7 @@ pub fn ways(tool: &Tool, docs: &Path) -> Outcome<()> {
 pub fn islands(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panel = |frame: &u32| Ok(tool.shore("archipelago", *frame, "")?.picture);
     let panels: Outcome<Vec<_>> = [1, 61, 121, 181].iter().map(panel).collect();
-    grid(&panels?, 2, &pictures(docs, "shore-islands.png"))
+    grid(&panels?, 2, &pictures(docs, "shore-islands.jpg"))
 }
 
 /// Contact foam in a pool and in lava, on the particles' water, and none.
@@ -66,5 +66,5 @@ pub fn contact(tool: &Tool, docs: &Path) -> Outcome<()> {
         "[contact]\nparticle_opacity = 1.0\nparticle_depth = 0.3\nmask_scale = 2.0\nmask = 0.6\n",
     )?;
     let water = tool.frame("waterfall", 200, &format!("{on} --foam none"))?.picture;
-    grid(&[without, pool, lava, water], 2, &pictures(docs, "contact.png"))
+    grid(&[without, pool, lava, water], 2, &pictures(docs, "contact.jpg"))
 }

@@ -32,6 +32,9 @@ pub struct Frame {
     pub picture: RgbImage,
 }
 
+/// How ffmpeg writes an animated WebP.
+const WEBP: &str = "-c:v libwebp_anim -quality 75 -compression_level 6 -loop 0";
+
 /// How many times a frame is drawn whose passes are timed.
 const REPEATS: u32 = 8;
 
@@ -139,6 +142,53 @@ impl Tool {
             None => png.to_owned(),
         };
         Ok(image::open(&written).map_err(|error| error.to_string())?.into_rgb8())
+    }
+
+    /// The picture that `tools/demo` leaves.
+    pub fn demo(&self) -> Outcome<RgbImage> {
+        let png = self.temporary("demo.png");
+        let to = format!("--output={}", png.display());
+        self.run(&["demo", "--shutter=1/100", "--aperture=0.025", &to].map(str::to_owned))?;
+        Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
+    }
+
+    /// Frames `[first, last, step]` of a scene's sequence at 20 a second as an animated WebP. `more` are further
+    /// arguments. Needs `ffmpeg` with libwebp: no Rust crate writes lossy WebP.
+    pub fn film(
+        &self,
+        scene: &str,
+        [first, last, step]: [u32; 3],
+        more: &str,
+        to: &Path,
+    ) -> Outcome<()> {
+        let folder = self.scene(scene)?;
+        let mut arguments = vec![
+            "render".to_owned(),
+            sequence(&folder, scene),
+            format!("--frames={first}-{last}"),
+            format!("--every={step}"),
+            format!("--scene={}", folder.join("scene.json").display()),
+            format!("--size={}x{}", SIZE.0, SIZE.1),
+            format!("--sun={SUN}"),
+            format!("--output={}", self.temporary("film_%04d.png").display()),
+            "--overwrite".to_owned(),
+        ];
+        arguments.extend(more.split_whitespace().map(str::to_owned));
+        self.run(&arguments)?;
+        // ffmpeg's pattern takes consecutive numbers.
+        for (i, frame) in (first..=last).step_by(step as usize).enumerate() {
+            let [from, to] = [format!("film_{frame:04}.png"), format!("webp_{i:04}.png")]
+                .map(|name| self.temporary(&name));
+            std::fs::rename(&from, to).map_err(|error| format!("{}: {error}", from.display()))?;
+        }
+        let frames = self.temporary("webp_%04d.png").display().to_string();
+        let mut arguments: Vec<String> =
+            format!("-loglevel error -y -framerate 20 -i {frames} {WEBP}")
+                .split_whitespace()
+                .map(str::to_owned)
+                .collect();
+        arguments.push(to.display().to_string());
+        run(Path::new("ffmpeg"), &arguments)
     }
 
     /// A frame of bubble foam. `more` are further arguments.

@@ -1,5 +1,5 @@
-//! What all ray-casters share: particles as balls in eye space (pass `prepare`), and at the end thickness to intensity
-//! (pass `resolve`).
+//! Shared by all ray-casters: particles as balls in eye space (pass `prepare`), and at the end thickness to
+//! intensity (pass `resolve`).
 
 use bytemuck::{Pod, Zeroable};
 use whitewater::Error;

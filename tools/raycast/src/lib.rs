@@ -1,31 +1,32 @@
-//! Volume ray-casters of emission and absorption, such as *Screen Space Foam Rendering* (Akinci et al. 2013, Sec. 3,
-//! Table 1, Fig. 8) compares itself with, made for the comparison of `whitewater`'s foam with them:
+//! Volume ray-casters of emission and absorption, as *Screen Space Foam Rendering* (Akinci et al. 2013, Sec. 3,
+//! Table 1, Fig. 8) compares itself with, for the same comparison with `whitewater`'s foam:
 //!
-//! - [`Method::Kernel`], the source's first: at each sample of each pixel's ray the sum of the kernels of the particles
-//!   near it (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for particle-based fluids, 2012), which
+//! - [`Method::Kernel`], the paper's first: at each sample of a ray the kernels of nearby particles are summed
+//!   (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for particle-based fluids, 2012), which
 //!   a grid of cells finds (counting sort);
-//! - [`Method::Grid`], the second: particles are splatted into a grid of voxels that is aligned with the view and in
-//!   perspective, by integer atomics, and rays go through that (Fraedrich, Auer, Westermann, Efficient high-quality
-//!   volume rendering of SPH data, 2010);
-//! - [`Method::Plain`], the first again, as one writes it down: particles are sorted into a grid of cells in space, and
-//!   at each sample of a ray the cells about it are searched. The first two are faster by what they know of the
-//!   picture; the source tells of nothing of that kind.
+//! - [`Method::Grid`], its second: particles are splatted with integer atomics to a view-aligned perspective
+//!   voxel grid, which rays march through (Fraedrich, Auer, Westermann, Efficient high-quality volume rendering
+//!   of SPH data, 2010);
+//! - [`Method::Plain`], the first one in its straightforward form: particles are sorted into a grid in space,
+//!   and at each sample the cells around it are searched. The first two are faster because they use
+//!   screen-space lists, which the paper does not mention.
 //!
-//! All run on the GPU and are made as fast as we know how to, to be fair. A ray ends at the scene or when nothing behind
-//! can change its pixel by half a step of 8 bits; steps grow with the distance where particles are smaller than a pixel.
-//! Cells and bricks of the first two are of tiles of the picture and slabs of depth, so that a group of rays goes through
-//! the same ones; they reach in each tile from the first particle to the last or the scene; voxels there are only in
-//! bricks with particles. Cells of the third are a few kernels wide, and its rays go from where they enter the box of
-//! all particles to where they leave it: it looks at empty space as at full. Room is measured before the frames that
-//! are timed ([`Caster::new`]), and where a device's storage buffers are too small for it, particles are taken in chunks.
+//! All run on the GPU and are optimised as far as the authors know how, to be fair. A ray ends at the scene, or
+//! where nothing behind can change its pixel by half a step of 8 bits. Steps grow with the distance where
+//! particles are smaller than a pixel. Cells and bricks of the first two are screen tiles times depth slabs, so
+//! that a group of rays visits the same ones; in each tile they extend from the first particle to the last or
+//! to the scene, and voxels exist only in bricks with particles. Cells of the third are a few kernels wide, and
+//! its rays march through the bounding box of all particles, so empty space costs as much as full. Buffer sizes
+//! are measured before the timed frames ([`Caster::new`]). If they exceed a device's storage buffers, particles
+//! are processed in chunks.
 //!
 //! # What is drawn
 //! The optical thickness ρ of a pixel's ray, and of that the intensity ι = ρ^e / (m + ρ^e) (Sec. 2.3), white: what
-//! `whitewater` draws as its layer `foam.intensity`, whose ρ is the sum of the particles' sprites. So particles get
-//! here their sprites' radius, life and widening (Sec. 2.1, 2.2), and as a volume each is a ball whose kernel's integral
-//! along a ray is the thickness F(x) of the sprite at x radii from its middle. Balls face the eye as sprites do:
-//! distances across the view are taken at the depth of the centre, so that there is no other difference than the
-//! kernels', and at a fine step the pictures agree up to that.
+//! `whitewater` draws as its layer `foam.intensity`, whose ρ is the sum of the particles' sprites. Particles therefore have
+//! their sprites' radius, life and widening (Sec. 2.1, 2.2), and each is a ball whose kernel's integral along a ray is the
+//! thickness F(x) of the sprite at x radii from its centre. Balls face the camera as sprites do: distances across the view
+//! are measured at the depth of the centre. The kernels are then the only difference, and at a fine step the pictures agree
+//! up to that.
 //!
 //! # Kernels
 //! Of a kernel K(q), q radii from the centre, F(x) = 2 ∫ₓ¹ K(q) q / √(q² − x²) dq (Abel's transform). With y = 1 − q²

@@ -1,4 +1,4 @@
-//! Intensities as a screen shows them: files, and how far two of them are apart.
+//! Intensities as displayed: files, and the difference of two of them.
 
 use std::path::Path;
 

@@ -1,8 +1,10 @@
-//! The plain ray-caster (Ihmsen et al. 2012, as one writes it down): pass `prepare` of [`Balls`], then `count`, `scan` and
-//! `sort` of the balls into cells in space, then `march`, which searches at each sample the cells about it.
+//! The plain ray-caster (Ihmsen et al. 2012, in its straightforward form): pass `prepare` of [`Balls`], then
+//! `count`, `scan` and `sort` of the balls into cells in space, then `march`, which searches the cells around
+//! each sample.
 //!
-//! Cells are hashed, not stored one by one: a grid about a sea has thousands of times as many as there are particles.
-//! So memory is by the particle: its record, another that is sorted, its place, two to four buckets.
+//! Cells are hashed, not stored one by one: a grid around a sea has thousands of times as many cells as
+//! particles. Memory is therefore proportional to the particles: a record, its sorted copy, its index, two to
+//! four buckets.
 
 use whitewater::Error;
 use whitewater::gpu_allocator::MemoryLocation;

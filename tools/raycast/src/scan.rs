@@ -1,4 +1,4 @@
-//! Sums of all numbers before each, in place.
+//! In-place exclusive prefix sum.
 
 use whitewater::Error;
 use whitewater::headless::Device;

@@ -1,4 +1,4 @@
-//! Buffers, compute pipelines and frames of passes on a [`Device`]: what all ray-casters stand on.
+//! Buffers, compute pipelines and frames of passes on a [`Device`]: the base of all ray-casters.
 
 use std::sync::PoisonError;
 

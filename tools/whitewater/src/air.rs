@@ -1,4 +1,4 @@
-//! Where water traps air: how fast neighbours run into each other.
+//! Where water traps air: the speed at which neighbours approach each other.
 
 use glam::Vec3;
 

@@ -1,4 +1,4 @@
-//! The command line. What a flag means stands in its help.
+//! The command line. Each flag is documented in its help.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -15,15 +15,15 @@ use whitewater_simulate::{FPS, FRAMES, Scene};
 
 const EXIT_CODES: &str = "\
 Exit codes:
-  0  all is well
+  0  success
   1  pictures differ by more than the tolerance; or some frames of a sequence failed (the others
-     are there, the failed ones are listed at the end)
-  2  the command line cannot be understood
-  3  an input is missing, damaged or of no known format
-  4  the device: no Vulkan, no such device, lost, out of memory, validation messages
-  5  the output cannot be written: no such folder, no permission, disk full (a reader that goes
-     away, as head does, is no failure)
-  130  broken off by Ctrl-C; no half-written file is left";
+     are written, the failed ones are listed at the end)
+  2  invalid command line
+  3  an input is missing, damaged or of an unknown format
+  4  device trouble: no Vulkan, no such device, lost, out of memory, validation messages
+  5  an output cannot be written: no such folder, no permission, disk full (a pipe that is closed
+     early, as by head, is no failure)
+  130  interrupted by Ctrl-C; no incomplete file remains";
 
 const SIMULATE_HELP: &str = "\
 Scenes:
@@ -32,14 +32,14 @@ Scenes:
   bamboo     a bamboo pipe fills, tips into a bowl, and falls back (to 31k)
 Each takes two to ten minutes.
 
-In DIR, SCENE_0001.bgeo and so on hold positions, velocities, densities and ids; scene.json what
-stands around the water, and how its parts move; camera.json a moving camera. The same on any
-number of threads. To draw them:
+In DIR, SCENE_0001.bgeo and so on hold positions, velocities, densities and ids; scene.json holds
+the solids and their motion, camera.json a moving camera. The result does not depend on the number
+of threads. To draw it:
 
   whitewater render 'DIR/SCENE_*.bgeo' --scene DIR/scene.json --camera DIR/camera.json -o %04d.png
 
-Exit codes: 0 all is well; 2 the command line cannot be understood; 5 the output cannot be written;
-130 broken off by Ctrl-C, finished frames are kept";
+Exit codes: 0 success; 2 invalid command line; 5 an output cannot be written; 130 interrupted by
+Ctrl-C, finished frames are kept";
 
 /// Draws particle water without a window: particle caches in, OpenEXR and PNG out.
 #[derive(Parser, Debug)]
@@ -57,106 +57,131 @@ pub enum Command {
     /// Draw the built-in scene: water from a chute into a basin
     #[command(after_help = EXIT_CODES)]
     Demo(Box<DemoArgs>),
-    /// Make the particles of a scene: waterfall, corridor or bamboo
+    /// Simulate the particles of a scene: waterfall, corridor or bamboo
     #[command(after_help = SIMULATE_HELP)]
     Simulate(SimulateArgs),
-    /// Say what particle files hold
+    /// Report what particle files hold
     #[command(after_help = EXIT_CODES)]
     Info(InfoArgs),
     /// Compare two pictures
     #[command(after_help = EXIT_CODES)]
     Compare(CompareArgs),
-    /// Turn a black and white pattern into the distance from it that shoreline foam's web is
+    /// Make a shoreline-foam texture from a black and white pattern
     #[command(after_help = EXIT_CODES)]
     Pattern(PatternArgs),
-    /// Time every pass over particle counts, sizes and ways to draw
+    /// Time every pass over particle counts, frame sizes and paths
     Bench(crate::bench::BenchArgs),
 }
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Particle files: a folder with one sequence in it, names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
-    /// (%d where numbers have no zeros in front); or one file that holds all frames (a table with a column of times, XYZ, a dump of
-    /// LAMMPS, VTKHDF, XDMF), which are counted from 0. 'whitewater info' says what they hold
+    /// Particle files: a folder that holds one sequence, file names, a pattern such as 'fluid_*.bgeo' or
+    /// 'fluid_%04d.bgeo', or one file that holds all frames
+    ///
+    /// Use %d for numbers without leading zeros. One file holds all frames if it is a table with a column of times, XYZ, a
+    /// LAMMPS dump, VTKHDF or XDMF; its frames are counted from 0. 'whitewater info' lists what the files hold.
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
-    /// Bubble foam: 'one' (a blob from near), 'slope' (a thousand slide down one; frames from 0 on, 60 a second), 'box'
-    /// (five thousand), slope:N and box:N of as many, or a .json of blobs, {"blobs":[{"center":[x,y,z],"radius":r,
-    /// "turn":[x,y,z,w],"id":n},...]}, beside particles too; with "moves":true they fall, on what --scene shows. Table
-    /// [bubbles] of --settings says how it looks
+    /// Draw bubble foam: one, slope, box, or a .json file of blobs, alone or with particles
+    ///
+    /// 'one' is a blob close up, 'slope' a thousand that slide down a slope (frames from 0 on, 60 per second),
+    /// 'box' five thousand; slope:N and box:N set the number. A file holds
+    /// {"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...]}. With "moves":true its blobs fall
+    /// and collide with --scene. Table [bubbles] of --settings sets the appearance.
     #[arg(long, value_name = "one|slope|box|FILE", value_parser = crate::bubbles::named)]
     pub bubbles: Option<Bubbles>,
-    /// Shoreline and contact foam on a sea: 'archipelago' (islands, of which one drifts), 'pool' (objects in it), 'lava' (a
-    /// river of it), or a scene of your own (.glb, .gltf, .obj, .json) in the sea, without particles; frames from 1 on, which
-    /// come round in ten seconds. A mesh of it that is named 'strip', or the file that [shore] strip names, is a strip of
-    /// foam round the land: its second texture coordinate is 0 at the sea's edge, 1 at the shore line, 2 on the land. Tables
-    /// [shore], [shoreline] and [contact] of --settings say how it looks; [contact] particle_opacity = 1 puts contact foam
-    /// on particles' water
+    /// Draw shoreline and contact foam on a sea: archipelago, pool, lava, or a scene file
+    ///
+    /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of it. A
+    /// scene of your own (.glb, .gltf, .obj, .json) stands in a sea without particles. Frames start at 1 and
+    /// repeat after ten seconds. A mesh named 'strip', or the file that [shore] strip names, is a strip of foam
+    /// along the shore: its second texture coordinate is 0 at the sea's edge, 1 at the shore line, 2 on the
+    /// land. Tables [shore], [shoreline] and [contact] of --settings set the appearance. [contact]
+    /// particle_opacity = 1 puts contact foam on the particles' water.
     #[arg(long, value_name = "archipelago|pool|lava|FILE", value_parser = crate::shore::named, conflicts_with_all = ["inputs", "bubbles", "whitewater", "scene"])]
     pub shore: Option<Shore>,
-    /// Height of the sea in a scene of your own
+    /// Height of the sea in a scene of your own, scene units
     #[arg(long, value_name = "Y", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true, requires = "shore")]
     pub level: f32,
-    /// Frames of the sequence to draw, as A-B or A. Camera, radius and ground are found from the
-    /// whole sequence, so that its parts fit together
+    /// Frames of the sequence to draw, as A-B or A
+    ///
+    /// Camera, radius and ground are found from the whole sequence, so that separately drawn parts match.
     #[arg(long, value_name = "A-B")]
     pub frames: Option<String>,
-    /// Draws each Nth of them, from the first on; foam goes by all frames all the same
+    /// Render every Nth frame of these
+    ///
+    /// Foam is still simulated on all frames.
     #[arg(long, value_name = "N", default_value = "1")]
     pub every: NonZeroUsize,
-    /// The camera goes once round what it looks at: in so many frames, or seconds of the film (4s). One file is drawn so often
-    /// as it is, numbered from 1 on; a sequence runs meanwhile [default: of one file 96 frames, of a sequence those that are
-    /// drawn]
+    /// Orbit the camera once around its target, in this many frames or seconds of the film (4s) [default: 96
+    /// frames for one file; the drawn frames for a sequence]
+    ///
+    /// One file is drawn repeatedly, numbered from 1. A sequence plays meanwhile.
     #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
     pub turntable: Option<Turntable>,
-    /// Particle radius of the solver, half the spacing at rest, in metres (as --unit or --scale makes them) [default:
-    /// that of the files, or estimated]
+    /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale) [default: from
+    /// the files, or estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
-    /// Frames a second of the sequence (of its files, whatever their numbers are apart), by which foam comes and goes and the motion layer is made
-    /// [default: found from positions and velocities; without velocities, which are found by it, 30]
+    /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]
+    ///
+    /// Consecutive files are one frame apart, whatever the numbers in their names. Foam decay and the motion
+    /// layer depend on this value, and so do velocities that are estimated from the sequence.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
-    /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the
-    /// inputs, with their types and lifetimes, or KIND=FILES of one kind each, foam, spray or bubble; may be
-    /// given several times. How large and opaque they are is found by how many there are (table [diffuse] sets it: radius,
-    /// or radii = [foam, spray, bubbles], and half); 'generate': made of the water's particles, by where it traps air, breaks and is fast
-    /// (table [generate] of --settings). Foam near the eye becomes blobs of soap bubbles where table [bubbles] has
-    /// hand_over = [NEAR, FAR], all of it up to NEAR metres. The water's own foam and spray are drawn beside them only where
-    /// --foam and --spray ask for it
+    /// Draw spray, foam and bubbles that are particles of their own: files, or 'generate'
+    ///
+    /// FILES belong to the same frames and are named like the inputs, with types and lifetimes as FoamGenerator
+    /// writes them. KIND=FILES hold one kind each: foam, spray or bubble. May be given several times. Size and
+    /// opacity follow from their number; table [diffuse] overrides (radius, or radii = [foam, spray, bubbles],
+    /// and half). 'generate' emits them from the water's particles where it traps air, breaks and is fast
+    /// (table [generate]). With [bubbles] hand_over = [NEAR, FAR] foam turns into soap-bubble blobs between FAR
+    /// and NEAR metres. The water's own foam and spray are then drawn only if --foam and --spray ask for them.
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::diffuse::named)]
     pub whitewater: Vec<Whitewater>,
-    /// Where the diffuse particles that are made go, a file a frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz. They are
-    /// read again as any others
+    /// Write the emitted whitewater to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
+    ///
+    /// --whitewater reads these files again.
     #[arg(long, value_name = "FILE")]
     pub write_whitewater: Option<PathBuf>,
-    /// Puts files of one number together as one frame: phases, or the parts of a run on several processors, in a file each
+    /// Join files with the same frame number into one frame
+    ///
+    /// For example one file per phase, or per processor of a run.
     #[arg(long)]
     pub join: bool,
-    /// Which axis of the particles points up; z is turned to y, scene and camera are y-up [default: z where the water lies on
-    /// the lower end of z and is open above, or comes down along it, which is said; else y]
+    /// Up axis of the particles; z is turned to y [default: z if the water lies at the low end of z and is open
+    /// above, or falls along z (which is reported); otherwise y]
+    ///
+    /// Scene and camera are always y-up.
     #[arg(long, value_enum)]
     pub up_axis: Option<Up>,
-    /// Draws the particles for which a comparison of an attribute holds, such as Type=3 (= != < > <= >=); of several, those
-    /// for which all hold. Case and units in names say nothing. So walls that lie in the same files are left out
+    /// Draw only particles whose attribute satisfies a comparison, such as Type=3 (= != < > <= >=)
+    ///
+    /// Several conditions all have to hold. Case and units in names are ignored. Use it to leave out walls that
+    /// are in the same files.
     #[arg(long = "where", value_name = "NAME=VALUE", value_parser = crate::extras::condition)]
     pub conditions: Vec<Condition>,
-    /// Unit of lengths in the particle files, velocities too. All other lengths (--radius, --eye, --scene) are in metres
-    /// [default: m]
+    /// Unit of lengths in the particle files, velocities included [default: m]
+    ///
+    /// All other lengths (--radius, --eye, --scene) are in metres.
     #[arg(long, value_enum, conflicts_with = "scale")]
     pub unit: Option<Unit>,
-    /// Metres of a unit of length in the particle files: 0.001 is as --unit mm
+    /// Metres per unit of length in the particle files: 0.001 equals --unit mm
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     pub scale: Option<f32>,
-    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, tubes, spheres;
-    /// parts may move, with a pose for each frame, as 'whitewater simulate' writes them);
-    /// 'ground' [default: a basin round water that fills a box, else a ground under it]
+    /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin around water that stands
+    /// at two sides of a box, otherwise the ground]
+    ///
+    /// JSON has boxes, cylinders, tubes and spheres; parts may move, with a pose per frame, as 'whitewater
+    /// simulate' writes them.
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
-    /// Where the water is, if it is in no scene of a file: pool (a terrace in a garden), studio (a plain floor under a soft
-    /// box), beach (sand before a sea) or lab (a tiled hall with lamps); studio and lab have light of their own where none is
-    /// said. Or none: nothing but the water, its foam and spray, premultiplied, with
-    /// the share in A that they hide of what is behind them (the mean of three channels), in EXR and PNG [default: pool]
+    /// Surroundings if no --scene is given: pool, studio, beach, lab or none [default: pool]
+    ///
+    /// 'pool' is a terrace in a garden, 'studio' a plain floor under a soft box, 'beach' sand in front of a
+    /// sea, 'lab' a tiled hall with lamps. Studio and lab bring their own light unless you set one. With 'none'
+    /// only water, foam and spray are drawn, premultiplied; A holds how much of the background they hide (the
+    /// mean of three channels), in EXR and PNG.
     #[arg(long, value_enum, conflicts_with = "scene")]
     pub set: Option<SetArg>,
     #[command(flatten)]
@@ -185,75 +210,91 @@ pub struct DemoArgs {
 /// What every drawing command takes.
 #[derive(Args, Debug)]
 pub struct DrawArgs {
-    /// Picture to write, .exr (linear light, all layers) or .png; may be given twice. A sequence
-    /// puts the frame number where %04d stands, or before the extension. Or a film of all frames,
-    /// .mp4 (H.264), at --fps
+    /// File to write: .exr (linear light, all layers), .png, or .mp4 (a film of all frames, H.264, at --fps);
+    /// may be given twice
+    ///
+    /// For a sequence the frame number replaces %04d, or precedes the extension.
     #[arg(short, long = "output", required = true, value_name = "OUT")]
     pub outputs: Vec<PathBuf>,
     /// Size in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (u32, u32),
-    /// Draws that many times as wide and high, and makes the picture from it: 1, 2 or 4. Smooth
-    /// outlines, drops and refraction of fine ripples; the times of --timings are of the large frame [default: 2, or 1
-    /// where the picture is the mean of --samples]
+    /// Render at N times the width and height and average: 1, 2 or 4 [default: 2, or 1 if --samples applies]
+    ///
+    /// Smooths outlines, drops and the refraction of fine ripples. --timings are those of the large frame.
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
-    /// Motion blur: seconds that the shutter is open, about the moment of the frame, as 1/50 or 0.02; 0: none. By the
-    /// velocities of the water; diffuse particles and bubbles stand still [default: 1/100 of a single picture that is a PNG,
-    /// else 0]
+    /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
+    /// 1/100 for a single PNG, otherwise 0]
+    ///
+    /// It uses the water's velocities. Whitewater and bubbles are not blurred.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub shutter: Option<f32>,
-    /// Depth of field: diameter of the lens in scene units, 0: all is sharp; 50 mm at f/2 are 0.025 metres [default: of a
-    /// single picture that is a PNG 0.006 of the distance at which it is sharp, 0.06 at most, else 0]
+    /// Depth of field: lens diameter in scene units, 0 for none [default: for a single PNG 0.006 of the focus
+    /// distance, at most 0.06, otherwise 0]
+    ///
+    /// 50 mm at f/2 are 0.025 metres.
     #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]
     pub aperture: Option<f32>,
-    /// How far away it is sharp [default: as the camera's target]
+    /// Focus distance [default: to the camera's target]
     #[arg(long, value_name = "DISTANCE", value_parser = positive)]
     pub focus: Option<f32>,
-    /// Pictures that one with --shutter or --aperture is the mean of, 1 to 256: each is drawn, and takes as long as one
+    /// Number of renders that a picture with --shutter or --aperture averages, 1 to 256; the time is
+    /// proportional
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
     pub samples: u32,
-    /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
-    /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
-    /// [water] medium is as --medium, or by its numbers per metre: {absorption = [r, g, b], reduced_scattering = [r, g, b],
-    /// emission = [r, g, b]} scatters many times, {absorption = [r, g, b], scattering = [r, g, b]} once. Table [foam] also says by what water foams: by = 'air' (the speed at which neighbours come nearer) or 'speed' (its own, the
-    /// default of a sequence and where threshold or air is said), weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
-    /// default), threshold (as --foam), lifetime = 1.0 (mean seconds until it is gone), air = [0, 0, 0] (the wind,
-    /// scene units a second, y up) and seed = 0 (of its times)
+    /// Settings file in TOML
+    ///
+    /// Tables: [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
+    /// [shadow], [noise] and [light]. An EXR's attribute 'settings' holds all settings that it was drawn with.
+    /// [water] medium takes the names of --medium, or numbers per metre: {absorption = [r, g, b],
+    /// reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple scattering, {absorption = [r, g, b],
+    /// scattering = [r, g, b]} for single scattering. [foam] also sets which water foams: by = 'air' (the speed
+    /// at which neighbours approach) or 'speed' (its own; default for sequences and if threshold or air is
+    /// given); weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold (as --foam); lifetime =
+    /// 1.0 (mean seconds of decay); air = [0, 0, 0] (wind, scene units per second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
-    /// The liquid, with its index of refraction and the colours of its foam: clear (pure water), pool, lake (green), ocean
-    /// (clear, blue), river (silt, tan), glacier (rock flour, turquoise), milk, beer, honey, blood, lava (it glows), or
-    /// source (the thesis'). Absorption and scattering are measured ones, per metre: beer, honey and blood are nearly black
-    /// or opaque where they are metres deep. NAME:SHARE has so much of what absorbs and scatters in it: beer:0.05 is a glass
-    /// of beer that is drawn twenty times as large, milk:0.01 a cup of milk in a hundred of water [default: clear of
-    /// particles under 2 metres across, else pool]
+    /// Liquid: clear, pool, lake, ocean, river, glacier, milk, beer, honey, blood, lava or source (the thesis')
+    /// [default: clear for water under 2 metres across, otherwise pool, diluted above 10 metres]
+    ///
+    /// It sets absorption, scattering, index of refraction and foam colours. 'clear' is pure water, 'lake' is
+    /// green, 'ocean' clear and blue, 'river' tan with silt, 'glacier' turquoise with rock flour, and 'lava'
+    /// glows. Absorption and scattering are measured values per metre, so beer, honey and blood are nearly
+    /// black or opaque metres deep. NAME:SHARE multiplies both: beer:0.05 is a glass of beer drawn at twenty
+    /// times its size, milk:0.01 a cup of milk in a hundred cups of water.
     #[arg(long, value_name = "NAME[:SHARE]")]
     pub medium: Option<MediumName>,
-    /// How all looks where nothing else is said: 'default', or 'thesis', as the source of the layered water has it (Bagar
-    /// 2010): its composite, colours, foam and spray, its iterations (--rule source), one sheet, and the scene's shadows by
-    /// its filter, without those of water and foam. The same as look = 'thesis' at the head of --settings
+    /// Preset for everything that is not set explicitly: 'default', or 'thesis' (Bagar 2010)
+    ///
+    /// 'thesis' has that work's composite, colours, foam, spray and iterations (--rule source), one layer of
+    /// water, and the scene's filtered shadows without those of water and foam. Equals look = 'thesis' at the
+    /// top of --settings.
     #[arg(long, value_enum)]
     pub look: Option<LookWord>,
-    /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
+    /// Environment that the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
     #[arg(long, value_name = "FILE|sky", default_value = "sky")]
     pub environment: String,
-    /// Direction to the sun [default: of the sky -0.7,0.55,-0.35; of a file its brightest spot]
+    /// Direction to the sun [default: for the sky, high and to the camera's left, or -0.7,0.55,-0.35 with
+    /// --scene; for a file, its brightest spot]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub sun: Option<[f32; 3]>,
-    /// Layers of the EXR beside R G B A: all, none, or names such as water.depth,scene; and ladder, the
-    /// picture up to each of its layers (background, back_water, foam, front_water). motion.X and
-    /// motion.Y: pixels from where what a pixel shows was in the frame before, x to the right and y
-    /// down; of the first frame of a sequence 0, of the scene by the camera alone
+    /// EXR layers besides R G B A: all, none, or names such as water.depth,scene
+    ///
+    /// 'ladder' adds the picture up to each of its layers (background, back_water, foam, front_water). motion.X
+    /// and motion.Y are the motion since the previous frame in pixels, x right, y down: 0 in the first frame of
+    /// a sequence, for the scene from the camera alone.
     #[arg(long, value_name = "NAMES", default_value = "all")]
     pub layers: String,
-    /// Brightness of the PNG: 'auto', as a meter finds it that is held into the light of the environment, so that it is the
-    /// same in all frames of a sequence; or stops on top of that
+    /// PNG exposure: 'auto', or stops relative to it
+    ///
+    /// 'auto' meters the environment's light, so it is the same in all frames of a sequence.
     #[arg(long, value_name = "auto|STOPS", default_value = "auto", value_parser = exposure, allow_hyphen_values = true)]
     pub exposure: f32,
-    /// How the light of the picture becomes that of the PNG: aces (the Academy's, a film's, by Hill's fit), agx (Sobotka's:
-    /// less contrast, bright colours go pale), neutral (Khronos': dim colours as they are) or linear (clipped). EXR is
-    /// linear light always
+    /// PNG tone map: aces, agx, neutral or linear
+    ///
+    /// aces is the Academy's film curve (Hill's fit); agx is Sobotka's, with less contrast and paler bright
+    /// colours; neutral is Khronos', which keeps dim colours; linear clips. EXR is always linear light.
     #[arg(long, value_enum, default_value_t = ToneArg::Aces)]
     pub tone: ToneArg,
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
@@ -262,63 +303,75 @@ pub struct DrawArgs {
     /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=3))]
     pub thickness_level: u32,
-    /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2 [default: 2; of
-    /// --look thesis 1]
+    /// Number of water layers that are separated where one stands in front of another, such as a drop in front
+    /// of a pool: 1 or 2 [default: 2; 1 with --look thesis]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: Option<u32>,
-    /// What of the water foams: auto (of one frame where it traps air, as neighbours run into each other: a twentieth of
-    /// it at most, and none of water that rests, flows or falls as a whole; of a sequence the fastest twentieth, three tenths
-    /// at a time; needs velocities), none,
-    /// or the Weber number from which on it does, by its own speed. In a sequence with ids foam comes and goes in time;
-    /// frames before those that are drawn are read for it [default: auto; with --whitewater none]
+    /// Surface foam: auto, none, or a Weber number as threshold [default: auto; none with --whitewater]
+    ///
+    /// 'auto' needs velocities. A single frame foams where it traps air, that is where neighbours collide: the
+    /// top 5 % at most, and no water that rests, flows or falls as a whole. In a sequence the top 5 % by Weber
+    /// number foam, at most 30 % of the particles at a time. A number applies to the water's own speed. With
+    /// ids foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub foam: Option<Foaming>,
-    /// Spray, of particles that are alone or nearly: auto (by densities of the file or found, table [spray] densities, in
-    /// shares of the rest density [default: 0.28, 0.62, 0.7]) or none [default: auto; with --whitewater none]
+    /// Spray of particles with few or no neighbours: auto or none [default: auto; none with --whitewater]
+    ///
+    /// It uses densities from the files, or estimated ones. Table [spray] densities sets the limits as
+    /// fractions of the rest density [default: 0.28, 0.62, 0.7].
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
-    /// Noise on the surface, of the baseline (van der Laan et al. 2009), for comparison: none, surface
-    /// (its normals), or foam (its grey foam too); with --rule fixed:40 and --foam none it is whole
+    /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or
+    /// foam (normals and grey foam)
+    ///
+    /// The complete baseline is --noise foam --rule fixed:40 --foam none.
     #[arg(long, value_enum, default_value_t = NoiseArg::None)]
     pub noise: NoiseArg,
-    /// What the sunlight does: shadows of the scene on foam and spray, shadows of water and foam, caustics
-    /// (all), those of the scene alone (scene), or none [default: all; of --look thesis scene]
+    /// Shadows: all (scene, water and foam, with caustics), scene (those of the scene on foam and spray), or
+    /// none [default: all; scene with --look thesis]
     #[arg(long, value_enum)]
     pub shadows: Option<ShadowArg>,
-    /// How particles become pixels [default: the faster on the device]
+    /// How particles are rasterized [default: the faster on the device]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,
-    /// Iterations of the smoothing: source, constant-width, or fixed:N [default: constant-width; of --look thesis source]
+    /// Iteration rule of the smoothing: source, constant-width, or fixed:N [default: constant-width; source
+    /// with --look thesis]
     #[arg(long, value_parser = rule)]
     pub rule: Option<Rule>,
-    /// Write the time of each pass to a .csv or .json; at Ctrl-C, of the frames until then. What is done once a step before
-    /// a frame (classify: which water is foam; the passes that make diffuse particles or move blobs) stands before its
-    /// passes, the last step's, once however often the frame is drawn
+    /// Write the time of each pass to a .csv or .json
+    ///
+    /// Passes that run once per simulation step (classify, which finds the foaming water; emission of
+    /// whitewater; blob dynamics) precede a frame's passes, once, with the times of the last step. After Ctrl-C
+    /// the file holds the frames so far.
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
-    /// Draws each frame so many times, all of which go to --timings
+    /// Draw each frame this many times; --timings has all of them
     #[arg(long, value_name = "N", default_value = "1")]
     pub repeat: NonZeroUsize,
-    /// Write a trace for Perfetto or chrome://tracing (.json); at Ctrl-C, until then
+    /// Write a trace for Perfetto or chrome://tracing (.json)
+    ///
+    /// After Ctrl-C it holds the frames so far.
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
-    /// Part of the name of the device to draw on [default: a GPU if there is one]
+    /// Device to draw on, by a part of its name [default: a GPU if there is one]
     #[arg(long, value_name = "NAME")]
     pub device: Option<String>,
-    /// Draw under core and synchronization validation; its messages are errors
+    /// Draw with core and synchronization validation; messages are errors
     #[arg(long)]
     pub validate: bool,
-    /// Draw frames of a sequence again that are there already [default: they are skipped]
+    /// Redraw frames of a sequence whose files exist [default: skip them]
     #[arg(long)]
     pub overwrite: bool,
 }
 
 #[derive(Args, Debug)]
 pub struct CameraArgs {
-    /// Camera as JSON: {"eye":[x,y,z],"target":[..],"up":[..],"fov_y_degrees":40,"near":0.1,
-    /// "far":1000}, or {"view":[16],"projection":[16]} column-major, for Vulkan's clip space. It moves
-    /// by {"keys":[{"frame":1,"eye":[..],"target":[..]},...]}, each with up and fov_y_degrees if it
-    /// likes: a Catmull-Rom spline over the frames' numbers, at rest in the first key and the last
+    /// Camera as JSON
+    ///
+    /// {"eye":[x,y,z],"target":[..],"up":[..],"fov_y_degrees":40,"near":0.1,"far":1000}, or
+    /// {"view":[16],"projection":[16]}, column-major, for Vulkan's clip space. A moving camera has keys:
+    /// {"keys":[{"frame":1,"eye":[..],"target":[..]},...]}, each with optional up and fov_y_degrees. It follows
+    /// a Catmull-Rom spline over the frame numbers, at rest at the first and last key.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub file: Option<PathBuf>,
     /// Position of the camera [default: found from the particles]
@@ -327,7 +380,7 @@ pub struct CameraArgs {
     /// Point the camera looks at
     #[arg(long, value_name = "X,Y,Z", requires = "eye", value_parser = vector, allow_hyphen_values = true)]
     pub target: Option<[f32; 3]>,
-    /// Direction that is up in the picture [default: 0,1,0]
+    /// Up direction in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", requires = "eye", value_parser = vector, allow_hyphen_values = true)]
     pub up: Option<[f32; 3]>,
     /// Vertical field of view in degrees [default: 40]
@@ -343,19 +396,19 @@ pub struct SimulateArgs {
     /// Folder for the frames, scene.json and camera.json; made if it is not there
     #[arg(short, long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Frames of the sequence, as A-B or A; what comes before A is simulated and not written
+    /// Frames to write, as A-B or A; frames before A are simulated, not written
     #[arg(long, value_name = "A-B", default_value_t = format!("1-{FRAMES}"))]
     pub frames: String,
     /// Frames per second
     #[arg(long, value_name = "N", default_value_t = FPS, value_parser = positive)]
     pub fps: f32,
-    /// Distance of particles at rest, metres: half of it, eight times as many [default: the scene's]
+    /// Rest distance of particles in metres; half of it means eight times as many [default: the scene's]
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub spacing: Option<f32>,
-    /// Write these of the frames only, as A-B or A
+    /// Write only these frames, as A-B or A
     #[arg(long, value_name = "A-B")]
     pub keep: Option<String>,
-    /// Of the random numbers
+    /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u32,
     /// Threads to use; 0: one per core
@@ -368,7 +421,7 @@ pub struct InfoArgs {
     /// Particle files, as for render
     #[arg(required = true, value_name = "INPUT")]
     pub inputs: Vec<String>,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -377,37 +430,39 @@ pub struct InfoArgs {
 pub struct CompareArgs {
     /// Reference: .exr, .png or .hdr
     pub a: PathBuf,
-    /// Test
+    /// Test: .exr, .png or .hdr
     pub b: PathBuf,
-    /// Also the mean FLIP error of the colour as a screen shows it (0 to 1); the tolerance is then
-    /// for it
+    /// Also print the mean FLIP error of the displayed colour (0 to 1); --tolerance then applies to it
     #[arg(long)]
     pub flip: bool,
-    /// Largest RMSE of any channel (or mean FLIP) that still counts as equal
+    /// Largest RMSE of any channel (or mean FLIP) that counts as equal
     #[arg(long, default_value_t = 0.0, value_parser = finite)]
     pub tolerance: f32,
 }
 
 #[derive(Args, Debug)]
 pub struct PatternArgs {
-    /// A picture whose white is foam's lines: .png, .exr or .hdr, by its luminance; what is transparent is none. It wraps
-    /// round, as it will on the water. 'web:SEED' and 'noise:SEED': the textures that foam has of its own
+    /// Picture whose white areas are foam: .png, .exr or .hdr; or web:SEED or noise:SEED for a built-in texture
+    ///
+    /// The luminance counts; transparent pixels are no foam. The result is seamless.
     #[arg(value_name = "IN|web:SEED|noise:SEED", value_parser = crate::pattern::named)]
     pub input: Source,
-    /// Texture to write: .png (grey, 16 bits, without a curve) or .exr (32-bit float, channel Y). 1 on the lines, 0 far from
-    /// them. Of noise R G B A: from -1 to 1, in a .png from 0 to 1
+    /// Texture to write: .png (16-bit grey, linear) or .exr (32-bit float, channel Y)
+    ///
+    /// 1 on the lines, 0 far from them. Noise has R G B A from -1 to 1, in a .png from 0 to 1.
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// How far from the lines it is 0, in texels [default: the largest distance there is]
+    /// Distance from the lines at which the value reaches 0, texels [default: the largest distance in the
+    /// picture]
     #[arg(long, value_name = "TEXELS", value_parser = positive)]
     pub reach: Option<f32>,
-    /// Black is foam's lines
+    /// Black areas are foam
     #[arg(long)]
     pub invert: bool,
-    /// From which luminance on it is white [default: 0.5]
+    /// Luminance from which a pixel is white [default: 0.5]
     #[arg(long, value_name = "T", value_parser = finite, allow_hyphen_values = true)]
     pub threshold: Option<f32>,
-    /// Texels a side of 'web' and 'noise' [default: 512]
+    /// Side length of 'web' and 'noise' in texels [default: 512]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
     pub size: Option<u32>,
 }
@@ -465,7 +520,7 @@ impl From<SplatArg> for Splat {
 /// What stands round the water.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum SetArg {
-    /// A terrace in a garden.
+    /// A terrace in a garden
     #[default]
     Pool,
     /// A plain floor that passes into the dark.
@@ -505,9 +560,9 @@ impl From<ToneArg> for Tone {
 /// What casts shadows on what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ShadowArg {
-    /// The scene, water and foam, on each other; with caustics.
+    /// Scene, water and foam cast shadows on each other; with caustics.
     All,
-    /// The scene on foam and spray.
+    /// The scene casts shadows on foam and spray.
     Scene,
     /// None.
     None,

@@ -1,5 +1,5 @@
-//! Motion blur and depth of field: the mean of pictures at moments while the shutter is open, through points of the lens
-//! (the accumulation buffer, Haeberli and Akeley 1990).
+//! Motion blur and depth of field: the mean of pictures at several moments of the exposure and through several
+//! points of the lens (the accumulation buffer, Haeberli and Akeley 1990).
 
 use glam::{Vec2, Vec3};
 use whitewater::Camera;

@@ -1,4 +1,4 @@
-//! Where the bulk of the particles is, whatever a few strays do.
+//! Bounds of the bulk of the particles, robust against strays.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,4 @@
-//! Blobs of bubble foam: those of a file, and built-in scenes of them.
+//! Blobs of bubble foam: from a file, and built-in scenes.
 
 use std::path::{Path, PathBuf};
 

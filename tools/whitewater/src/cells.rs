@@ -1,4 +1,4 @@
-//! Who is near whom: particles by cells as wide as the reach.
+//! Neighbour search: particles in grid cells as wide as the search radius.
 
 use std::num::NonZeroUsize;
 

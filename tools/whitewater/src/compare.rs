@@ -1,4 +1,4 @@
-//! `whitewater compare`: how far two pictures are apart, channel by channel.
+//! `whitewater compare`: the difference of two pictures, channel by channel.
 
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, FlipPool, flip};
 use whitewater::io::picture::{self, Layers};

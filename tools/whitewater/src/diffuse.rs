@@ -1,4 +1,4 @@
-//! Diffuse particles that lie beside the fluid's: files of the same frames.
+//! Whitewater particles from files of the same frames.
 
 use std::collections::{BTreeMap, HashMap};
 use std::f32::consts::PI;

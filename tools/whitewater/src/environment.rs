@@ -1,4 +1,4 @@
-//! What shines on the scene: a picture, or the built-in sky, whose irradiance is worked out here.
+//! The environment: a picture, or the built-in sky, and its irradiance.
 
 use std::f32::consts::{PI, TAU};
 use std::path::Path;

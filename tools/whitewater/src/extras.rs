@@ -1,4 +1,4 @@
-//! Attributes beside those that are drawn: what tells walls from water, and radii.
+//! Additional attributes: those that separate walls from water, and radii.
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What went wrong, in one line, and the exit code that tells what kind it is.
+//! Errors in one line, with an exit code by kind.
 
 use std::path::Path;
 

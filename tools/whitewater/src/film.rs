@@ -1,4 +1,4 @@
-//! A film of all frames in one file: H.264 in MP4, as every player and every browser takes it.
+//! A film of all frames in one file: H.264 in MP4, which every player and browser supports.
 
 use std::io::{self, Write};
 use std::path::PathBuf;

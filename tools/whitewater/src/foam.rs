@@ -1,4 +1,4 @@
-//! When water foams: the Weber number from which on it does, of the data themselves.
+//! The Weber number from which water foams, found from the data.
 
 use std::collections::HashMap;
 

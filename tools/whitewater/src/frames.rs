@@ -1,4 +1,4 @@
-//! Files that are named, and what to do where nothing fits.
+//! Input files, and what to do if nothing matches.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -274,9 +274,12 @@ mod tests {
             write(&format!("out/partio/Fluid_{number}.bgeo"));
         }
         write("out/log.txt~");
-        let said = |name: &str| expand(&[at(name)], None).unwrap_err().message;
-        assert_eq!(expand(&[at("out/partio")], None).unwrap().len(), 3);
-        assert_eq!(expand(&[at("out/partio/")], Some(9..=10)).unwrap().len(), 2);
+        let said = |name: &str| expand(&[at(name)], false).unwrap_err().message;
+        assert_eq!(expand(&[at("out/partio")], false).unwrap().len(), 3);
+        assert_eq!(
+            within(&expand(&[at("out/partio/")], false).unwrap(), Some(9..=10)).unwrap().len(),
+            2
+        );
         assert!(
             said("out").contains("there are some in ") && said("out").contains("out/partio"),
             "{}",
@@ -300,7 +303,7 @@ mod tests {
         for name in ["u_8.bgeo", "u_9.bgeo", "u_10.bgeo", "p_0008.bgeo", "p_0009.bgeo"] {
             std::fs::write(at(name), "").unwrap();
         }
-        let said = |name: &str| expand(&[at(name)], None).unwrap_err().message;
+        let said = |name: &str| expand(&[at(name)], false).unwrap_err().message;
         for name in [
             "u_{}.bgeo",
             "u_{:04d}.bgeo",

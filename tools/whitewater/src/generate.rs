@@ -1,4 +1,4 @@
-//! `--whitewater generate`: spray, foam and bubbles that are made of the water's particles.
+//! `--whitewater generate`: spray, foam and bubbles emitted from the water's particles.
 
 use glam::Vec3;
 use whitewater::Settings;

@@ -1,4 +1,4 @@
-//! `whitewater info`: what particle files hold.
+//! `whitewater info`: contents of particle files.
 
 use std::collections::HashSet;
 

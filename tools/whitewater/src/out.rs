@@ -1,4 +1,4 @@
-//! What is said: results on the standard output, all else on the standard error.
+//! Output: results to standard output, everything else to standard error.
 
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write, stderr, stdout};

@@ -1,8 +1,8 @@
-//! Files out: under a temporary name in the same folder, then renamed. Ctrl-C leaves none behind; what a run
-//! that was killed leaves, the next one that writes the same file takes away.
+//! Writes files under a temporary name in the same folder, then renames them. Ctrl-C removes them; the next run
+//! that writes the same file removes what a killed run has left.
 //!
-//! A file without a name (O_TMPFILE) would leave nothing at all, but can only be linked to a name that is free,
-//! which that of a picture drawn again is not, and not all file systems have it.
+//! A file without a name (O_TMPFILE) would leave nothing at all, but it can only be linked to a free name,
+//! which that of a redrawn picture is not, and not all file systems support it.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};

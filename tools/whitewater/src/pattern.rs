@@ -1,4 +1,4 @@
-//! `whitewater pattern`: textures of shoreline foam, of a pattern or of a seed.
+//! `whitewater pattern`: textures of shoreline foam, from a picture or a seed.
 
 use std::path::{Path, PathBuf};
 

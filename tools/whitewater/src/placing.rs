@@ -1,4 +1,4 @@
-//! From the axes and the unit of files to those of the scene: y up, metres.
+//! Converts axes and units of files to those of the scene: y up, metres.
 
 use whitewater::io::particles::Particles;
 

@@ -1,5 +1,5 @@
-//! How far it is, on stderr: a bar on a terminal (of one frame a spinner), else a line for each frame, and for
-//! each step that takes long.
+//! Progress on stderr: a bar on a terminal (a spinner for one frame), otherwise a line per frame and per long
+//! step.
 
 use std::fmt::Display;
 use std::io::IsTerminal;

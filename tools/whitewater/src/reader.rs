@@ -1,5 +1,5 @@
-//! The frames of `render` as they are drawn: turned up, what is odd told, and with velocities from frame to frame where
-//! the files have none.
+//! The frames of `render` in drawing order: turned to y-up, with warnings about unusual data, and with
+//! velocities from frame to frame where the files have none.
 
 use std::collections::HashMap;
 

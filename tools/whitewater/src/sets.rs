@@ -1,5 +1,5 @@
-//! What stands round the water far and near: a terrace in a garden, a studio, a shore, a laboratory. Everything goes by
-//! the width of the water, so that a beaker and a lake get the same picture; nothing is metric.
+//! Surroundings of the water, near and far: a terrace in a garden, a studio, a shore, a laboratory. All sizes
+//! are relative to the width of the water, so a beaker and a lake get the same picture; nothing is metric.
 
 use std::f32::consts::{PI, TAU};
 

@@ -1,4 +1,4 @@
-//! `whitewater simulate`: the particles of a scene.
+//! `whitewater simulate`: simulates the particles of a scene.
 
 use std::io::Write;
 use std::path::Path;

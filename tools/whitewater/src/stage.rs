@@ -1,5 +1,4 @@
-//! What stands behind the water: a scene from a file, a basin round water that fills a box, or a paved
-//! ground under it.
+//! The scene behind the water: from a file, a basin around water that fills a box, or a paved ground below it.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Times out: CSV, JSON, and a trace that Perfetto and chrome://tracing open.
+//! Writes times: CSV, JSON, and a trace for Perfetto and chrome://tracing.
 
 use std::io::Write;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Which way is up in files, by how the water lies and moves.
+//! Detects the up axis of files from the position and motion of the water.
 
 use std::collections::HashMap;
 

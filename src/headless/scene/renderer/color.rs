@@ -1,6 +1,5 @@
-//! Colour: meshes, then the sky where none is. With several samples a pixel it has a depth of its
-//! own and is resolved; with one it goes on from the depth pass.
-//! Reads: vertices, shadow map, environment, irradiance, textures. Writes: scene colour, all of it.
+//! Draws the colour: meshes, then the sky where there are none. With several samples per pixel the pass has
+//! its own depth buffer and is resolved; with one sample it uses the depth of the depth pass.
 
 use ash::vk;
 
@@ -19,15 +18,15 @@ use crate::gpu::graveyard::Owned;
 use crate::gpu::image::Image;
 use crate::gpu::pass::{Attachment, Attachments, clear_depth};
 
-/// Samples of a pixel where edges are smoothed and the device has them.
+/// Samples per pixel with smooth edges, if the device supports them.
 const MANY: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_4;
 const ONE: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_1;
 
 pub struct Color {
-    /// Samples of a pixel.
+    /// Samples per pixel.
     pub samples: vk::SampleCountFlags,
     pass: vk::RenderPass,
-    /// Depth of the samples, before their colour.
+    /// Draws the depth of the samples before their colour.
     first: Option<DepthOnly>,
     /// The opaque meshes and the ground.
     pub meshes: Meshes,
@@ -56,7 +55,7 @@ impl Color {
         Ok(Self { samples, pass, first, meshes, sky })
     }
 
-    /// `samples`: where there are several.
+    /// `samples`: the multisampled images, if there are any.
     pub fn framebuffer(
         &self,
         gpu: &Gpu,
@@ -70,26 +69,26 @@ impl Color {
         gpu.framebuffer_of("scene/color", self.pass, &views, frame.color.extent)
     }
 
-    /// `depth`: the frame's, drawn before.
+    /// `depth`: depth of the frame, drawn before.
     pub fn record(&self, r: &Recording<'_>, targets: &Targets, depth: &Image) -> Result<(), Error> {
         match &targets.samples {
-            // Cleared each time: what the slot's frame before left there is of no use.
+            // Cleared each time: contents of the slot's previous frame are not needed.
             Some(Samples { color, depth }) => {
                 let color = access::image(color, COLOR_ATTACHMENT.discarded(), COLOR_ATTACHMENT);
                 let depth = access::image(depth, DEPTH_ATTACHMENT.discarded(), DEPTH_ATTACHMENT);
                 r.gpu.barriers(r.cmd, &[color, depth], &[]);
             }
-            // Tested against the depth of the pass before.
+            // Tested against the depth of the depth pass.
             None => {
                 let depth = access::image(depth, DEPTH_ATTACHMENT, DEPTH_ATTACHMENT);
                 r.gpu.barriers(r.cmd, &[depth], &[]);
             }
         }
-        // The sky covers whatever the colour is cleared to.
+        // The sky covers everything, so the clear colour does not matter.
         let clears = [vk::ClearValue::default(), clear_depth(r.view.far)];
         r.gpu.begin_pass_with(r.cmd, self.pass, targets.color.handle, r.area, &clears);
         if let Some(first) = &self.first {
-            // The shading is dear: only what is seen is shaded.
+            // Depth first, because shading is expensive: only visible fragments are shaded.
             first.draw(r.gpu, r.cmd, r.geometry, r.view, r.geometry.count);
         }
         let drawn = self.meshes.draw(r).and_then(|()| self.sky.draw(r));

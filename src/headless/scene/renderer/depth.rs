@@ -1,5 +1,5 @@
-//! The depth that the water is tested against: one sample at each pixel's centre, whatever the
-//! colour has.
+//! Draws the depth that the water is tested against: one sample at each pixel's centre, however many samples
+//! the colour has.
 //! Reads: vertices. Writes: scene depth, all of it.
 
 use ash::vk;

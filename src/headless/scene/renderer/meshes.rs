@@ -1,5 +1,5 @@
-//! The opaque meshes and the ground, shaded. One pipeline for each kind of surface, as a software
-//! device takes both sides of every branch.
+//! Draws the opaque meshes and the ground. One pipeline per kind of surface, because a software device
+//! executes both sides of every branch.
 //! Reads: vertices, shadow map, environment, irradiance, textures, uniforms.
 
 use std::collections::btree_map::Entry;
@@ -33,7 +33,7 @@ struct Push {
 
 shader::assert_layout!(shader::HEADLESS_SCENE_FRAG, "Push", Push { turn, origin, color, pattern });
 
-/// What `scene.frag` is specialised for.
+/// Specialization of `scene.frag`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Kind {
     pattern: u32,
@@ -64,7 +64,7 @@ impl Meshes {
         pass: vk::RenderPass,
         samples: vk::SampleCountFlags,
     ) -> Result<Self, Error> {
-        // Textures are shared by what points to the same one.
+        // A texture shared by several materials is uploaded once.
         let mut known: BTreeMap<*const Texture, usize> = BTreeMap::new();
         let mut pipelines = BTreeMap::new();
         let mut draws = Vec::new();
@@ -95,12 +95,12 @@ impl Meshes {
             }
             draws.push(draw);
         }
-        // By pipeline; within one as the scene has them.
+        // Sorted by pipeline; within one, in the order of the scene.
         draws.sort_by_key(|draw| draw.kind);
         Ok(Self { pipelines, draws })
     }
 
-    /// Descriptor sets that a record takes: one for each pipeline with each texture.
+    /// Number of descriptor sets for a record: one per pair of pipeline and texture.
     pub fn sets(&self) -> u32 {
         let draws = self.draws.iter().map(|draw| (draw.kind, draw.texture));
         draws.collect::<BTreeSet<_>>().len() as u32
@@ -163,11 +163,11 @@ impl Draw {
     ) -> Self {
         let (mut turn, mut origin) = (Quat::IDENTITY, Vec3::ZERO);
         let (_, rotation, translation) = transform.to_scale_rotation_translation();
-        // A mesh that is not turned takes the world's frame: tiles go on round corners.
+        // A mesh without rotation uses the world's frame, so that tiles continue around corners.
         if rotation.is_finite() && !rotation.is_near_identity() {
             (turn, origin) = (rotation.normalize(), translation);
         }
-        // The numbers of `scene.frag`.
+        // The numbers used in `scene.frag`.
         let (pattern, size, band) = match material.pattern {
             Pattern::Plain => (0, 1.0, None),
             Pattern::Tiles { size, band } => (1, size, band),
@@ -184,7 +184,7 @@ impl Draw {
             Pattern::Ripples { length } => (12, length, None),
         };
         let metres = scene.metres_per_unit();
-        // No pipeline of its own: they are dear to make.
+        // A push constant instead of a pipeline of its own: pipelines are expensive to create.
         let backdrop = if matches!(batch.part, Part::Backdrop(_)) { 1.0 } else { 0.0 };
         let [r, g, b] = material.base_color;
         Self {

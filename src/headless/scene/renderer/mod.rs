@@ -123,7 +123,7 @@ impl SceneRenderer {
     /// freed by the next `Gpu::bury`.
     ///
     /// # Errors
-    /// A sun without direction, a sea that is none; no memory; what Vulkan reports.
+    /// A sun without direction, a sea that is none; no memory; Vulkan errors.
     pub fn new(
         gpu: &Gpu,
         scene: &Scene,
@@ -209,7 +209,7 @@ impl SceneRenderer {
     /// record drew to, for the next `Gpu::bury`.
     ///
     /// # Errors
-    /// A camera that cannot be drawn, no memory, what Vulkan reports.
+    /// A camera that cannot be drawn, no memory; Vulkan errors.
     pub fn record(
         &mut self,
         gpu: &Gpu,

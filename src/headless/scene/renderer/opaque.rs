@@ -1,5 +1,5 @@
-//! What all draws of the scene share: triangles before which a depth test stands, whose direction
-//! is the camera's; and the draw of depth alone.
+//! Shared by all draws of the scene: triangles with a depth test whose direction follows the camera, and the
+//! depth-only draw.
 
 use ash::vk;
 use glam::Mat4;
@@ -10,20 +10,20 @@ use crate::gpu::Gpu;
 use crate::gpu::pipeline::{Pipeline, no_blend};
 use crate::gpu::shader::{self, Shader};
 
-/// What differs between the pipelines of the scene.
+/// The differences between the pipelines of the scene.
 pub struct Opaque<'a> {
     pub vertex: Shader,
-    /// None: depth alone.
+    /// `None`: depth only.
     pub fragment: Option<Shader>,
-    /// Inputs from the vertices; may be none.
+    /// Vertex attributes; may be empty.
     pub attributes: &'a [vk::VertexInputAttributeDescription],
     pub pass: vk::RenderPass,
     /// Whether the pass has a colour attachment.
     pub colored: bool,
     pub samples: vk::SampleCountFlags,
-    /// Slope factor of the depth bias; 0: none.
+    /// Slope factor of the depth bias; 0 for none.
     pub bias: f32,
-    /// Specialisation constants (id, value).
+    /// Specialization constants: id, value.
     pub constants: &'a [(u32, u32)],
 }
 
@@ -41,7 +41,7 @@ impl Opaque<'_> {
             .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
         let viewport =
             vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-        // Both sides are drawn, in the shadow map too: winding is not trusted.
+        // Both sides are drawn, also in the shadow map, because the winding is not reliable.
         let raster = vk::PipelineRasterizationStateCreateInfo::default()
             .cull_mode(vk::CullModeFlags::NONE)
             .depth_bias_enable(self.bias != 0.0)
@@ -52,7 +52,7 @@ impl Opaque<'_> {
         let depth = vk::PipelineDepthStencilStateCreateInfo::default()
             .depth_test_enable(true)
             .depth_write_enable(true);
-        // Without a fragment shader there is nothing to write.
+        // Without a fragment shader no colour is written.
         let mask = match self.fragment {
             Some(_) => vk::ColorComponentFlags::RGBA,
             None => vk::ColorComponentFlags::empty(),
@@ -80,7 +80,7 @@ impl Opaque<'_> {
     }
 }
 
-/// Sets the direction of the depth test; `far`: device depth of nothing.
+/// Sets the direction of the depth test. `far`: cleared value of the device depth.
 pub fn set_depth_test(gpu: &Gpu, cmd: vk::CommandBuffer, far: f32) {
     let nearer =
         if far == 0.0 { vk::CompareOp::GREATER_OR_EQUAL } else { vk::CompareOp::LESS_OR_EQUAL };
@@ -88,26 +88,26 @@ pub fn set_depth_test(gpu: &Gpu, cmd: vk::CommandBuffer, far: f32) {
     unsafe { gpu.device.cmd_set_depth_compare_op(cmd, nearer) };
 }
 
-/// Draws depth and nothing else.
+/// Draws depth only.
 pub struct DepthOnly(Pipeline);
 
-/// What it is looked at by.
+/// A camera or a light.
 #[derive(Clone, Copy)]
 pub struct View {
     /// World to clip space.
     pub clip: Mat4,
-    /// Device depth of nothing.
+    /// Cleared value of the device depth.
     pub far: f32,
 }
 
 impl DepthOnly {
-    /// For a pass without colour.
+    /// For a pass without a colour attachment.
     pub fn new(gpu: &Gpu, pass: vk::RenderPass, bias: f32) -> Result<Self, Error> {
         let samples = vk::SampleCountFlags::TYPE_1;
         Self::opaque(pass, false, samples, bias).pipeline(gpu).map(Self)
     }
 
-    /// For a pass with colour, which is left as it is.
+    /// For a pass with a colour attachment, which is not written.
     pub fn colored(
         gpu: &Gpu,
         pass: vk::RenderPass,

@@ -1,4 +1,4 @@
-//! What the shaders know of the sea.
+//! Uniforms of the sea.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -8,10 +8,10 @@ use super::super::{Scene, Sea as Described};
 use crate::error::Error;
 use crate::gpu::shader;
 
-/// The specialisation constant that says what of a sea there is.
+/// Id of the specialization constant for the kind of sea.
 pub const CONSTANT: u32 = 3;
 
-/// The numbers of `sea.glsl`; 0: none.
+/// The kind as a number of `sea.glsl`; 0 without a sea.
 pub fn kind(scene: &Scene) -> u32 {
     match scene.sea.as_ref().map(|sea| sea.liquid) {
         None => 0,
@@ -20,7 +20,7 @@ pub fn kind(scene: &Scene) -> u32 {
     }
 }
 
-/// Its part of the block `Scene`; the comments of `glsl/headless/scene.glsl` say what each member holds.
+/// Its part of the uniform block `Scene`; the comments in `glsl/headless/scene.glsl` describe each member.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct Sea {
@@ -32,7 +32,7 @@ pub struct Sea {
     waves: [[f32; 4]; WAVES],
 }
 
-/// Where the block has it, from its first member on.
+/// Offset of a member in the block.
 const fn offset(member: &str) -> usize {
     shader::HEADLESS_SCENE_FRAG.offset("Scene", member)
         - shader::HEADLESS_SCENE_FRAG.offset("Scene", "sea")
@@ -48,10 +48,10 @@ const _: () = assert!(
 );
 
 impl Sea {
-    /// `to_sun`: unit length.
+    /// `to_sun`: unit vector.
     ///
     /// # Errors
-    /// A sea or a time that is none.
+    /// An invalid sea or time.
     pub fn new(scene: &Scene, to_sun: Vec3) -> Result<Self, Error> {
         let Some(sea) = scene.checked_sea()? else { return Ok(Self::zeroed()) };
         let Described { level, absorption: [ar, ag, ab], scattering: [sr, sg, sb], .. } = *sea;
@@ -66,7 +66,7 @@ impl Sea {
         let [before, share] = again.unwrap_or_default();
         let loops = if again.is_some() { 1.0 } else { 0.0 };
         let [x, z] = sea.flow();
-        // The sun's rays are bent down.
+        // Refraction bends the sun's rays down.
         const REFRACTION: f32 = 1.333;
         let across = (1.0 - to_sun.y * to_sun.y) / (REFRACTION * REFRACTION);
         Ok(Self {

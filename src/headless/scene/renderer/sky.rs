@@ -1,4 +1,4 @@
-//! The sky: one triangle over everything, as far away as depth can say; the sea below the horizon.
+//! Draws the sky: one triangle at the far plane; below the horizon the sea.
 //! Reads: environment, irradiance, uniforms.
 
 use ash::vk;

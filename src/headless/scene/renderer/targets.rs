@@ -1,5 +1,5 @@
-//! What one slot draws to: the frame's images, and between them and the colour pass, where edges
-//! are smoothed, images of several samples a pixel.
+//! Render targets of one slot: the frame's images, and multisampled images for the colour pass if edges are
+//! smoothed.
 
 use ash::vk;
 
@@ -18,8 +18,8 @@ pub struct Targets {
 }
 
 impl Targets {
-    /// Made for each record, as the frame's views may be others each time. Samples of the slot's
-    /// earlier record, which is complete, are used again where they fit.
+    /// Created for each record, because the frame's views may change. The multisampled images of the slot's
+    /// previous record, which is complete, are reused if they fit.
     pub fn new(
         gpu: &Gpu,
         frame: &SceneFrame<'_>,
@@ -41,7 +41,7 @@ impl Targets {
     }
 }
 
-/// Colour and depth with several samples a pixel; they end with their pass.
+/// Multisampled colour and depth; their contents are not kept after the pass.
 pub struct Samples {
     pub color: Image,
     pub depth: Image,

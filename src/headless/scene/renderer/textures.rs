@@ -1,4 +1,4 @@
-//! The materials' textures with their mips, uploaded once.
+//! The textures of the materials with their mips, uploaded once.
 
 use ash::vk;
 use glam::Vec3;
@@ -16,7 +16,7 @@ use crate::headless::transfer::staging;
 pub struct Textures {
     images: Vec<Image>,
     sampler: Owned<vk::Sampler>,
-    /// What the images are filled from, in their order; empty after the upload.
+    /// Source buffers of the images, in the same order; empty after the upload.
     staging: Vec<(Buffer, Vec<Level>)>,
 }
 
@@ -27,11 +27,11 @@ struct Level {
 }
 
 impl Textures {
-    /// The texture of what has none.
+    /// Index of the texture for materials without one.
     pub const WHITE: usize = 0;
 
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
-        // Repeats, as textures of scene files do.
+        // Repeats, as textures in scene files do.
         let info = vk::SamplerCreateInfo::default()
             .mag_filter(vk::Filter::LINEAR)
             .min_filter(vk::Filter::LINEAR)
@@ -43,7 +43,7 @@ impl Textures {
         Ok(textures)
     }
 
-    /// Adds one; returns its index.
+    /// Adds a texture and returns its index.
     pub fn add(&mut self, gpu: &Gpu, texture: &Texture) -> Result<usize, Error> {
         let (width, height) = (texture.width.max(1), texture.height.max(1));
         let most = gpu.limits.max_image_dimension2_d;
@@ -101,7 +101,7 @@ impl Textures {
         }
     }
 
-    /// Drops what only the upload needed.
+    /// Drops the staging buffers.
     pub fn uploaded(&mut self) {
         self.staging.clear();
     }
@@ -111,7 +111,7 @@ impl Textures {
     }
 }
 
-/// All mips of a picture, one behind the other: boxes of texels, averaged in linear light.
+/// All mips of a picture, one after the other: box-filtered in linear light.
 fn mips(extent: vk::Extent2D, texels: &[[u8; 4]]) -> (Vec<u8>, Vec<Level>) {
     let to_linear = |v: u8| (f32::from(v) / 255.0).powf(2.2);
     let to_byte = |v: f32| (v.powf(1.0 / 2.2) * 255.0 + 0.5) as u8;

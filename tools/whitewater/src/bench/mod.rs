@@ -1,6 +1,5 @@
-//! `whitewater bench`: per-pass times on the GPU's own clock, over particle counts, resolutions and
-//! paths, beside the bytes each pass has to move. Of water, of the foam of a sea, of bubble foam, or of the coat of foam
-//! along shores.
+//! `whitewater bench`: GPU times per pass, over particle counts, resolutions and paths, with the bytes that
+//! each pass has to move. For water, whitewater of a sea, bubble foam, and shoreline foam.
 
 mod blobs;
 mod bytes;
@@ -42,39 +41,41 @@ use report::{Format, Report, Row};
 #[command(group = ArgGroup::new("instead").args(["sea", "bubbles", "shore"]))]
 #[command(group = ArgGroup::new("pictured").args(["sea", "shore"]))]
 pub struct BenchArgs {
-    /// Particle counts: 16k, 64k, 256k, 1m or any number; the pool is the same, resolved finer. Of a shore, of the water
-    /// that it is measured by
+    /// Particle counts: 16k, 64k, 256k, 1m or any number
+    ///
+    /// The pool stays the same at a finer resolution. With --shore it is the water that foam is compared with.
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
-    /// Picture sizes [default: 1280x720; of a sea the source's, 800x600 or 1280x960, of bubbles 640x480]
+    /// Picture sizes [default: 1280x720; for a sea the paper's, 800x600 or 1280x960; for bubbles 640x480]
     #[arg(long, value_delimiter = ',', value_parser = parse_size)]
     size: Vec<(u32, u32)>,
-    /// Instead of water the diffuse particles of a sea, over its scene
+    /// Measure the whitewater particles of a procedural sea instead of water
     #[arg(long, value_delimiter = ',', value_parser = sea::parser(), conflicts_with_all = ["particles", "path"])]
     sea: Vec<Sea>,
-    /// Instead of water bubble foam: one, slope, box, slope:N and box:N of N blobs, or a file of them; drawn, and moved on
-    /// the GPU and on the CPU
+    /// Measure bubble foam instead of water: one, slope, box, slope:N and box:N with N blobs, or a file
+    ///
+    /// Blobs are drawn, and simulated on the GPU and on the CPU.
     #[arg(long, value_delimiter = ',', value_parser = crate::bubbles::named, conflicts_with_all = ["particles", "path"])]
     bubbles: Vec<Which>,
-    /// Instead of water shoreline and contact foam, beside frames without it and frames of the water in turn
+    /// Measure shoreline and contact foam instead of water
+    ///
+    /// Frames with it, without it, and of the water are drawn in turn.
     #[arg(long, value_delimiter = ',', value_enum)]
     shore: Vec<shore::Scenery>,
-    /// What of the picture the band of foam is to cover, where v is from 0 to 2: of `isles`, which are as large as that
-    /// asks for
+    /// Fraction of the picture that the foam band (shore coordinate 0 to 2) covers; the islands of 'isles' are
+    /// sized for it
     #[arg(long, value_name = "SHARE", value_delimiter = ',', value_parser = shore::parse_cover, requires = "shore")]
     cover: Vec<f64>,
-    /// Diffuse particles of a sea: 20k, 0.8m, 29m (thousands and millions) or any number [default: as many as the
-    /// source's: 0.82m, 9m, 15m, 29m]
+    /// Whitewater particles of a sea: 20k, 0.8m, 29m or any number [default: the paper's 0.82m, 9m, 15m, 29m]
     #[arg(long, value_delimiter = ',', value_parser = sea::parse_count, requires = "sea")]
     diffuse: Vec<u32>,
-    /// How the shadow on diffuse particles is sampled [default: fast]
+    /// Sampling of the ambient occlusion of whitewater [default: fast]
     #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
     occlusion: Vec<sea::OcclusionArg>,
-    /// Diffuse particles sorted along a curve through space, in packets that are passed over where they are beside
-    /// the view
+    /// Sort whitewater particles along a space-filling curve, in packets that are culled outside the view
     #[arg(long, requires = "sea")]
     packets: bool,
-    /// Degrees by which the camera of a sea is turned to its left [default: 0]
+    /// Degrees by which a sea's camera is turned to the left [default: 0]
     #[arg(
         long,
         value_name = "DEGREES",
@@ -84,31 +85,32 @@ pub struct BenchArgs {
         hide_default_value = true
     )]
     turned: f32,
-    /// Metres from the camera of a sea to what it looks at [default: the sea's]
+    /// Distance of a sea's camera from its target, metres [default: the sea's]
     #[arg(long, value_name = "METRES", requires = "sea", value_parser = sea::parse_distance)]
     away: Option<f32>,
-    /// Write the last frame, of a sea or a shore and one combination; an .exr with all layers of its foam
+    /// Write the last frame of a sea or shore with one combination; an .exr has all layers of its foam
     #[arg(long, value_name = "FILE", requires = "pictured")]
     picture: Option<PathBuf>,
-    /// TOML of settings, whose table [diffuse] says how the foam of a sea looks, [bubbles] how bubble foam is drawn, and
-    /// [shore], [shoreline] and [contact] how that of shores is
+    /// TOML settings: table [diffuse] for a sea, [bubbles] for bubble foam, [shore], [shoreline] and [contact]
+    /// for shores
     #[arg(long, value_name = "FILE.toml", requires = "instead")]
     settings: Option<PathBuf>,
-    /// Ways to draw: `default` is what the library chooses on the device. `all` is all of water, or with --shore all of
-    /// shores
+    /// Paths to measure: 'default' is the library's choice on the device, 'all' are all paths of water, or of
+    /// shores with --shore
     #[arg(long, value_delimiter = ',', value_enum, default_values = ["default"])]
     path: Vec<Path>,
-    /// Frames counted
+    /// Number of measured frames
     #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
     frames: u32,
-    /// Frames drawn before, not counted
+    /// Number of frames drawn before these
     #[arg(long, default_value_t = 3)]
     warmup: u32,
-    /// How to print the result. Where a combination fails, or at Ctrl-C, what was measured before is
-    /// printed
+    /// Output format
+    ///
+    /// If a combination fails, or at Ctrl-C, the results so far are printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Part of the wanted device's name
+    /// Device to draw on, by a part of its name
     #[arg(long)]
     device: Option<String>,
 }
@@ -116,7 +118,7 @@ pub struct BenchArgs {
 /// A way to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Path {
-    /// What the library chooses
+    /// The library's choice
     Default,
     /// Both splats as sprites with blending
     Raster,
@@ -130,9 +132,9 @@ pub enum Path {
     FullSmoothing,
     /// Smoothing at quarter resolution
     QuarterSmoothing,
-    /// Smoothing: a dispatch an iteration over tiles
+    /// Smoothing: one dispatch per iteration over tiles
     Tiles,
-    /// Smoothing: eight iterations a dispatch in shared memory
+    /// Smoothing: eight iterations per dispatch in shared memory
     Fused,
     /// Smoothing: occlusion query, indirect draw count
     QueryCount,
@@ -142,34 +144,33 @@ pub enum Path {
     QueryVertex,
     /// Smoothing: occlusion query read back by the host
     ReadBack,
-    /// One sheet of water everywhere
+    /// One layer of water
     OneSheet,
-    /// With foam: the highest twentieth of the particles, and some of half as many again
+    /// With foam: the highest 5 % of the particles, and part of another 2.5 %
     Foam,
-    /// With spray: the highest fortieth of the particles is nothing else
+    /// With spray: the highest 2.5 % of the particles are spray only
     Spray,
     /// With motion vectors
     Motion,
     /// With the baseline's surface noise and its foam
     Noise,
-    /// With shadows and caustics of the water, maps of 512 texels a side
+    /// With shadows and caustics of the water, in maps of 512² texels
     Light,
-    /// Shadows of a plate over the pool, of a shore those of its land, by percentage-closer filtering of a map of 2048
-    /// texels
+    /// Shadows of a plate over the pool, or of a shore's land, by percentage-closer filtering of a map of 2048² texels
     Pcf,
-    /// The same shadows by the map's Fourier basis, of as many texels as the library takes by itself
+    /// The same shadows by convolution shadow maps at the library's default size
     Convolution,
     /// Composite: a render pass over the tiles
     RasterComposite,
     /// Composite: a compute shader over the tiles
     ComputeComposite,
-    /// The source's iteration rule
+    /// The thesis' iteration rule
     Source,
     /// The baseline: 40 iterations for every pixel
     Baseline,
     /// The baseline with its noise and foam
     BaselineNoise,
-    /// Of shores, as all that follow: v from a map of distances
+    /// Shores, as all that follow: v from a distance map
     Map,
     /// v from a strip
     Strip,
@@ -181,13 +182,13 @@ pub enum Path {
     Contact,
     /// Edges of shoreline foam clipped
     Clip,
-    /// Edges by what foam covers of a pixel
+    /// Edges by the fraction of a pixel that foam covers
     Smooth,
-    /// The same by four samples
+    /// Edges by the coverage of four samples
     Coverage,
-    /// Of all settings the most: four layers of the web, noise on everything
+    /// Every feature enabled: four texture layers, noise on everything
     Everything,
-    /// All that there are, one after the other
+    /// All paths, one after the other
     All,
 }
 

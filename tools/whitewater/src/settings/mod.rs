@@ -1,4 +1,4 @@
-//! Settings from TOML and back: tables in which every value may be left out.
+//! Settings from TOML and back. Every value is optional.
 
 mod bubbles;
 mod diffuse;

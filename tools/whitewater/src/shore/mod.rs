@@ -1,4 +1,4 @@
-//! Shores: scenes with a sea, what goes round their islands, and the foam on it.
+//! Shores: scenes with a sea, strips around their islands, and foam.
 
 mod draw;
 mod own;
