@@ -25,8 +25,43 @@ use crate::water::settings::{
     Smoothing, Splat, SprayLook, WaterSettings,
 };
 
+/// `value.with(|it| it.field = ..)`, for structs that grow.
+macro_rules! with {
+    ($($name:ty),+ $(,)?) => {$(
+        impl $name {
+            /// The same value after a change: what struct-update syntax does where a struct may grow.
+            /// `Config::new(..).with(|it| it.foam = true)`.
+            #[must_use]
+            pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+                change(&mut self);
+                self
+            }
+        }
+    )+};
+}
+pub(crate) use with;
+
+with!(
+    Host<'_>,
+    Enabled,
+    Config,
+    HostImage,
+    Particles,
+    DiffuseParticles,
+    Blobs,
+    Shore,
+    Step<'_>,
+    GenerateStep<'_>,
+    Sun,
+    Shadow,
+    Frame<'_>,
+    Settings,
+    Light,
+);
+
 /// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All must outlive the context and what is made
 /// from it; none is owned by it.
+#[non_exhaustive]
 pub struct Host<'a> {
     /// The instance.
     pub instance: &'a ash::Instance,
@@ -48,8 +83,45 @@ pub struct Host<'a> {
     pub pipeline_cache: vk::PipelineCache,
 }
 
+impl<'a> Host<'a> {
+    /// A host that enabled no optional feature ([`with_enabled`](Self::with_enabled)) and has no pipeline cache
+    /// ([`with_pipeline_cache`](Self::with_pipeline_cache)).
+    pub fn new(
+        instance: &'a ash::Instance,
+        physical_device: vk::PhysicalDevice,
+        device: &'a ash::Device,
+        allocator: Arc<Mutex<Allocator>>,
+        queue_family: u32,
+        frames_in_flight: u32,
+    ) -> Self {
+        Self {
+            instance,
+            physical_device,
+            device,
+            allocator,
+            queue_family,
+            frames_in_flight,
+            enabled: Enabled::default(),
+            pipeline_cache: vk::PipelineCache::null(),
+        }
+    }
+
+    /// With what of the optional features and extensions is really enabled.
+    #[must_use]
+    pub fn with_enabled(self, enabled: Enabled) -> Self {
+        Self { enabled, ..self }
+    }
+
+    /// With a pipeline cache of the device.
+    #[must_use]
+    pub fn with_pipeline_cache(self, pipeline_cache: vk::PipelineCache) -> Self {
+        Self { pipeline_cache, ..self }
+    }
+}
+
 /// Optional features and extensions the host enabled. False costs a path, never correctness.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Enabled {
     /// VK_EXT_debug_utils on the instance: names and labels.
     pub debug_utils: bool,
@@ -70,6 +142,7 @@ pub struct Enabled {
 /// What fixes memory and pipelines. Changed between records by
 /// [`reconfigure`](crate::Renderer::reconfigure).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Config {
     /// Largest size of the output's part in pixels, 1 to the device's limit of 2D images, framebuffers and viewports.
     /// Images are made for it; a frame may be smaller ([`HostImage::rect`]). Some sizes are too much for a device
@@ -219,6 +292,7 @@ pub struct Slot(pub u32);
 
 /// An image of the host's, with its state when `record` takes it over and when it hands it back.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct HostImage {
     /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage
     /// (its read-only layout asks for it), an output as [`Config::in_place`] and
@@ -239,6 +313,48 @@ pub struct HostImage {
     pub before: Access,
     /// First use after `record`, and the layout to leave the image in.
     pub after: Access,
+}
+
+impl HostImage {
+    /// All of an image, which is handed back in the state in which it comes. The aspects are those of the format.
+    pub fn new(
+        image: vk::Image,
+        view: vk::ImageView,
+        format: vk::Format,
+        extent: vk::Extent2D,
+        state: Access,
+    ) -> Self {
+        let (rect, aspect) = (extent.into(), aspects_of(format));
+        Self { image, view, format, aspect, extent, rect, before: state, after: state }
+    }
+
+    /// A part of it as the view.
+    #[must_use]
+    pub fn with_rect(self, rect: vk::Rect2D) -> Self {
+        Self { rect, ..self }
+    }
+
+    /// Handed back for another use.
+    #[must_use]
+    pub fn with_after(self, after: Access) -> Self {
+        Self { after, ..self }
+    }
+}
+
+/// All aspects of a format.
+fn aspects_of(format: vk::Format) -> vk::ImageAspectFlags {
+    match format {
+        vk::Format::D16_UNORM | vk::Format::X8_D24_UNORM_PACK32 | vk::Format::D32_SFLOAT => {
+            vk::ImageAspectFlags::DEPTH
+        }
+        vk::Format::D16_UNORM_S8_UINT
+        | vk::Format::D24_UNORM_S8_UINT
+        | vk::Format::D32_SFLOAT_S8_UINT => {
+            vk::ImageAspectFlags::DEPTH | vk::ImageAspectFlags::STENCIL
+        }
+        vk::Format::S8_UINT => vk::ImageAspectFlags::STENCIL,
+        _ => vk::ImageAspectFlags::COLOR,
+    }
 }
 
 /// One attribute of the particles: `stride` bytes apart from `offset` on. Streams may share a
@@ -323,6 +439,7 @@ pub struct Packets {
 
 /// The particles of one frame. Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Particles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are dropped
     /// and counted.
@@ -369,11 +486,48 @@ impl Particles {
             after: crate::gpu::access::NOTHING,
         }
     }
+
+    /// With densities of their own.
+    #[must_use]
+    pub fn with_densities(self, densities: Stream) -> Self {
+        Self { densities: Some(densities), ..self }
+    }
+
+    /// With velocities.
+    #[must_use]
+    pub fn with_velocities(self, velocities: Stream) -> Self {
+        Self { velocities: Some(velocities), ..self }
+    }
+
+    /// With numbers that follow the particles.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// With groups to cull by.
+    #[must_use]
+    pub fn with_packets(self, packets: Packets) -> Self {
+        Self { packets: Some(packets), ..self }
+    }
+
+    /// With how much of each is foam, as [`State::foam`](crate::State::foam) has it.
+    #[must_use]
+    pub fn with_foam(self, foam: Stream) -> Self {
+        Self { foam: Some(foam), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
 }
 
 /// The diffuse particles of one frame: spray, foam on the surface and bubbles under it, each by itself (Ihmsen et
 /// al. 2012). Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct DiffuseParticles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are not drawn.
     pub positions: Stream,
@@ -420,10 +574,41 @@ impl DiffuseParticles {
             after: crate::gpu::access::NOTHING,
         }
     }
+
+    /// With what each is.
+    #[must_use]
+    pub fn with_kinds(self, kinds: Stream) -> Self {
+        Self { kinds: Some(kinds), ..self }
+    }
+
+    /// With radii of their own.
+    #[must_use]
+    pub fn with_radii(self, radii: Stream) -> Self {
+        Self { radii: Some(radii), ..self }
+    }
+
+    /// With what of their lives has passed.
+    #[must_use]
+    pub fn with_ages(self, ages: Stream) -> Self {
+        Self { ages: Some(ages), ..self }
+    }
+
+    /// With numbers that follow them.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
 }
 
 /// Blobs of bubble foam of one frame (Huszár, Szécsi): balls of soap bubbles round a white core. Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Blobs {
     /// Centre (world space) and radius of each (4×f32). NaN, infinite and huge ones, and radii of 0 or less, are not
     /// drawn.
@@ -454,6 +639,24 @@ impl Blobs {
             after: crate::gpu::access::NOTHING,
         }
     }
+
+    /// With how each is turned.
+    #[must_use]
+    pub fn with_turns(self, turns: Stream) -> Self {
+        Self { turns: Some(turns), ..self }
+    }
+
+    /// With numbers that follow them.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
 }
 
 /// Shoreline and contact foam of one frame, a coat on water. Only read.
@@ -461,6 +664,7 @@ impl Blobs {
 /// The scene's depth is that of what is in and under the water; where the surface itself is in it,
 /// [`bias`](Self::bias) says so.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Shore {
     /// The host's water surface, which its scene shows. `None`: there is none but the strip and the particles' water.
     pub surface: Option<Surface>,
@@ -478,6 +682,12 @@ impl Shore {
     /// Contact foam on a level surface of the host's.
     pub fn new(level: f32) -> Self {
         Self { surface: Some(Surface::Level(level)), shoreline: None, mask: None, bias: 0.0 }
+    }
+
+    /// With a shoreline.
+    #[must_use]
+    pub fn with_shoreline(self, shoreline: Shoreline) -> Self {
+        Self { shoreline: Some(shoreline), ..self }
     }
 }
 
@@ -567,6 +777,7 @@ pub struct Coast {
 /// One step of the simulation, for [`State::record_step`](crate::State::record_step): the particles
 /// as they are after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Step<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -591,9 +802,42 @@ pub struct Step<'a> {
     pub after: Access,
 }
 
+impl<'a> Step<'a> {
+    /// Velocities alone, in buffers that the CPU wrote before the submit.
+    pub fn new(
+        slot: Slot,
+        velocities: Stream,
+        count: Count,
+        dt: f32,
+        settings: &'a FoamSettings,
+    ) -> Self {
+        let (before, after) = (crate::gpu::access::NOTHING, crate::gpu::access::NOTHING);
+        Self { slot, velocities, densities: None, ids: None, count, dt, settings, before, after }
+    }
+
+    /// With densities of their own.
+    #[must_use]
+    pub fn with_densities(self, densities: Stream) -> Self {
+        Self { densities: Some(densities), ..self }
+    }
+
+    /// With ids, without which there are no phases.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
+}
+
 /// One step of the fluid, for [`Generator::record_step`](crate::foam::Generator::record_step): its particles as they
 /// are after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct GenerateStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -615,6 +859,49 @@ pub struct GenerateStep<'a> {
     pub before: Access,
     /// First use of them after it (layout ignored).
     pub after: Access,
+}
+
+impl<'a> GenerateStep<'a> {
+    /// The first step of particles without ids, in buffers that the CPU wrote before the submit.
+    pub fn new(
+        slot: Slot,
+        [positions, velocities]: [Stream; 2],
+        count: Count,
+        dt: f32,
+        settings: &'a GenerateSettings,
+    ) -> Self {
+        let (before, after) = (crate::gpu::access::NOTHING, crate::gpu::access::NOTHING);
+        Self {
+            slot,
+            positions,
+            velocities,
+            ids: None,
+            count,
+            dt,
+            number: 0,
+            settings,
+            before,
+            after,
+        }
+    }
+
+    /// With numbers that follow the particles.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// With the step's number in the sequence.
+    #[must_use]
+    pub fn with_number(self, number: u32) -> Self {
+        Self { number, ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
 }
 
 /// The view. The projection is the host's own, as used with a positive-height viewport whose row 0
@@ -648,6 +935,7 @@ pub struct Previous {
 
 /// What is known of the sun's way to the fluid.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct Sun {
     /// With [`Config::shadow`].
     pub shadow: Option<Shadow>,
@@ -657,6 +945,7 @@ pub struct Sun {
 
 /// The host's shadows, only sampled.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Shadow {
     /// [`Shadows::Map`], [`Shadows::Convolution`]: depth as the light sees the scene, of any size.
     /// [`Shadows::Mask`]: one channel that covers the view, 1 where the sun shines on the fluid, 0
@@ -670,6 +959,11 @@ pub struct Shadow {
 }
 
 impl Shadow {
+    /// A map with world to its clip space, compared without a bias; of a mask the matrix is not read.
+    pub fn new(image: HostImage, view_projection: Mat4) -> Self {
+        Self { image, view_projection, bias: 0.0 }
+    }
+
     /// 1 where depth grows away from the light, -1 where it falls.
     pub(crate) fn nearer(&self, light: &Light) -> f32 {
         let inverse = self.view_projection.inverse();
@@ -706,6 +1000,7 @@ impl Region {
 
 /// Everything one `record` draws.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Frame<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -736,7 +1031,75 @@ pub struct Frame<'a> {
     pub settings: &'a Settings,
 }
 
-impl Frame<'_> {
+impl<'a> Frame<'a> {
+    /// Water over the scene that is in `output` (with [`Config::in_place`]; else
+    /// [`with_scene_color`](Self::with_scene_color) is needed), without anything optional.
+    pub fn new(
+        slot: Slot,
+        output: HostImage,
+        scene_depth: HostImage,
+        particles: Particles,
+        camera: Camera,
+        settings: &'a Settings,
+    ) -> Self {
+        Self {
+            slot,
+            output,
+            scene_color: output,
+            scene_depth,
+            particles,
+            diffuse: None,
+            bubbles: None,
+            shore: None,
+            camera,
+            sun: Sun::default(),
+            previous: None,
+            settings,
+        }
+    }
+
+    /// With the scene's colour in an image of its own.
+    #[must_use]
+    pub fn with_scene_color(self, scene_color: HostImage) -> Self {
+        Self { scene_color, ..self }
+    }
+
+    /// With diffuse particles, as [`Config::diffuse`] asks for.
+    #[must_use]
+    pub fn with_diffuse(self, diffuse: DiffuseParticles) -> Self {
+        Self { diffuse: Some(diffuse), ..self }
+    }
+
+    /// With blobs of bubble foam, as [`Config::bubbles`] asks for.
+    #[must_use]
+    pub fn with_bubbles(self, bubbles: Blobs) -> Self {
+        Self { bubbles: Some(bubbles), ..self }
+    }
+
+    /// With shoreline and contact foam, as [`Config::shore`] asks for.
+    #[must_use]
+    pub fn with_shore(self, shore: Shore) -> Self {
+        Self { shore: Some(shore), ..self }
+    }
+
+    /// With the host's shadows, as [`Config::shadow`] asks for.
+    #[must_use]
+    pub fn with_shadow(self, shadow: Shadow) -> Self {
+        Self { sun: Sun { shadow: Some(shadow), ..self.sun }, ..self }
+    }
+
+    /// With the ball in which water and foam cast, as [`Config::cast`] asks for.
+    #[must_use]
+    pub fn with_region(self, region: Region) -> Self {
+        Self { sun: Sun { region: Some(region), ..self.sun }, ..self }
+    }
+
+    /// With the frame before, as [`Config::motion`] asks for.
+    #[must_use]
+    pub fn with_previous(self, previous: Previous) -> Self {
+        Self { previous: Some(previous), ..self }
+    }
+
     /// The output is its own scene.
     pub(crate) fn in_place(&self) -> bool {
         self.scene_color.image == self.output.image
@@ -746,6 +1109,7 @@ impl Frame<'_> {
 /// All settings that cost nothing to change from frame to frame. Where a range has no end (∞) that is 1e12, so that products
 /// of a few are numbers.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// World direction up, of any length but 0, default +y: of the horizon under which water mirrors more water, of the
     /// level ground that [`Light::irradiance`] is of, down which soap drains, and of shores. Environments have their own
@@ -822,6 +1186,7 @@ impl Light {
 
 /// The sun, and the light of the sky as the water's scattering sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Light {
     /// World direction to the sun, of any length but 0.
     pub direction: [f32; 3],
@@ -856,6 +1221,7 @@ impl Light {
 
 /// An intermediate image after a record; the host may read it until the next record.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Layer {
     /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`, `motion` for
     /// `motion.X` and `motion.Y`. `water.thickness` has a second channel with [`Config::foam`]: what of it is before the
@@ -880,6 +1246,7 @@ pub struct Layer {
 
 /// What a record left behind.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Recorded {
     /// The kept layers: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
     pub layers: Vec<Layer>,
@@ -978,6 +1345,7 @@ pub struct ParticleCounts {
 
 /// Device memory in use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MemoryUse {
     /// Bytes of images; depends on the extent and the levels.
     pub images: u64,

@@ -20,6 +20,8 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
+crate::contract::with!(Sky, Equirectangular);
+
 /// Where the environment comes from.
 #[derive(Clone, Copy, Debug)]
 pub enum EnvironmentSource {
@@ -33,6 +35,7 @@ pub enum EnvironmentSource {
 /// integral) and a fitted term for the light that scatters more often: on level ground the sky gives a fifth of all light under
 /// a sun at 35°. Over grey ground that fades in from the horizon down to −0.12. Without the sun's disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sky {
     /// World direction to the sun, unit length.
     pub sun: [f32; 3],
@@ -53,6 +56,7 @@ impl Default for Sky {
 /// meet along +z. Where another direction than +y is up that is turned with it: with z up the middle column lies along +y,
 /// x stays (with x up its right quarter along +y, the middle column along +z).
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Equirectangular {
     /// Linear radiance. Its format must be good for linear filtering.
     pub image: HostImage,
@@ -66,6 +70,13 @@ pub struct Equirectangular {
     pub turn: f32,
     /// World direction up, of any length but 0, as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
+}
+
+impl Equirectangular {
+    /// An image as it is, with +y up.
+    pub fn new(image: HostImage) -> Self {
+        Self { image, without_sun: None, scale: 1.0, turn: 0.0, up: [0.0, 1.0, 0.0] }
+    }
 }
 
 #[repr(C)]

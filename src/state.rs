@@ -13,8 +13,11 @@ use crate::gpu::descriptors::Descriptors;
 use crate::gpu::timing::{Timer, Timing};
 use crate::water::Classify;
 
+crate::contract::with!(StateConfig);
+
 /// What fixes the memory of a [`State`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StateConfig {
     /// Most particles a step may have.
     pub max_particles: u32,

@@ -4,6 +4,8 @@ use super::blob::BUBBLES;
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(BubbleConfig, BubbleLook);
+
 /// Most layers of blobs that are told apart in a pixel.
 pub const MOST_LAYERS: u32 = 8;
 /// Most thickness of a film in nanometres.
@@ -11,6 +13,7 @@ pub const MOST_FILM: f32 = 2000.0;
 
 /// What of the bubble foam costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BubbleConfig {
     /// Most blobs a frame may have, 1 to 2^20. 64 bytes each.
     pub max_blobs: u32,
@@ -158,6 +161,7 @@ pub enum Spectrum {
 
 /// How bubble foam looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BubbleLook {
     /// Mean thickness of the films in nanometres, 1 to 2000, default 380.
     pub film: f32,

@@ -3,8 +3,11 @@
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(DiffuseConfig, DiffuseLook);
+
 /// What of the foam of diffuse particles costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DiffuseConfig {
     /// Most diffuse particles a frame may have, at least 1.
     pub max_particles: u32,
@@ -116,6 +119,7 @@ pub enum Mixing {
 
 /// How the foam of diffuse particles looks. Of no effect without [`Config::diffuse`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct DiffuseLook {
     /// Radius of a particle without one, scene units, (0, ∞), default 0.15 of 0.05. It is divided by the
     /// particle's number ([`sizes`](Self::sizes)), a bubble's halved ([`bubble_size`](Self::bubble_size)).

@@ -18,8 +18,11 @@ use crate::water::{
 
 pub use limits::Limit;
 
+crate::contract::with!(Offer);
+
 /// One thing the host must or may enable, and why.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Need {
     /// Feature or extension.
     pub what: &'static str,
@@ -29,6 +32,7 @@ pub struct Need {
 
 /// What to ask of a device before it is made.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Requirements {
     /// Vulkan version of the device.
     pub api_version: u32,
@@ -75,6 +79,7 @@ pub fn requirements() -> Requirements {
 
 /// What a device offers, so that it can be mocked in tests.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Offer {
     /// Its Vulkan version; 1.0 where the instance is of 1.0, which cannot be asked for more.
     pub api_version: u32,

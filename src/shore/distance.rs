@@ -21,7 +21,7 @@ use crate::frame::level_axes;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, DEPTH_ATTACHMENT,
-    FRAGMENT_SAMPLED, VERTEX_READ, buffer,
+    FRAGMENT_SAMPLED, NOTHING, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
@@ -35,6 +35,8 @@ use crate::host_images::depth_layout;
 use crate::water::Window;
 use crate::water::settings::range;
 
+crate::contract::with!(ShoreMapConfig, ShoreMapStep<'_>);
+
 /// How the distances are read, by frames and by the host.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Most jumps, and one more.
@@ -42,6 +44,7 @@ const MOST_JUMPS: u32 = 14;
 
 /// What fixes a map's memory: 16 bytes a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ShoreMapConfig {
     /// Texels each way, a multiple of 16 from 16 to 4096, default 1024.
     pub size: u32,
@@ -92,6 +95,7 @@ pub struct MapMesh {
 
 /// A step of the map, [`ShoreMap::record_step`]: only where something has changed.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct ShoreMapStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -106,6 +110,14 @@ pub struct ShoreMapStep<'a> {
     pub before: Access,
     /// First use of them after it (layout ignored).
     pub after: Access,
+}
+
+impl<'a> ShoreMapStep<'a> {
+    /// All of an area, of meshes whose buffers the CPU wrote before the submit.
+    pub fn new(slot: Slot, area: Area, heights: Heights<'a>) -> Self {
+        let (before, after) = (NOTHING, NOTHING);
+        Self { slot, area, heights, changed: None, before, after }
+    }
 }
 
 impl Area {

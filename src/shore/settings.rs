@@ -7,11 +7,14 @@ use std::f64::consts::TAU;
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(ShoreConfig, ShoreLook, ShorelineLook, ContactLook);
+
 /// Most layers of the web.
 pub const LAYERS: usize = 4;
 
 /// What of shoreline and contact foam costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ShoreConfig {
     /// Where foam begins and ends in a pixel.
     pub edge: Edge,
@@ -53,6 +56,7 @@ pub enum Edge {
 
 /// How shoreline and contact foam look.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct ShoreLook {
     /// Seconds since some beginning, finite; what moves is found from it in 64 bits. Default 0.
     pub time: f64,
@@ -94,6 +98,7 @@ impl Noise {
 ///
 /// with v 0 at the sea's edge, 1 at the shore, 2 inland (the blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ShorelineLook {
     /// Metres of foam to sea and inland of the shore, (0, 1e6], where v is found from a distance; default 12 and 3. A strip
     /// has its own v.
@@ -200,6 +205,7 @@ impl Default for ShorelineLook {
 
 /// Contact foam: the more the nearer what is behind the water's surface lies (Lettier).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContactLook {
     /// Metres at which there is none left, on the host's surface, (0, 1e6], default 0.4 (the source has 4 in units of its
     /// own).

@@ -36,8 +36,11 @@ pub enum Shadows {
 
 pub use crate::light::Convolution;
 
+crate::contract::with!(WaterSettings, FoamSettings, FoamLook, SprayLook, ShadowFilter, NoiseLook);
+
 /// Filter of the host's shadow map with [`Shadows::Convolution`] (Annen et al. 2007).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ShadowFilter {
     /// Width of the box that the map is filtered by in texels of the map, [0, 256], default 3: the
     /// footprint of [`Shadows::Map`]. Texels of our images are the least there is.
@@ -119,6 +122,7 @@ pub enum Gate {
 
 /// Uniform settings of the layered water.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WaterSettings {
     /// Rest spacing of the particles (twice the solver's particle radius), scene units, [1e-6, ∞).
     pub spacing: f32,
@@ -462,6 +466,7 @@ impl Fresnel {
 /// `We = scale·ρ·|v − air|²`; a particle foams while it is at the threshold or above, with times to
 /// come and go that differ from particle to particle (thesis, Sec. 3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FoamSettings {
     /// Weber number per density and squared speed, (0, ∞): the particle's diameter over the surface
     /// tension ([`weber`](Self::weber)), or another reduced form.
@@ -524,6 +529,7 @@ impl FoamSettings {
 
 /// How foam looks. Of no effect without [`Config::foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FoamLook {
     /// Light that foam takes away, per metre of it along the ray, [0, ∞), default 0.4 / spacing: two layers hide
     /// half.
@@ -668,6 +674,7 @@ impl FoamLook {
 ///
 /// As its density falls a particle becomes spray, until it is nothing else. It is drawn as droplets round its centre, each streaking along its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SprayLook {
     /// Share of the light that the middle of a droplet at rest takes away, [0, 1), default 0.5 (the
     /// source: 0.4).
@@ -766,6 +773,7 @@ impl SprayLook {
 /// front surface of the water that turns its normals, and the baseline's foam: grey where it is high or
 /// low.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NoiseLook {
     /// Height that a noise of 1 has, in drawn radii, [0, 16], default 0.336 (the source of the number has
     /// it as the weight of the derivatives, in a unit of its own). 0: flat.

@@ -185,13 +185,12 @@ fn measure(device: Device, row: &Row, effort: Effort) -> (Device, Measured) {
     let (projection, near) = row.placing(effort.extent);
     // A margin of six spacings all round, however the bed is turned.
     let side = 2.0 * (window.x.hypot(window.y) as f32 / SPACING + 6.0);
-    let config = Config {
-        smoothing_level: row.level,
-        rule: row.rule,
-        coarsening: row.coarsening,
-        environment_size: 16,
-        ..Config::new(effort.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16)
-    };
+    let config = Config::new(effort.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16).with(|it| {
+        it.smoothing_level = row.level;
+        it.rule = row.rule;
+        it.coarsening = row.coarsening;
+        it.environment_size = 16;
+    });
     let mut headless = Headless::new(device, &config).unwrap();
     let mut views = vec![Vec::new(); TIMES.len()];
     for seed in 0..effort.beds {
@@ -370,13 +369,13 @@ fn picture() {
         }
         let mut settings = Settings::default();
         settings.water.spacing = SPACING;
-        let config = Config {
-            smoothing_level: row.level,
-            rule,
-            coarsening: 0,
-            environment_size: 16,
-            ..Config::new(LARGE.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16)
-        };
+        let config =
+            Config::new(LARGE.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16).with(|it| {
+                it.smoothing_level = row.level;
+                it.rule = rule;
+                it.coarsening = 0;
+                it.environment_size = 16;
+            });
         let mut headless = Headless::new(device, &config).unwrap();
         headless.particles(&particles, None).unwrap();
         for (line, times) in times.into_iter().enumerate() {

@@ -3,7 +3,7 @@
 
 use ash::vk;
 use glam::{DMat4, DVec2, DVec3, Mat4, Quat, Vec3};
-use whitewater::{Camera, Config, Error, Particles, Previous};
+use whitewater::{Camera, Config, Error, Previous};
 
 use crate::level::smoothed;
 use crate::reference::motion::{self, Particle, Settings, Shown, Vector};
@@ -16,7 +16,7 @@ use crate::support::scenes::{self, LENSES, Lens, Random};
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
 
 fn moving(size: vk::Extent2D) -> Config {
-    Config { motion: true, ..config(size) }
+    config(size).with(|it| it.motion = true)
 }
 
 /// A shot of particles that move.
@@ -54,12 +54,11 @@ impl Moving {
         let velocities = self.velocities.as_ref().map(|all| data(bytemuck::cast_slice(all)));
         let amounts = self.amounts.as_ref().map(|all| data(bytemuck::cast_slice(all)));
         let ids = self.ids.as_ref().map(|all| data(bytemuck::cast_slice(all)));
-        let particles = Particles {
-            ids: ids.as_ref().map(|data| stream(data, 0, 4)),
-            velocities: velocities.as_ref().map(|data| stream(data, 0, 12)),
-            foam: amounts.as_ref().map(|data| stream(data, 0, 8)),
-            ..cloud.particles()
-        };
+        let particles = cloud.particles().with(|it| {
+            it.ids = ids.as_ref().map(|data| stream(data, 0, 4));
+            it.velocities = velocities.as_ref().map(|data| stream(data, 0, 12));
+            it.foam = amounts.as_ref().map(|data| stream(data, 0, 8));
+        });
         rig.draw_particles(&self.shot, &particles)
     }
 
@@ -169,7 +168,7 @@ fn vectors_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for foam in [false, true] {
-        let mut rig = Rig::new(&gpu, &Config { foam, ..moving(size) });
+        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.foam = foam));
         for lens in LENSES {
             for (kind, points) in [
                 ("cloud", scenes::cloud(31, 160, 2.0, 9.0)),
@@ -201,8 +200,12 @@ fn vectors_of_every_resolution_are_the_twins() {
     for (thickness_level, smoothing_level, coarsening, max_stride) in
         [(0, 0, 3, 16), (1, 1, 0, 16), (2, 2, 3, 1 << 20), (3, 1, 3, 16), (0, 2, 3, 1 << 20)]
     {
-        let levels = Config { thickness_level, smoothing_level, coarsening, ..moving(size) };
-        let mut rig = Rig::new(&gpu, &Config { max_stride, ..levels });
+        let levels = moving(size).with(|it| {
+            it.thickness_level = thickness_level;
+            it.smoothing_level = smoothing_level;
+            it.coarsening = coarsening;
+        });
+        let mut rig = Rig::new(&gpu, &levels.with(|it| it.max_stride = max_stride));
         for (radius, points) in [
             (0.2, scenes::cloud(31, 160, 2.0, 9.0)),
             (0.05, scenes::block(3, 0.08, [30, 20, 4], [-1.6, -1.0, 3.0])),
@@ -255,7 +258,7 @@ fn what_is_still_has_no_motion() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for lens in LENSES {
-        let mut rig = Rig::new(&gpu, &Config { foam: true, ..moving(size) });
+        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.foam = true));
         let points = scenes::block(3, 0.3, [12, 8, 4], [-1.6, -1.0, 4.0]);
         let mut case = Moving::new(size, lens, &points, 30.0);
         case.amounts = Some((0..points.len()).map(|i| [(i % 3) as f32 / 2.0, 0.0]).collect());
@@ -365,7 +368,13 @@ fn outlines_keep_both_sides() {
     let gpu = Gpu::shared();
     let size = extent(193, 121);
     for (thickness_level, foam) in [(0, false), (2, false), (3, false), (2, true)] {
-        let mut rig = Rig::new(&gpu, &Config { thickness_level, foam, ..moving(size) });
+        let mut rig = Rig::new(
+            &gpu,
+            &moving(size).with(|it| {
+                it.thickness_level = thickness_level;
+                it.foam = foam;
+            }),
+        );
         let pool = scenes::block(3, 0.3, [30, 20, 3], [-4.5, -3.0, 8.0]);
         let drop = scenes::block(4, 0.3, [3, 3, 3], [-0.3, -0.3, 4.0]);
         let points = [drop.clone(), pool].concat();
@@ -415,7 +424,12 @@ fn the_order_of_particles_does_not_show() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for foam in [false, true] {
-        let make = |max_stride| Config { foam, max_stride, ..moving(size) };
+        let make = |max_stride| {
+            moving(size).with(|it| {
+                it.foam = foam;
+                it.max_stride = max_stride;
+            })
+        };
         let mut rig = Rig::new(&gpu, &make(16));
         let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 2.0]);
         let mut case = Moving::new(size, Lens::Infinite, &points, 30.0);
@@ -470,7 +484,7 @@ fn motion_is_a_layer_of_its_own() {
     let size = extent(97, 61);
     let points = scenes::cloud(31, 160, 2.0, 9.0);
     let mut case = Moving::new(size, Lens::Standard, &points, 30.0);
-    let mut rig = Rig::new(&gpu, &Config { keep_layers: false, ..moving(size) });
+    let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.keep_layers = false));
     let with = rig.renderer().memory();
     let drawn = case.draw(&mut rig);
     assert_eq!(drawn.depth.data.len(), 0, "no other layer");
@@ -599,7 +613,7 @@ fn bad_frames_before_are_errors() {
         (false, good.clone(), "Frame.previous"),
     ];
     for (on, shot, wanted) in cases {
-        let mut rig = Rig::new(&gpu, &Config { motion: on, ..config(size) });
+        let mut rig = Rig::new(&gpu, &config(size).with(|it| it.motion = on));
         let (color, depth) = rig.scene(&shot);
         let cloud = rig.particles(&shot);
         let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());

@@ -53,16 +53,7 @@ pub struct Texture {
 impl Texture {
     /// The image as handed to a record, which takes it over from `state` and hands it back so.
     pub fn host_image(&self) -> HostImage {
-        HostImage {
-            image: self.image,
-            view: self.view,
-            format: self.format,
-            aspect: self.aspect,
-            extent: self.extent,
-            rect: self.extent.into(),
-            before: self.state,
-            after: self.state,
-        }
+        HostImage::new(self.image, self.view, self.format, self.extent, self.state)
     }
 }
 

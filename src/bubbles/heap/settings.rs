@@ -6,11 +6,14 @@ use crate::contract::Slot;
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(HeapConfig, HeapSettings, HeapStep<'_>);
+
 /// Most parts of a step.
 const MOST_SUBSTEPS: u32 = 64;
 
 /// How blobs move.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HeapSettings {
     /// m/s², default (0, −9.81, 0).
     pub gravity: [f32; 3],
@@ -165,6 +168,7 @@ impl Solid {
 
 /// What fixes the memory of a [`Heap`](super::Heap).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct HeapConfig {
     /// Most blobs, 1 to 2^20.
     pub max_blobs: u32,
@@ -184,6 +188,7 @@ impl HeapConfig {
 
 /// One step of a heap.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct HeapStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -193,4 +198,11 @@ pub struct HeapStep<'a> {
     pub settings: &'a HeapSettings,
     /// What is solid, as it is at the step's end.
     pub solids: &'a [Solid],
+}
+
+impl<'a> HeapStep<'a> {
+    /// A step of so many seconds without solids.
+    pub fn new(slot: Slot, dt: f32, settings: &'a HeapSettings) -> Self {
+        Self { slot, dt, settings, solids: &[] }
+    }
 }

@@ -3,8 +3,11 @@
 use crate::error::Error;
 use crate::water::settings::{GREATEST, range};
 
+crate::contract::with!(GenerateConfig, GenerateSettings);
+
 /// What fixes the memory of a [`Generator`](super::Generator).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct GenerateConfig {
     /// Most particles of the fluid in a step, at least 1.
     pub max_fluid: u32,
@@ -50,6 +53,7 @@ pub struct Limits {
 
 /// What of a fluid turns into spray, foam and bubbles, and what becomes of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct GenerateSettings {
     /// Spacing of the fluid's particles, scene units, (0, ∞). Neighbours are nearer than two.
     pub spacing: f32,

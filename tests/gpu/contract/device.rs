@@ -3,7 +3,7 @@
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::water::{Gate, Shading, Smoothing};
-use whitewater::{Config, Context, Enabled, Error, Host, Renderer, Slot, State, StateConfig};
+use whitewater::{Config, Context, Enabled, Error, Renderer, Slot, State, StateConfig};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, config, extent};
@@ -35,34 +35,29 @@ fn what_a_device_lacks_is_named() {
     let config = config(extent(32, 16));
     let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
     offer.check(&config).expect("this device will do");
-    let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
-    let foam = Config { foam: true, ..config };
-    let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
-    let motion = Config { motion: true, ..config };
-    let noise = Config { noise: Some(1), ..config };
-    let unsummed = whitewater::Offer { blend_floats: false, foam_floats: false, ..offer };
-    let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
-    let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
-    let drawn = Config { composite: Some(Shading::Raster), ..config };
-    let stored = Config { composite: Some(Shading::Compute), ..config };
+    let raster = config.with(|it| it.depth_splat = Some(whitewater::water::Splat::Raster));
+    let foam = config.with(|it| it.foam = true);
+    let convolving = |bits| config.with(|it| it.shadow = convolved(8, bits));
+    let motion = config.with(|it| it.motion = true);
+    let noise = config.with(|it| it.noise = Some(1));
+    let unsummed = offer.with(|it| {
+        it.blend_floats = false;
+        it.foam_floats = false;
+    });
+    let bare = offer.with(|it| it.optional = Enabled::default());
+    let gate = |gate| config.with(|it| it.smoothing = Some(Smoothing::Query(gate)));
+    let drawn = config.with(|it| it.composite = Some(Shading::Raster));
+    let stored = config.with(|it| it.composite = Some(Shading::Compute));
     let lacking = [
-        (whitewater::Offer { api_version: vk::API_VERSION_1_2, ..offer }, config, "Vulkan 1.3"),
-        (whitewater::Offer { synchronization2: false, ..offer }, config, "synchronization2"),
-        (
-            whitewater::Offer { output_attachment: false, ..offer },
-            drawn,
-            "attachment use of the output",
-        ),
-        (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
-        (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
-        (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
-        (whitewater::Offer { basis: [false, true], ..offer }, convolving(8), "R8G8B8A8_SNORM"),
-        (
-            whitewater::Offer { basis: [true, false], ..offer },
-            convolving(16),
-            "R16G16B16A16_SFLOAT",
-        ),
-        (whitewater::Offer { motion_floats: false, ..offer }, motion, "R32G32_SFLOAT"),
+        (offer.with(|it| it.api_version = vk::API_VERSION_1_2), config, "Vulkan 1.3"),
+        (offer.with(|it| it.synchronization2 = false), config, "synchronization2"),
+        (offer.with(|it| it.output_attachment = false), drawn, "attachment use of the output"),
+        (offer.with(|it| it.output_storage = false), stored, "storage use of the output"),
+        (offer.with(|it| it.blend_floats = false), raster, "R32_SFLOAT"),
+        (offer.with(|it| it.foam_floats = false), foam, "R32G32_SFLOAT"),
+        (offer.with(|it| it.basis = [false, true]), convolving(8), "R8G8B8A8_SNORM"),
+        (offer.with(|it| it.basis = [true, false]), convolving(16), "R16G16B16A16_SFLOAT"),
+        (offer.with(|it| it.motion_floats = false), motion, "R32G32_SFLOAT"),
         (unsummed, noise, "R32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
@@ -75,26 +70,31 @@ fn what_a_device_lacks_is_named() {
             other => panic!("{needle}: {other:?}"),
         }
     }
-    let unblended = whitewater::Offer { blend_floats: false, ..offer };
+    let unblended = offer.with(|it| it.blend_floats = false);
     unblended.check(&config).expect("the compute paths need no blending");
-    let unfoamed = whitewater::Offer { foam_floats: false, ..offer };
+    let unfoamed = offer.with(|it| it.foam_floats = false);
     unfoamed.check(&raster).expect("water needs nothing of foam's");
-    let other = whitewater::Offer { basis: [true, false], ..offer };
+    let other = offer.with(|it| it.basis = [true, false]);
     other.check(&convolving(8)).expect("eight bits are there");
     let mut small = offer;
     small.limits.max_image_dimension2_d = 99;
-    let shown = Config { extent: extent(32, 16), ..convolving(8) };
+    let shown = convolving(8).with(|it| it.extent = extent(32, 16));
     assert!(matches!(small.check(&shown), Err(Error::BadInput { field: "Config.shadow", .. })));
     unfoamed.check(&noise).expect("what the raster splats blend is enough for noise");
     // Foam's chunks are 64 particles at least.
     let mut narrow = offer;
     narrow.limits.max_storage_buffer_range = (1 << 20) + 256;
-    let wide = |foam| Config { foam, max_stride: 1 << 16, ..config };
+    let wide = |foam| {
+        config.with(|it| {
+            it.foam = foam;
+            it.max_stride = 1 << 16;
+        })
+    };
     narrow.check(&wide(false)).expect("sixteen particles are bound at once");
     assert!(matches!(narrow.check(&wide(true)), Err(Error::BadInput { .. })));
-    let unattached = whitewater::Offer { output_attachment: false, ..offer };
+    let unattached = offer.with(|it| it.output_attachment = false);
     unattached.check(&stored).expect("nothing is drawn into the output");
-    let unstored = whitewater::Offer { output_storage: false, ..offer };
+    let unstored = offer.with(|it| it.output_storage = false);
     unstored.check(&drawn).expect("nothing is stored to the output");
 }
 
@@ -124,13 +124,12 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
             let device = instance.create_device(physical, &info, None).expect("a device");
             // Where what it enabled says too much, too.
             for enabled in [Enabled::default(), of_1_3.enabled] {
-                let host = Host {
-                    instance: &instance,
-                    physical_device: physical,
-                    device: &device,
-                    enabled,
-                    ..of_1_3.host(1)
-                };
+                let host = of_1_3.host(1).with(|it| {
+                    it.instance = &instance;
+                    it.physical_device = physical;
+                    it.device = &device;
+                    it.enabled = enabled;
+                });
                 // Some drivers have the functions of their own version whatever the instance's is.
                 let name = c"vkCmdPipelineBarrier2";
                 let all = instance.get_device_proc_addr(device.handle(), name.as_ptr()).is_some();
@@ -161,7 +160,7 @@ fn functions_that_are_not_loaded_are_named() {
         ash::Device::from_parts_1_3(device.handle(), v1_0, v1_1, v1_2, v1_3)
     };
     let (barrier, stamp) = (none_1_3.cmd_pipeline_barrier2, none_1_3.cmd_write_timestamp2);
-    let counted = Enabled { draw_indirect_count: true, ..gpu.enabled };
+    let counted = gpu.enabled.with(|it| it.draw_indirect_count = true);
     for (functions, enabled, name) in [
         (
             of(v1_2.clone(), ash::DeviceFnV1_3 { cmd_pipeline_barrier2: barrier, ..v1_3.clone() }),
@@ -175,7 +174,10 @@ fn functions_that_are_not_loaded_are_named() {
         ),
         (of(none_1_2, v1_3.clone()), counted, "vkCmdDrawIndirectCount"),
     ] {
-        let host = Host { device: &functions, enabled, ..gpu.host(1) };
+        let host = gpu.host(1).with(|it| {
+            it.device = &functions;
+            it.enabled = enabled;
+        });
         // SAFETY: live handles; nothing is made.
         match unsafe { Context::new(&host) } {
             Err(Error::Missing { what, .. }) => assert!(what.contains(name), "{name}: {what}"),
@@ -189,8 +191,8 @@ fn functions_that_are_not_loaded_are_named() {
 fn ten_million_particles_have_room() {
     let gpu = Gpu::shared();
     let count = 10_000_000;
-    let config = Config { max_particles: count, ..config(extent(64, 48)) };
-    let foam = Config { foam: true, ..config };
+    let config = config(extent(64, 48)).with(|it| it.max_particles = count);
+    let foam = config.with(|it| it.foam = true);
     // SAFETY: live handles; nothing is recorded.
     let state = unsafe {
         Renderer::new(&gpu.context(1), &foam).expect("room for foam").destroy();
@@ -218,7 +220,12 @@ fn memory_is_as_documented() {
     let needed = |width: u32, height: u32, count: u32, (sheets, coarsening, foam, spray)| {
         let format = vk::Format::R16G16B16A16_SFLOAT;
         let size = extent(width, height);
-        let config = Config { sheets, coarsening, foam, spray, ..Config::new(size, format, count) };
+        let config = Config::new(size, format, count).with(|it| {
+            it.sheets = sheets;
+            it.coarsening = coarsening;
+            it.foam = foam;
+            it.spray = spray;
+        });
         let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
         let memory = renderer.memory();
         // SAFETY: nothing was recorded.
@@ -238,7 +245,10 @@ fn memory_is_as_documented() {
         let ways = [(None, false), (Some(256), false), (Some(256), true), (Some(1024), false)];
         for (cast, foam) in ways.into_iter().step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
-            let config = Config { cast, foam, ..Config::new(extent(width, height), format, count) };
+            let config = Config::new(extent(width, height), format, count).with(|it| {
+                it.cast = cast;
+                it.foam = foam;
+            });
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
@@ -259,7 +269,10 @@ fn memory_is_as_documented() {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let of = |motion| {
                 let size = extent(width, height);
-                let config = Config { motion, thickness_level, ..Config::new(size, format, count) };
+                let config = Config::new(size, format, count).with(|it| {
+                    it.motion = motion;
+                    it.thickness_level = thickness_level;
+                });
                 let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
                 let memory = renderer.memory();
                 // SAFETY: nothing was recorded.
@@ -282,10 +295,17 @@ fn memory_is_as_documented() {
         .filter(|_| whole)
         {
             let format = vk::Format::R16G16B16A16_SFLOAT;
-            let templates =
-                BubbleConfig { templates: 1, bubbles: 8, map: 8, ..BubbleConfig::new(count) };
-            let bubbles = Some(BubbleConfig { sort, layers, ..templates });
-            let config = Config { bubbles, ..Config::new(extent(width, height), format, count) };
+            let templates = BubbleConfig::new(count).with(|it| {
+                it.templates = 1;
+                it.bubbles = 8;
+                it.map = 8;
+            });
+            let bubbles = Some(templates.with(|it| {
+                it.sort = sort;
+                it.layers = layers;
+            }));
+            let config =
+                Config::new(extent(width, height), format, count).with(|it| it.bubbles = bubbles);
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
@@ -302,7 +322,7 @@ fn memory_is_as_documented() {
         for level in (0..4).step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config =
-                Config { noise: Some(level), ..Config::new(extent(width, height), format, count) };
+                Config::new(extent(width, height), format, count).with(|it| it.noise = Some(level));
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
@@ -353,8 +373,13 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let config =
-        Config { sheets: 2, foam: true, spray: true, motion: true, noise: Some(1), ..config(size) };
+    let config = config(size).with(|it| {
+        it.sheets = 2;
+        it.foam = true;
+        it.spray = true;
+        it.motion = true;
+        it.noise = Some(1);
+    });
     let mut rig = Rig::with_slots(&gpu, &config, 2);
     let mut shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
@@ -390,7 +415,7 @@ fn timings_name_every_pass() {
         assert!(!falls, "{timings:?}");
     }
     assert!(rig.renderer().timings(Slot(1)).is_empty(), "a slot without a frame");
-    let mut rig = Rig::new(&gpu, &Config { cast: Some(16), ..config });
+    let mut rig = Rig::new(&gpu, &config.with(|it| it.cast = Some(16)));
     sunny(&rig, &mut shot);
     rig.draw(&shot);
     let names: Vec<&str> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();

@@ -32,6 +32,7 @@ pub fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
         Shadows::Map | Shadows::Convolution(_) => depth,
     };
     let view_projection = shot.camera.projection * shot.camera.view;
-    shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.1 });
+    shot.sun.shadow =
+        Some(Shadow::new(image.host_image(), view_projection).with(|it| it.bias = 0.1));
     Some(image)
 }

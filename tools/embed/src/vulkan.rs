@@ -144,8 +144,7 @@ impl Gpu {
             .subresource_range(range(aspect));
         // SAFETY: the image is bound.
         let view = unsafe { self.device.create_image_view(&info, None)? };
-        let rect = extent.into();
-        Ok((HostImage { image, view, format, aspect, extent, rect, before: CLEAR, after }, memory))
+        Ok((HostImage::new(image, view, format, extent, CLEAR).with_after(after), memory))
     }
 
     pub fn buffer(

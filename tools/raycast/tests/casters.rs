@@ -457,7 +457,7 @@ fn converged_thickness_is_whitewaters() {
     let twin = twin_of(Method::Kernel, &foam, &SceneDepth::Nothing, &settings);
     let extent = vk::Extent2D { width: SIZE[0], height: SIZE[1] };
     let diffuse = Some(DiffuseConfig::new(300));
-    let config = Config { diffuse, ..Config::new(extent, COLOR_FORMAT, 1024) };
+    let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.diffuse = diffuse);
     let mut headless = Headless::new(gpu.0.take().expect("a device"), &config).expect("renderer");
     headless.particles(&[], None).expect("no particles");
     headless

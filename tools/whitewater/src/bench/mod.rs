@@ -623,7 +623,7 @@ fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let settings = FoamSettings::reduced(pool.spacing, 1.0);
     let threshold = settings.scale * settings.rest_density * (20.0 * high).powi(2);
     headless.motion(&velocities, None)?;
-    headless.step(None, &FoamSettings { threshold, ..settings })?;
+    headless.step(None, &settings.with(|it| it.threshold = threshold))?;
     // The ramp begins at half the Weber number.
     Ok(heights.iter().filter(|y| **y > high * 0.5_f32.sqrt()).count() as u64)
 }
