@@ -316,7 +316,7 @@ impl Composite {
                     unsafe {
                         if i > 0 || coat.is_some() {
                             // All may write the output for all that a validation layer knows.
-                            gpu.device.cmd_pipeline_barrier2(cmd, &written);
+                            gpu.dependency(cmd, &written);
                         }
                         gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);
                     }

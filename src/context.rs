@@ -10,6 +10,7 @@ use gpu_allocator::vulkan::Allocator;
 
 use crate::contract::{Enabled, Host};
 use crate::error::{Error, VkContext};
+use crate::gpu::access::Synchronization;
 use crate::gpu::loaded;
 use crate::gpu::pass::Attachments;
 use crate::gpu::pipeline::{self, Made};
@@ -92,6 +93,8 @@ pub struct Shared {
     pub timestamp_bits: u32,
     /// R32G32_SFLOAT can be a blended colour attachment: most devices can, none has to.
     pub blends_pairs: bool,
+    /// Barriers and timestamps as the device takes them.
+    pub synchronization: Synchronization,
     /// Conditional rendering, when enabled.
     pub conditional: Option<ash::ext::conditional_rendering::Device>,
     /// Names and labels, when enabled.
@@ -111,7 +114,7 @@ pub struct Shared {
 
 impl Shared {
     fn new(host: &Host<'_>) -> Result<Self, Error> {
-        loaded::check(host)?;
+        let synchronization = loaded::check(host)?;
         // SAFETY: the host guarantees that its handles are alive and belong together.
         let (properties, families, pairs) = unsafe {
             let (instance, physical) = (host.instance, host.physical_device);
@@ -123,8 +126,14 @@ impl Shared {
             )
         };
         let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
-        let mut maintenance = vk::PhysicalDeviceMaintenance4Properties::default();
-        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut maintenance);
+        // The fourth is of Vulkan 1.3; older devices say how much memory one allocation has, and a buffer is one.
+        let newer = loaded::api_version(host.instance, &properties) >= vk::API_VERSION_1_3;
+        let mut third = vk::PhysicalDeviceMaintenance3Properties::default();
+        let mut fourth = vk::PhysicalDeviceMaintenance4Properties::default();
+        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut third);
+        if newer {
+            chain = chain.push_next(&mut fourth);
+        }
         // SAFETY: as above; the chain is well formed.
         unsafe {
             host.instance.get_physical_device_properties2(host.physical_device, &mut chain);
@@ -146,10 +155,14 @@ impl Shared {
             device: host.device.clone(),
             enabled: host.enabled,
             limits: properties.limits,
-            max_buffer_size: maintenance.max_buffer_size,
+            max_buffer_size: match newer {
+                true => fourth.max_buffer_size,
+                false => third.max_memory_allocation_size,
+            },
             kind: properties.device_type,
             timestamp_bits: family.timestamp_valid_bits,
             blends_pairs: pairs.optimal_tiling_features.contains(blended),
+            synchronization,
             conditional: host
                 .enabled
                 .conditional_rendering
@@ -198,9 +211,9 @@ impl Shared {
         Ok(())
     }
 
-    /// What the device offers to a configuration with an output of a format.
+    /// What the device, as the host made it, offers to a configuration with an output of a format.
     pub fn offer(&self, output: vk::Format) -> Offer {
-        Offer::of(&self.instance, self.physical_device, output)
+        Offer::of(&self.instance, self.physical_device, output).as_enabled(&self.enabled)
     }
 
     /// The host's allocator. A poisoned lock is taken all the same: the allocator's own state is

@@ -67,7 +67,7 @@ pub struct Host<'a> {
     pub instance: &'a ash::Instance,
     /// The physical device.
     pub physical_device: vk::PhysicalDevice,
-    /// A Vulkan 1.3 device with what [`requirements`](crate::requirements) asks for.
+    /// A device of Vulkan 1.2 or newer, whose instance was made for as much.
     pub device: &'a ash::Device,
     /// Shared allocator; locked only in construction, `reconfigure`, `resize`, `collect` and
     /// `destroy`. It must be dropped before the device is destroyed, and `Host` and the context hold it too: drop them
@@ -123,6 +123,12 @@ impl<'a> Host<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Enabled {
+    /// `synchronization2`, of Vulkan 1.3 or VK_KHR_synchronization2: barriers that name one stage each. Without it
+    /// those of Vulkan 1.0 are recorded, which wait for somewhat more; the picture is the same.
+    pub synchronization2: bool,
+    /// `shaderStorageImageWriteWithoutFormat`. Vulkan 1.3 allows it by format, so that only a device that was made for
+    /// 1.2 needs it, for [`Config::foam`], [`Config::motion`], [`Shadows::Convolution`] and [`Shading::Compute`].
+    pub storage_image_write_without_format: bool,
     /// VK_EXT_debug_utils on the instance: names and labels.
     pub debug_utils: bool,
     /// VK_EXT_conditional_rendering with `conditionalRendering`.

@@ -249,7 +249,7 @@
 pub mod access {
     pub use crate::gpu::access::{
         CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-        COPY_WRITE, FRAGMENT_SAMPLED, NOTHING,
+        COPY_WRITE, DEPTH_ATTACHMENT, FRAGMENT_SAMPLED, NOTHING,
     };
 }
 
@@ -282,6 +282,7 @@ pub use context::Context;
 pub use contract::*;
 pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;
+pub use gpu::features::DeviceFeatures;
 pub use gpu::requirements::{Limit, Need, Offer, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;

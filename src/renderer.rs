@@ -393,7 +393,11 @@ impl Renderer {
     }
 
     /// Says that the slot has come back: frees what `resize` and `reconfigure` retired and no frame in flight uses any
-    /// more.
+    /// more. Call it after the wait for the slot that every frame begins with.
+    ///
+    /// It is a promise and takes no fence or timeline value: the library sees no submission, so it could not tell what
+    /// a fence or a value belongs to, and engines that count frames have neither at hand. A slot that never comes back
+    /// costs memory alone. Work in flight with other slots is not touched.
     ///
     /// # Safety
     /// All GPU work that was recorded with the slot is complete, or will never be submitted.

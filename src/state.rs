@@ -176,7 +176,8 @@ impl State {
     }
 
     /// Says that the step recorded last, with this slot, was thrown away: the state is that before
-    /// it. Earlier steps cannot be taken back; [`record_restore`](Self::record_restore) can.
+    /// it. Earlier steps cannot be taken back; [`record_restore`](Self::record_restore) can. Frees nothing, so there is
+    /// nothing to promise.
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();

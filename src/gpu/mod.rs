@@ -4,6 +4,7 @@
 pub mod access;
 pub mod buffer;
 pub mod descriptors;
+pub mod features;
 pub mod graveyard;
 pub mod image;
 pub mod limits;

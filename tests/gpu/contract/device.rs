@@ -13,6 +13,19 @@ use crate::support::{compare, slow};
 use super::life::convolved;
 use super::{sunny, water};
 
+/// Engines keep these in resources that threads share, and make them on threads of their own.
+const _: () = {
+    const fn shared<T: Send + Sync>() {}
+    shared::<Context>();
+    shared::<Renderer>();
+    shared::<State>();
+    shared::<whitewater::foam::Generator>();
+    shared::<whitewater::bubbles::Heap>();
+    shared::<whitewater::shore::ShoreMap>();
+    shared::<whitewater::Frame<'static>>();
+    shared::<Error>();
+};
+
 #[test]
 fn a_device_with_nothing_optional_draws_the_same() {
     let size = extent(64, 48);
@@ -26,6 +39,64 @@ fn a_device_with_nothing_optional_draws_the_same() {
     gpu.leaks = false;
     let found = Rig::new(&gpu, &config(size)).draw(&shot);
     compare::same_color("bare", &found.output, &expected.output);
+}
+
+/// An old driver: an instance and a device of Vulkan 1.2, barriers of 1.0. Bit for bit the same, silent under validation.
+#[test]
+fn a_device_of_vulkan_1_2_draws_the_same() {
+    let size = extent(64, 48);
+    let options = whitewater::headless::DeviceOptions { vulkan_1_2: true, ..Default::default() };
+    let mut old = Gpu::own_with(&options);
+    old.leaks = false;
+    assert!(!old.enabled.synchronization2);
+    let plain = config(size).with(|it| it.sheets = 2);
+    for config in [
+        plain,
+        plain.with(|it| {
+            it.smoothing = Some(Smoothing::Fused);
+            it.foam = true;
+            it.spray = true;
+            it.motion = true;
+            it.noise = Some(1);
+        }),
+        plain.with(|it| {
+            it.cast = Some(64);
+            it.shadow = convolved(8, 8);
+            it.composite = Some(Shading::Compute);
+            it.depth_splat = Some(whitewater::water::Splat::Raster);
+        }),
+        plain.with(|it| it.smoothing = Some(Smoothing::Query(Gate::VertexCull))),
+    ] {
+        let [expected, found] = [&Gpu::shared(), &old].map(|gpu| {
+            let mut rig = Rig::new(gpu, &config);
+            let mut shot = water(size, Lens::Standard);
+            let _map = sunny(&rig, &mut shot);
+            rig.draw(&shot)
+        });
+        compare::same_color("vulkan-1.2", &found.output, &expected.output);
+    }
+}
+
+/// Below Vulkan 1.3 what stores without a format says that it needs the feature; water without it does not.
+#[test]
+fn an_old_device_says_what_it_lacks() {
+    let options =
+        whitewater::headless::DeviceOptions { vulkan_1_2: true, bare: true, ..Default::default() };
+    let gpu = Gpu::own_with(&options);
+    let host = gpu.host(1).with(|it| it.enabled = Enabled::default());
+    // SAFETY: live handles; the device goes last.
+    let context = unsafe { Context::new(&host) }.expect("a context");
+    let config = config(extent(16, 16));
+    let lacks = |config: Config| match Renderer::new(&context, &config) {
+        Err(Error::Missing { what, .. }) => what,
+        other => panic!("{:?}", other.map(|_| ())),
+    };
+    assert!(lacks(config.with(|it| it.foam = true)).contains("storage"));
+    assert!(lacks(config.with(|it| it.motion = true)).contains("storage"));
+    assert!(lacks(config.with(|it| it.composite = Some(Shading::Compute))).contains("storage"));
+    let renderer = Renderer::new(&context, &config).expect("water");
+    // SAFETY: nothing was submitted.
+    unsafe { renderer.destroy() };
 }
 
 /// A mocked offer: what this device has may not be there elsewhere.
@@ -49,8 +120,7 @@ fn what_a_device_lacks_is_named() {
     let drawn = config.with(|it| it.composite = Some(Shading::Raster));
     let stored = config.with(|it| it.composite = Some(Shading::Compute));
     let lacking = [
-        (offer.with(|it| it.api_version = vk::API_VERSION_1_2), config, "Vulkan 1.3"),
-        (offer.with(|it| it.synchronization2 = false), config, "synchronization2"),
+        (offer.with(|it| it.api_version = vk::API_VERSION_1_1), config, "Vulkan 1.2"),
         (offer.with(|it| it.output_attachment = false), drawn, "attachment use of the output"),
         (offer.with(|it| it.output_storage = false), stored, "storage use of the output"),
         (offer.with(|it| it.blend_floats = false), raster, "R32_SFLOAT"),
@@ -107,6 +177,7 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
         let entry = ash::Entry::load().expect("a loader");
         let of_1_3 = Gpu::shared();
         for version in [vk::API_VERSION_1_0, vk::API_VERSION_1_1, vk::API_VERSION_1_2] {
+            let enough = version == vk::API_VERSION_1_2;
             let application = vk::ApplicationInfo::default().api_version(version);
             let info = vk::InstanceCreateInfo::default().application_info(&application);
             let instance = entry.create_instance(&info, None).expect("an instance");
@@ -131,12 +202,15 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
                     it.enabled = enabled;
                 });
                 // Some drivers have the functions of their own version whatever the instance's is.
-                let name = c"vkCmdPipelineBarrier2";
-                let all = instance.get_device_proc_addr(device.handle(), name.as_ptr()).is_some();
+                let has = |name: &std::ffi::CStr| {
+                    instance.get_device_proc_addr(device.handle(), name.as_ptr()).is_some()
+                };
+                let second = has(c"vkCmdPipelineBarrier2") || !enabled.synchronization2;
+                let all = second && (enough || has(c"vkResetQueryPool"));
                 match Context::new(&host) {
                     Ok(_) if all => {}
-                    Err(Error::Missing { what, why }) => {
-                        assert!(what.contains("vk") && why.contains("1.3"), "{what}: {why}");
+                    Err(Error::Missing { what, why }) if !(enough && second) => {
+                        assert!(what.contains("vk") && why.contains("1.2"), "{what}: {why}");
                     }
                     other => panic!("{version:x}: {:?}", other.map(|_| ())),
                 }
@@ -160,6 +234,7 @@ fn functions_that_are_not_loaded_are_named() {
         ash::Device::from_parts_1_3(device.handle(), v1_0, v1_1, v1_2, v1_3)
     };
     let (barrier, stamp) = (none_1_3.cmd_pipeline_barrier2, none_1_3.cmd_write_timestamp2);
+    let count = none_1_2.cmd_draw_indirect_count;
     let counted = gpu.enabled.with(|it| it.draw_indirect_count = true);
     for (functions, enabled, name) in [
         (
@@ -172,7 +247,12 @@ fn functions_that_are_not_loaded_are_named() {
             gpu.enabled,
             "vkCmdWriteTimestamp2",
         ),
-        (of(none_1_2, v1_3.clone()), counted, "vkCmdDrawIndirectCount"),
+        (
+            of(ash::DeviceFnV1_2 { cmd_draw_indirect_count: count, ..v1_2.clone() }, v1_3.clone()),
+            counted,
+            "vkCmdDrawIndirectCount",
+        ),
+        (of(none_1_2, v1_3.clone()), gpu.enabled, "vkResetQueryPool"),
     ] {
         let host = gpu.host(1).with(|it| {
             it.device = &functions;

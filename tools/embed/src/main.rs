@@ -18,8 +18,8 @@ use vulkan::{CLEAR, COPY, Gpu};
 use whitewater::ash::vk;
 use whitewater::gpu_allocator::MemoryLocation;
 use whitewater::{
-    Camera, Config, Context, Count, Enabled, EnvironmentSource, Frame, Host, Particles, Renderer,
-    Settings, Sky, Slot, Stream, Timing,
+    Camera, Config, Context, Count, EnvironmentSource, Frame, Host, Particles, Renderer, Settings,
+    Sky, Slot, Stream, Timing,
 };
 
 /// Size of the picture.
@@ -98,7 +98,7 @@ pub fn draw(
         gpu.queue_family,
         FRAMES_IN_FLIGHT,
     )
-    .with_enabled(Enabled::default().with(|it| it.debug_utils = validate));
+    .with_enabled(gpu.enabled);
     // SAFETY: the handles belong together and outlive context and renderer; `enabled` is the truth.
     let context = unsafe { Context::new(&host)? };
     let mut water = Renderer::new(&context, &config)?;
