@@ -3,15 +3,16 @@
 
 use std::collections::HashMap;
 use std::hash::Hash;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
-use gpu_allocator::vulkan::Allocator;
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use crate::contract::{Enabled, Host};
 use crate::error::{Error, VkContext};
 use crate::gpu::access::Synchronization;
 use crate::gpu::loaded;
+use crate::gpu::memory::Allocate;
 use crate::gpu::pass::Attachments;
 use crate::gpu::pipeline::{self, Made};
 use crate::gpu::requirements::Offer;
@@ -56,6 +57,24 @@ impl Context {
     /// Frames in flight: slots are 0 .. frames_in_flight.
     pub fn frames_in_flight(&self) -> u32 {
         self.slots
+    }
+}
+
+/// One for a host that hands none in.
+fn own_allocator(host: &Host<'_>) -> Result<Arc<dyn Allocate>, Error> {
+    let made = Allocator::new(&AllocatorCreateDesc {
+        instance: host.instance.clone(),
+        device: host.device.clone(),
+        physical_device: host.physical_device,
+        debug_settings: Default::default(),
+        buffer_device_address: false,
+        allocation_sizes: Default::default(),
+    });
+    match made {
+        Ok(allocator) => Ok(Arc::new(Mutex::new(allocator))),
+        Err(source) => {
+            Err(Error::Allocation { name: "the context".into(), source: Box::new(source) })
+        }
     }
 }
 
@@ -109,7 +128,7 @@ pub struct Shared {
     pub passes: Store<(String, Attachments), vk::RenderPass>,
     instance: ash::Instance,
     physical_device: vk::PhysicalDevice,
-    allocator: Arc<Mutex<Allocator>>,
+    allocator: Arc<dyn Allocate>,
 }
 
 impl Shared {
@@ -127,7 +146,7 @@ impl Shared {
         };
         let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
         // The fourth is of Vulkan 1.3; older devices say how much memory one allocation has, and a buffer is one.
-        let newer = loaded::api_version(host.instance, &properties) >= vk::API_VERSION_1_3;
+        let newer = loaded::is_1_3(host.device);
         let mut third = vk::PhysicalDeviceMaintenance3Properties::default();
         let mut fourth = vk::PhysicalDeviceMaintenance4Properties::default();
         let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut third);
@@ -151,6 +170,10 @@ impl Shared {
                 format!("needs graphics and compute, has {:?}", family.queue_flags),
             ));
         }
+        let allocator = match &host.allocator {
+            Some(allocator) => allocator.clone(),
+            None => own_allocator(host)?,
+        };
         let mut shared = Self {
             device: host.device.clone(),
             enabled: host.enabled,
@@ -177,7 +200,7 @@ impl Shared {
             passes: Store::default(),
             instance: host.instance.clone(),
             physical_device: host.physical_device,
-            allocator: host.allocator.clone(),
+            allocator,
         };
         // What was made before a failure goes with `shared`.
         shared.make_samplers()?;
@@ -213,13 +236,16 @@ impl Shared {
 
     /// What the device, as the host made it, offers to a configuration with an output of a format.
     pub fn offer(&self, output: vk::Format) -> Offer {
-        Offer::of(&self.instance, self.physical_device, output).as_enabled(&self.enabled)
+        let offer = Offer::of(&self.instance, self.physical_device, output);
+        match loaded::is_1_3(&self.device) {
+            true => offer,
+            false => offer.before_1_3(&self.enabled),
+        }
     }
 
-    /// The host's allocator. A poisoned lock is taken all the same: the allocator's own state is
-    /// not ours to judge.
-    pub fn lock_allocator(&self) -> MutexGuard<'_, Allocator> {
-        self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Where memory comes from.
+    pub fn allocator(&self) -> &dyn Allocate {
+        &*self.allocator
     }
 
     /// Names an object for debuggers and validation messages.

@@ -6,12 +6,11 @@
 //! Types alone, and what follows from one of them: `check` says what is wrong with a frame, `frame` holds
 //! the numbers derived from it.
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat4, Vec3, Vec4};
-use gpu_allocator::vulkan::Allocator;
 
 use crate::bubbles::settings::{BubbleConfig, BubbleLook};
 use crate::error::Error;
@@ -19,6 +18,7 @@ use crate::foam::generate::settings::GenerateSettings;
 use crate::foam::settings::{DiffuseConfig, DiffuseLook};
 use crate::frame::level_axes;
 pub use crate::gpu::access::Access;
+use crate::gpu::memory::Allocate;
 use crate::shore::settings::{ShoreConfig, ShoreLook};
 use crate::water::settings::{
     Exit, FoamLook, FoamSettings, Kernels, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows,
@@ -69,10 +69,10 @@ pub struct Host<'a> {
     pub physical_device: vk::PhysicalDevice,
     /// A device of Vulkan 1.2 or newer, whose instance was made for as much.
     pub device: &'a ash::Device,
-    /// Shared allocator; locked only in construction, `reconfigure`, `resize`, `collect` and
-    /// `destroy`. It must be dropped before the device is destroyed, and `Host` and the context hold it too: drop them
-    /// first, when what was made from the context is destroyed.
-    pub allocator: Arc<Mutex<Allocator>>,
+    /// Where memory comes from; called only in construction, `reconfigure`, `resize`, `collect` and `destroy`. `Host` and
+    /// the context hold it: an allocator that must go before the device goes when these are dropped and what was made from
+    /// the context is destroyed. `None`: the context makes one of its own, which goes with it.
+    pub allocator: Option<Arc<dyn Allocate>>,
     /// One family with graphics and compute; every command buffer handed in is of it.
     pub queue_family: u32,
     /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
@@ -84,13 +84,13 @@ pub struct Host<'a> {
 }
 
 impl<'a> Host<'a> {
-    /// A host that enabled no optional feature ([`with_enabled`](Self::with_enabled)) and has no pipeline cache
+    /// A host that enabled no optional feature ([`with_enabled`](Self::with_enabled)), leaves memory to the library
+    /// ([`with_allocator`](Self::with_allocator)) and has no pipeline cache
     /// ([`with_pipeline_cache`](Self::with_pipeline_cache)).
     pub fn new(
         instance: &'a ash::Instance,
         physical_device: vk::PhysicalDevice,
         device: &'a ash::Device,
-        allocator: Arc<Mutex<Allocator>>,
         queue_family: u32,
         frames_in_flight: u32,
     ) -> Self {
@@ -98,7 +98,7 @@ impl<'a> Host<'a> {
             instance,
             physical_device,
             device,
-            allocator,
+            allocator: None,
             queue_family,
             frames_in_flight,
             enabled: Enabled::default(),
@@ -110,6 +110,12 @@ impl<'a> Host<'a> {
     #[must_use]
     pub fn with_enabled(self, enabled: Enabled) -> Self {
         Self { enabled, ..self }
+    }
+
+    /// With an allocator of the host's: an `Arc` of what implements [`Allocate`].
+    #[must_use]
+    pub fn with_allocator(self, allocator: Arc<dyn Allocate>) -> Self {
+        Self { allocator: Some(allocator), ..self }
     }
 
     /// With a pipeline cache of the device.
@@ -914,11 +920,46 @@ impl<'a> GenerateStep<'a> {
 /// is the top of the image: a host that flips by a negative height negates row 1 first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// World to eye space.
-    pub view: Mat4,
+    /// World to eye space, four columns.
+    pub view: [[f32; 4]; 4],
     /// Eye to clip space, depth 0 to 1: perspective; finite or infinite, standard or reversed
     /// depth, off-axis allowed; looking down −z (right-handed) or +z.
-    pub projection: Mat4,
+    pub projection: [[f32; 4]; 4],
+}
+
+impl Camera {
+    /// Of two matrices, as four columns of four or anything that turns into them: those of cgmath, nalgebra and mint do,
+    /// and glam's by `to_cols_array_2d`.
+    pub fn new(view: impl Into<[[f32; 4]; 4]>, projection: impl Into<[[f32; 4]; 4]>) -> Self {
+        Self { view: view.into(), projection: projection.into() }
+    }
+
+    pub(crate) fn view(&self) -> Mat4 {
+        Mat4::from_cols_array_2d(&self.view)
+    }
+
+    pub(crate) fn projection(&self) -> Mat4 {
+        Mat4::from_cols_array_2d(&self.projection)
+    }
+}
+
+/// For tools that have this crate's glam.
+#[cfg(feature = "headless")]
+impl Camera {
+    /// As [`new`](Self::new).
+    pub fn of(view: Mat4, projection: Mat4) -> Self {
+        Self::new(view.to_cols_array_2d(), projection.to_cols_array_2d())
+    }
+
+    /// World to eye space.
+    pub fn view_matrix(&self) -> Mat4 {
+        self.view()
+    }
+
+    /// Eye to clip space.
+    pub fn projection_matrix(&self) -> Mat4 {
+        self.projection()
+    }
 }
 
 /// The frame before, for motion vectors: the layer `motion`, two 32-bit floats a pixel, with
@@ -957,8 +998,8 @@ pub struct Shadow {
     /// [`Shadows::Mask`]: one channel that covers the view, 1 where the sun shines on the fluid, 0
     /// where not. Its `rect` is the part that is meant.
     pub image: HostImage,
-    /// World to the clip space of the map, standard or reversed depth (mask: not read).
-    pub view_projection: Mat4,
+    /// World to the clip space of the map, four columns, standard or reversed depth (mask: not read).
+    pub view_projection: [[f32; 4]; 4],
     /// Metres towards the sun by which points are moved before they are compared (mask: not read);
     /// about a spacing and a texel of the map.
     pub bias: f32,
@@ -966,16 +1007,21 @@ pub struct Shadow {
 
 impl Shadow {
     /// A map with world to its clip space, compared without a bias; of a mask the matrix is not read.
-    pub fn new(image: HostImage, view_projection: Mat4) -> Self {
-        Self { image, view_projection, bias: 0.0 }
+    pub fn new(image: HostImage, view_projection: impl Into<[[f32; 4]; 4]>) -> Self {
+        Self { image, view_projection: view_projection.into(), bias: 0.0 }
+    }
+
+    pub(crate) fn clip(&self) -> Mat4 {
+        Mat4::from_cols_array_2d(&self.view_projection)
     }
 
     /// 1 where depth grows away from the light, -1 where it falls.
     pub(crate) fn nearer(&self, light: &Light) -> f32 {
-        let inverse = self.view_projection.inverse();
+        let clip = self.clip();
+        let inverse = clip.inverse();
         let middle = inverse.project_point3(Vec3::new(0.0, 0.0, 0.5));
         let step = light.toward() * 1.0e-3 * (1.0 + middle.length());
-        let depth = |p| self.view_projection.project_point3(p).z;
+        let depth = |p| clip.project_point3(p).z;
         if depth(middle + step) <= depth(middle) { 1.0 } else { -1.0 }
     }
 }

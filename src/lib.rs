@@ -283,6 +283,7 @@ pub use contract::*;
 pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;
 pub use gpu::features::DeviceFeatures;
+pub use gpu::memory::{Allocate, Memory, MemoryLocation, MemoryRequest};
 pub use gpu::requirements::{Limit, Need, Offer, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;

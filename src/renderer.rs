@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use crate::bubbles::{self, BubbleUniforms, Bubbles, near_sets};
 use crate::check;

@@ -4,9 +4,9 @@
 //! gets is chance and does not show.
 //! Reads: the host's diffuse particles. Writes: hand-over; balls, turns, ids and count of blobs.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::settings::BubbleConfig;
 use crate::contract::{Blobs, Count, DiffuseParticles, Stream};

@@ -7,9 +7,9 @@
 //! it would be most of the memory. By quads in place of it: `quads`.
 //! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use crate::contract::{Config, DiffuseParticles};
 use crate::error::Error;

@@ -1,8 +1,8 @@
 //! Part of pass `radiance`: the tiles of the picture in which there is foam, over which light and shadow are found. Not in the
 //! source: most of a picture has none.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use crate::contract::Config;
 use crate::error::Error;

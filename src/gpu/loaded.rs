@@ -80,6 +80,14 @@ pub fn api_version(instance: &ash::Instance, properties: &vk::PhysicalDeviceProp
     }
 }
 
+/// Whether the device was made for Vulkan 1.3, as far as that shows: some drivers have the functions of their own version
+/// whatever the instance's is.
+pub fn is_1_3(device: &ash::Device) -> bool {
+    let none = ash::DeviceFnV1_3::load(|_| null());
+    device.fp_v1_3().get_device_buffer_memory_requirements as usize
+        != none.get_device_buffer_memory_requirements as usize
+}
+
 /// Whether an instance can be asked for features and properties of Vulkan 1.1 and later.
 pub fn of_instance(instance: &ash::Instance) -> bool {
     let none = ash::InstanceFnV1_1::load(|_| null());

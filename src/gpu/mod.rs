@@ -9,6 +9,7 @@ pub mod graveyard;
 pub mod image;
 pub mod limits;
 pub mod loaded;
+pub mod memory;
 pub mod pass;
 pub mod pipeline;
 pub mod requirements;

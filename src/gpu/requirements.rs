@@ -211,9 +211,9 @@ impl Offer {
         }
     }
 
-    /// The same for a device on which a host enabled so much.
-    pub(crate) fn as_enabled(mut self, enabled: &Enabled) -> Self {
-        if self.api_version < vk::API_VERSION_1_3 && !enabled.storage_image_write_without_format {
+    /// The same for a device of Vulkan 1.2 on which a host enabled so much.
+    pub(crate) fn before_1_3(mut self, enabled: &Enabled) -> Self {
+        if !enabled.storage_image_write_without_format {
             self.foam_floats = false;
             self.basis = [false; 2];
             self.motion_floats = false;

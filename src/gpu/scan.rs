@@ -2,9 +2,9 @@
 //! of blocks, of the blocks before each, of each number.
 //! Reads, writes: the values. Writes: their sum, into a word of the counts.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use crate::error::Error;
 use crate::gpu::Gpu;

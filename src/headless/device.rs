@@ -103,7 +103,10 @@ impl Device {
             buffer_device_address: false,
             allocation_sizes: Default::default(),
         })
-        .map_err(|source| Error::Allocation { name: "allocator".into(), source })?;
+        .map_err(|source| Error::Allocation {
+            name: "allocator".into(),
+            source: Box::new(source),
+        })?;
         Ok(Self {
             instance,
             physical,
@@ -121,16 +124,10 @@ impl Device {
 
     /// The host's side of the contract.
     pub fn host(&self, frames_in_flight: u32) -> Host<'_> {
-        Host {
-            instance: &self.instance,
-            physical_device: self.physical,
-            device: &self.device,
-            allocator: self.allocator.clone(),
-            queue_family: self.queue_family,
-            frames_in_flight,
-            enabled: self.enabled,
-            pipeline_cache: vk::PipelineCache::null(),
-        }
+        let (instance, device) = (&self.instance, &self.device);
+        Host::new(instance, self.physical, device, self.queue_family, frames_in_flight)
+            .with_allocator(self.allocator.clone())
+            .with_enabled(self.enabled)
     }
 
     /// Validation messages since the last call.
@@ -322,7 +319,8 @@ fn make_device(
         // What is no path of its own stays.
         enabled = Enabled {
             synchronization2: enabled.synchronization2,
-            storage_image_write_without_format: offer.api_version < vk::API_VERSION_1_3
+            storage_image_write_without_format: (options.vulkan_1_2
+                || offer.api_version < vk::API_VERSION_1_3)
                 && enabled.storage_image_write_without_format,
             ..Enabled::default()
         };

@@ -8,10 +8,10 @@
 
 use std::sync::Arc;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat4, Vec2, Vec3, Vec4};
-use gpu_allocator::MemoryLocation;
 
 use crate::check;
 use crate::context::Context;
@@ -89,8 +89,8 @@ pub enum Heights<'a> {
 pub struct MapMesh {
     /// Its triangles.
     pub triangles: Triangles,
-    /// To world space.
-    pub transform: Mat4,
+    /// To world space, four columns.
+    pub transform: [[f32; 4]; 4],
 }
 
 /// A step of the map, [`ShoreMap::record_step`]: only where something has changed.
@@ -508,7 +508,7 @@ impl ShoreMap {
                 ];
                 meshes.iter().try_for_each(|mesh| {
                     mesh.triangles.check(fields, &self.gpu.limits)?;
-                    if mesh.transform.is_finite() {
+                    if mesh.transform.as_flattened().iter().all(|v| v.is_finite()) {
                         return Ok(());
                     }
                     Err(Error::bad("MapMesh.transform", "not finite"))
@@ -620,7 +620,9 @@ impl Grid {
                 let stream = indices.map(|(stream, _)| stream);
                 let windows = Window::all(gpu, &positions, [&stream], 0);
                 let Some((positions, [indices])) = windows else { continue };
-                let row = |row: Vec4| (mesh.transform.transpose() * row).to_array();
+                let row = |row: Vec4| {
+                    (Mat4::from_cols_array_2d(&mesh.transform).transpose() * row).to_array()
+                };
                 let resources = [(0, positions.resource), (1, indices.resource)];
                 descriptors.bind(gpu, cmd, &self.pipelines.height, &resources)?;
                 let push = HeightPush {

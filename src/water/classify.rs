@@ -6,9 +6,9 @@
 //! a binding may be are in parts, each a hash table by itself, and each step goes through them one after the other.
 //! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::cull::{Window, capacity, each_once};
 use crate::contract::{Count, Step};

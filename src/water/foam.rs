@@ -20,9 +20,9 @@
 //! what of that layer the sun lights (of sprites: a mask is the pixels'), and of all times `d / (d + s)`, d from
 //! a spacing s behind the frontmost on.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::{self, SphereList};

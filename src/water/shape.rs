@@ -9,9 +9,9 @@
 //! Before `cull`, which goes over what this leaves in the place of the host's positions, once a frame: it does not know the view.
 //! Reads: positions. Writes: the grid, shaped.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::cull::{STREAM_USE, Window, buffers_of, most};
 use super::settings::{Ellipsoids, Kernels};

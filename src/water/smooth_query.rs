@@ -7,9 +7,9 @@
 //! on the gate; a skipped block costs its empty render passes only.
 //! Reads: smoothing images, plan, tile list. Writes: smoothing images, query results, predicates.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::reduce::rule_constant;

@@ -1,9 +1,9 @@
 //! What passes over the host's particles share: the binding of the streams they read, chunk by chunk,
 //! and for `foam`, `spray` and `noise` the sprites that such a pass lists and a draw or a dispatch reads.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::{self, LIST_USE, SphereList, Window};

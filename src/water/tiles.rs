@@ -5,9 +5,9 @@
 //! still work in iteration i are a prefix of the list, so that one counting sort writes all gates.
 //! Reads: each tile's work, levels. Writes: list, arguments.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::level::Atlas;

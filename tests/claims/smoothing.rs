@@ -325,7 +325,8 @@ fn wave(x: f32, y: f32) -> f32 {
 
 /// The surface by light that grazes it, as a screen shows it.
 fn shaded(surface: &Picture<f32>, camera: &Camera) -> Vec<[u8; 3]> {
-    let (projection, world) = (camera.projection.as_dmat4(), camera.view.as_dmat4().inverse());
+    let (projection, world) =
+        (camera.projection_matrix().as_dmat4(), camera.view_matrix().as_dmat4().inverse());
     let at = |x: usize, y: usize| {
         let (x, y) = (x.min(surface.width - 1), y.min(surface.height - 1));
         let ray = roughness::ray(&projection, surface, x, y);

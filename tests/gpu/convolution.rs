@@ -82,7 +82,8 @@ impl Map {
         let mut host = image.host_image();
         host.rect.offset = vk::Offset2D { x: 1, y: 2 };
         host.rect.extent = extent(w as u32, h as u32);
-        case.shot.sun.shadow = Some(Shadow::new(host, view_projection).with(|it| it.bias = bias));
+        case.shot.sun.shadow =
+            Some(Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = bias));
         Self { part, view_projection, bias, reversed, _image: image }
     }
 

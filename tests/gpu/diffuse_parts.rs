@@ -97,7 +97,7 @@ fn parts_of_any_size_make_the_picture_of_all() {
 fn packets_of_parts_make_the_same_picture() {
     let mut cloud = Cloud::new();
     // Along a line from the left, so that they begin and end beside the view, and one that is nowhere.
-    let right = cloud.camera.view.row(0).truncate();
+    let right = cloud.camera.view_matrix().row(0).truncate();
     let across = |p: [f32; 3]| right.dot(glam::Vec3::from(p));
     cloud.positions.sort_by(|a, b| across(*a).total_cmp(&across(*b)));
     for (i, position) in cloud.positions.iter_mut().enumerate() {

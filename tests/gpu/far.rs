@@ -44,7 +44,8 @@ fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
     let mut shot = Shot::new(SIZE, Lens::Infinite, 0.656 * SPACING, &[]);
     let square = SIZE.width as f32 / SIZE.height as f32;
     let projection = Mat4::perspective_infinite_rh(high.to_radians(), square, 0.1);
-    shot.camera.projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0)) * projection;
+    shot.camera.projection =
+        (Mat4::from_scale(vec3(1.0, -1.0, 1.0)) * projection).to_cols_array_2d();
     let points: Vec<_> =
         (0..count).map(|_| [random.between(-x, x), random.between(-y, y), depth]).collect();
     shot.positions = scenes::world(&shot.camera, &points);

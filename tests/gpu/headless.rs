@@ -195,7 +195,10 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
 
 /// The same camera a little to the side.
 fn beside(camera: &Camera) -> Camera {
-    Camera { view: Mat4::from_translation(Vec3::X * 0.3) * camera.view, ..*camera }
+    Camera {
+        view: (Mat4::from_translation(Vec3::X * 0.3) * camera.view_matrix()).to_cols_array_2d(),
+        ..*camera
+    }
 }
 
 /// For a camera that rests the scene is drawn once, and anew for whatever changes it.

@@ -529,10 +529,10 @@ pub fn scaled(shot: &Shot, scale: f32) -> Shot {
         *p = p.map(|x| x * scale);
     }
     // Depths are scaled, device depths stay as they are.
-    let mut view = shot.camera.view;
+    let mut view = shot.camera.view_matrix();
     view.w_axis = (view.w_axis.truncate() * scale).extend(1.0);
-    shot.camera.view = view;
-    shot.camera.projection.w_axis.z *= scale;
+    shot.camera.view = view.to_cols_array_2d();
+    shot.camera.projection[3][2] *= scale;
     shot.settings.water.spacing *= scale;
     if let Medium::Physical { absorption, scattering } = &mut shot.settings.water.medium {
         *absorption = absorption.map(|k| k / scale);

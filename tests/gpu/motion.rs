@@ -114,12 +114,12 @@ impl Moving {
 fn elsewhere(camera: &Camera) -> Camera {
     let turn = Quat::from_scaled_axis(Vec3::new(0.02, -0.03, 0.015));
     let moved = Mat4::from_rotation_translation(turn, Vec3::new(0.11, -0.07, 0.2));
-    let mut projection = camera.projection;
+    let mut projection = camera.projection_matrix();
     projection.x_axis.x *= 0.97;
     projection.y_axis.y *= 0.98;
     projection.z_axis.x += 0.01;
     projection.z_axis.y -= 0.007;
-    Camera { view: moved * camera.view, projection }
+    Camera::of(moved * camera.view_matrix(), projection)
 }
 
 fn of(drawn: &Drawn) -> &Image<[f32; 2]> {
@@ -228,7 +228,7 @@ fn strange_particles_move_as_the_twins() {
     let points = scenes::cloud(31, 160, 2.0, 9.0);
     let mut case = Moving::new(size, Lens::Reversed, &points, 10.0);
     // To the right, down and towards the eye: it was farther off.
-    let fast = |row: usize| case.shot.camera.view.row(row).truncate() * 1e9;
+    let fast = |row: usize| case.shot.camera.view_matrix().row(row).truncate() * 1e9;
     let fast = (fast(0) - fast(1) + fast(2)).to_array();
     let velocities = case.velocities.as_mut().expect("velocities");
     for (i, v) in velocities.iter_mut().enumerate() {
@@ -380,7 +380,7 @@ fn outlines_keep_both_sides() {
         let points = [drop.clone(), pool].concat();
         let mut case = Moving::new(size, Lens::Standard, &points, 0.0);
         // Across the view, as it lies in the world.
-        let right = case.shot.camera.view.row(0).truncate();
+        let right = case.shot.camera.view_matrix().row(0).truncate();
         let of_drop = (right * 6.0).to_array();
         let of_pool = (right * -4.0).to_array();
         let velocity = |i: usize| if i < drop.len() { of_drop } else { of_pool };
@@ -514,8 +514,8 @@ fn cuts_have_finite_vectors() {
             let mut case = Moving::new(size, lens, &points, 30.0);
             case.shot.scene_depth(|x, _| (x < 40).then_some(6.0));
             let moved = Mat4::from_translation(Vec3::new(0.0, 0.0, forward));
-            let view = moved * Mat4::from_rotation_y(angle) * case.shot.camera.view;
-            let camera = Camera { view, ..case.shot.camera };
+            let view = moved * Mat4::from_rotation_y(angle) * case.shot.camera.view_matrix();
+            let camera = Camera { view: view.to_cols_array_2d(), ..case.shot.camera };
             case.shot.previous = Some(Previous { camera, dt: 0.05 });
             let drawn = case.draw(&mut rig);
             assert!(of(&drawn).data.iter().flatten().all(|v| v.is_finite()), "{lens:?} {angle}");
@@ -535,7 +535,10 @@ fn vectors_find_the_frame_before() {
     let dt = 0.1_f32;
     let velocity = Vec3::new(1.5, -0.6, 1.0);
     let turn = Mat4::from_rotation_y(0.03) * Mat4::from_translation(Vec3::new(0.05, 0.02, 0.1));
-    let before = Camera { view: turn * case.shot.camera.view, ..case.shot.camera };
+    let before = Camera {
+        view: (turn * case.shot.camera.view_matrix()).to_cols_array_2d(),
+        ..case.shot.camera
+    };
     let mut first = case.clone();
     first.shot.camera = before;
     first.shot.previous = None;
@@ -598,9 +601,15 @@ fn bad_frames_before_are_errors() {
     let good = Moving::new(size, Lens::Standard, &points, 1.0).shot;
     let camera = good.previous.expect("one").camera;
     let with = |previous: Previous| Shot { previous: Some(previous), ..good.clone() };
-    let view = |view: Mat4| with(Previous { camera: Camera { view, ..camera }, dt: 0.1 });
-    let lens =
-        |projection: Mat4| with(Previous { camera: Camera { projection, ..camera }, dt: 0.1 });
+    let view = |view: Mat4| {
+        with(Previous { camera: Camera { view: view.to_cols_array_2d(), ..camera }, dt: 0.1 })
+    };
+    let lens = |projection: Mat4| {
+        with(Previous {
+            camera: Camera { projection: projection.to_cols_array_2d(), ..camera },
+            dt: 0.1,
+        })
+    };
     let flat = Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
     let cases = [
         (true, with(Previous { camera, dt: -0.1 }), "Frame.previous.dt"),

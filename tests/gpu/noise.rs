@@ -237,8 +237,8 @@ fn noise_moves_with_its_particles() {
     let mut moved = case.clone();
     let by = Vec3::new(3.25, -1.5, 2.75);
     moved.shot.positions.iter_mut().for_each(|p| *p = (Vec3::from(*p) + by).to_array());
-    let view = case.shot.camera.view * Mat4::from_translation(-by);
-    moved.shot.camera = Camera { view, ..case.shot.camera };
+    let view = case.shot.camera.view_matrix() * Mat4::from_translation(-by);
+    moved.shot.camera = Camera { view: view.to_cols_array_2d(), ..case.shot.camera };
     let second = moved.draw(&mut rig);
     // Both owe the bounds of both, where the surface is the same but for its roundings.
     moved.check("noise-moved", 1, &second);

@@ -25,11 +25,11 @@ fn draw(read_back: bool, test: impl FnOnce(&mut Headless)) {
         .flat_map(|x| (0..60).map(move |z| [0.1 * x as f32 - 2.0, 0.0, -0.1 * z as f32]))
         .collect();
     headless.particles(&positions, None).expect("particles");
-    let camera = Camera {
-        view: Mat4::look_at_rh(Vec3::new(0.0, 0.8, 1.0), Vec3::new(0.0, 0.0, -2.0), Vec3::Y),
-        projection: Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
+    let camera = Camera::of(
+        Mat4::look_at_rh(Vec3::new(0.0, 0.8, 1.0), Vec3::new(0.0, 0.0, -2.0), Vec3::Y),
+        Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
             * Mat4::perspective_infinite_reverse_rh(0.8, 97.0 / 61.0, 0.1),
-    };
+    );
     let mut settings = Settings::default();
     settings.water.spacing = 0.1;
     let background = Background::Color([0.3; 3]);

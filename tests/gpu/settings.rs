@@ -244,8 +244,10 @@ fn every_setting_of_the_shadow_filter_shows() {
     let view_projection = Mat4::orthographic_rh(-9.0, 9.0, -9.0, 9.0, 1.0, 40.0) * light;
     let map = Image::from_fn(64, 64, |x, y| if (x / 9 + y / 7) % 2 == 0 { 0.3 } else { 0.9 });
     let image = shadows(&rig, Shadows::Convolution(convolution), &map);
-    case.shot.sun.shadow =
-        Some(Shadow::new(image.host_image(), view_projection).with(|it| it.bias = 0.05));
+    case.shot.sun.shadow = Some(
+        Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+            .with(|it| it.bias = 0.05),
+    );
     let base = case.shot.settings.clone();
     let changes: [Change; 4] = [
         ("shadow.width", |s| s.shadow.width = 6.0),
@@ -371,7 +373,7 @@ fn every_setting_of_bubble_foam_shows() {
     blobs.extend((0..8).map(small).map(|(place, radius, id)| blob(place, radius, id)));
     shot.blobs = blobs;
     // The sun at the eye.
-    let eye = shot.camera.view.inverse().transform_point3(Vec3::ZERO);
+    let eye = shot.camera.view_matrix().inverse().transform_point3(Vec3::ZERO);
     let [x, y, z] = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
     shot.settings.light.direction = (eye - Vec3::new(x, y, z)).normalize().to_array();
     let base = shot.settings.clone();

@@ -520,7 +520,7 @@ fn headless_reports_a_lost_device() {
     let mut headless = Headless::new(device, &config(size)).expect("headless");
     let shot = water(size);
     headless.particles(&shot.positions, None).expect("particles");
-    for function in [&spy::QUEUE_SUBMIT2, &spy::WAIT_FOR_FENCES] {
+    for function in [&spy::QUEUE_SUBMIT, &spy::WAIT_FOR_FENCES] {
         spy::reset();
         function.fail(1, vk::Result::ERROR_DEVICE_LOST);
         let background = Background::Color([0.1, 0.2, 0.3]);

@@ -501,8 +501,10 @@ fn each_droplet_has_its_own_sun() {
         let map = Image::from_fn(96, 96, |x, y| f32::from(u8::from((x + y / 2) / 5 % 2 == 0)));
         let image = shadows(&rig, Shadows::Map, &map);
         case.shot.settings.light.direction = sun.to_array();
-        case.shot.sun.shadow =
-            Some(Shadow::new(image.host_image(), view_projection).with(|it| it.bias = 0.05));
+        case.shot.sun.shadow = Some(
+            Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+                .with(|it| it.bias = 0.05),
+        );
         let drawn = case.draw(&mut rig);
         let found = drawn.lit_spray.as_ref().expect("spray in the sun");
 

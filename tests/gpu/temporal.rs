@@ -173,16 +173,17 @@ impl Take {
         let mut case = block(self.pixels, self.layers);
         let shot = &mut case.shot;
         let pixel = shot.settings.water.spacing / self.pixels;
-        let [right, up] = [0, 1].map(|row| shot.camera.view.row(row).truncate());
+        let [right, up] = [0, 1].map(|row| shot.camera.view_matrix().row(row).truncate());
         let velocity = (right * self.by[0] - up * self.by[1]) * pixel / DT;
         let time = n as f32 * DT;
         shot.positions.iter_mut().for_each(|p| *p = (Vec3::from(*p) + velocity * time).to_array());
         let first = shot.camera;
         // It looks aside by a pixel and a half a frame, and goes nearer.
         let pan = |n: f32| Camera {
-            view: Mat4::from_translation(Vec3::new(0.0, 0.0, 0.01 * n))
+            view: (Mat4::from_translation(Vec3::new(0.0, 0.0, 0.01 * n))
                 * Mat4::from_rotation_y(0.014 * n)
-                * first.view,
+                * first.view_matrix())
+            .to_cols_array_2d(),
             ..first
         };
         let camera = |n: f32| if self.panned { pan(n) } else { first };

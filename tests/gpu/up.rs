@@ -72,7 +72,7 @@ impl World {
         let shot = &mut other.shot;
         let back =
             Mat4::from_mat3(glam::Mat3::from_cols(Vec3::X, Vec3::Z, Vec3::NEG_Y)).transpose();
-        shot.camera.view *= back;
+        shot.camera.view = (shot.camera.view_matrix() * back).to_cols_array_2d();
         shot.positions = all(&shot.positions);
         let quarter = Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
         for blob in &mut shot.blobs {

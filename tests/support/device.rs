@@ -196,7 +196,7 @@ impl Gpu {
         Device::host(self, frames_in_flight).with(|it| {
             it.instance = self.claims.as_ref().unwrap_or(&self.instance);
             it.device = &self.functions;
-            it.allocator = self.allocator.clone();
+            it.allocator = Some(self.allocator.clone());
         })
     }
 

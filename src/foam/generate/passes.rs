@@ -1,8 +1,8 @@
 //! Passes of a step: `grid`, `potentials`, `crest`, `advance`, `emit`; of a snapshot `trace` in place of `advance`.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::settings::{GenerateConfig, Limits};
 use crate::contract::{Access, Count, GenerateStep};

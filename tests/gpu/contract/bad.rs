@@ -87,20 +87,20 @@ fn spoils() -> Vec<Spoil> {
             let buffer = g.frame.particles.positions.buffer;
             g.frame.particles.packets = Some(Packets { buffer, offset: 0, count: 65_536 });
         }),
-        ("view", "Frame.camera.view", |g| g.frame.camera.view = glam::Mat4::ZERO),
-        ("view of NaN", "Frame.camera.view", |g| g.frame.camera.view.x_axis.y = f32::NAN),
+        ("view", "Frame.camera.view", |g| g.frame.camera.view = [[0.0; 4]; 4]),
+        ("view of NaN", "Frame.camera.view", |g| g.frame.camera.view[0][1] = f32::NAN),
         ("no projection", "Frame.camera.projection", |g| {
-            g.frame.camera.projection = glam::Mat4::ZERO;
+            g.frame.camera.projection = [[0.0; 4]; 4];
         }),
         ("infinite projection", "Frame.camera.projection", |g| {
-            g.frame.camera.projection.x_axis.x = f32::INFINITY;
+            g.frame.camera.projection[0][0] = f32::INFINITY;
         }),
         ("orthographic", "Frame.camera.projection", |g| {
             g.frame.camera.projection =
-                glam::Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
+                glam::Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0).to_cols_array_2d();
         }),
         ("flat projection", "Frame.camera.projection", |g| {
-            g.frame.camera.projection.y_axis.y = 0.0;
+            g.frame.camera.projection[1][1] = 0.0;
         }),
         ("spacing", "Settings.water.spacing", |g| g.settings.water.spacing = 0.0),
         ("spacing of NaN", "Settings.water.spacing", |g| g.settings.water.spacing = f32::NAN),
@@ -192,7 +192,7 @@ fn spoils() -> Vec<Spoil> {
 
 /// The scene's depth as it were the light's.
 fn shadow(frame: &Frame<'_>) -> Shadow {
-    Shadow::new(frame.scene_depth, glam::Mat4::IDENTITY).with(|it| it.bias = 0.0)
+    Shadow::new(frame.scene_depth, glam::Mat4::IDENTITY.to_cols_array_2d())
 }
 
 /// The sun's way where the configuration has it.
@@ -211,7 +211,7 @@ fn sunny_spoils() -> Vec<Spoil> {
         ("center", "Frame.sun.region", |g| region_of(g).center[1] = f32::INFINITY),
         ("bias", "Frame.sun.shadow.bias", |g| shadow_of(g).bias = f32::NAN),
         ("matrix", "Frame.sun.shadow.view_projection", |g| {
-            shadow_of(g).view_projection = glam::Mat4::ZERO;
+            shadow_of(g).view_projection = [[0.0; 4]; 4];
         }),
         ("part", "HostImage.rect", |g| shadow_of(g).image.rect.offset.x = 1),
         ("lost shadow", "Frame.sun.shadow.image.before", |g| {
@@ -241,8 +241,7 @@ fn bad_frames_in_the_sun(kind: Shadows) {
     shot.sun.region = Some(Region { center: [0.0; 3], radius: 4.0 });
     let ((color, depth), (_, map)) = (rig.scene(&shot), rig.scene(&shot));
     let cloud = rig.particles(&shot);
-    shot.sun.shadow =
-        Some(Shadow::new(map.host_image(), glam::Mat4::IDENTITY).with(|it| it.bias = 0.0));
+    shot.sun.shadow = Some(Shadow::new(map.host_image(), glam::Mat4::IDENTITY.to_cols_array_2d()));
     let cmd = rig.stub.begin(0);
     let good = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     for (name, field, spoil) in sunny_spoils() {

@@ -247,8 +247,9 @@ fn pixels_may_be_far_from_square() {
         let mut rig = Rig::lit(&gpu, &by(way, SIZE), 1);
         for stretch in [vec3(0.15, 1.0, 1.0), vec3(1.0, 0.15, 1.0)] {
             let mut cloud = Diffuse::new(Lens::Standard);
-            let projection = &mut cloud.shot.camera.projection;
-            *projection = Mat4::from_scale(stretch) * *projection;
+            let camera = &mut cloud.shot.camera;
+            camera.projection =
+                (Mat4::from_scale(stretch) * camera.projection_matrix()).to_cols_array_2d();
             foam_is_the_twins_of(&mut rig, &cloud, &format!("{stretch}"), 0);
         }
     }
@@ -409,7 +410,7 @@ fn fast_shadow_does_not_change_with_the_distance() {
         // Of foam itself nothing hides.
         look.half = 1.0e6;
         // One in the middle of each pixel, its front at the wall.
-        let (depth, scale) = (depth + 0.95 * radius, cloud.shot.camera.projection);
+        let (depth, scale) = (depth + 0.95 * radius, cloud.shot.camera.projection_matrix());
         let middle = |i: u32, n: u32, scale: f32| ((2 * i + 1) as f32 / n as f32 - 1.0) / scale;
         let points: Vec<_> = (0..SIZE.width * SIZE.height)
             .map(|i| (i % SIZE.width, i / SIZE.width))

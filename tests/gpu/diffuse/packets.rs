@@ -55,7 +55,7 @@ fn draw(rig: &mut Rig<'_>, cloud: &Diffuse, packets: &[u8]) -> Drawn {
 fn around(lens: Lens) -> Diffuse {
     let mut cloud = Diffuse::new(lens);
     let n = cloud.positions.len();
-    let camera = cloud.shot.camera.view.inverse();
+    let camera = cloud.shot.camera.view_matrix().inverse();
     let side = |v: [f32; 3], offset: [f32; 3]| {
         let moved = camera.transform_vector3(glam::Vec3::from(offset));
         (glam::Vec3::from(v) + moved).to_array()
@@ -141,7 +141,7 @@ fn particles_are_where_their_packets_are() {
         let found = draw(&mut rig, &cloud, &half);
         compare::same_color("diffuse-packets-half", &found.output, &expected.output);
         for offset in [[0.0, 0.0, 60.0], [200.0, 0.0, 0.0], [0.0, -200.0, 0.0], [f32::NAN; 3]] {
-            let moved = cloud.shot.camera.view.inverse().transform_vector3(offset.into());
+            let moved = cloud.shot.camera.view_matrix().inverse().transform_vector3(offset.into());
             let beside: Vec<_> =
                 cloud.positions.iter().map(|p| (glam::Vec3::from(*p) + moved).to_array()).collect();
             let beside = boxes(&beside, radii, &[(n / 2, n - n / 2)]);

@@ -48,7 +48,7 @@ fn the_frontmost_of_equals_is_the_same() {
     let gpu = Gpu::shared();
     let mut cloud = Diffuse::new(Lens::Standard);
     cloud.shot = Shot::new(SIZE, Lens::Standard, 0.2, &[]);
-    let (depth, scale) = (6.0_f32, cloud.shot.camera.projection);
+    let (depth, scale) = (6.0_f32, cloud.shot.camera.projection_matrix());
     let middle = |i: u32, n: u32, scale: f32| ((2 * i + 1) as f32 / n as f32 - 1.0) / scale;
     let radius = 1.5 * depth / (0.5 * SIZE.height as f32) / scale.y_axis.y.abs();
     let grid = || {
@@ -100,7 +100,7 @@ fn more_large_ones_than_there_is_room_for() {
     let n = points.len();
     cloud.positions = scenes::world(&cloud.shot.camera, &points);
     // At the depth of the farthest 18 pixels wide and more.
-    let scale = cloud.shot.camera.projection.y_axis.y.abs() * 0.5 * SIZE.height as f32;
+    let scale = cloud.shot.camera.projection_matrix().y_axis.y.abs() * 0.5 * SIZE.height as f32;
     cloud.radii = Some(vec![5.0 * 9.0 * 6.0 / scale; n]);
     (cloud.kinds, cloud.ages, cloud.ids) = (vec![0; n], vec![0.0; n], Some(vec![4; n]));
     let range = u64::from(gpu.limits().max_storage_buffer_range);

@@ -85,8 +85,9 @@ fn water_in_the_scenes_shade_bends_no_light() {
             });
             let image = shadows(&rig, Shadows::Map, &texels);
             let host = image.host_image();
-            case.shot.sun.shadow =
-                Some(Shadow::new(host, view_projection).with(|it| it.bias = 0.05));
+            case.shot.sun.shadow = Some(
+                Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = 0.05),
+            );
             let map = ShadowMap {
                 depth: &texels,
                 view_projection: view_projection.as_dmat4(),

@@ -179,8 +179,10 @@ fn the_lit_scene_is_past_the_scene() {
         let texels = Image::from_fn(8, 8, |x, y| ((x * 5 + y * 3) % 7) as f32 / 6.0);
         let image = shadows(&rig, kind, &texels);
         let bias = 0.05;
-        case.shot.sun.shadow =
-            Some(Shadow::new(image.host_image(), view_projection).with(|it| it.bias = bias));
+        case.shot.sun.shadow = Some(
+            Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+                .with(|it| it.bias = bias),
+        );
         let drawn = case.draw(&mut rig);
         let map = ShadowMap {
             depth: &texels,

@@ -40,7 +40,7 @@ pub fn shadows(rig: &Rig<'_>, kind: Shadows, texels: &Image<f32>) -> Texture {
 /// A mask that is the same all over.
 pub fn even(rig: &Rig<'_>, sun: f32) -> (Texture, Shadow) {
     let image = shadows(rig, Shadows::Mask, &Image::new(3, 2, sun));
-    let shadow = Shadow::new(image.host_image(), Mat4::ZERO).with(|it| it.bias = 0.0);
+    let shadow = Shadow::new(image.host_image(), Mat4::ZERO.to_cols_array_2d());
     (image, shadow)
 }
 
@@ -147,7 +147,8 @@ fn foam_is_in_the_shade_of_a_mask() {
             let mut host = image.host_image();
             host.rect.offset = vk::Offset2D { x: 2, y: 1 };
             host.rect.extent = extent(width as u32, height as u32);
-            case.shot.sun.shadow = Some(Shadow::new(host, Mat4::NAN).with(|it| it.bias = f32::NAN));
+            case.shot.sun.shadow =
+                Some(Shadow::new(host, Mat4::NAN.to_cols_array_2d()).with(|it| it.bias = f32::NAN));
             let drawn = case.draw(&mut rig);
             check_foam(&format!("mask-{composite:?}-{width}"), &case, &drawn, None, |(x, y)| {
                 let part = |i: usize, texels: usize, pixels: u32| {
@@ -206,8 +207,9 @@ fn foam_is_in_the_shade_of_a_map() {
             let mut host = image.host_image();
             host.rect.offset = vk::Offset2D { x: 1, y: 2 };
             host.rect.extent = extent(21, 14);
-            case.shot.sun.shadow =
-                Some(Shadow::new(host, view_projection).with(|it| it.bias = bias));
+            case.shot.sun.shadow = Some(
+                Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = bias),
+            );
             let part = Image::from_fn(21, 14, |x, y| texels.at(x + 1, y + 2));
             let map = ShadowMap {
                 depth: &part,
@@ -243,7 +245,7 @@ fn foam_is_in_its_own_shade() {
         let mut case = wall(Lens::Standard);
         let texels = Image::from_vec(2, 1, vec![0.25, 1.0]).expect("two");
         let image = shadows(&rig, Shadows::Mask, &texels);
-        let none = Shadow::new(image.host_image(), Mat4::ZERO).with(|it| it.bias = 0.0);
+        let none = Shadow::new(image.host_image(), Mat4::ZERO.to_cols_array_2d());
         case.shot.sun.shadow = shadow.map(|_| none);
         // A lump between the wall and the sun, which is to the left of the view.
         let (at, from) = ([0.2, 0.0, 2.0], [-1.8, 0.6, 1.2]);

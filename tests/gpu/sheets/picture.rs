@@ -31,7 +31,7 @@ fn slabs(size: vk::Extent2D) -> Shot {
     points.extend(slanted.into_iter().map(|[x, y, z]| [x, y, z + 0.3 * x]));
     let mut shot = shot_of(size, Lens::Standard, &points);
     let view = Mat4::look_to_rh(Vec3::new(1.0, 9.0, 2.0), Vec3::NEG_Y, Vec3::NEG_Z);
-    shot.camera = Camera { view, ..shot.camera };
+    shot.camera = Camera { view: view.to_cols_array_2d(), ..shot.camera };
     shot.positions = scenes::world(&shot.camera, &points);
     shot.settings.water.specular = 0.0;
     shot

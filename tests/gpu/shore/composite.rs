@@ -278,9 +278,11 @@ fn foam_in_the_shade_is_darker() {
         *color = [if i % 96 < 48 { 0.0 } else { (i % 96) as f32 / 96.0 }, 0.0, 0.0, 0.0];
     }
     let (image, _depth) = rig.scene(&shade);
-    let view_projection = shot.camera.projection * shot.camera.view;
-    shot.sun.shadow =
-        Some(Shadow::new(image.host_image(), view_projection).with(|it| it.bias = 0.1));
+    let view_projection = shot.camera.projection_matrix() * shot.camera.view_matrix();
+    shot.sun.shadow = Some(
+        Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+            .with(|it| it.bias = 0.1),
+    );
     let drawn = rig.draw(&shot);
     let shore = drawn.shore.as_ref().expect("foam");
     let mut seen = 0;

@@ -165,7 +165,7 @@ impl Mesh {
             vertices,
             indices: Some((stream(&self.indices, 0, 4), indices)),
         };
-        MapMesh { triangles, transform }
+        MapMesh { triangles, transform: transform.to_cols_array_2d() }
     }
 }
 

@@ -86,7 +86,8 @@ fn foam_is_in_the_shade_of_a_map() {
         let mut shot = base.clone();
         shot.settings.light.direction = sun.to_array();
         let host = image.host_image();
-        shot.sun.shadow = Some(Shadow::new(host, light).with(|it| it.bias = 0.1));
+        shot.sun.shadow =
+            Some(Shadow::new(host, light.to_cols_array_2d()).with(|it| it.bias = 0.1));
         // With a strip nothing but that: of a texel that has both one of them says what the light is.
         let is_strip = name == "strip";
         let surface = base.shore.and_then(|shore| shore.surface).filter(|_| !is_strip);
@@ -134,7 +135,7 @@ fn foam_on_particles_and_behind_them_has_its_own_light() {
     let mut shot = shot(&coasts, &points);
     let contact = &mut shot.settings.shore.contact;
     (contact.particle_depth, contact.particle_opacity) = (Some(80.0), 0.9);
-    let eye = shot.camera.view;
+    let eye = shot.camera.view_matrix();
     let along = eye.inverse().transform_vector3(Vec3::NEG_Z);
     let lens = Mat4::orthographic_rh(-90.0, 90.0, -90.0, 90.0, 0.0, 100.0);
     let back = Mat4::look_to_rh(Vec3::new(0.0, 0.0, -100.0), Vec3::Z, Vec3::Y);
@@ -152,7 +153,7 @@ fn foam_on_particles_and_behind_them_has_its_own_light() {
             let image = shadows(&rig, Shadows::Map, &Image::new(2, 2, depth));
             shot.settings.light.direction = sun.to_array();
             shot.sun.shadow =
-                Some(Shadow::new(image.host_image(), view_projection).with(|it| it.bias = 0.0));
+                Some(Shadow::new(image.host_image(), view_projection.to_cols_array_2d()));
             let found = rig.draw(&shot);
             let mut none = shot.clone();
             none.settings.shore.contact.particle_opacity = 0.0;

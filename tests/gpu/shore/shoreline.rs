@@ -247,7 +247,8 @@ fn both_pipelines_draw_the_same() {
     coasts.image_step(&AREA, &heights(&AREA, 64, |at| 0.4 * (at.x - 7.0)), None);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
-    shot.camera.view = Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z);
+    shot.camera.view =
+        Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z).to_cols_array_2d();
     let mut look = plain();
     let s = &mut look.shoreline;
     for noise in [
@@ -460,8 +461,8 @@ fn a_shaped_surface_s_foam_is_the_twin_s() {
 fn turned(shot: &Shot, up: DVec3) -> (Shot, glam::DQuat) {
     let turn = glam::DQuat::from_rotation_arc(DVec3::Y, up);
     let mut other = shot.clone();
-    let view = shot.camera.view.as_dmat4() * glam::DMat4::from_quat(turn.inverse());
-    other.camera.view = view.as_mat4();
+    let view = shot.camera.view_matrix().as_dmat4() * glam::DMat4::from_quat(turn.inverse());
+    other.camera.view = view.as_mat4().to_cols_array_2d();
     (other, turn)
 }
 

@@ -52,7 +52,7 @@ fn slopes_are_turned_with_the_web() {
     for layers in [1, 3] {
         let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
         let (eye, along) = (Vec3::new(4.0, 0.7, 9.0), Vec3::new(0.3, -0.3, -1.0));
-        shot.camera.view = Mat4::look_to_rh(eye, along, Vec3::Y);
+        shot.camera.view = Mat4::look_to_rh(eye, along, Vec3::Y).to_cols_array_2d();
         let shoreline = Some(Shoreline::Map(coasts.coast()));
         shot.shore = Some(Shore::new(area.level).with(|it| it.shoreline = shoreline));
         shot.settings.shore = look(layers);

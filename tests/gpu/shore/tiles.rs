@@ -53,10 +53,11 @@ fn no_tile_with_foam_is_left_out() {
             let measure = if view == "from below" { Measure::View } else { measure };
             let name = format!("{view}, {lens:?}, {measure:?}");
             let mut shot = Shot::new(size, lens, 0.1, &[]);
-            shot.camera.view = match lens {
+            shot.camera.view = (match lens {
                 Lens::LeftHanded => Mat4::look_to_lh(eye, along, up),
                 _ => Mat4::look_to_rh(eye, along, up),
-            };
+            })
+            .to_cols_array_2d();
             let mut look = plain();
             look.contact = look.contact.with(|it| {
                 it.depth = 0.4;

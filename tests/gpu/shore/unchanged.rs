@@ -79,8 +79,7 @@ fn headless(config: &Config) -> Vec<[f32; 4]> {
     let points = scenes::block(3, 0.2, [12, 4, 12], [-1.2, -1.0, -1.2]);
     headless.particles(&points, None).expect("particles");
     let eye = Mat4::look_at_rh([2.0, 3.0, 4.0].into(), [0.0; 3].into(), [0.0, 1.0, 0.0].into());
-    let camera =
-        Camera { view: eye, projection: projection(Lens::ReversedInfinite, config.extent) };
+    let camera = Camera::of(eye, projection(Lens::ReversedInfinite, config.extent));
     let mut settings = scenes::settings(0.13).with(|it| it.shore = look());
     settings.shore.contact.particle_opacity = 1.0;
     headless.render(&camera, &settings, &Background::Scene).expect("a frame");

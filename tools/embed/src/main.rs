@@ -90,15 +90,10 @@ pub fn draw(
     let (picture, picture_memory) =
         gpu.buffer(picture_size, vk::BufferUsageFlags::TRANSFER_DST, MemoryLocation::GpuToCpu)?;
 
-    let host = Host::new(
-        &gpu.instance,
-        gpu.physical_device,
-        device,
-        gpu.allocator.clone(),
-        gpu.queue_family,
-        FRAMES_IN_FLIGHT,
-    )
-    .with_enabled(gpu.enabled);
+    let host =
+        Host::new(&gpu.instance, gpu.physical_device, device, gpu.queue_family, FRAMES_IN_FLIGHT)
+            .with_allocator(gpu.allocator.clone())
+            .with_enabled(gpu.enabled);
     // SAFETY: the handles belong together and outlive context and renderer; `enabled` is the truth.
     let context = unsafe { Context::new(&host)? };
     let mut water = Renderer::new(&context, &config)?;
@@ -152,8 +147,8 @@ pub fn draw(
         let projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0))
             * Mat4::perspective_infinite_reverse_rh(0.6, aspect, 0.1);
         let view = Mat4::look_at_rh(vec3(1.2 - 2.0 * time, 1.9, 1.8), vec3(0.0, 0.1, 0.0), Vec3::Y);
-        let frame =
-            Frame::new(slot, color, depth, particles, Camera { view, projection }, &settings);
+        let camera = Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d());
+        let frame = Frame::new(slot, color, depth, particles, camera, &settings);
 
         // SAFETY: cmd is recording outside a render pass; what it uses lives until the fence.
         unsafe {

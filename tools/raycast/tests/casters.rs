@@ -500,7 +500,7 @@ fn bad_input_is_an_error() {
     let input = Input { foam: &foam, radius: 0.1, camera: &camera, size: [8, 8], scene: &scene };
     let settings = Settings::default();
     let short = Foam { ages: vec![0.0; 9], ..foam.clone() };
-    let flat = whitewater::Camera { projection: glam::Mat4::IDENTITY, ..camera };
+    let flat = whitewater::Camera { projection: glam::Mat4::IDENTITY.to_cols_array_2d(), ..camera };
     let depths = SceneDepth::Depths(vec![EMPTY; 63]);
     for (name, input, settings) in [
         ("Settings.step", input, Settings { step: f32::NAN, ..settings }),

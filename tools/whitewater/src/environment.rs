@@ -388,7 +388,7 @@ mod tests {
         let projection = Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
             * Mat4::perspective_rh(0.2, 1.0, 1.0, 100.0);
         let view = Mat4::look_to_rh(Vec3::new(0.0, 10.0, 0.0), Vec3::NEG_Y, Vec3::Z);
-        let camera = Camera { view, projection };
+        let camera = Camera::of(view, projection);
         headless.render(&camera, &Settings::default(), &Background::Scene).unwrap();
         let drawn = headless.color().unwrap();
         let sum: Vec3 = drawn.data.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).sum();
@@ -519,7 +519,7 @@ mod tests {
             ] {
                 // The one particle, at the origin, is behind.
                 let view = Mat4::look_to_rh(100.0 * (axis + Vec3::Y), axis, up);
-                let camera = Camera { view, projection };
+                let camera = Camera::of(view, projection);
                 headless.render(&camera, &Settings::default(), &Background::Scene).unwrap();
                 let drawn = headless.color().unwrap();
                 for (i, &[r, g, b, _]) in drawn.data.iter().enumerate() {

@@ -725,7 +725,7 @@ fn look(
     });
     let mut environment = environment;
     let set = args.set.unwrap_or_default();
-    let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
+    let view = camera.at_frame(probes.first).camera(args.draw.size)?.view_matrix();
     let eye = view.inverse().transform_point3(Vec3::ZERO);
     let mut sun = None;
     let mut scene = match &args.scene {

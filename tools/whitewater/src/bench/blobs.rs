@@ -99,10 +99,10 @@ fn sample(
     let aspect = extent.width as f32 / extent.height as f32;
     let fov = 36.0_f32.to_radians();
     let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));
-    let camera = Camera {
-        view: Mat4::look_at_rh(eye.into(), target.into(), Vec3::Y),
-        projection: flip * Mat4::perspective_infinite_reverse_rh(fov, aspect, 0.05),
-    };
+    let camera = Camera::of(
+        Mat4::look_at_rh(eye.into(), target.into(), Vec3::Y),
+        flip * Mat4::perspective_infinite_reverse_rh(fov, aspect, 0.05),
+    );
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
     let count = blobs.blobs.len() as u32;

@@ -195,7 +195,8 @@ fn sample(
     let aspect = extent.width as f32 / extent.height as f32;
     let from = |distance| sea.camera_from(distance, aspect);
     let mut camera = args.away.map_or_else(|| sea.camera(aspect), from);
-    camera.view = Mat4::from_rotation_y(-args.turned.to_radians()) * camera.view;
+    camera.view = (Mat4::from_rotation_y(-args.turned.to_radians()) * camera.view_matrix())
+        .to_cols_array_2d();
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
     let depth = headless.layer("foam")?;
