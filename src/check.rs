@@ -325,7 +325,7 @@ fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
         (Some(_), None) => return bad("Frame.sun.shadow", "none, but Config.shadow asks for it"),
         (None, Some(_)) => return bad("Frame.sun.shadow", "given, but Config.shadow is None"),
         (Some(Shadows::Map | Shadows::Convolution(_)), Some(shadow)) => {
-            let clip = &shadow.view_projection;
+            let clip = shadow.clip();
             if !clip.is_finite() || clip.determinant().abs() < 1e-30 {
                 return bad("Frame.sun.shadow.view_projection", "not finite, or singular");
             }

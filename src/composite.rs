@@ -317,7 +317,7 @@ impl Composite {
                     unsafe {
                         if i > 0 || coat.is_some() {
                             // The dispatches write disjoint tiles; this barrier only silences synchronization validation.
-                            gpu.device.cmd_pipeline_barrier2(cmd, &written);
+                            gpu.dependency(cmd, &written);
                         }
                         gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);
                     }

@@ -4,14 +4,16 @@
 
 use std::collections::HashMap;
 use std::hash::Hash;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
-use gpu_allocator::vulkan::Allocator;
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use crate::contract::{Enabled, Host};
 use crate::error::{Error, VkContext};
+use crate::gpu::access::Synchronization;
 use crate::gpu::loaded;
+use crate::gpu::memory::Allocate;
 use crate::gpu::pass::Attachments;
 use crate::gpu::pipeline::{self, Made};
 use crate::gpu::requirements::Offer;
@@ -59,6 +61,24 @@ impl Context {
     }
 }
 
+/// One for a host that hands none in.
+fn own_allocator(host: &Host<'_>) -> Result<Arc<dyn Allocate>, Error> {
+    let made = Allocator::new(&AllocatorCreateDesc {
+        instance: host.instance.clone(),
+        device: host.device.clone(),
+        physical_device: host.physical_device,
+        debug_settings: Default::default(),
+        buffer_device_address: false,
+        allocation_sizes: Default::default(),
+    });
+    match made {
+        Ok(allocator) => Ok(Arc::new(Mutex::new(allocator))),
+        Err(source) => {
+            Err(Error::Allocation { name: "the context".into(), source: Box::new(source) })
+        }
+    }
+}
+
 fn check_slots(slots: u32) -> Result<(), Error> {
     if (1..=8).contains(&slots) {
         return Ok(());
@@ -93,6 +113,8 @@ pub struct Shared {
     pub timestamp_bits: u32,
     /// R32G32_SFLOAT can be a blended colour attachment: most devices can, none has to.
     pub blends_pairs: bool,
+    /// Barriers and timestamps as the device takes them.
+    pub synchronization: Synchronization,
     /// Conditional rendering, when enabled.
     pub conditional: Option<ash::ext::conditional_rendering::Device>,
     /// Names and labels, when enabled.
@@ -107,12 +129,12 @@ pub struct Shared {
     pub passes: Store<(String, Attachments), vk::RenderPass>,
     instance: ash::Instance,
     physical_device: vk::PhysicalDevice,
-    allocator: Arc<Mutex<Allocator>>,
+    allocator: Arc<dyn Allocate>,
 }
 
 impl Shared {
     fn new(host: &Host<'_>) -> Result<Self, Error> {
-        loaded::check(host)?;
+        let synchronization = loaded::check(host)?;
         // SAFETY: the host guarantees that its handles are alive and belong together.
         let (properties, families, pairs) = unsafe {
             let (instance, physical) = (host.instance, host.physical_device);
@@ -124,8 +146,14 @@ impl Shared {
             )
         };
         let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
-        let mut maintenance = vk::PhysicalDeviceMaintenance4Properties::default();
-        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut maintenance);
+        // The fourth is of Vulkan 1.3; older devices say how much memory one allocation has, and a buffer is one.
+        let newer = loaded::is_1_3(host.device);
+        let mut third = vk::PhysicalDeviceMaintenance3Properties::default();
+        let mut fourth = vk::PhysicalDeviceMaintenance4Properties::default();
+        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut third);
+        if newer {
+            chain = chain.push_next(&mut fourth);
+        }
         // SAFETY: as above; the chain is well formed.
         unsafe {
             host.instance.get_physical_device_properties2(host.physical_device, &mut chain);
@@ -143,14 +171,22 @@ impl Shared {
                 format!("needs graphics and compute, has {:?}", family.queue_flags),
             ));
         }
+        let allocator = match &host.allocator {
+            Some(allocator) => allocator.clone(),
+            None => own_allocator(host)?,
+        };
         let mut shared = Self {
             device: host.device.clone(),
             enabled: host.enabled,
             limits: properties.limits,
-            max_buffer_size: maintenance.max_buffer_size,
+            max_buffer_size: match newer {
+                true => fourth.max_buffer_size,
+                false => third.max_memory_allocation_size,
+            },
             kind: properties.device_type,
             timestamp_bits: family.timestamp_valid_bits,
             blends_pairs: pairs.optimal_tiling_features.contains(blended),
+            synchronization,
             conditional: host
                 .enabled
                 .conditional_rendering
@@ -165,7 +201,7 @@ impl Shared {
             passes: Store::default(),
             instance: host.instance.clone(),
             physical_device: host.physical_device,
-            allocator: host.allocator.clone(),
+            allocator,
         };
         // What was made before a failure goes with `shared`.
         shared.make_samplers()?;
@@ -199,15 +235,18 @@ impl Shared {
         Ok(())
     }
 
-    /// What the device supports, for an output format.
+    /// What the device supports for an output format, as the host created it.
     pub fn offer(&self, output: vk::Format) -> Offer {
-        Offer::of(&self.instance, self.physical_device, output)
+        let offer = Offer::of(&self.instance, self.physical_device, output);
+        match loaded::is_1_3(&self.device) {
+            true => offer,
+            false => offer.before_1_3(&self.enabled),
+        }
     }
 
-    /// The host's allocator. A poisoned lock is taken all the same: the allocator's own state is
-    /// not ours to judge.
-    pub fn lock_allocator(&self) -> MutexGuard<'_, Allocator> {
-        self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Where memory comes from.
+    pub fn allocator(&self) -> &dyn Allocate {
+        &*self.allocator
     }
 
     /// Names an object for debuggers and validation messages.

@@ -5,12 +5,11 @@
 //!
 //! `check` validates a frame, `frame` derives numbers from it.
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat4, Vec3, Vec4};
-use gpu_allocator::vulkan::Allocator;
 
 use crate::bubbles::settings::{BubbleConfig, BubbleLook};
 use crate::error::Error;
@@ -18,25 +17,63 @@ use crate::foam::generate::settings::GenerateSettings;
 use crate::foam::settings::{DiffuseConfig, DiffuseLook};
 use crate::frame::level_axes;
 pub use crate::gpu::access::Access;
+use crate::gpu::memory::Allocate;
 use crate::shore::settings::{ShoreConfig, ShoreLook};
 use crate::water::settings::{
     Exit, FoamLook, FoamSettings, Kernels, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows,
     Smoothing, Splat, SprayLook, WaterSettings,
 };
 
+/// `value.with(|it| it.field = ..)`, for structs that grow.
+macro_rules! with {
+    ($($name:ty),+ $(,)?) => {$(
+        impl $name {
+            /// The same value after a change: what struct-update syntax does where a struct may grow.
+            /// `Config::new(..).with(|it| it.foam = true)`.
+            #[must_use]
+            pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+                change(&mut self);
+                self
+            }
+        }
+    )+};
+}
+pub(crate) use with;
+
+with!(
+    Host<'_>,
+    Enabled,
+    Config,
+    HostImage,
+    Particles,
+    DiffuseParticles,
+    Blobs,
+    Shore,
+    Step<'_>,
+    GenerateStep<'_>,
+    Sun,
+    Shadow,
+    Frame<'_>,
+    Settings,
+    Light,
+);
+
 /// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All have to outlive the context and
 /// everything that is made from it. The library owns none of them.
+#[non_exhaustive]
 pub struct Host<'a> {
     /// The instance.
     pub instance: &'a ash::Instance,
     /// The physical device.
     pub physical_device: vk::PhysicalDevice,
-    /// A Vulkan 1.3 device that meets [`requirements`](crate::requirements).
+    /// A device of Vulkan 1.2 or newer that meets [`requirements`](crate::requirements); its instance was created for
+    /// that version too.
     pub device: &'a ash::Device,
-    /// Shared allocator. It is locked only in construction, `reconfigure`, `resize`, `collect` and `destroy`.
-    /// It has to be dropped before the device is destroyed. `Host` and the context hold references to it: drop
-    /// them first, after everything made from the context is destroyed.
-    pub allocator: Arc<Mutex<Allocator>>,
+    /// Source of memory; called only in construction, `reconfigure`, `resize`, `collect` and `destroy`. `Host` and
+    /// the context hold references to it: an allocator that must be dropped before the device can be dropped
+    /// after these, once everything made from the context is destroyed. `None`: the context creates an
+    /// allocator of its own and drops it with itself.
+    pub allocator: Option<Arc<dyn Allocate>>,
     /// A queue family with graphics and compute. Every command buffer handed in belongs to it.
     pub queue_family: u32,
     /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
@@ -47,10 +84,59 @@ pub struct Host<'a> {
     pub pipeline_cache: vk::PipelineCache,
 }
 
+impl<'a> Host<'a> {
+    /// A host that enabled no optional feature ([`with_enabled`](Self::with_enabled)), leaves memory to the library
+    /// ([`with_allocator`](Self::with_allocator)) and has no pipeline cache
+    /// ([`with_pipeline_cache`](Self::with_pipeline_cache)).
+    pub fn new(
+        instance: &'a ash::Instance,
+        physical_device: vk::PhysicalDevice,
+        device: &'a ash::Device,
+        queue_family: u32,
+        frames_in_flight: u32,
+    ) -> Self {
+        Self {
+            instance,
+            physical_device,
+            device,
+            allocator: None,
+            queue_family,
+            frames_in_flight,
+            enabled: Enabled::default(),
+            pipeline_cache: vk::PipelineCache::null(),
+        }
+    }
+
+    /// With what of the optional features and extensions is really enabled.
+    #[must_use]
+    pub fn with_enabled(self, enabled: Enabled) -> Self {
+        Self { enabled, ..self }
+    }
+
+    /// With an allocator of the host's: an `Arc` of what implements [`Allocate`].
+    #[must_use]
+    pub fn with_allocator(self, allocator: Arc<dyn Allocate>) -> Self {
+        Self { allocator: Some(allocator), ..self }
+    }
+
+    /// With a pipeline cache of the device.
+    #[must_use]
+    pub fn with_pipeline_cache(self, pipeline_cache: vk::PipelineCache) -> Self {
+        Self { pipeline_cache, ..self }
+    }
+}
+
 /// Optional features and extensions that the host enabled. Without one a path is unavailable; the picture stays
 /// correct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Enabled {
+    /// `synchronization2`, of Vulkan 1.3 or VK_KHR_synchronization2: barriers that name one stage each. Without it
+    /// those of Vulkan 1.0 are recorded, which wait for somewhat more; the picture is the same.
+    pub synchronization2: bool,
+    /// `shaderStorageImageWriteWithoutFormat`. Vulkan 1.3 allows it by format, so that only a device that was made for
+    /// 1.2 needs it, for [`Config::foam`], [`Config::motion`], [`Shadows::Convolution`] and [`Shading::Compute`].
+    pub storage_image_write_without_format: bool,
     /// VK_EXT_debug_utils on the instance: names and labels.
     pub debug_utils: bool,
     /// VK_EXT_conditional_rendering with `conditionalRendering`.
@@ -70,6 +156,7 @@ pub struct Enabled {
 /// Configuration of a renderer: what fixes memory and pipelines. [`reconfigure`](crate::Renderer::reconfigure)
 /// changes it between records.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Config {
     /// Maximum size of the output's part in pixels, 1 to the device's limit for 2D images, framebuffers and
     /// viewports. Images are made for it; a frame may be smaller ([`HostImage::rect`]).
@@ -222,6 +309,7 @@ pub struct Slot(pub u32);
 
 /// An image of the host, with its state when `record` takes it over and when it hands it back.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct HostImage {
     /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage
     /// (its read-only layout asks for it), an output as [`Config::in_place`] and
@@ -242,6 +330,48 @@ pub struct HostImage {
     pub before: Access,
     /// First use after `record`, with the layout in which `record` leaves the image.
     pub after: Access,
+}
+
+impl HostImage {
+    /// All of an image, which is handed back in the state in which it comes. The aspects are those of the format.
+    pub fn new(
+        image: vk::Image,
+        view: vk::ImageView,
+        format: vk::Format,
+        extent: vk::Extent2D,
+        state: Access,
+    ) -> Self {
+        let (rect, aspect) = (extent.into(), aspects_of(format));
+        Self { image, view, format, aspect, extent, rect, before: state, after: state }
+    }
+
+    /// A part of it as the view.
+    #[must_use]
+    pub fn with_rect(self, rect: vk::Rect2D) -> Self {
+        Self { rect, ..self }
+    }
+
+    /// Handed back for another use.
+    #[must_use]
+    pub fn with_after(self, after: Access) -> Self {
+        Self { after, ..self }
+    }
+}
+
+/// All aspects of a format.
+fn aspects_of(format: vk::Format) -> vk::ImageAspectFlags {
+    match format {
+        vk::Format::D16_UNORM | vk::Format::X8_D24_UNORM_PACK32 | vk::Format::D32_SFLOAT => {
+            vk::ImageAspectFlags::DEPTH
+        }
+        vk::Format::D16_UNORM_S8_UINT
+        | vk::Format::D24_UNORM_S8_UINT
+        | vk::Format::D32_SFLOAT_S8_UINT => {
+            vk::ImageAspectFlags::DEPTH | vk::ImageAspectFlags::STENCIL
+        }
+        vk::Format::S8_UINT => vk::ImageAspectFlags::STENCIL,
+        _ => vk::ImageAspectFlags::COLOR,
+    }
 }
 
 /// One particle attribute in a buffer: a value every `stride` bytes from `offset` on. Streams may share a
@@ -326,6 +456,7 @@ pub struct Packets {
 
 /// The particles of one frame. Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Particles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are dropped
     /// and counted.
@@ -372,11 +503,48 @@ impl Particles {
             after: crate::gpu::access::NOTHING,
         }
     }
+
+    /// With densities of their own.
+    #[must_use]
+    pub fn with_densities(self, densities: Stream) -> Self {
+        Self { densities: Some(densities), ..self }
+    }
+
+    /// With velocities.
+    #[must_use]
+    pub fn with_velocities(self, velocities: Stream) -> Self {
+        Self { velocities: Some(velocities), ..self }
+    }
+
+    /// With numbers that follow the particles.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// With groups to cull by.
+    #[must_use]
+    pub fn with_packets(self, packets: Packets) -> Self {
+        Self { packets: Some(packets), ..self }
+    }
+
+    /// With how much of each is foam, as [`State::foam`](crate::State::foam) has it.
+    #[must_use]
+    pub fn with_foam(self, foam: Stream) -> Self {
+        Self { foam: Some(foam), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
 }
 
 /// The whitewater particles of one frame: spray, foam on the surface and bubbles below it (Ihmsen et al. 2012).
 /// Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct DiffuseParticles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are not drawn.
     pub positions: Stream,
@@ -424,11 +592,42 @@ impl DiffuseParticles {
             after: crate::gpu::access::NOTHING,
         }
     }
+
+    /// With what each is.
+    #[must_use]
+    pub fn with_kinds(self, kinds: Stream) -> Self {
+        Self { kinds: Some(kinds), ..self }
+    }
+
+    /// With radii of their own.
+    #[must_use]
+    pub fn with_radii(self, radii: Stream) -> Self {
+        Self { radii: Some(radii), ..self }
+    }
+
+    /// With what of their lives has passed.
+    #[must_use]
+    pub fn with_ages(self, ages: Stream) -> Self {
+        Self { ages: Some(ages), ..self }
+    }
+
+    /// With numbers that follow them.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
 }
 
 /// The blobs of bubble foam of one frame: balls of soap bubbles around a white core (Huszár, Szécsi). Only
 /// read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Blobs {
     /// Centre (world space) and radius of each blob (4×f32). Entries with a non-finite or huge centre or a
     /// radius ≤ 0 are ignored.
@@ -459,6 +658,24 @@ impl Blobs {
             after: crate::gpu::access::NOTHING,
         }
     }
+
+    /// With how each is turned.
+    #[must_use]
+    pub fn with_turns(self, turns: Stream) -> Self {
+        Self { turns: Some(turns), ..self }
+    }
+
+    /// With numbers that follow them.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
 }
 
 /// Shoreline and contact foam of one frame, an overlay on water. Only read.
@@ -466,6 +683,7 @@ impl Blobs {
 /// The scene's depth is that of everything in and below the water. If it contains the water's surface too, set
 /// [`bias`](Self::bias).
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Shore {
     /// The host's water surface, visible in its scene. `None`: foam is on the strip and the particles' water
     /// only.
@@ -485,6 +703,12 @@ impl Shore {
     /// Contact foam on a level surface of the host's.
     pub fn new(level: f32) -> Self {
         Self { surface: Some(Surface::Level(level)), shoreline: None, mask: None, bias: 0.0 }
+    }
+
+    /// With a shoreline.
+    #[must_use]
+    pub fn with_shoreline(self, shoreline: Shoreline) -> Self {
+        Self { shoreline: Some(shoreline), ..self }
     }
 }
 
@@ -574,6 +798,7 @@ pub struct Coast {
 /// One simulation step, for [`State::record_step`](crate::State::record_step): the particles after it, in any
 /// order. Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Step<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -598,9 +823,42 @@ pub struct Step<'a> {
     pub after: Access,
 }
 
+impl<'a> Step<'a> {
+    /// Velocities alone, in buffers that the CPU wrote before the submit.
+    pub fn new(
+        slot: Slot,
+        velocities: Stream,
+        count: Count,
+        dt: f32,
+        settings: &'a FoamSettings,
+    ) -> Self {
+        let (before, after) = (crate::gpu::access::NOTHING, crate::gpu::access::NOTHING);
+        Self { slot, velocities, densities: None, ids: None, count, dt, settings, before, after }
+    }
+
+    /// With densities of their own.
+    #[must_use]
+    pub fn with_densities(self, densities: Stream) -> Self {
+        Self { densities: Some(densities), ..self }
+    }
+
+    /// With ids, without which there are no phases.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
+}
+
 /// One fluid step, for [`Generator::record_step`](crate::foam::Generator::record_step): the fluid's particles
 /// after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct GenerateStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -624,15 +882,93 @@ pub struct GenerateStep<'a> {
     pub after: Access,
 }
 
+impl<'a> GenerateStep<'a> {
+    /// The first step of particles without ids, in buffers that the CPU wrote before the submit.
+    pub fn new(
+        slot: Slot,
+        [positions, velocities]: [Stream; 2],
+        count: Count,
+        dt: f32,
+        settings: &'a GenerateSettings,
+    ) -> Self {
+        let (before, after) = (crate::gpu::access::NOTHING, crate::gpu::access::NOTHING);
+        Self {
+            slot,
+            positions,
+            velocities,
+            ids: None,
+            count,
+            dt,
+            number: 0,
+            settings,
+            before,
+            after,
+        }
+    }
+
+    /// With numbers that follow the particles.
+    #[must_use]
+    pub fn with_ids(self, ids: Stream) -> Self {
+        Self { ids: Some(ids), ..self }
+    }
+
+    /// With the step's number in the sequence.
+    #[must_use]
+    pub fn with_number(self, number: u32) -> Self {
+        Self { number, ..self }
+    }
+
+    /// Last used as `before` says, and next as `after`.
+    #[must_use]
+    pub fn with_access(self, before: Access, after: Access) -> Self {
+        Self { before, after, ..self }
+    }
+}
+
 /// The view. The projection is the host's own, as used with a viewport of positive height whose row 0 is the
 /// top of the image. A host that flips with a negative viewport height negates row 1 of its projection first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// World to eye space.
-    pub view: Mat4,
+    /// World to eye space, four columns.
+    pub view: [[f32; 4]; 4],
     /// Eye to clip space, depth 0 to 1: perspective; finite or infinite, standard or reversed
     /// depth, off-axis allowed; looking down −z (right-handed) or +z.
-    pub projection: Mat4,
+    pub projection: [[f32; 4]; 4],
+}
+
+impl Camera {
+    /// Of two matrices, as four columns of four or anything that turns into them: those of cgmath, nalgebra and mint do,
+    /// and glam's by `to_cols_array_2d`.
+    pub fn new(view: impl Into<[[f32; 4]; 4]>, projection: impl Into<[[f32; 4]; 4]>) -> Self {
+        Self { view: view.into(), projection: projection.into() }
+    }
+
+    pub(crate) fn view(&self) -> Mat4 {
+        Mat4::from_cols_array_2d(&self.view)
+    }
+
+    pub(crate) fn projection(&self) -> Mat4 {
+        Mat4::from_cols_array_2d(&self.projection)
+    }
+}
+
+/// For tools that have this crate's glam.
+#[cfg(feature = "headless")]
+impl Camera {
+    /// As [`new`](Self::new).
+    pub fn of(view: Mat4, projection: Mat4) -> Self {
+        Self::new(view.to_cols_array_2d(), projection.to_cols_array_2d())
+    }
+
+    /// World to eye space.
+    pub fn view_matrix(&self) -> Mat4 {
+        self.view()
+    }
+
+    /// Eye to clip space.
+    pub fn projection_matrix(&self) -> Mat4 {
+        self.projection()
+    }
 }
 
 /// The previous frame, for motion vectors: the layer `motion`, two 32-bit floats per pixel, with
@@ -655,6 +991,7 @@ pub struct Previous {
 
 /// Shadow information of the sun.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct Sun {
     /// The scene's shadow on the fluid, with [`Config::shadow`].
     pub shadow: Option<Shadow>,
@@ -664,25 +1001,36 @@ pub struct Sun {
 
 /// The host's shadow map or mask, only sampled.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Shadow {
     /// With [`Shadows::Map`] and [`Shadows::Convolution`]: the scene's depth from the light, any size. With
     /// [`Shadows::Mask`]: one channel over the view, 1 where the sun shines on the fluid, 0 where not. `rect`
     /// is the part that is used.
     pub image: HostImage,
-    /// World to clip space of the map, standard or reversed depth. Not read for a mask.
-    pub view_projection: Mat4,
+    /// World to clip space of the map, four columns, standard or reversed depth. Not read for a mask.
+    pub view_projection: [[f32; 4]; 4],
     /// Shadow bias in metres: points are moved towards the sun by this before the comparison. Recommended:
     /// about a spacing plus a texel of the map. Not read for a mask.
     pub bias: f32,
 }
 
 impl Shadow {
+    /// A map with world to its clip space, compared without a bias; of a mask the matrix is not read.
+    pub fn new(image: HostImage, view_projection: impl Into<[[f32; 4]; 4]>) -> Self {
+        Self { image, view_projection: view_projection.into(), bias: 0.0 }
+    }
+
+    pub(crate) fn clip(&self) -> Mat4 {
+        Mat4::from_cols_array_2d(&self.view_projection)
+    }
+
     /// 1 where depth grows away from the light, -1 where it falls.
     pub(crate) fn nearer(&self, light: &Light) -> f32 {
-        let inverse = self.view_projection.inverse();
+        let clip = self.clip();
+        let inverse = clip.inverse();
         let middle = inverse.project_point3(Vec3::new(0.0, 0.0, 0.5));
         let step = light.toward() * 1.0e-3 * (1.0 + middle.length());
-        let depth = |p| self.view_projection.project_point3(p).z;
+        let depth = |p| clip.project_point3(p).z;
         if depth(middle + step) <= depth(middle) { 1.0 } else { -1.0 }
     }
 }
@@ -713,6 +1061,7 @@ impl Region {
 
 /// Everything that one `record` draws.
 #[derive(Clone, Copy)]
+#[non_exhaustive]
 pub struct Frame<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -743,7 +1092,75 @@ pub struct Frame<'a> {
     pub settings: &'a Settings,
 }
 
-impl Frame<'_> {
+impl<'a> Frame<'a> {
+    /// Water over the scene that is in `output` (with [`Config::in_place`]; else
+    /// [`with_scene_color`](Self::with_scene_color) is needed), without anything optional.
+    pub fn new(
+        slot: Slot,
+        output: HostImage,
+        scene_depth: HostImage,
+        particles: Particles,
+        camera: Camera,
+        settings: &'a Settings,
+    ) -> Self {
+        Self {
+            slot,
+            output,
+            scene_color: output,
+            scene_depth,
+            particles,
+            diffuse: None,
+            bubbles: None,
+            shore: None,
+            camera,
+            sun: Sun::default(),
+            previous: None,
+            settings,
+        }
+    }
+
+    /// With the scene's colour in an image of its own.
+    #[must_use]
+    pub fn with_scene_color(self, scene_color: HostImage) -> Self {
+        Self { scene_color, ..self }
+    }
+
+    /// With diffuse particles, as [`Config::diffuse`] asks for.
+    #[must_use]
+    pub fn with_diffuse(self, diffuse: DiffuseParticles) -> Self {
+        Self { diffuse: Some(diffuse), ..self }
+    }
+
+    /// With blobs of bubble foam, as [`Config::bubbles`] asks for.
+    #[must_use]
+    pub fn with_bubbles(self, bubbles: Blobs) -> Self {
+        Self { bubbles: Some(bubbles), ..self }
+    }
+
+    /// With shoreline and contact foam, as [`Config::shore`] asks for.
+    #[must_use]
+    pub fn with_shore(self, shore: Shore) -> Self {
+        Self { shore: Some(shore), ..self }
+    }
+
+    /// With the host's shadows, as [`Config::shadow`] asks for.
+    #[must_use]
+    pub fn with_shadow(self, shadow: Shadow) -> Self {
+        Self { sun: Sun { shadow: Some(shadow), ..self.sun }, ..self }
+    }
+
+    /// With the ball in which water and foam cast, as [`Config::cast`] asks for.
+    #[must_use]
+    pub fn with_region(self, region: Region) -> Self {
+        Self { sun: Sun { region: Some(region), ..self.sun }, ..self }
+    }
+
+    /// With the frame before, as [`Config::motion`] asks for.
+    #[must_use]
+    pub fn with_previous(self, previous: Previous) -> Self {
+        Self { previous: Some(previous), ..self }
+    }
+
     /// The output is its own scene.
     pub(crate) fn in_place(&self) -> bool {
         self.scene_color.image == self.output.image
@@ -753,6 +1170,7 @@ impl Frame<'_> {
 /// All settings that cost nothing to change from frame to frame. Where a range has no end (∞) the limit is
 /// 1e12, so that products of a few stay finite.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// World up direction, any length except 0, default +y. It defines the horizon below which water reflects
     /// more water, the level ground of [`Light::irradiance`], the drainage of soap films, and shores.
@@ -831,6 +1249,7 @@ impl Light {
 
 /// Light of sun and sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Light {
     /// World direction to the sun, any length except 0.
     pub direction: [f32; 3],
@@ -865,6 +1284,7 @@ impl Light {
 
 /// An intermediate image after a record. The host may read it until the next record.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Layer {
     /// Name as in the tool's EXR files: `water.depth` for `water.depth.Z`, `motion` for `motion.X` and
     /// `motion.Y`. With [`Config::foam`] `water.thickness` has a second channel: the water in front of the
@@ -887,6 +1307,7 @@ pub struct Layer {
 
 /// What a record leaves.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Recorded {
     /// The kept layers: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
     pub layers: Vec<Layer>,
@@ -985,6 +1406,7 @@ pub struct ParticleCounts {
 
 /// Device memory in use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MemoryUse {
     /// Bytes of images; depends on extent and levels.
     pub images: u64,

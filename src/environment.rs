@@ -19,6 +19,8 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
+crate::contract::with!(Sky, Equirectangular);
+
 /// Source of the environment.
 #[derive(Clone, Copy, Debug)]
 pub enum EnvironmentSource {
@@ -33,6 +35,7 @@ pub enum EnvironmentSource {
 /// gives a fifth of the light on level ground. Below the horizon grey ground fades in, completely from −0.12
 /// (the direction's component along up) on. The sun's disc is not included.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sky {
     /// World direction to the sun, unit length.
     pub sun: [f32; 3],
@@ -54,6 +57,7 @@ impl Default for Sky {
 /// middle column lies along +y and x stays; for x up the right quarter lies along +y and the middle column
 /// along +z.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Equirectangular {
     /// Linear radiance. The format has to support linear filtering.
     pub image: HostImage,
@@ -67,6 +71,13 @@ pub struct Equirectangular {
     pub turn: f32,
     /// World up direction, any length except 0, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
+}
+
+impl Equirectangular {
+    /// An image as it is, with +y up.
+    pub fn new(image: HostImage) -> Self {
+        Self { image, without_sun: None, scale: 1.0, turn: 0.0, up: [0.0, 1.0, 0.0] }
+    }
 }
 
 #[repr(C)]

@@ -20,7 +20,7 @@ pub enum Error {
         /// Name of the image or buffer.
         name: String,
         /// The allocator's reason.
-        source: gpu_allocator::AllocationError,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The device lacks, or the host did not enable, something that the configuration needs.
     Missing {
@@ -64,7 +64,7 @@ impl std::error::Error for Error {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Vulkan { result, .. } => Some(result),
-            Self::Allocation { source, .. } => Some(source),
+            Self::Allocation { source, .. } => Some(&**source),
             _ => None,
         }
     }

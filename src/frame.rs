@@ -203,11 +203,11 @@ impl Lens {
     /// Decomposes a camera, or says why it cannot be drawn.
     pub fn new(camera: &Camera) -> Result<Self, Error> {
         let (field_view, field) = ("Frame.camera.view", "Frame.camera.projection");
-        if !camera.view.is_finite() || camera.view.determinant().abs() < 1e-12 {
+        if !camera.view().is_finite() || camera.view().determinant().abs() < 1e-12 {
             return Err(Error::bad(field_view, "not finite, or singular"));
         }
-        let m = camera.projection.to_cols_array_2d();
-        if !camera.projection.is_finite() {
+        let m = camera.projection;
+        if !camera.projection().is_finite() {
             return Err(Error::bad(field, "not finite"));
         }
         // m[column][row]; w_clip = m[2][3]·z + m[3][3].
@@ -218,7 +218,7 @@ impl Lens {
             ));
         }
         let mirror = if m[2][3] < 0.0 { 1.0 } else { -1.0 };
-        let view = Mat4::from_diagonal(Vec4::new(1.0, 1.0, mirror, 1.0)) * camera.view;
+        let view = Mat4::from_diagonal(Vec4::new(1.0, 1.0, mirror, 1.0)) * camera.view();
         let scale = 1.0 / m[2][3].abs();
         let (p22, p32) = (mirror * m[2][2] * scale, m[3][2] * scale);
         let p = Vec4::new(m[0][0], m[1][1], mirror * m[2][0], mirror * m[2][1]) * scale;
@@ -406,7 +406,7 @@ impl FrameUniforms {
             spray_color: spray_color(&frame.settings.spray, light),
             spray_cloud: spray_cloud(&frame.settings.spray, water),
             shadow: shadow
-                .map_or(Mat4::ZERO, |s| TO_PLACE * s.view_projection * to_world)
+                .map_or(Mat4::ZERO, |s| TO_PLACE * s.clip() * to_world)
                 .to_cols_array_2d(),
             to_light: (region.to_map(light, frame.settings.upward()) * to_world).to_cols_array_2d(),
             shadow_map: shadow.map_or([0.0; 4], |s| [s.bias, s.nearer(light), 0.0, 0.0]),
@@ -798,7 +798,7 @@ mod tests {
     }
 
     fn camera(projection: Mat4) -> Camera {
-        Camera { view: Mat4::IDENTITY, projection }
+        Camera::of(Mat4::IDENTITY, projection)
     }
 
     /// Every convention must give back the depth and the slope of a point it projected.
@@ -838,8 +838,7 @@ mod tests {
         for bad in [flat, Mat4::ZERO, Mat4::NAN] {
             assert!(matches!(Lens::new(&camera(bad)), Err(Error::BadInput { .. })));
         }
-        let singular =
-            Camera { view: Mat4::ZERO, projection: Mat4::perspective_rh(1.0, 1.0, 0.1, 9.0) };
+        let singular = Camera::of(Mat4::ZERO, Mat4::perspective_rh(1.0, 1.0, 0.1, 9.0));
         assert!(matches!(Lens::new(&singular), Err(Error::BadInput { .. })));
     }
 }

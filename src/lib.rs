@@ -77,7 +77,7 @@
 //! - Every [`Error::BadInput`] is found before the first command. After any other error discard the command buffer and call
 //!   [`Renderer::abandon`].
 //! - `resize` and `reconfigure` are legal with frames in flight. `collect` frees what they replaced as soon as every slot
-//!   that used it has come back. Only construction, `resize`, `reconfigure`, `collect` and `destroy` lock the allocator.
+//!   that used it has come back. Only construction, `resize`, `reconfigure`, `collect` and `destroy` call the allocator.
 //! - Equal inputs give equal pictures on one device, in any order of the particles. Sums are of integers, or of steps that
 //!   floats represent exactly. There are three exceptions: the additive blending of [`Splat::Raster`](water::Splat); light
 //!   maps some hundred spacings from the centre of their region, which are nearly exact; and [`foam::Splat::Raster`], which
@@ -157,7 +157,7 @@ struct Readme;
 pub mod access {
     pub use crate::gpu::access::{
         CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-        COPY_WRITE, FRAGMENT_SAMPLED, NOTHING,
+        COPY_WRITE, DEPTH_ATTACHMENT, FRAGMENT_SAMPLED, NOTHING,
     };
 }
 
@@ -190,6 +190,8 @@ pub use context::Context;
 pub use contract::*;
 pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;
+pub use gpu::features::DeviceFeatures;
+pub use gpu::memory::{Allocate, Memory, MemoryLocation, MemoryRequest};
 pub use gpu::requirements::{Limit, Need, Offer, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use crate::bubbles::{self, BubbleUniforms, Bubbles, near_sets};
 use crate::check;
@@ -395,7 +395,11 @@ impl Renderer {
     }
 
     /// Reports that the slot has come back. Frees what `resize` and `reconfigure` replaced and no frame in
-    /// flight uses any more.
+    /// flight uses any more. Call it after the wait for the slot with which every frame begins.
+    ///
+    /// This is a promise and takes no fence or timeline value. The library sees no submission, so it could not
+    /// tell what a fence or a value belongs to, and engines that count frames have neither at hand. A slot that
+    /// never comes back only costs memory. Work in flight with other slots is not affected.
     ///
     /// # Safety
     /// All GPU work that was recorded with the slot is complete, or will never be submitted.

@@ -13,8 +13,11 @@ use crate::gpu::descriptors::Descriptors;
 use crate::gpu::timing::{Timer, Timing};
 use crate::water::Classify;
 
+crate::contract::with!(StateConfig);
+
 /// Configuration of a [`State`]: what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct StateConfig {
     /// Maximum number of particles per step.
     pub max_particles: u32,
@@ -173,7 +176,8 @@ impl State {
     }
 
     /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before
-    /// it. Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore).
+    /// it. Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore). This frees
+    /// nothing, so it promises nothing.
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();

@@ -5,9 +5,9 @@
 //! blobs are dropped when it is full.
 //! Reads: the host's streams. Writes: blobs, range, cells, spans, list.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::settings::{BubbleConfig, BubbleSort};
 use crate::contract::{Blobs, Config, Count, Stream};

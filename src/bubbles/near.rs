@@ -5,9 +5,9 @@
 //! distance each particle is a blob. Which slot it gets is arbitrary and not visible.
 //! Reads: the host's whitewater particles. Writes: hand-over; balls, turns, ids and count of blobs.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::settings::BubbleConfig;
 use crate::contract::{Blobs, Count, DiffuseParticles, Stream};

@@ -3,8 +3,8 @@
 //!
 //! Reads: blobs and lists, scene depth, impostors. Writes: layers, bubble depth.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::billboards::Billboards;
 use super::lists::Lists;

@@ -4,6 +4,8 @@ use super::blob::BUBBLES;
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(BubbleConfig, BubbleLook);
+
 /// Maximum number of blob layers per pixel.
 pub const MOST_LAYERS: u32 = 8;
 /// Maximum thickness of a film, nanometres.
@@ -11,6 +13,7 @@ pub const MOST_FILM: f32 = 2000.0;
 
 /// Configuration of bubble foam: what costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BubbleConfig {
     /// Maximum number of blobs per frame, 1 to 2^20. 64 bytes each.
     pub max_blobs: u32,
@@ -160,6 +163,7 @@ pub enum Spectrum {
 
 /// Appearance of bubble foam.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BubbleLook {
     /// Mean thickness of the films in nanometres, 1 to 2000, default 380.
     pub film: f32,

@@ -3,9 +3,9 @@
 //!
 //! Reads: bubbles of the blobs. Writes: the film's table, the impostors' maps, the core's picture.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::blob::Blob;
 use super::settings::{BubbleConfig, FilmFresnel, Impostor, MOST_FILM, Spectrum};

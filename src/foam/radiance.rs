@@ -12,8 +12,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::settings::{DiffuseConfig, Irradiance, Occlusion};
 use super::splat::{AFTER, Sprites};

@@ -3,8 +3,11 @@
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(DiffuseConfig, DiffuseLook);
+
 /// Configuration of whitewater: what costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DiffuseConfig {
     /// Maximum number of whitewater particles per frame, at least 1.
     pub max_particles: u32,
@@ -118,6 +121,7 @@ pub enum Mixing {
 
 /// Appearance of whitewater. No effect without [`Config::diffuse`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct DiffuseLook {
     /// Radius of a particle without one of its own, scene units, (0, ∞), default 0.15 spacings (0.0075 for a
     /// spacing of 0.05). It is divided by 1 to [`sizes`](Self::sizes), chosen per particle; a bubble's is

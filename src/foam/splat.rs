@@ -8,9 +8,9 @@
 //! memory. `quads` is the alternative path.
 //! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use crate::contract::{Config, DiffuseParticles};
 use crate::error::Error;

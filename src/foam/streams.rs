@@ -1,9 +1,9 @@
 //! The host's streams of whitewater particles, as every pass over them takes them: in chunks that the device can bind, of
 //! a count that the host or the GPU knows.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use crate::contract::{Count, DiffuseParticles, Packets, Stream};
 use crate::error::Error;

@@ -1,8 +1,8 @@
 //! Part of pass `radiance`: the screen tiles that contain whitewater, over which light and shadow are computed.
 //! Not in the paper: most of a picture has none.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use crate::contract::Config;
 use crate::error::Error;

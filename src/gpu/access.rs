@@ -187,8 +187,176 @@ impl Gpu {
         let info = vk::DependencyInfo::default()
             .image_memory_barriers(images)
             .buffer_memory_barriers(buffers);
-        // SAFETY: cmd is recording (contract); the handles live in their owners, which outlive
-        // the slot (retire list).
-        unsafe { self.device.cmd_pipeline_barrier2(cmd, &info) };
+        self.dependency(cmd, &info);
+    }
+
+    /// Records one dependency, with the functions that there are.
+    pub fn dependency(&self, cmd: vk::CommandBuffer, info: &vk::DependencyInfo<'_>) {
+        match self.synchronization {
+            // SAFETY: cmd is recording outside a render pass (contract); the handles live in their owners, which outlive
+            // the slot (retire list).
+            Synchronization::Second { barrier, .. } => unsafe { barrier(cmd, info) },
+            // SAFETY: as above.
+            Synchronization::First => unsafe { self.first_dependency(cmd, info) },
+        }
+    }
+
+    /// The same by Vulkan 1.0, which has one pair of stages for all barriers of a call: each waits for what the others
+    /// name too, never for less.
+    ///
+    /// # Safety
+    /// As `vkCmdPipelineBarrier2`.
+    unsafe fn first_dependency(&self, cmd: vk::CommandBuffer, info: &vk::DependencyInfo<'_>) {
+        // SAFETY: pointers and counts belong together, as ash's builders put them in; no pointer where there is none.
+        let (all, buffers, images) = unsafe {
+            (
+                slice(info.p_memory_barriers, info.memory_barrier_count),
+                slice(info.p_buffer_memory_barriers, info.buffer_memory_barrier_count),
+                slice(info.p_image_memory_barriers, info.image_memory_barrier_count),
+            )
+        };
+        let stages = (all.iter().map(|b| (b.src_stage_mask, b.dst_stage_mask)))
+            .chain(buffers.iter().map(|b| (b.src_stage_mask, b.dst_stage_mask)))
+            .chain(images.iter().map(|b| (b.src_stage_mask, b.dst_stage_mask)));
+        let (before, after) = stages
+            .fold((Stage::NONE, Stage::NONE), |sum, stage| (sum.0 | stage.0, sum.1 | stage.1));
+        let all: Vec<_> = (all.iter())
+            .map(|b| {
+                vk::MemoryBarrier::default()
+                    .src_access_mask(first_access(b.src_access_mask))
+                    .dst_access_mask(first_access(b.dst_access_mask))
+            })
+            .collect();
+        let buffers: Vec<_> = (buffers.iter())
+            .map(|b| {
+                vk::BufferMemoryBarrier::default()
+                    .buffer(b.buffer)
+                    .offset(b.offset)
+                    .size(b.size)
+                    .src_access_mask(first_access(b.src_access_mask))
+                    .dst_access_mask(first_access(b.dst_access_mask))
+                    .src_queue_family_index(b.src_queue_family_index)
+                    .dst_queue_family_index(b.dst_queue_family_index)
+            })
+            .collect();
+        let images: Vec<_> = (images.iter())
+            .map(|b| {
+                vk::ImageMemoryBarrier::default()
+                    .image(b.image)
+                    .subresource_range(b.subresource_range)
+                    .old_layout(b.old_layout)
+                    .new_layout(b.new_layout)
+                    .src_access_mask(first_access(b.src_access_mask))
+                    .dst_access_mask(first_access(b.dst_access_mask))
+                    .src_queue_family_index(b.src_queue_family_index)
+                    .dst_queue_family_index(b.dst_queue_family_index)
+            })
+            .collect();
+        // SAFETY: the caller's promises, passed on.
+        unsafe {
+            self.device.cmd_pipeline_barrier(
+                cmd,
+                first_stage(before, vk::PipelineStageFlags::TOP_OF_PIPE),
+                first_stage(after, vk::PipelineStageFlags::BOTTOM_OF_PIPE),
+                vk::DependencyFlags::empty(),
+                &all,
+                &buffers,
+                &images,
+            );
+        }
+    }
+}
+
+/// How a device takes barriers and timestamps.
+#[derive(Clone, Copy)]
+pub enum Synchronization {
+    /// `synchronization2`, of Vulkan 1.3 or of the extension.
+    Second {
+        /// `vkCmdPipelineBarrier2`.
+        barrier: vk::PFN_vkCmdPipelineBarrier2,
+        /// `vkCmdWriteTimestamp2`.
+        timestamp: vk::PFN_vkCmdWriteTimestamp2,
+    },
+    /// That of Vulkan 1.0.
+    First,
+}
+
+/// # Safety
+/// So many at the pointer, or none.
+unsafe fn slice<'a, T>(pointer: *const T, count: u32) -> &'a [T] {
+    match count {
+        0 => &[],
+        // SAFETY: the caller's promise.
+        count => unsafe { std::slice::from_raw_parts(pointer, count as usize) },
+    }
+}
+
+/// Stages as Vulkan 1.0 has them: the low half is the same, of the high half each is a part of an older one.
+fn first_stage(stage: Stage, nothing: vk::PipelineStageFlags) -> vk::PipelineStageFlags {
+    type First = vk::PipelineStageFlags;
+    let mut first = First::from_raw(stage.as_raw() as u32);
+    let transfer = Stage::COPY | Stage::RESOLVE | Stage::BLIT | Stage::CLEAR;
+    let input = Stage::INDEX_INPUT | Stage::VERTEX_ATTRIBUTE_INPUT;
+    let mut rest = Stage::from_raw(stage.as_raw() & !0xffff_ffff);
+    for (parts, whole) in [
+        (transfer, First::TRANSFER),
+        (input, First::VERTEX_INPUT),
+        (Stage::PRE_RASTERIZATION_SHADERS, First::ALL_GRAPHICS),
+        // What a host may name that is newer than this.
+        (rest & !(transfer | input | Stage::PRE_RASTERIZATION_SHADERS), First::ALL_COMMANDS),
+    ] {
+        if rest.intersects(parts) {
+            first |= whole;
+            rest &= !parts;
+        }
+    }
+    if first.is_empty() { nothing } else { first }
+}
+
+/// The same for accesses.
+fn first_access(access: Mask) -> vk::AccessFlags {
+    type First = vk::AccessFlags;
+    let mut first = First::from_raw(access.as_raw() as u32);
+    let read = Mask::SHADER_SAMPLED_READ | Mask::SHADER_STORAGE_READ;
+    let mut rest = Mask::from_raw(access.as_raw() & !0xffff_ffff);
+    for (parts, whole) in [
+        (read, First::SHADER_READ),
+        (Mask::SHADER_STORAGE_WRITE, First::SHADER_WRITE),
+        (rest & !(read | Mask::SHADER_STORAGE_WRITE), First::MEMORY_READ | First::MEMORY_WRITE),
+    ] {
+        if rest.intersects(parts) {
+            first |= whole;
+            rest &= !parts;
+        }
+    }
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each use of the table has stages that its accesses go with in Vulkan 1.0, and nothing of it is lost.
+    #[test]
+    fn vulkan_1_0_has_every_use() {
+        use vk::{AccessFlags as A, PipelineStageFlags as S};
+        let of = |access: Access| {
+            (first_stage(access.stage, S::TOP_OF_PIPE), first_access(access.access))
+        };
+        assert_eq!(of(COMPUTE_SAMPLED), (S::COMPUTE_SHADER, A::SHADER_READ));
+        let written = A::SHADER_READ | A::SHADER_WRITE;
+        assert_eq!(of(COMPUTE_READ_WRITE), (S::COMPUTE_SHADER, written));
+        assert_eq!(of(CLEAR), (S::TRANSFER, A::TRANSFER_WRITE));
+        assert_eq!(of(INDIRECT), (S::DRAW_INDIRECT, A::INDIRECT_COMMAND_READ));
+        assert_eq!(of(NOTHING), (S::TOP_OF_PIPE, A::empty()));
+        let copied = Access::new(Stage::COPY, Mask::TRANSFER_READ, Layout::GENERAL);
+        assert_eq!(of(copied), (S::TRANSFER, A::TRANSFER_READ));
+        let input = Stage::INDEX_INPUT | Stage::VERTEX_ATTRIBUTE_INPUT | Stage::HOST;
+        assert_eq!(first_stage(input, S::empty()), S::VERTEX_INPUT | S::HOST);
+        let newer = Stage::from_raw(1 << 45) | Stage::COPY;
+        assert_eq!(first_stage(newer, S::empty()), S::TRANSFER | S::ALL_COMMANDS);
+        assert_eq!(first_access(Mask::from_raw(1 << 45)), A::MEMORY_READ | A::MEMORY_WRITE);
+        let before = Stage::PRE_RASTERIZATION_SHADERS;
+        assert_eq!(first_stage(before, S::empty()), S::ALL_GRAPHICS);
     }
 }

@@ -1,11 +1,10 @@
 //! An own buffer.
 
 use ash::vk;
-use gpu_allocator::MemoryLocation;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::Gpu;
 use super::graveyard::{Grave, Graveyard};
+use super::memory::{self, Memory, MemoryLocation, MemoryRequest};
 use crate::error::{Error, VkContext};
 
 /// A buffer with its memory.
@@ -14,7 +13,8 @@ pub struct Buffer {
     pub handle: vk::Buffer,
     /// Bytes asked for.
     pub size: u64,
-    allocation: Allocation,
+    /// There until drop.
+    memory: Option<Memory>,
     yard: Graveyard,
 }
 
@@ -42,31 +42,20 @@ impl Buffer {
             .context(|| format!("vkCreateBuffer {name}"))?;
         // SAFETY: handle was just made.
         let requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
-        let allocation = gpu.lock_allocator().allocate(&AllocationCreateDesc {
-            name,
-            requirements,
-            location,
-            linear: true,
-            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-        });
-        let allocation = match allocation {
-            Ok(allocation) => allocation,
-            Err(source) => {
+        let request = MemoryRequest { name, requirements, location, linear: true };
+        let memory = match memory::allocate(gpu.allocator(), &request) {
+            Ok(memory) => memory,
+            Err(error) => {
                 // SAFETY: nothing uses the buffer yet.
                 unsafe { gpu.device.destroy_buffer(handle, None) };
-                return Err(Error::Allocation { name: name.into(), source });
+                return Err(error);
             }
         };
+        let (place, offset) = (memory.memory(), memory.offset());
         let yard = gpu.graveyard.clone();
-        let buffer = Self { handle, size: requirements.size, allocation, yard };
-        // SAFETY: the allocation meets the buffer's requirements and is bound once.
-        let bound = unsafe {
-            gpu.device.bind_buffer_memory(
-                handle,
-                buffer.allocation.memory(),
-                buffer.allocation.offset(),
-            )
-        };
+        let buffer = Self { handle, size: requirements.size, memory: Some(memory), yard };
+        // SAFETY: the memory meets the buffer's requirements and is bound once.
+        let bound = unsafe { gpu.device.bind_buffer_memory(handle, place, offset) };
         bound.context(|| format!("vkBindBufferMemory {name}"))?;
         gpu.name(handle, name);
         Ok(buffer)
@@ -75,18 +64,26 @@ impl Buffer {
     /// Bytes of a mapped buffer; empty for one that is not mapped.
     #[cfg(feature = "headless")]
     pub fn mapped(&self) -> &[u8] {
-        self.allocation.mapped_slice().unwrap_or_default()
+        match self.memory.as_ref().and_then(Memory::mapped) {
+            // SAFETY: so many bytes are mapped, and are this buffer's.
+            Some(from) => unsafe { std::slice::from_raw_parts(from.as_ptr(), self.size as usize) },
+            None => &[],
+        }
     }
 
     /// Writable bytes of a mapped buffer; empty for one that is not mapped.
     pub fn mapped_mut(&mut self) -> &mut [u8] {
-        self.allocation.mapped_slice_mut().unwrap_or_default()
+        match self.memory.as_ref().and_then(Memory::mapped) {
+            // SAFETY: so many bytes are mapped, and are this buffer's.
+            Some(to) => unsafe { std::slice::from_raw_parts_mut(to.as_ptr(), self.size as usize) },
+            None => &mut [],
+        }
     }
 }
 
 impl Drop for Buffer {
     fn drop(&mut self) {
-        let memory = std::mem::take(&mut self.allocation);
+        let memory = self.memory.take();
         self.yard.push(Grave::Buffer(self.handle, memory));
     }
 }

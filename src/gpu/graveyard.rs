@@ -6,16 +6,16 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
-use gpu_allocator::vulkan::Allocation;
 
 use super::Gpu;
+use super::memory::Memory;
 
 /// Handles whose owner was dropped.
 pub enum Grave {
     /// An image with its views and memory.
-    Image(vk::Image, [vk::ImageView; 2], Allocation),
+    Image(vk::Image, [vk::ImageView; 2], Option<Memory>),
     /// A buffer with its memory.
-    Buffer(vk::Buffer, Allocation),
+    Buffer(vk::Buffer, Option<Memory>),
     /// A pipeline with its layouts, that is not the context's.
     Pipeline(vk::Pipeline, vk::PipelineLayout, vk::DescriptorSetLayout),
     /// A framebuffer.
@@ -99,8 +99,8 @@ impl Gpu {
         if graves.is_empty() {
             return;
         }
-        // Locked only when there is memory to free: `record` never locks the allocator.
-        let mut allocator = None;
+        // Called only when there is memory to free: `record` never calls the allocator.
+        let allocator = self.allocator();
         let device = &self.device;
         for grave in graves {
             // SAFETY: each handle was owned by one object, which is gone; the caller guarantees
@@ -111,12 +111,15 @@ impl Gpu {
                         device.destroy_image_view(views[0], None);
                         device.destroy_image_view(views[1], None);
                         device.destroy_image(image, None);
-                        // The only failure is a broken allocator; the memory then stays with it.
-                        let _ = allocator.get_or_insert_with(|| self.lock_allocator()).free(memory);
+                        if let Some(memory) = memory {
+                            allocator.free(memory);
+                        }
                     }
                     Grave::Buffer(buffer, memory) => {
                         device.destroy_buffer(buffer, None);
-                        let _ = allocator.get_or_insert_with(|| self.lock_allocator()).free(memory);
+                        if let Some(memory) = memory {
+                            allocator.free(memory);
+                        }
                     }
                     Grave::Pipeline(pipeline, layout, set_layout) => {
                         device.destroy_pipeline(pipeline, None);

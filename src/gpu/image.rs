@@ -1,10 +1,10 @@
 //! An own image: handle, memory and one or two views.
 
 use ash::vk;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::Gpu;
 use super::graveyard::{Grave, Graveyard};
+use super::memory::{self, Memory, MemoryLocation, MemoryRequest};
 use crate::error::{Error, VkContext};
 
 /// Description of an image.
@@ -55,7 +55,8 @@ pub struct Image {
     pub format: vk::Format,
     /// Bytes of device memory.
     pub size: u64,
-    allocation: Allocation,
+    /// There until drop.
+    memory: Option<Memory>,
     yard: Graveyard,
 }
 
@@ -86,21 +87,17 @@ impl Image {
             .context(|| format!("vkCreateImage {name}"))?;
         // SAFETY: handle was just made.
         let requirements = unsafe { gpu.device.get_image_memory_requirements(handle) };
-        let allocation = gpu.lock_allocator().allocate(&AllocationCreateDesc {
-            name,
-            requirements,
-            location: gpu_allocator::MemoryLocation::GpuOnly,
-            linear: false,
-            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-        });
-        let allocation = match allocation {
-            Ok(allocation) => allocation,
-            Err(source) => {
+        let request =
+            MemoryRequest { name, requirements, location: MemoryLocation::GpuOnly, linear: false };
+        let memory = match memory::allocate(gpu.allocator(), &request) {
+            Ok(memory) => memory,
+            Err(error) => {
                 // SAFETY: nothing uses the image yet.
                 unsafe { gpu.device.destroy_image(handle, None) };
-                return Err(Error::Allocation { name: name.into(), source });
+                return Err(error);
             }
         };
+        let place = (memory.memory(), memory.offset());
         let mut image = Self {
             handle,
             view: vk::ImageView::null(),
@@ -108,24 +105,23 @@ impl Image {
             extent: desc.extent,
             format: desc.format,
             size: requirements.size,
-            allocation,
+            memory: Some(memory),
             yard: gpu.graveyard.clone(),
         };
-        image.bind(gpu, desc)?;
+        image.bind(gpu, desc, place)?;
         Ok(image)
     }
 
-    fn bind(&mut self, gpu: &Gpu, desc: &ImageDesc<'_>) -> Result<(), Error> {
+    fn bind(
+        &mut self,
+        gpu: &Gpu,
+        desc: &ImageDesc<'_>,
+        (memory, offset): (vk::DeviceMemory, u64),
+    ) -> Result<(), Error> {
         let name = desc.name;
-        // SAFETY: the allocation meets the image's requirements and is bound once.
-        unsafe {
-            gpu.device.bind_image_memory(
-                self.handle,
-                self.allocation.memory(),
-                self.allocation.offset(),
-            )
-        }
-        .context(|| format!("vkBindImageMemory {name}"))?;
+        // SAFETY: the memory meets the image's requirements and is bound once.
+        unsafe { gpu.device.bind_image_memory(self.handle, memory, offset) }
+            .context(|| format!("vkBindImageMemory {name}"))?;
         gpu.name(self.handle, name);
         let kind = match desc.layers {
             1 => vk::ImageViewType::TYPE_2D,
@@ -143,7 +139,7 @@ impl Image {
 
 impl Drop for Image {
     fn drop(&mut self) {
-        let memory = std::mem::take(&mut self.allocation);
+        let memory = self.memory.take();
         self.yard.push(Grave::Image(self.handle, [self.view, self.alias_view], memory));
     }
 }

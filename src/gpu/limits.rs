@@ -12,6 +12,7 @@ use crate::water::settings::{Kernels, Shading, Smoothing};
 
 /// A limit that a configuration needs.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Limit {
     /// Its name in `VkPhysicalDeviceLimits`.
     pub name: &'static str,

@@ -1,13 +1,18 @@
 //! Checks that the host's function tables contain every function that is called: ash fills functions that a
 //! loader does not know, such as all of Vulkan 1.3 on a 1.2 instance, with ones that panic.
 
+use std::ffi::{CStr, c_void};
 use std::ptr::null;
+
+use ash::vk;
 
 use crate::contract::Host;
 use crate::error::Error;
+use crate::gpu::access::Synchronization;
 
-/// An error for the first function above Vulkan 1.0 that would panic. A device that lacks one of 1.0 is none.
-pub fn check(host: &Host<'_>) -> Result<(), Error> {
+/// An error for the first function above Vulkan 1.0 that would panic, else how barriers are recorded. A device that lacks
+/// one of 1.0 is none.
+pub fn check(host: &Host<'_>) -> Result<Synchronization, Error> {
     let (device, enabled) = (host.device, host.enabled);
     if !of_instance(host.instance) {
         return missing("vkGetPhysicalDeviceProperties2");
@@ -16,28 +21,71 @@ pub fn check(host: &Host<'_>) -> Result<(), Error> {
     let (no_1_2, no_1_3) =
         (ash::DeviceFnV1_2::load(|_| null()), ash::DeviceFnV1_3::load(|_| null()));
     let (v1_2, v1_3) = (device.fp_v1_2(), device.fp_v1_3());
-    if v1_3.cmd_pipeline_barrier2 as usize == no_1_3.cmd_pipeline_barrier2 as usize {
-        return missing("vkCmdPipelineBarrier2");
+    // It is not called, but every device of Vulkan 1.2 has it, whose shaders these are.
+    if v1_2.reset_query_pool as usize == no_1_2.reset_query_pool as usize {
+        return missing("vkResetQueryPool");
     }
-    if v1_3.cmd_write_timestamp2 as usize == no_1_3.cmd_write_timestamp2 as usize {
-        return missing("vkCmdWriteTimestamp2");
-    }
+    let synchronization = match enabled.synchronization2 {
+        false => Synchronization::First,
+        true => {
+            let extension = ash::khr::synchronization2::DeviceFn::load(|name| find(host, name));
+            let none = ash::khr::synchronization2::DeviceFn::load(|_| null());
+            let (mut barrier, mut timestamp) =
+                (v1_3.cmd_pipeline_barrier2, v1_3.cmd_write_timestamp2);
+            if barrier as usize == no_1_3.cmd_pipeline_barrier2 as usize {
+                barrier = extension.cmd_pipeline_barrier2_khr;
+                if barrier as usize == none.cmd_pipeline_barrier2_khr as usize {
+                    return missing("vkCmdPipelineBarrier2");
+                }
+            }
+            if timestamp as usize == no_1_3.cmd_write_timestamp2 as usize {
+                timestamp = extension.cmd_write_timestamp2_khr;
+                if timestamp as usize == none.cmd_write_timestamp2_khr as usize {
+                    return missing("vkCmdWriteTimestamp2");
+                }
+            }
+            Synchronization::Second { barrier, timestamp }
+        }
+    };
     let counted = v1_2.cmd_draw_indirect_count as usize != no_1_2.cmd_draw_indirect_count as usize;
     if enabled.draw_indirect_count && !counted {
         return missing("vkCmdDrawIndirectCount");
     }
-    let has = |name| {
-        // SAFETY: the device is alive; the name ends with a nul.
-        let found = unsafe { host.instance.get_device_proc_addr(device.handle(), name) };
-        found.is_some()
-    };
-    if enabled.conditional_rendering && !has(c"vkCmdBeginConditionalRenderingEXT".as_ptr()) {
+    let has = |name| !find(host, name).is_null();
+    if enabled.conditional_rendering && !has(c"vkCmdBeginConditionalRenderingEXT") {
         return missing("vkCmdBeginConditionalRenderingEXT");
     }
-    if enabled.debug_utils && !has(c"vkSetDebugUtilsObjectNameEXT".as_ptr()) {
+    if enabled.debug_utils && !has(c"vkSetDebugUtilsObjectNameEXT") {
         return missing("vkSetDebugUtilsObjectNameEXT");
     }
-    Ok(())
+    Ok(synchronization)
+}
+
+/// A function of the device, or null.
+fn find(host: &Host<'_>, name: &CStr) -> *const c_void {
+    // SAFETY: the device is alive; the name ends with a nul.
+    let found = unsafe { host.instance.get_device_proc_addr(host.device.handle(), name.as_ptr()) };
+    found.map_or(null(), |function| function as *const c_void)
+}
+
+/// The Vulkan version that a device can be made for: also the instance's, where that is below 1.3.
+pub fn api_version(instance: &ash::Instance, properties: &vk::PhysicalDeviceProperties) -> u32 {
+    let none = ash::InstanceFnV1_3::load(|_| null());
+    let own = instance.fp_v1_3();
+    let loaded = own.get_physical_device_tool_properties as usize
+        != none.get_physical_device_tool_properties as usize;
+    match loaded {
+        true => properties.api_version,
+        false => properties.api_version.min(vk::API_VERSION_1_2),
+    }
+}
+
+/// Whether the device was made for Vulkan 1.3, as far as that shows: some drivers have the functions of their own version
+/// whatever the instance's is.
+pub fn is_1_3(device: &ash::Device) -> bool {
+    let none = ash::DeviceFnV1_3::load(|_| null());
+    device.fp_v1_3().get_device_buffer_memory_requirements as usize
+        != none.get_device_buffer_memory_requirements as usize
 }
 
 /// Whether an instance can be asked for features and properties of Vulkan 1.1 and later.
@@ -49,11 +97,11 @@ pub fn of_instance(instance: &ash::Instance) -> bool {
             != none.get_physical_device_properties2 as usize
 }
 
-fn missing(function: &str) -> Result<(), Error> {
+fn missing<T>(function: &str) -> Result<T, Error> {
     Err(Error::Missing {
         what: format!("the function {function}"),
-        why: "Host.instance and Host.device do not hold it: make the instance for Vulkan 1.3 \
-              (VkApplicationInfo::apiVersion), and enable on the device what Host.enabled says"
+        why: "Host.instance and Host.device do not hold it: make the instance for Vulkan 1.2 or \
+              newer (VkApplicationInfo::apiVersion), and enable on the device what Host.enabled says"
             .into(),
     })
 }

@@ -4,10 +4,12 @@
 pub mod access;
 pub mod buffer;
 pub mod descriptors;
+pub mod features;
 pub mod graveyard;
 pub mod image;
 pub mod limits;
 pub mod loaded;
+pub mod memory;
 pub mod pass;
 pub mod pipeline;
 pub mod requirements;

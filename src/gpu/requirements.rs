@@ -18,8 +18,11 @@ use crate::water::{
 
 pub use limits::Limit;
 
+crate::contract::with!(Offer);
+
 /// One feature or extension that the host has to or may enable, and why.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Need {
     /// Feature or extension.
     pub what: &'static str,
@@ -29,6 +32,7 @@ pub struct Need {
 
 /// What to ask of a device before it is created.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Requirements {
     /// Vulkan version of the device.
     pub api_version: u32,
@@ -44,9 +48,17 @@ pub struct Requirements {
 /// a configuration needs.
 pub fn requirements() -> Requirements {
     Requirements {
-        api_version: vk::API_VERSION_1_3,
-        features: &[Need { what: "synchronization2", why: "every barrier is a VkDependencyInfo" }],
+        api_version: vk::API_VERSION_1_2,
+        features: &[],
         optional: &[
+            Need {
+                what: "synchronization2",
+                why: "barriers of one stage each; without it those of Vulkan 1.0",
+            },
+            Need {
+                what: "shaderStorageImageWriteWithoutFormat",
+                why: "below Vulkan 1.3 alone: Config.foam, Config.motion, Shadows::Convolution, Shading::Compute",
+            },
             Need {
                 what: "VK_EXT_conditional_rendering, conditionalRendering",
                 why: "Smoothing::Query(Gate::Predicate); without it the other gates",
@@ -69,17 +81,20 @@ pub fn requirements() -> Requirements {
             },
             Need { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
         ],
-        optional_extensions: &[ash::ext::conditional_rendering::NAME],
+        optional_extensions: &[
+            ash::ext::conditional_rendering::NAME,
+            ash::khr::synchronization2::NAME,
+        ],
     }
 }
 
 /// What a device supports. A plain struct, so that tests can mock it.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Offer {
-    /// Vulkan version of the device. 1.0 if the instance is 1.0, where newer versions cannot be queried.
+    /// Vulkan version of the device, at most that of the instance where this can be found: 1.0 if the instance is
+    /// 1.0, where newer versions cannot be queried, 1.2 if it is 1.1 or 1.2.
     pub api_version: u32,
-    /// `synchronization2` is supported.
-    pub synchronization2: bool,
     /// R32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments: needed by the raster splats.
     pub blend_floats: bool,
     /// R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments, and the latter
@@ -114,11 +129,11 @@ impl Offer {
             return Self::bare(properties.limits);
         }
         let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
-        let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
+        let mut second = vk::PhysicalDeviceSynchronization2Features::default();
         let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
         let mut features = vk::PhysicalDeviceFeatures2::default()
             .push_next(&mut v12)
-            .push_next(&mut v13)
+            .push_next(&mut second)
             .push_next(&mut conditional);
         // SAFETY: the handles are alive and belong together; the chain is well formed.
         let properties = unsafe {
@@ -126,7 +141,20 @@ impl Offer {
             instance.get_physical_device_properties(physical)
         };
         let core = features.features;
-        let offers = |format, features| {
+        let api_version = loaded::api_version(instance, &properties);
+        let stores = core.shader_storage_image_write_without_format == vk::TRUE;
+        let offers = |format, features: vk::FormatFeatureFlags2| {
+            if api_version < vk::API_VERSION_1_3 {
+                let without_format = vk::FormatFeatureFlags2::STORAGE_WRITE_WITHOUT_FORMAT;
+                // SAFETY: as above.
+                let found =
+                    unsafe { instance.get_physical_device_format_properties(physical, format) };
+                let asked = (features & !without_format).as_raw() as u32;
+                return found
+                    .optimal_tiling_features
+                    .contains(vk::FormatFeatureFlags::from_raw(asked))
+                    && (stores || !features.contains(without_format));
+            }
             let mut found = vk::FormatProperties3::default();
             let mut chain = vk::FormatProperties2::default().push_next(&mut found);
             // SAFETY: as above.
@@ -140,6 +168,8 @@ impl Offer {
             | vk::FormatFeatureFlags2::STORAGE_WRITE_WITHOUT_FORMAT;
         Self {
             optional: Enabled {
+                synchronization2: second.synchronization2 == vk::TRUE,
+                storage_image_write_without_format: stores,
                 // Of the instance, not of a device.
                 debug_utils: false,
                 // A device without the extension leaves the structure as it was.
@@ -150,8 +180,7 @@ impl Offer {
                 buffer_int64_atomics: core.shader_int64 == vk::TRUE
                     && v12.shader_buffer_int64_atomics == vk::TRUE,
             },
-            api_version: properties.api_version,
-            synchronization2: v13.synchronization2 == vk::TRUE,
+            api_version,
             blend_floats: offers(vk::Format::R32_SFLOAT, blended)
                 && offers(vk::Format::R32G32B32A32_SFLOAT, blended),
             foam_floats: offers(vk::Format::R32_SFLOAT, blended)
@@ -171,7 +200,6 @@ impl Offer {
     fn bare(limits: vk::PhysicalDeviceLimits) -> Self {
         Self {
             api_version: vk::API_VERSION_1_0,
-            synchronization2: false,
             blend_floats: false,
             foam_floats: false,
             basis: [false; 2],
@@ -181,6 +209,17 @@ impl Offer {
             optional: Enabled::default(),
             limits,
         }
+    }
+
+    /// The same for a device of Vulkan 1.2 on which a host enabled so much.
+    pub(crate) fn before_1_3(mut self, enabled: &Enabled) -> Self {
+        if !enabled.storage_image_write_without_format {
+            self.foam_floats = false;
+            self.basis = [false; 2];
+            self.motion_floats = false;
+            self.output_storage = false;
+        }
+        self
     }
 
     /// The device limits that a configuration needs: descriptors, workgroups, attachments, push constants.
@@ -194,18 +233,15 @@ impl Offer {
     /// [`Error::Missing`] with what is missing, and what to do.
     pub fn check(&self, config: &crate::contract::Config) -> Result<(), Error> {
         let missing = |what: String, why: &str| Err(Error::Missing { what, why: why.into() });
-        if self.api_version < vk::API_VERSION_1_3 {
+        if self.api_version < vk::API_VERSION_1_2 {
             return missing(
                 format!(
-                    "Vulkan 1.3 (the device, or the instance, has {}.{})",
+                    "Vulkan 1.2 (the device, or the instance, has {}.{})",
                     vk::api_version_major(self.api_version),
                     vk::api_version_minor(self.api_version)
                 ),
                 "the library is written for it; choose another device or a newer driver",
             );
-        }
-        if !self.synchronization2 {
-            return missing("synchronization2".into(), "every barrier needs it");
         }
         limits::check_config(config, self.optional.buffer_int64_atomics, &self.limits)?;
         match crate::composite::way(config) {

@@ -6,7 +6,7 @@
 pub struct RetireList {
     /// One bit per slot: recorded, not yet come back.
     out: u32,
-    waiting: Vec<(u32, Box<dyn Send>)>,
+    waiting: Vec<(u32, Box<dyn Send + Sync>)>,
 }
 
 impl RetireList {
@@ -16,14 +16,14 @@ impl RetireList {
     }
 
     /// Keeps the object until the slots in flight have come back; drops it at once if none is.
-    pub fn retire(&mut self, object: impl Send + 'static) {
+    pub fn retire(&mut self, object: impl Send + Sync + 'static) {
         if self.out != 0 {
             self.waiting.push((self.out, Box::new(object)));
         }
     }
 
     /// Replaces an object and retires the old one.
-    pub fn replace<T: Send + 'static>(&mut self, old: &mut T, new: T) {
+    pub fn replace<T: Send + Sync + 'static>(&mut self, old: &mut T, new: T) {
         self.retire(std::mem::replace(old, new));
     }
 

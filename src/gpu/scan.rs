@@ -2,9 +2,9 @@
 //! blocks, prefix sum of those, prefix sum within each block.
 //! Reads, writes: the values. Writes: their total, into a word of the counts.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use crate::error::Error;
 use crate::gpu::Gpu;

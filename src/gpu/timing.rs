@@ -6,6 +6,7 @@ use std::ffi::CStr;
 use ash::vk;
 
 use super::Gpu;
+use super::access::Synchronization;
 use super::graveyard::{Grave, Owned};
 use crate::error::{Error, VkContext};
 
@@ -89,12 +90,15 @@ impl Timer {
         if let Some(pool) = &self.pool {
             // SAFETY: cmd is recording; the query was reset at the start of the frame.
             unsafe {
-                gpu.device.cmd_write_timestamp2(
-                    cmd,
-                    vk::PipelineStageFlags2::ALL_COMMANDS,
-                    pool.handle,
-                    query,
-                );
+                match gpu.synchronization {
+                    Synchronization::Second { timestamp, .. } => {
+                        timestamp(cmd, vk::PipelineStageFlags2::ALL_COMMANDS, pool.handle, query);
+                    }
+                    Synchronization::First => {
+                        let end = vk::PipelineStageFlags::BOTTOM_OF_PIPE;
+                        gpu.device.cmd_write_timestamp(cmd, end, pool.handle, query);
+                    }
+                }
             }
         }
     }

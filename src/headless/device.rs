@@ -8,6 +8,7 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use crate::contract::{Enabled, Host};
 use crate::error::{Error, VkContext};
+use crate::gpu::requirements::Offer;
 
 /// Options for creating a [`Device`].
 #[derive(Clone, Debug, Default)]
@@ -19,6 +20,8 @@ pub struct DeviceOptions {
     pub validation: bool,
     /// Whether to enable no optional feature, as on a device without any. Default false.
     pub bare: bool,
+    /// Make instance and device for Vulkan 1.2, as old drivers have it, and without synchronization2.
+    pub vulkan_1_2: bool,
 }
 
 /// An own device with one queue.
@@ -101,7 +104,10 @@ impl Device {
             buffer_device_address: false,
             allocation_sizes: Default::default(),
         })
-        .map_err(|source| Error::Allocation { name: "allocator".into(), source })?;
+        .map_err(|source| Error::Allocation {
+            name: "allocator".into(),
+            source: Box::new(source),
+        })?;
         Ok(Self {
             instance,
             physical,
@@ -119,16 +125,10 @@ impl Device {
 
     /// The [`Host`] for [`Context::new`](crate::Context::new).
     pub fn host(&self, frames_in_flight: u32) -> Host<'_> {
-        Host {
-            instance: &self.instance,
-            physical_device: self.physical,
-            device: &self.device,
-            allocator: self.allocator.clone(),
-            queue_family: self.queue_family,
-            frames_in_flight,
-            enabled: self.enabled,
-            pipeline_cache: vk::PipelineCache::null(),
-        }
+        let (instance, device) = (&self.instance, &self.device);
+        Host::new(instance, self.physical, device, self.queue_family, frames_in_flight)
+            .with_allocator(self.allocator.clone())
+            .with_enabled(self.enabled)
     }
 
     /// Validation messages since the last call.
@@ -235,7 +235,7 @@ fn make_instance(
     let layers = [VALIDATION.as_ptr()];
     let application = vk::ApplicationInfo::default()
         .application_name(c"whitewater")
-        .api_version(vk::API_VERSION_1_3);
+        .api_version(if options.vulkan_1_2 { vk::API_VERSION_1_2 } else { vk::API_VERSION_1_3 });
     let enables = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enables);
     let mut messenger = messenger_info(list);
@@ -285,7 +285,7 @@ fn choose(
             _ => 3,
         };
         if let (true, Some(family), true) =
-            (wanted, family, properties.api_version >= vk::API_VERSION_1_3)
+            (wanted, family, properties.api_version >= vk::API_VERSION_1_2)
         {
             found.push((rank, physical, family as u32));
         }
@@ -293,8 +293,8 @@ fn choose(
     found.sort_by_key(|(rank, ..)| *rank);
     found.first().map(|&(_, physical, family)| (physical, family)).ok_or_else(|| Error::Missing {
         what: match &options.name {
-            Some(name) => format!("a Vulkan 1.3 device named like '{name}'"),
-            None => "a Vulkan 1.3 device".into(),
+            Some(name) => format!("a Vulkan 1.2 device named like '{name}'"),
+            None => "a Vulkan 1.2 device".into(),
         },
         why: if names.is_empty() {
             "no Vulkan driver was found; mesa-vulkan-drivers has one that runs on the CPU".into()
@@ -310,60 +310,38 @@ fn make_device(
     queue_family: u32,
     options: &DeviceOptions,
 ) -> Result<(ash::Device, Enabled), Error> {
-    let mut has12 = vk::PhysicalDeviceVulkan12Features::default();
-    let mut has_conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
+    let offer = Offer::of(instance, physical, super::COLOR_FORMAT);
     // SAFETY: live handles.
     let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }
         .context(|| "vkEnumerateDeviceExtensionProperties".into())?;
-    let conditional_extension = !options.bare
-        && extensions
-            .iter()
-            .any(|e| e.extension_name_as_c_str() == Ok(ash::ext::conditional_rendering::NAME));
-    let mut has = vk::PhysicalDeviceFeatures2::default().push_next(&mut has12);
-    if conditional_extension {
-        has = has.push_next(&mut has_conditional);
+    let has = |name: &CStr| extensions.iter().any(|e| e.extension_name_as_c_str() == Ok(name));
+    let mut enabled = offer.optional;
+    if options.bare {
+        // What is no path of its own stays.
+        enabled = Enabled {
+            synchronization2: enabled.synchronization2,
+            storage_image_write_without_format: (options.vulkan_1_2
+                || offer.api_version < vk::API_VERSION_1_3)
+                && enabled.storage_image_write_without_format,
+            ..Enabled::default()
+        };
     }
-    // SAFETY: well-formed chain.
-    unsafe { instance.get_physical_device_features2(physical, &mut has) };
-    let core = has.features;
-    let enabled = Enabled {
-        debug_utils: false,
-        conditional_rendering: has_conditional.conditional_rendering == vk::TRUE,
-        draw_indirect_count: !options.bare && has12.draw_indirect_count == vk::TRUE,
-        large_points: !options.bare && core.large_points == vk::TRUE,
-        precise_occlusion_queries: !options.bare && core.occlusion_query_precise == vk::TRUE,
-        buffer_int64_atomics: !options.bare
-            && core.shader_int64 == vk::TRUE
-            && has12.shader_buffer_int64_atomics == vk::TRUE,
-    };
-    let features = vk::PhysicalDeviceFeatures::default()
-        .occlusion_query_precise(enabled.precise_occlusion_queries)
-        .large_points(enabled.large_points)
-        .shader_int64(enabled.buffer_int64_atomics);
-    let mut v12 = vk::PhysicalDeviceVulkan12Features::default()
-        .draw_indirect_count(enabled.draw_indirect_count)
-        .shader_buffer_int64_atomics(enabled.buffer_int64_atomics);
-    let mut v13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(true);
-    let mut conditional =
-        vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
-    let mut names = Vec::new();
+    let synchronization2 =
+        offer.api_version >= vk::API_VERSION_1_3 || has(khr::synchronization2::NAME);
+    enabled.synchronization2 &= synchronization2 && !options.vulkan_1_2;
     let priorities = [1.0];
     let queues = [vk::DeviceQueueCreateInfo::default()
         .queue_family_index(queue_family)
         .queue_priorities(&priorities)];
-    let mut info = vk::DeviceCreateInfo::default()
-        .queue_create_infos(&queues)
-        .enabled_features(&features)
-        .push_next(&mut v12)
-        .push_next(&mut v13);
-    if enabled.conditional_rendering {
-        names.push(ash::ext::conditional_rendering::NAME.as_ptr());
-        info = info.push_next(&mut conditional);
-    }
-    if extensions.iter().any(|e| e.extension_name_as_c_str() == Ok(khr::portability_subset::NAME)) {
+    let mut names: Vec<_> =
+        enabled.device_extensions(offer.api_version).into_iter().map(CStr::as_ptr).collect();
+    if has(khr::portability_subset::NAME) {
         names.push(khr::portability_subset::NAME.as_ptr());
     }
-    let info = info.enabled_extension_names(&names);
+    let mut features = enabled.device_features();
+    let info =
+        vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&names);
+    let info = features.chain(info);
     // SAFETY: valid create info with live pointers.
     let device = unsafe { instance.create_device(physical, &info, None) }
         .context(|| "vkCreateDevice".into())?;

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::Headless;
 use crate::contract::{

@@ -144,7 +144,10 @@ impl Headless {
             let all: Vec<_> = meshes
                 .iter()
                 .zip(transforms)
-                .map(|(mesh, &transform)| MapMesh { triangles: mesh.triangles(), transform })
+                .map(|(mesh, transform)| MapMesh {
+                    triangles: mesh.triangles(),
+                    transform: transform.to_cols_array_2d(),
+                })
                 .collect();
             let heights = Heights::Meshes(&all);
             let (before, after) = (HOST_WRITE, HOST_WRITE);

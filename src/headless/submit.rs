@@ -53,14 +53,14 @@ pub fn submit(
     cmd: vk::CommandBuffer,
     fence: vk::Fence,
 ) -> Result<(), Error> {
-    let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-    let submits = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
+    let buffers = [cmd];
+    let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
     let fences = [fence];
     let device = &gpu.device;
     // SAFETY: the command buffer is recording; the queue and the fence are used by one thread.
     unsafe {
         device.end_command_buffer(cmd).context(|| "vkEndCommandBuffer".into())?;
-        device.queue_submit2(queue, &submits, fence).context(|| "vkQueueSubmit2".into())?;
+        device.queue_submit(queue, &submits, fence).context(|| "vkQueueSubmit".into())?;
         device.wait_for_fences(&fences, true, u64::MAX).context(|| "vkWaitForFences".into())?;
         device.reset_fences(&fences).context(|| "vkResetFences".into())
     }

@@ -1,7 +1,7 @@
 //! Data to the device and back: each call waits for its end.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::levels::{self, BACK, FRONT};
 use super::{COLOR_FORMAT, COLOR_REST, Counts, DEPTH_FORMAT, DEPTH_REST, Headless, Picture};

@@ -6,8 +6,8 @@
 //! blocks, by its shadow map, is left out.
 //! Reads: front, thickness, shadow map. Writes: caustics, R32F, light relative to that without water.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::map_desc;
 use super::maps::Maps;

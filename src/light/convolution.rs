@@ -17,8 +17,8 @@
 //! Reads: the host's shadow map. Writes: span of its depths; basis, RGBA8 signed or RGBA16F, cosine and sine of
 //! two terms per page, pages in two rows with a border of one texel each.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use crate::contract::{Config, Frame, Layer, Shadow};
 use crate::error::Error;
@@ -183,7 +183,7 @@ fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
 /// the depth of a perspective projection, z itself for a parallel one or for one whose depth also depends on
 /// the position. It increases away from the light.
 fn linear(shadow: &Shadow, nearer: f32) -> [f32; 4] {
-    let clip = shadow.view_projection;
+    let clip = shadow.clip();
     let (z, w) = (clip.row(2), clip.row(3));
     let (towards, across) = (z.truncate(), w.truncate());
     let even = [nearer, 0.0, 0.0, 1.0];
@@ -388,7 +388,7 @@ mod tests {
                 before: access::NOTHING,
                 after: access::NOTHING,
             };
-            let shadow = Shadow { image, view_projection, bias: 0.0 };
+            let shadow = Shadow::new(image, view_projection.to_cols_array_2d());
             let [a, b, c, d] = linear(&shadow, nearer);
             let at = |along: f32| {
                 let z = view_projection.project_point3(-along * axis).z;

@@ -8,9 +8,9 @@
 //! Reads: the host's streams, front. Writes: diffuse, RGBA16F, thickness; metres along the light to its mean,
 //! and its spread.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::map_desc;
 use super::maps::{AFTER, Maps};

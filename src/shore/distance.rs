@@ -10,10 +10,10 @@
 
 use std::sync::Arc;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
 use glam::{Mat4, Vec2, Vec3, Vec4};
-use gpu_allocator::MemoryLocation;
 
 use crate::check;
 use crate::context::Context;
@@ -23,7 +23,7 @@ use crate::frame::level_axes;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, DEPTH_ATTACHMENT,
-    FRAGMENT_SAMPLED, VERTEX_READ, buffer,
+    FRAGMENT_SAMPLED, NOTHING, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
@@ -37,6 +37,8 @@ use crate::host_images::depth_layout;
 use crate::water::Window;
 use crate::water::settings::range;
 
+crate::contract::with!(ShoreMapConfig, ShoreMapStep<'_>);
+
 /// How frames and the host read the distances.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Maximum number of jumps, plus one.
@@ -44,6 +46,7 @@ const MOST_JUMPS: u32 = 14;
 
 /// Configuration of a [`ShoreMap`]: what fixes its memory, 16 bytes per texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ShoreMapConfig {
     /// Texels along each axis, a multiple of 16 from 16 to 4096, default 1024.
     pub size: u32,
@@ -89,12 +92,13 @@ pub enum Heights<'a> {
 pub struct MapMesh {
     /// Its triangles.
     pub triangles: Triangles,
-    /// Transform to world space.
-    pub transform: Mat4,
+    /// Transform to world space, four columns.
+    pub transform: [[f32; 4]; 4],
 }
 
 /// A step of the map, [`ShoreMap::record_step`], needed only where something has changed.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct ShoreMapStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -109,6 +113,14 @@ pub struct ShoreMapStep<'a> {
     pub before: Access,
     /// First use of them after it (layout ignored).
     pub after: Access,
+}
+
+impl<'a> ShoreMapStep<'a> {
+    /// All of an area, of meshes whose buffers the CPU wrote before the submit.
+    pub fn new(slot: Slot, area: Area, heights: Heights<'a>) -> Self {
+        let (before, after) = (NOTHING, NOTHING);
+        Self { slot, area, heights, changed: None, before, after }
+    }
 }
 
 impl Area {
@@ -499,7 +511,7 @@ impl ShoreMap {
                 ];
                 meshes.iter().try_for_each(|mesh| {
                     mesh.triangles.check(fields, &self.gpu.limits)?;
-                    if mesh.transform.is_finite() {
+                    if mesh.transform.as_flattened().iter().all(|v| v.is_finite()) {
                         return Ok(());
                     }
                     Err(Error::bad("MapMesh.transform", "not finite"))
@@ -612,7 +624,9 @@ impl Grid {
                 let stream = indices.map(|(stream, _)| stream);
                 let windows = Window::all(gpu, &positions, [&stream], 0);
                 let Some((positions, [indices])) = windows else { continue };
-                let row = |row: Vec4| (mesh.transform.transpose() * row).to_array();
+                let row = |row: Vec4| {
+                    (Mat4::from_cols_array_2d(&mesh.transform).transpose() * row).to_array()
+                };
                 let resources = [(0, positions.resource), (1, indices.resource)];
                 descriptors.bind(gpu, cmd, &self.pipelines.height, &resources)?;
                 let push = HeightPush {

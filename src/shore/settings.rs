@@ -7,11 +7,14 @@ use std::f64::consts::TAU;
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(ShoreConfig, ShoreLook, ShorelineLook, ContactLook);
+
 /// Maximum number of foam texture layers.
 pub const LAYERS: usize = 4;
 
 /// Configuration of shoreline and contact foam: what costs memory or pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ShoreConfig {
     /// How the edge of foam within a pixel is computed.
     pub edge: Edge,
@@ -54,6 +57,7 @@ pub enum Edge {
 
 /// Appearance of shoreline and contact foam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct ShoreLook {
     /// Time in seconds, finite. Motion is derived from it in 64 bits. Default 0.
     pub time: f64,
@@ -95,6 +99,7 @@ impl Noise {
 ///
 /// with the shore coordinate v 0 at the sea's edge of the foam, 1 at the shore line and 2 inland (the blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ShorelineLook {
     /// Width of the foam seawards and inland of the shore line, metres, (0, 1e6], default 12 and 3, where v
     /// comes from a distance. A strip has its own v.
@@ -205,6 +210,7 @@ impl Default for ShorelineLook {
 
 /// Contact foam: the closer the scene is behind the water's surface, the more foam (Lettier).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContactLook {
     /// Distance at which contact foam ends on the host's surface, metres, (0, 1e6], default 0.4. (The tutorial
     /// has 4 in its own units.)

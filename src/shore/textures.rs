@@ -3,9 +3,9 @@
 //!
 //! Reads: texels. Writes: the web (mean, mean of the square, slopes) and the noise, RGBA16F.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::settings::ShoreConfig;
 use super::texture;

@@ -4,8 +4,8 @@
 //! Reads: scene depth, the surface's, the map of distances; the particles' depth for `contact`. Writes: lists
 //! of tiles, dispatches over them.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::Given;
 use crate::contract::Config;

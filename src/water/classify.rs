@@ -6,9 +6,9 @@
 //! binding is split into parts, each its own hash table; each step processes them one after the other.
 //! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::cull::{Window, capacity, each_once};
 use crate::contract::{Count, Step};

@@ -8,9 +8,9 @@
 //! Particles beyond one storage-buffer range are processed in chunks, each with its own counts and its own part
 //! of the list.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{NoUninit, Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::{Recording, shape};
 use crate::contract::{Config, Count, Particles, Stream};

@@ -24,9 +24,9 @@
 //! part of that layer (by sprite; a mask applies per pixel), and the total times `d / (d + s)`, d the distance
 //! from a spacing s behind the frontmost on.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::{self, SphereList};

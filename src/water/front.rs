@@ -6,9 +6,9 @@
 //! removes six of ten spheres; in deeper water the depth pass costs what its surface costs.
 //! Reads: the list of `cull`. Writes: cells, the front list.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::cull::{Cull, LIST_USE, SMALL_GROUPS, SphereList};
 use super::{Recording, shape};

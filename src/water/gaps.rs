@@ -9,9 +9,9 @@
 //! the layers touch, the water that `thickness` finds at the boundary merges them smoothly and removes it.
 //! Reads: the lists of `front` and `cull`. Writes: boundaries, the farthest of each block of texels.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::cull::SphereList;
 use super::depth::dispatch_sprites;

@@ -8,8 +8,8 @@
 //! Reads: depth, each tile's work. Writes: marks and list of the tiles that are needed, the coarsest level
 //! needed; for those tiles both smoothing images, plan, each tile's work.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::reduce::{Depths, PLAN_AFTER, Reduce, rule_constant};

@@ -16,9 +16,9 @@
 //! depth.
 //! Writes: motion, RG32F, all of it.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::SphereList;

@@ -36,8 +36,11 @@ pub enum Shadows {
 
 pub use crate::light::Convolution;
 
+crate::contract::with!(WaterSettings, FoamSettings, FoamLook, SprayLook, ShadowFilter, NoiseLook);
+
 /// Filter of the host's shadow map for [`Shadows::Convolution`] (Annen et al. 2007).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ShadowFilter {
     /// Width of the box filter in texels of the map, [0, 256], default 3, which is the footprint of
     /// [`Shadows::Map`]. It is never narrower than a texel of the library's own filtered image.
@@ -120,6 +123,7 @@ pub enum Gate {
 
 /// Uniform settings of the layered water.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct WaterSettings {
     /// Rest distance between particles (twice the solver's particle radius), scene units, [1e-6, ∞), default
     /// 0.05.
@@ -471,6 +475,7 @@ impl Fresnel {
 /// `We = scale·ρ·|v − air|²`. A particle foams while its Weber number is at the threshold or above. Onset and decay times vary
 /// from particle to particle (thesis, Sec. 3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FoamSettings {
     /// Weber number per density and squared speed, (0, ∞): the particle diameter divided by the surface tension
     /// ([`weber`](Self::weber)), or another reduced form.
@@ -534,6 +539,7 @@ impl FoamSettings {
 
 /// Appearance of surface foam. No effect without [`Config::foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FoamLook {
     /// Extinction per metre of foam along the ray, [0, ∞), default 0.4 / spacing: two layers of foam particles
     /// hide half.
@@ -679,6 +685,7 @@ impl FoamLook {
 /// As density drops, the particle fades from water to spray. Spray is drawn as droplets around the particle's
 /// centre, each stretched along its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SprayLook {
     /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
@@ -777,6 +784,7 @@ impl SprayLook {
 /// Each particle has its own gradient noise, which moves with it. Their sum is a height on the front surface of
 /// the water, which turns its normals. It is also the baseline's foam: grey where the height is large or small.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NoiseLook {
     /// Height of a noise value of 1, in drawn radii, [0, 16], default 0.336, 0 = flat. (The publication gives
     /// this number as the weight of the derivatives, in a unit of its own.)

@@ -11,9 +11,9 @@
 //! know the view.
 //! Reads: positions. Writes: the grid, shaped.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::cull::{STREAM_USE, Window, buffers_of, most};
 use super::settings::{Ellipsoids, Kernels};

@@ -7,9 +7,9 @@
 //! gate; a skipped block costs only its empty render passes.
 //! Reads: smoothing images, plan, tile list. Writes: smoothing images, query results, predicates.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::reduce::rule_constant;

@@ -6,8 +6,8 @@
 //! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the
 //! arguments of `composite`.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::foam::Foam;

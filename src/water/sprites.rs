@@ -1,9 +1,9 @@
 //! Shared by passes over the host's particles: the binding of the streams that they read, chunk by chunk, and
 //! for `foam`, `spray` and `noise` the list of sprites that a draw or a dispatch reads.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::{self, LIST_USE, SphereList, Window};

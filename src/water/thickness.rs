@@ -13,8 +13,8 @@
 //! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `foam`. Writes: thickness,
 //! R32F or RG32F; sheets, RGBA32F (front, back, window).
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::cull::SphereList;
 use super::depth::{DEFAULT_SPLAT, dispatch_sprites, draw_sprites, sprites};

@@ -5,9 +5,9 @@
 //! are still active in iteration i are a prefix of the list, and one counting sort writes all gates.
 //! Reads: each tile's work, levels. Writes: list, arguments.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::level::Atlas;

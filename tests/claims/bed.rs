@@ -77,5 +77,5 @@ pub fn projection(field: f32, extent: vk::Extent2D) -> Mat4 {
 pub fn camera(distance: f32, slant: f32, projection: Mat4) -> Camera {
     let (sin, cos) = slant.to_radians().sin_cos();
     let eye = distance * Vec3::new(0.0, -sin, cos);
-    Camera { view: Mat4::look_at_rh(eye, Vec3::ZERO, Vec3::Y), projection }
+    Camera::of(Mat4::look_at_rh(eye, Vec3::ZERO, Vec3::Y), projection)
 }

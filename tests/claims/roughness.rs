@@ -34,7 +34,8 @@ pub fn measure(
     plan: &Picture<f32>,
     window: Window,
 ) -> Found {
-    let (view, projection) = (camera.view.as_dmat4(), camera.projection.as_dmat4());
+    let (view, projection) =
+        (camera.view_matrix().as_dmat4(), camera.projection_matrix().as_dmat4());
     let world = view.inverse();
     for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
         let corner = DVec3::new(x * window.x, y * window.y, 0.0);
@@ -124,14 +125,18 @@ fn the_measure_finds_a_known_roughness() {
     let projection = bed::projection(30.0, extent);
     for slant in [0.0, 60.0] {
         let camera = bed::camera(2.0, slant, projection);
-        let world = camera.view.as_dmat4().inverse();
+        let world = camera.view_matrix().as_dmat4().inverse();
         let eye = world.w_axis.truncate();
         let height = |p: DVec3| 0.01 * p.x + 0.003 * (40.0 * p.x).sin() * (40.0 * p.y).cos();
         let mut surface = Picture { width: 256, height: 192, data: vec![0.0; 256 * 192] };
         for y in 0..192 {
             for x in 0..256 {
-                let along =
-                    world.transform_vector3(ray(&camera.projection.as_dmat4(), &surface, x, y));
+                let along = world.transform_vector3(ray(
+                    &camera.projection_matrix().as_dmat4(),
+                    &surface,
+                    x,
+                    y,
+                ));
                 let mut t = -eye.z / along.z;
                 for _ in 0..40 {
                     t = (height(eye + t * along) - eye.z) / along.z;

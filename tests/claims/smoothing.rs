@@ -185,13 +185,12 @@ fn measure(device: Device, row: &Row, effort: Effort) -> (Device, Measured) {
     let (projection, near) = row.placing(effort.extent);
     // A margin of six spacings all round, however the bed is turned.
     let side = 2.0 * (window.x.hypot(window.y) as f32 / SPACING + 6.0);
-    let config = Config {
-        smoothing_level: row.level,
-        rule: row.rule,
-        coarsening: row.coarsening,
-        environment_size: 16,
-        ..Config::new(effort.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16)
-    };
+    let config = Config::new(effort.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16).with(|it| {
+        it.smoothing_level = row.level;
+        it.rule = row.rule;
+        it.coarsening = row.coarsening;
+        it.environment_size = 16;
+    });
     let mut headless = Headless::new(device, &config).unwrap();
     let mut views = vec![Vec::new(); TIMES.len()];
     for seed in 0..effort.beds {
@@ -326,7 +325,8 @@ fn wave(x: f32, y: f32) -> f32 {
 
 /// The surface by light that grazes it, as a screen shows it.
 fn shaded(surface: &Picture<f32>, camera: &Camera) -> Vec<[u8; 3]> {
-    let (projection, world) = (camera.projection.as_dmat4(), camera.view.as_dmat4().inverse());
+    let (projection, world) =
+        (camera.projection_matrix().as_dmat4(), camera.view_matrix().as_dmat4().inverse());
     let at = |x: usize, y: usize| {
         let (x, y) = (x.min(surface.width - 1), y.min(surface.height - 1));
         let ray = roughness::ray(&projection, surface, x, y);
@@ -370,13 +370,13 @@ fn picture() {
         }
         let mut settings = Settings::default();
         settings.water.spacing = SPACING;
-        let config = Config {
-            smoothing_level: row.level,
-            rule,
-            coarsening: 0,
-            environment_size: 16,
-            ..Config::new(LARGE.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16)
-        };
+        let config =
+            Config::new(LARGE.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16).with(|it| {
+                it.smoothing_level = row.level;
+                it.rule = rule;
+                it.coarsening = 0;
+                it.environment_size = 16;
+            });
         let mut headless = Headless::new(device, &config).unwrap();
         headless.particles(&particles, None).unwrap();
         for (line, times) in times.into_iter().enumerate() {

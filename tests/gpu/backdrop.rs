@@ -15,10 +15,7 @@ const SIZE: vk::Extent2D = vk::Extent2D { width: 48, height: 32 };
 type Shot = (Vec<[f32; 4]>, Vec<f32>);
 
 fn camera(eye: Vec3, target: Vec3) -> Camera {
-    Camera {
-        view: Mat4::look_at_rh(eye, target, Vec3::Y),
-        projection: projection(Lens::ReversedInfinite, SIZE),
-    }
+    Camera::of(Mat4::look_at_rh(eye, target, Vec3::Y), projection(Lens::ReversedInfinite, SIZE))
 }
 
 fn shot(headless: &mut Headless, scene: &Scene, camera: &Camera) -> Shot {
@@ -99,7 +96,8 @@ fn haze_takes_the_contrast_of_the_backdrop() {
         assert!((hazy - kept * clear).abs() < 2.0_f32.powi(-10), "{hazy}, not {kept} of {clear}");
     }
     // Meshes stand in clear air.
-    let clip = camera.projection * camera.view * Vec3::new(0.1, 0.6, 0.5).extend(1.0);
+    let clip =
+        camera.projection_matrix() * camera.view_matrix() * Vec3::new(0.1, 0.6, 0.5).extend(1.0);
     let [x, y] = [(clip.x, SIZE.width), (clip.y, SIZE.height)]
         .map(|(at, size)| ((0.5 * at / clip.w + 0.5) * size as f32) as usize);
     let stone = y * SIZE.width as usize + x;

@@ -44,7 +44,7 @@ impl<'g> Body<'g> {
         let cmd = self.stub.begin(slot);
         let state = self.state.as_mut().expect("only drop takes it");
         // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
-        let result = unsafe { state.record_step(cmd, &Step { slot: Slot(slot), ..*step }) };
+        let result = unsafe { state.record_step(cmd, &step.with(|it| it.slot = Slot(slot))) };
         self.stub.end(slot);
         self.stub.wait(slot);
         result
@@ -114,22 +114,22 @@ impl Cloud {
     }
 
     fn step<'a>(&self, settings: &'a FoamSettings, dt: f32) -> Step<'a> {
-        Step {
-            slot: Slot(0),
-            velocities: stream(&self.data, 0, 20),
-            densities: Some(stream(&self.data, 12, 20)),
-            ids: Some(stream(&self.data, 16, 20)),
-            count: Count::Cpu(self.count),
-            dt,
-            settings,
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-        }
+        Step::new(Slot(0), stream(&self.data, 0, 20), Count::Cpu(self.count), dt, settings).with(
+            |it| {
+                it.densities = Some(stream(&self.data, 12, 20));
+                it.ids = Some(stream(&self.data, 16, 20));
+                it.before = HOST_WRITE;
+                it.after = HOST_WRITE;
+            },
+        )
     }
 }
 
 fn settings() -> FoamSettings {
-    FoamSettings { seed: 7, air: [0.5, 0.0, -0.25], ..FoamSettings::weber(0.05, 2500.0) }
+    FoamSettings::weber(0.05, 2500.0).with(|it| {
+        it.seed = 7;
+        it.air = [0.5, 0.0, -0.25];
+    })
 }
 
 fn twin_settings(settings: &FoamSettings) -> twin::Settings {
@@ -226,7 +226,7 @@ impl Sea {
 #[test]
 fn phases_are_the_twins_over_hundreds_of_steps() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(700) });
+    let mut body = Body::new(&gpu, StateConfig::new(700).with(|it| it.max_stride = 20));
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(700));
     let mut most = [0_usize; 4];
     for step in 0..400 {
@@ -252,7 +252,7 @@ fn phases_are_the_twins_over_hundreds_of_steps() {
 #[test]
 fn a_saved_state_goes_on_as_if_uncut() {
     let gpu = Gpu::shared();
-    let config = StateConfig { max_stride: 20, ..StateConfig::new(300) };
+    let config = StateConfig::new(300).with(|it| it.max_stride = 20);
     let settings = settings();
     let mut whole = Body::new(&gpu, config);
     let mut part = Body::new(&gpu, config);
@@ -274,7 +274,7 @@ fn a_saved_state_goes_on_as_if_uncut() {
 fn tables_in_parts_hold_the_same_state() {
     let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
-    let config = StateConfig { max_stride: 20, ..StateConfig::new(700) };
+    let config = StateConfig::new(700).with(|it| it.max_stride = 20);
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(700));
     let steps: Vec<Vec<Particle>> = (0..40).map(|_| sea.step().to_vec()).collect();
     let run = |gpu: &Gpu, looks: &dyn Fn(u64)| -> (Vec<Foam>, Vec<u8>) {
@@ -285,7 +285,7 @@ fn tables_in_parts_hold_the_same_state() {
             let step = cloud.step(&settings, 0.05);
             drop(spy::take_bound());
             // Without ids every ninth: what the table holds then is nobody's, in both.
-            let step = if i % 9 == 8 { Step { ids: None, ..step } } else { step };
+            let step = if i % 9 == 8 { step.with(|it| it.ids = None) } else { step };
             body.record(&step).expect("a step");
             let bytes = (cloud.data.buffer, cloud.data.size);
             let foamed = (body.state().foam(), 8 * 700);
@@ -331,7 +331,7 @@ fn a_step_of_millions_of_ids() {
     }
     const COUNT: usize = 4_800_000;
     let gpu = Gpu::shared();
-    let config = StateConfig { max_stride: 20, ..StateConfig::new(COUNT as u32) };
+    let config = StateConfig::new(COUNT as u32).with(|it| it.max_stride = 20);
     let mut body = Body::new(&gpu, config);
     assert!(body.state().size() > 128 << 20, "{} bytes of state", body.state().size());
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(COUNT));
@@ -353,7 +353,7 @@ fn a_step_of_millions_of_ids() {
 #[test]
 fn an_abandoned_step_leaves_the_state_before_it() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(100) });
+    let mut body = Body::new(&gpu, StateConfig::new(100).with(|it| it.max_stride = 20));
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(100));
     for _ in 0..9 {
         let particles = sea.step().to_vec();
@@ -377,7 +377,7 @@ fn an_abandoned_step_leaves_the_state_before_it() {
 #[test]
 fn an_abandoned_first_step_leaves_an_empty_state() {
     let gpu = Gpu::shared();
-    let config = StateConfig { max_stride: 20, ..StateConfig::new(100) };
+    let config = StateConfig::new(100).with(|it| it.max_stride = 20);
     let settings = settings();
     // What the allocator hands out next.
     let mut before = Body::new(&gpu, config);
@@ -402,7 +402,7 @@ fn an_abandoned_first_step_leaves_an_empty_state() {
 #[test]
 fn an_abandoned_step_does_not_undo_a_reset_or_a_restore() {
     let gpu = Gpu::shared();
-    let config = StateConfig { max_stride: 20, ..StateConfig::new(100) };
+    let config = StateConfig::new(100).with(|it| it.max_stride = 20);
     let (settings, mut sea) = (settings(), Sea::new(100));
     for restored in [true, false] {
         let mut body = Body::new(&gpu, config);
@@ -454,17 +454,12 @@ fn every_kind_of_input() {
             true => Count::Gpu { buffer: count_data.buffer, offset: 16 },
             false => Count::Cpu(particles.len() as u32),
         };
-        let whole = Step {
-            slot: Slot(0),
-            velocities: stream(&velocity_data, 0, 12),
-            densities: None,
-            ids: Some(stream(&id_data, 0, 4)),
-            count,
-            dt: 0.03,
-            settings: &settings,
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-        };
+        let whole =
+            Step::new(Slot(0), stream(&velocity_data, 0, 12), count, 0.03, &settings).with(|it| {
+                it.ids = Some(stream(&id_data, 0, 4));
+                it.before = HOST_WRITE;
+                it.after = HOST_WRITE;
+            });
         body.record(&whole).expect("a step");
         let expected = phases.step(&twin_settings(&settings), 0.03, &particles);
         let found = body.foam(particles.len());
@@ -474,9 +469,9 @@ fn every_kind_of_input() {
 
     let particles = sea.step().to_vec();
     let cloud = Cloud::new(&body.stub, &particles);
-    let mut wide = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(400) });
+    let mut wide = Body::new(&gpu, StateConfig::new(400).with(|it| it.max_stride = 20));
     let step = cloud.step(&settings, 0.1);
-    wide.record(&Step { ids: None, ..step }).expect("a step");
+    wide.record(&step.with(|it| it.ids = None)).expect("a step");
     for (p, found) in particles.iter().zip(wide.foam(particles.len())) {
         let expected = twin::stateless(&twin_settings(&settings), p.velocity, p.density);
         // A division of 2.5 ulp, of numbers up to 1.5.
@@ -489,7 +484,7 @@ fn every_kind_of_input() {
 #[test]
 fn broken_particles() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(8) });
+    let mut body = Body::new(&gpu, StateConfig::new(8).with(|it| it.max_stride = 20));
     let (settings, mut phases) = (settings(), Phases::default());
     let of = |id, speed, density| Particle { id, velocity: [speed, 0.0, 0.0], density };
     let particles = [
@@ -516,24 +511,25 @@ fn broken_particles() {
 #[test]
 fn bad_steps_are_errors() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(10) });
+    let mut body = Body::new(&gpu, StateConfig::new(10).with(|it| it.max_stride = 20));
     let mut sea = Sea::new(10);
     let cloud = Cloud::new(&body.stub, sea.step());
     let settings = settings();
     let good = cloud.step(&settings, 0.1);
     body.record(&good).expect("a good step");
     let wide = Stream { stride: 24, ..good.velocities };
+    let never = settings.with(|it| it.threshold = 0.0);
     let bad: [(&str, Step<'_>); 7] = [
-        ("Step.dt", Step { dt: f32::NAN, ..good }),
-        ("Step.dt", Step { dt: -0.1, ..good }),
-        ("Step.count", Step { count: Count::Cpu(11), ..good }),
-        ("Step.velocities", Step { velocities: wide, ..good }),
-        ("Step.ids", Step { ids: Some(Stream { offset: 18, ..good.velocities }), ..good }),
-        ("Step.densities", Step { densities: Some(Stream { size: 9, ..good.velocities }), ..good }),
+        ("Step.dt", good.with(|it| it.dt = f32::NAN)),
+        ("Step.dt", good.with(|it| it.dt = -0.1)),
+        ("Step.count", good.with(|it| it.count = Count::Cpu(11))),
+        ("Step.velocities", good.with(|it| it.velocities = wide)),
+        ("Step.ids", good.with(|it| it.ids = Some(Stream { offset: 18, ..good.velocities }))),
         (
-            "FoamSettings.threshold",
-            Step { settings: &FoamSettings { threshold: 0.0, ..settings }, ..good },
+            "Step.densities",
+            good.with(|it| it.densities = Some(Stream { size: 9, ..good.velocities })),
         ),
+        ("FoamSettings.threshold", good.with(|it| it.settings = &never)),
     ];
     for (field, step) in bad {
         match body.record(&step) {
@@ -546,10 +542,10 @@ fn bad_steps_are_errors() {
         vk::AccessFlags2::NONE,
         vk::ImageLayout::UNDEFINED,
     );
-    body.record(&Step { before: nothing, ..good }).expect("as before");
+    body.record(&good.with(|it| it.before = nothing)).expect("as before");
     for config in [
         StateConfig::new(0),
-        StateConfig { max_stride: 6, ..StateConfig::new(1) },
+        StateConfig::new(1).with(|it| it.max_stride = 6),
         StateConfig::new(u32::MAX),
     ] {
         match State::new(&gpu.context(1), &config) {
@@ -564,7 +560,7 @@ fn bad_steps_are_errors() {
 #[test]
 fn hostile_bits_in_a_step() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(600) });
+    let mut body = Body::new(&gpu, StateConfig::new(600).with(|it| it.max_stride = 20));
     let (settings, mut random) = (settings(), Random(9));
     let mut words = vec![0x4120_0000_u32; 5 * 600];
     for (i, id) in words.iter_mut().skip(4).step_by(5).enumerate() {

@@ -306,13 +306,12 @@ fn the_picture_is_the_twins() {
     for (level, thickness_level) in [(0, 0), (1, 0), (1, 1), (2, 2), (0, 2), (1, 2), (2, 1), (1, 3)]
     {
         for (sky, flat) in [(Sky::Even, true), (Sky::Even, false), (Sky::Slope, false)] {
-            let config = Config {
-                smoothing_level: level,
-                thickness_level,
-                environment_size: CUBE as u32,
-                coarsening: 0,
-                ..config(size)
-            };
+            let config = config(size).with(|it| {
+                it.smoothing_level = level;
+                it.thickness_level = thickness_level;
+                it.environment_size = CUBE as u32;
+                it.coarsening = 0;
+            });
             let mut rig = Rig::new(&gpu, &config);
             rig.environment(extent(SKY.0, SKY.1), &sky.texels());
             let lenses: &[Lens] = match (level, thickness_level) {
@@ -340,8 +339,11 @@ fn every_rule_of_the_surface() {
     let mut all = Cases::default();
     for (level, thickness_level) in [(0, 0), (1, 2), (2, 1), (2, 3), (1, 1)] {
         // The twin knows one level; tests of `level` compare the others with it.
-        let config =
-            Config { smoothing_level: level, thickness_level, coarsening: 0, ..config(size) };
+        let config = config(size).with(|it| {
+            it.smoothing_level = level;
+            it.thickness_level = thickness_level;
+            it.coarsening = 0;
+        });
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         for (falloff, width) in [(5.3, 1.5), (1.0, 0.0), (0.3, 0.0), (0.1, 0.5)] {
@@ -370,8 +372,11 @@ fn every_medium_and_reflectance() {
     let size = extent(96, 64);
     let make = |composite| {
         let depth_splat = Some(Splat::Raster);
-        let config =
-            Config { depth_splat, coarsening: 0, composite: Some(composite), ..config(size) };
+        let config = config(size).with(|it| {
+            it.depth_splat = depth_splat;
+            it.coarsening = 0;
+            it.composite = Some(composite);
+        });
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         rig
@@ -460,7 +465,7 @@ fn liquids_look_like_themselves() {
 fn a_hundredth_is_seen() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.coarsening = 0));
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let shot = shot(size, Lens::Standard);
     let mut flat = shot.clone();
@@ -495,7 +500,7 @@ fn a_hundredth_is_seen() {
 fn turbid_media_are_exact() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.coarsening = 0));
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let mut shot = shot(size, Lens::Standard);
     shot.color.fill(FLAT);
@@ -538,7 +543,10 @@ fn the_bed_is_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for way in [Shading::Raster, Shading::Compute] {
-        let config = Config { coarsening: 0, composite: Some(way), ..config(size) };
+        let config = config(size).with(|it| {
+            it.coarsening = 0;
+            it.composite = Some(way);
+        });
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
@@ -563,7 +571,7 @@ fn the_bed_is_the_twins() {
         }
     }
     // Each number of it counts; none of a hundredth is lost.
-    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.coarsening = 0));
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let mut shot = on_bed(size, Lens::Standard);
     shot.settings.water.medium =
@@ -596,8 +604,11 @@ fn what_of_the_scene_is_mirrored_is_the_twins() {
     let size = extent(97, 61);
     let mut mirrored = 0;
     for (way, steps) in [(Shading::Raster, 10), (Shading::Compute, 10), (Shading::Raster, 2)] {
-        let config =
-            Config { coarsening: 0, composite: Some(way), mirror_steps: steps, ..config(size) };
+        let config = config(size).with(|it| {
+            it.coarsening = 0;
+            it.composite = Some(way);
+            it.mirror_steps = steps;
+        });
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         for lens in [Lens::Standard, Lens::OffAxis, Lens::Reversed, Lens::LeftHanded] {
@@ -630,14 +641,13 @@ fn what_comes_through_both_surfaces_is_the_twins() {
     for (way, thickness_level) in
         [(Shading::Raster, 2), (Shading::Compute, 0), (Shading::Raster, 1)]
     {
-        let config = Config {
-            coarsening: 0,
-            composite: Some(way),
-            exit: Exit::TwoInterfaces,
-            mirror_steps: if thickness_level == 1 { 10 } else { 0 },
-            thickness_level,
-            ..config(size)
-        };
+        let config = config(size).with(|it| {
+            it.coarsening = 0;
+            it.composite = Some(way);
+            it.exit = Exit::TwoInterfaces;
+            it.mirror_steps = if thickness_level == 1 { 10 } else { 0 };
+            it.thickness_level = thickness_level;
+        });
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
@@ -675,7 +685,11 @@ fn what_comes_through_both_surfaces_is_the_twins() {
 fn water_before_water_bends_as_it_does_alone() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config { coarsening: 0, sheets: 2, exit: Exit::TwoInterfaces, ..config(size) };
+    let config = config(size).with(|it| {
+        it.coarsening = 0;
+        it.sheets = 2;
+        it.exit = Exit::TwoInterfaces;
+    });
     let mut rig = Rig::new(&gpu, &config);
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let clear = Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
@@ -710,7 +724,14 @@ fn clear_water_in_a_white_furnace_is_not_seen() {
     for (mirror_steps, exit) in
         [(0, Exit::Straight), (10, Exit::Straight), (10, Exit::TwoInterfaces)]
     {
-        furnace(&gpu, Config { coarsening: 0, mirror_steps, exit, ..config(size) });
+        furnace(
+            &gpu,
+            config(size).with(|it| {
+                it.coarsening = 0;
+                it.mirror_steps = mirror_steps;
+                it.exit = exit;
+            }),
+        );
     }
 }
 
@@ -757,7 +778,7 @@ fn furnace(gpu: &Gpu, config: Config) {
 fn what_stands_before_the_water_is_not_refracted() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.coarsening = 0));
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     for depth_extent in [size, extent(192, 128), extent(50, 31)] {
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {

@@ -22,7 +22,11 @@ use crate::support::slow;
 /// Without light of ours.
 fn convolving(convolution: Convolution) -> Config {
     let shadow = Some(Shadows::Convolution(convolution));
-    Config { cast: None, shadow, thickness_level: 0, ..casting(16) }
+    casting(16).with(|it| {
+        it.cast = None;
+        it.shadow = shadow;
+        it.thickness_level = 0;
+    })
 }
 
 fn filter(convolution: Convolution, settings: &ShadowFilter) -> Filter {
@@ -78,7 +82,8 @@ impl Map {
         let mut host = image.host_image();
         host.rect.offset = vk::Offset2D { x: 1, y: 2 };
         host.rect.extent = extent(w as u32, h as u32);
-        case.shot.sun.shadow = Some(Shadow { image: host, view_projection, bias });
+        case.shot.sun.shadow =
+            Some(Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = bias));
         Self { part, view_projection, bias, reversed, _image: image }
     }
 
@@ -152,12 +157,12 @@ fn the_basis_is_the_twins_and_foam_is_in_its_shade() {
             let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
             let ends = [depth(0.6), depth(-0.6)];
             let open = if reversed { 0.0 } else { 1.0 };
-            case.shot.settings.shadow = ShadowFilter {
-                width: [0.0, 3.0, 7.5, 4.0][(i + j) % 4],
-                damping: [1.0, 0.0, 2.0, 0.5][j],
-                offset: [1.0, 0.25, 0.0, 0.75][(i + 2 * j) % 4],
-                scale: [1.0, 1.25, 2.0, 4.0][(i + j) % 4],
-            };
+            case.shot.settings.shadow = ShadowFilter::default().with(|it| {
+                it.width = [0.0, 3.0, 7.5, 4.0][(i + j) % 4];
+                it.damping = [1.0, 0.0, 2.0, 0.5][j];
+                it.offset = [1.0, 0.25, 0.0, 0.75][(i + 2 * j) % 4];
+                it.scale = [1.0, 1.25, 2.0, 4.0][(i + j) % 4];
+            });
             let bias = [0.0, 0.15][j % 2];
             let part = blocks(21, 33 + j, ends, open);
             let map = Map::new(&rig, &mut case, part, (view_projection, reversed), bias);
@@ -239,7 +244,10 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
         let (_, view_projection, reversed) = light_views(sun, at)[0];
         let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
         for scale in [1.0, 1.25_f32] {
-            case.shot.settings.shadow = ShadowFilter { width, scale, ..ShadowFilter::default() };
+            case.shot.settings.shadow = ShadowFilter::default().with(|it| {
+                it.width = width;
+                it.scale = scale;
+            });
             let edge = 52;
             let part = Image::from_fn(101, 23, |x, _| depth(if x < edge { 2.5 } else { -2.5 }));
             let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
@@ -376,13 +384,12 @@ fn maps_of_any_size_come_and_go() {
         let sun = Vec3::from(case.shot.settings.light.direction);
         let view = Mat4::look_at_rh(at + 6.0 * sun, at, Vec3::Y);
         let flat = Mat4::orthographic_rh(-4.0, 4.0, -4.0, 4.0, 1.0, 11.0) * view;
-        let config = Config {
-            cast: Some(32),
-            spray: true,
-            sheets: 2,
-            composite: Some(composite),
-            ..convolving(convolution)
-        };
+        let config = convolving(convolution).with(|it| {
+            it.cast = Some(32);
+            it.spray = true;
+            it.sheets = 2;
+            it.composite = Some(composite);
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut pictures = Vec::new();
         for (w, h) in [(23, 17), (1, 1), (5, 90), (300, 200), (32, 32), (1, 33), (23, 17)] {
@@ -401,7 +408,7 @@ fn maps_of_any_size_come_and_go() {
         }
         assert!(pictures[0] == pictures[6] && pictures[0] != pictures[1]);
         // Nothing in the map, in both conventions.
-        let mut dark = Rig::lit(&gpu, &Config { shadow: None, ..config }, 1);
+        let mut dark = Rig::lit(&gpu, &config.with(|it| it.shadow = None), 1);
         case.shot.sun.shadow = None;
         let expected = case.draw(&mut dark);
         for (reversed, open) in [(false, 1.0), (true, 0.0)] {

@@ -13,7 +13,11 @@ use crate::support::tolerance;
 const BOTH: [Splat; 2] = [Splat::Raster, Splat::Compute];
 
 fn splatted(size: ash::vk::Extent2D, splat: Splat) -> Config {
-    Config { depth_splat: Some(splat), smoothing_level: 0, thickness_level: 0, ..config(size) }
+    config(size).with(|it| {
+        it.depth_splat = Some(splat);
+        it.smoothing_level = 0;
+        it.thickness_level = 0;
+    })
 }
 
 /// The eye-space spheres of a shot.

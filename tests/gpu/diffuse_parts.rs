@@ -2,7 +2,7 @@
 
 use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Background, Device, Diffuse, Headless, Picture};
-use whitewater::{Camera, Config, Error, Settings};
+use whitewater::{Camera, Error, Settings};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Shot, config, extent};
@@ -53,7 +53,7 @@ impl Cloud {
 }
 
 fn headless(device: Device, most: u32) -> Headless {
-    let config = Config { diffuse: Some(DiffuseConfig::new(most)), ..config(extent(64, 48)) };
+    let config = config(extent(64, 48)).with(|it| it.diffuse = Some(DiffuseConfig::new(most)));
     let mut headless = Headless::new(device, &config).expect("headless");
     headless.particles(&[], None).expect("no water");
     headless
@@ -97,7 +97,7 @@ fn parts_of_any_size_make_the_picture_of_all() {
 fn packets_of_parts_make_the_same_picture() {
     let mut cloud = Cloud::new();
     // Along a line from the left, so that they begin and end beside the view, and one that is nowhere.
-    let right = cloud.camera.view.row(0).truncate();
+    let right = cloud.camera.view_matrix().row(0).truncate();
     let across = |p: [f32; 3]| right.dot(glam::Vec3::from(p));
     cloud.positions.sort_by(|a, b| across(*a).total_cmp(&across(*b)));
     for (i, position) in cloud.positions.iter_mut().enumerate() {
@@ -110,8 +110,8 @@ fn packets_of_parts_make_the_same_picture() {
     plain.diffuse(Some(&cloud.part(0..COUNT))).expect("all at once");
     let (expected, memory) = (cloud.draw(&mut plain), plain.diffuse_memory());
     end(plain);
-    let diffuse = DiffuseConfig { packets: true, ..DiffuseConfig::new(COUNT as u32) };
-    let config = Config { diffuse: Some(diffuse), ..config(extent(64, 48)) };
+    let diffuse = DiffuseConfig::new(COUNT as u32).with(|it| it.packets = true);
+    let config = config(extent(64, 48)).with(|it| it.diffuse = Some(diffuse));
     let mut headless = Headless::new(Gpu::own().take_device(), &config).expect("headless");
     headless.particles(&[], None).expect("no water");
     for size in [100, 256, 700, COUNT] {

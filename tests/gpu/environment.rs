@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
-use whitewater::{Config, EnvironmentSource, Sky};
+use whitewater::{EnvironmentSource, Sky};
 
 use crate::reference::Image;
 use crate::reference::environment as twin;
@@ -97,7 +97,7 @@ fn a_map_becomes_the_twins_cube() {
     let bits = gpu.limits().sub_texel_precision_bits;
     let mut random = Random(11);
     for (size, width, height) in [(16, 64, 32), (64, 33, 17), (32, 256, 128), (16, 1, 1)] {
-        let config = Config { environment_size: size, ..config(extent(16, 8)) };
+        let config = config(extent(16, 8)).with(|it| it.environment_size = size);
         let mut rig = Rig::new(&gpu, &config);
         let texels: Vec<[f32; 4]> = (0..width * height)
             .map(|_| [0, 1, 2].map(|i| random.between(0.0, [1.0, 4.0, 0.1][i])))
@@ -135,14 +135,17 @@ fn the_sky_becomes_the_twins_cube() {
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = 32;
-    let mut rig = Rig::new(&gpu, &Config { environment_size: size, ..config(extent(16, 8)) });
+    let mut rig = Rig::new(&gpu, &config(extent(16, 8)).with(|it| it.environment_size = size));
     for (sun, intensity) in [
         (Sky::default().sun, 20.0),
         ([0.0, 3.0, 0.0], 1.0),
         ([0.9, 0.03, -0.4], 20.0),
         ([-0.5, -0.1, 0.5], 5.0),
     ] {
-        rig.any_environment(&EnvironmentSource::Sky(Sky { sun, intensity, ..Sky::default() }));
+        rig.any_environment(&EnvironmentSource::Sky(Sky::default().with(|it| {
+            it.sun = sun;
+            it.intensity = intensity;
+        })));
         let to = DVec3::from(sun.map(f64::from)).normalize();
         let expected = |face: usize, at: DVec2| {
             let d = twin::direction(face, (at + 0.5) / f64::from(size)).normalize();

@@ -3,10 +3,10 @@
 //! not depend on the order; what is thin beside a step must not be lost by that.
 
 use glam::{Mat4, vec3};
+use whitewater::Region;
 use whitewater::foam::DiffuseConfig;
 use whitewater::headless::Diffuse;
 use whitewater::water::{Splat, SprayLook};
-use whitewater::{Config, Particles, Region};
 
 use crate::foam::Foamy;
 use crate::support::device::Gpu;
@@ -44,7 +44,8 @@ fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
     let mut shot = Shot::new(SIZE, Lens::Infinite, 0.656 * SPACING, &[]);
     let square = SIZE.width as f32 / SIZE.height as f32;
     let projection = Mat4::perspective_infinite_rh(high.to_radians(), square, 0.1);
-    shot.camera.projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0)) * projection;
+    shot.camera.projection =
+        (Mat4::from_scale(vec3(1.0, -1.0, 1.0)) * projection).to_cols_array_2d();
     let points: Vec<_> =
         (0..count).map(|_| [random.between(-x, x), random.between(-y, y), depth]).collect();
     shot.positions = scenes::world(&shot.camera, &points);
@@ -61,7 +62,7 @@ fn draw(case: &Foamy, rig: &mut Rig<'_>) -> Drawn {
     let streams = case.streams(rig);
     let all = streams.particles();
     let foam = all.foam.filter(|_| rig.config.foam);
-    rig.draw_particles(&case.shot, &Particles { foam, ..all })
+    rig.draw_particles(&case.shot, &all.with(|it| it.foam = foam))
 }
 
 /// The sum of texels of `level` over a plane at such a distance: of a particle, square spacings times the unit.
@@ -104,11 +105,11 @@ fn spray(drawn: &Drawn) -> impl Iterator<Item = f32> {
 }
 
 fn spray_keeps_its_light(gpu: &Gpu, opacities: &[f32]) {
-    let mut rig = Rig::new(gpu, &Config { spray: true, ..config(SIZE) });
+    let mut rig = Rig::new(gpu, &config(SIZE).with(|it| it.spray = true));
     for &opacity in opacities {
         let case = |spacings| {
             let mut case = plane(4000, spacings, 12.0);
-            case.shot.settings.spray = SprayLook { opacity, ..SprayLook::default() };
+            case.shot.settings.spray = SprayLook::default().with(|it| it.opacity = opacity);
             case.shot.densities = Some(vec![1.0; 4000]);
             case
         };
@@ -141,8 +142,11 @@ fn far_foam_keeps_its_light() {
     for (splat, level) in
         [Splat::Compute, Splat::Raster].into_iter().flat_map(|splat| [(splat, 2), (splat, 1)])
     {
-        let ways = Config { thickness_splat: Some(splat), thickness_level: level, ..config(SIZE) };
-        let mut rig = Rig::new(&gpu, &Config { foam: true, ..ways });
+        let ways = config(SIZE).with(|it| {
+            it.thickness_splat = Some(splat);
+            it.thickness_level = level;
+        });
+        let mut rig = Rig::new(&gpu, &ways.with(|it| it.foam = true));
         for amount in [1.0, 0.1] {
             // A plane is one layer: of all foam, of what lies right behind the frontmost, of what of that is lit.
             for (i, layer) in ["all", "front"].into_iter().enumerate() {
@@ -168,8 +172,11 @@ fn far_foam_keeps_its_light() {
 fn foam_off_the_axis_keeps_its_volume() {
     let gpu = Gpu::shared();
     for splat in [Splat::Compute, Splat::Raster] {
-        let ways = Config { thickness_splat: Some(splat), thickness_level: 1, ..config(SIZE) };
-        let mut rig = Rig::new(&gpu, &Config { foam: true, ..ways });
+        let ways = config(SIZE).with(|it| {
+            it.thickness_splat = Some(splat);
+            it.thickness_level = 1;
+        });
+        let mut rig = Rig::new(&gpu, &ways.with(|it| it.foam = true));
         let mut case = plane_in(90.0, 2000, 4.0, 4.0);
         case.amounts.fill([1.0, 0.0]);
         let drawn = draw(&case, &mut rig);
@@ -185,7 +192,10 @@ fn foam_off_the_axis_keeps_its_volume() {
 fn far_water_keeps_its_volume() {
     let gpu = Gpu::shared();
     for splat in [Splat::Compute, Splat::Raster] {
-        let config = Config { thickness_splat: Some(splat), thickness_level: 2, ..config(SIZE) };
+        let config = config(SIZE).with(|it| {
+            it.thickness_splat = Some(splat);
+            it.thickness_level = 2;
+        });
         let mut rig = Rig::new(&gpu, &config);
         kept(&format!("water, {splat:?}"), f64::from(SPACING), |spacings| {
             let case = plane(2000, spacings, 18.0);
@@ -198,7 +208,11 @@ fn far_water_keeps_its_volume() {
 #[test]
 fn far_maps_of_the_sun_keep_what_casts() {
     let gpu = Gpu::shared();
-    let config = Config { cast: Some(64), foam: true, spray: true, ..config(SIZE) };
+    let config = config(SIZE).with(|it| {
+        it.cast = Some(64);
+        it.foam = true;
+        it.spray = true;
+    });
     let mut rig = Rig::new(&gpu, &config);
     // Of the map's channels, by the foam of a particle: metres of water and of foam.
     for (amount, channel, share) in [(0.0, 0, 1.0), (1.0, 1, 1.0), (0.1, 1, 0.1)] {
@@ -224,7 +238,13 @@ fn far_maps_of_the_sun_keep_what_casts() {
 fn far_diffuse_particles_keep_their_light() {
     let gpu = Gpu::shared();
     let diffuse = Some(DiffuseConfig::new(4096));
-    let mut rig = Rig::new(&gpu, &Config { diffuse, cast: Some(64), ..config(SIZE) });
+    let mut rig = Rig::new(
+        &gpu,
+        &config(SIZE).with(|it| {
+            it.diffuse = diffuse;
+            it.cast = Some(64);
+        }),
+    );
     const COUNT: usize = 2000;
     // What is left of it at an age is the second.
     for (age, life) in [(0.0, 1.0), (0.998, (1.0_f32 - 0.998 * 0.998).powf(0.4))] {

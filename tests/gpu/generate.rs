@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use ash::vk;
 use glam::DVec3;
 use whitewater::foam::{DiffuseConfig, GenerateConfig, GenerateSettings, Generator, Limits};
-use whitewater::{Config, Count, DiffuseParticles, Error, GenerateStep, Slot, Stream};
+use whitewater::{Count, DiffuseParticles, Error, GenerateStep, Slot, Stream};
 
 use crate::reference::generate::{self as twin, Fluid, Particle};
 use crate::support::compare;
@@ -64,7 +64,7 @@ impl Making {
         self.steps += 1;
         let cmd = self.stub.begin(slot);
         let generator = self.generator.as_mut().expect("only drop takes it");
-        let result = by(generator, cmd, &GenerateStep { slot: Slot(slot), ..*step });
+        let result = by(generator, cmd, &step.with(|it| it.slot = Slot(slot)));
         self.stub.end(slot);
         self.stub.wait(slot);
         result
@@ -153,18 +153,19 @@ fn step_of<'a>(
     dt: f32,
     number: u32,
 ) -> GenerateStep<'a> {
-    GenerateStep {
-        slot: Slot(0),
-        positions: stream(data, 0, 28),
-        velocities: stream(data, 12, 28),
-        ids: Some(stream(data, 24, 28)),
-        count: Count::Cpu(fluid.ids.len() as u32),
+    GenerateStep::new(
+        Slot(0),
+        [stream(data, 0, 28), stream(data, 12, 28)],
+        Count::Cpu(fluid.ids.len() as u32),
         dt,
-        number,
         settings,
-        before: HOST_WRITE,
-        after: HOST_WRITE,
-    }
+    )
+    .with(|it| {
+        it.ids = Some(stream(data, 24, 28));
+        it.number = number;
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    })
 }
 
 impl Drop for Making {
@@ -225,18 +226,14 @@ fn sea(step: u32) -> Fluid {
 
 fn settings() -> GenerateSettings {
     let limits = |least, most| Limits { least, most };
-    GenerateSettings {
-        trapped_air_rate: 60.0,
-        wave_crest_rate: 40.0,
-        lifetime: [0.2, 0.5],
-        bounds: Some([[-0.5, -0.3, -0.5], [1.2, 1.4, 1.2]]),
-        seed: 5,
-        ..GenerateSettings::new(
-            SPACING,
-            [limits(0.5, 8.0), limits(0.3, 4.0), limits(0.2, 6.0)],
-            1.0,
-        )
-    }
+    GenerateSettings::new(SPACING, [limits(0.5, 8.0), limits(0.3, 4.0), limits(0.2, 6.0)], 1.0)
+        .with(|it| {
+            it.trapped_air_rate = 60.0;
+            it.wave_crest_rate = 40.0;
+            it.lifetime = [0.2, 0.5];
+            it.bounds = Some([[-0.5, -0.3, -0.5], [1.2, 1.4, 1.2]]);
+            it.seed = 5;
+        })
 }
 
 fn twins(settings: &GenerateSettings) -> twin::Settings {
@@ -299,7 +296,7 @@ fn potentials_are_the_twins() {
 }
 
 fn config() -> GenerateConfig {
-    GenerateConfig { max_stride: 28, ..GenerateConfig::new(2000, 4000) }
+    GenerateConfig::new(2000, 4000).with(|it| it.max_stride = 28)
 }
 
 /// Whether two particles are the same but for rounding and what the water's velocity may be off.
@@ -317,7 +314,7 @@ fn assert_same(name: &str, found: &Particle, expected: &Particle, off: f64, dt: 
 #[test]
 fn every_step_is_the_twins() {
     let gpu = Gpu::shared();
-    let mut making = Making::new(&gpu, &GenerateConfig { max_particles: 20_000, ..config() });
+    let mut making = Making::new(&gpu, &config().with(|it| it.max_particles = 20_000));
     let (settings, dt) = (settings(), 0.03_f32);
     let mut before: Vec<Particle> = Vec::new();
     let mut seen = [0_usize; 3];
@@ -442,7 +439,7 @@ fn the_order_of_the_fluid_is_no_matter() {
 #[test]
 fn no_more_than_there_is_room_for() {
     let gpu = Gpu::shared();
-    let mut making = Making::new(&gpu, &GenerateConfig { max_particles: 150, ..config() });
+    let mut making = Making::new(&gpu, &config().with(|it| it.max_particles = 150));
     let (mut before, mut lost) = (0, 0);
     for number in 0..10 {
         let made = making.step(&sea(number), &settings(), 0.03, number);
@@ -499,7 +496,10 @@ fn kinds_at_birth_are_those_of_the_next_step() {
         }
     }
     for (snapshot, rate) in [(false, 4000.0), (true, 200.0)] {
-        let settings = GenerateSettings { trapped_air_rate: rate, bounds: None, ..settings() };
+        let settings = settings().with(|it| {
+            it.trapped_air_rate = rate;
+            it.bounds = None;
+        });
         let data = making.upload(&fluid);
         // Those of a step come no farther than a hundredth of a second's way.
         let step = step_of(&data, &fluid, &settings, 0.01 * SPACING, 0);
@@ -544,28 +544,26 @@ fn every_kind_of_input() {
     let positions = making.stub.data(bytemuck::cast_slice(&fluid.positions), storage);
     let velocities = making.stub.data(bytemuck::cast_slice(&fluid.velocities), storage);
     let counter = making.stub.data(&(count as u32).to_ne_bytes(), storage);
-    let step = GenerateStep {
-        slot: Slot(0),
-        positions: stream(&positions, 0, 12),
-        velocities: stream(&velocities, 0, 12),
-        ids: None,
-        count: Count::Gpu { buffer: counter.buffer, offset: 0 },
-        dt: 0.03,
-        number: 1,
-        settings: &settings,
-        before: HOST_WRITE,
-        after: HOST_WRITE,
-    };
+    let step = GenerateStep::new(
+        Slot(0),
+        [stream(&positions, 0, 12), stream(&velocities, 0, 12)],
+        Count::Gpu { buffer: counter.buffer, offset: 0 },
+        0.03,
+        &settings,
+    )
+    .with(|it| {
+        it.number = 1;
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    });
     making.record(&step).expect("a step");
     assert_eq!(making.made(count), expected, "a count on the GPU");
 
     // A chunk holds a part of them.
     let range = u64::from(gpu.limits().max_storage_buffer_range);
     let stride = (range / 900).next_multiple_of(4).min(1 << 17) as u32;
-    let mut chunked = Making::new(
-        &gpu,
-        &GenerateConfig { max_stride: stride, ..GenerateConfig::new(2000, 4000) },
-    );
+    let mut chunked =
+        Making::new(&gpu, &GenerateConfig::new(2000, 4000).with(|it| it.max_stride = stride));
     let wide: Vec<u8> = (0..count)
         .flat_map(|i| {
             let mut record = vec![0_u8; stride as usize];
@@ -576,17 +574,16 @@ fn every_kind_of_input() {
         .collect();
     let wide = chunked.stub.data(&wide, storage);
     let of = |offset| Stream { stride, ..stream(&wide, offset, stride) };
-    let step = GenerateStep {
-        positions: of(0),
-        velocities: of(12),
-        count: Count::Cpu(count as u32),
-        ..step
-    };
+    let step = step.with(|it| {
+        it.positions = of(0);
+        it.velocities = of(12);
+        it.count = Count::Cpu(count as u32);
+    });
     chunked.record(&step).expect("a step");
     assert_eq!(chunked.made(count), expected, "chunks");
 
     let mut making =
-        Making::new(&gpu, &GenerateConfig { max_stride: 28, ..GenerateConfig::new(9000, 50) });
+        Making::new(&gpu, &GenerateConfig::new(9000, 50).with(|it| it.max_stride = 28));
     let none = making.step(&Fluid::default(), &settings, 0.03, 0);
     assert_eq!(none.counts, [0; 6]);
     // On one spot all are neighbours, as far as they are looked at.
@@ -617,18 +614,17 @@ fn an_abandoned_first_step_leaves_nothing() {
     making.stub.wait(0);
     let cmd = making.stub.begin(0);
     let generator = making.generator.as_mut().expect("only drop takes it");
-    let step = GenerateStep {
-        slot: Slot(0),
-        positions: stream(&data, 0, 12),
-        velocities: stream(&data, 0, 12),
-        ids: None,
-        count: Count::Cpu(fluid.ids.len() as u32),
-        dt: 0.1,
-        number: 0,
-        settings: &settings,
-        before: HOST_WRITE,
-        after: HOST_WRITE,
-    };
+    let step = GenerateStep::new(
+        Slot(0),
+        [stream(&data, 0, 12), stream(&data, 0, 12)],
+        Count::Cpu(fluid.ids.len() as u32),
+        0.1,
+        &settings,
+    )
+    .with(|it| {
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    });
     // SAFETY: cmd is recording and never submitted.
     unsafe { generator.record_step(cmd, &step) }.expect("a step");
     generator.abandon(Slot(0));
@@ -645,11 +641,11 @@ fn mistakes_are_named() {
     };
     let good = GenerateConfig::new(100, 100);
     for (field, config) in [
-        ("GenerateConfig.max_fluid", GenerateConfig { max_fluid: 0, ..good }),
-        ("GenerateConfig.max_particles", GenerateConfig { max_particles: 0, ..good }),
-        ("GenerateConfig.max_particles", GenerateConfig { max_particles: u32::MAX, ..good }),
-        ("GenerateConfig.max_stride", GenerateConfig { max_stride: 8, ..good }),
-        ("GenerateConfig.max_stride", GenerateConfig { max_stride: 14, ..good }),
+        ("GenerateConfig.max_fluid", good.with(|it| it.max_fluid = 0)),
+        ("GenerateConfig.max_particles", good.with(|it| it.max_particles = 0)),
+        ("GenerateConfig.max_particles", good.with(|it| it.max_particles = u32::MAX)),
+        ("GenerateConfig.max_stride", good.with(|it| it.max_stride = 8)),
+        ("GenerateConfig.max_stride", good.with(|it| it.max_stride = 14)),
     ] {
         assert_eq!(bad_config(config), field);
     }
@@ -657,18 +653,17 @@ fn mistakes_are_named() {
     let mut making = Making::new(&gpu, &GenerateConfig::new(100, 100));
     let data = making.stub.data(&[0; 1200], vk::BufferUsageFlags::STORAGE_BUFFER);
     let settings = settings();
-    let step = GenerateStep {
-        slot: Slot(0),
-        positions: stream(&data, 0, 12),
-        velocities: stream(&data, 0, 12),
-        ids: None,
-        count: Count::Cpu(100),
-        dt: 0.1,
-        number: 0,
-        settings: &settings,
-        before: HOST_WRITE,
-        after: HOST_WRITE,
-    };
+    let step = GenerateStep::new(
+        Slot(0),
+        [stream(&data, 0, 12), stream(&data, 0, 12)],
+        Count::Cpu(100),
+        0.1,
+        &settings,
+    )
+    .with(|it| {
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    });
     let generator = making.generator.as_mut().expect("only drop takes it");
     let mut bad = |field: &str, step: GenerateStep<'_>| {
         // SAFETY: nothing is recorded.
@@ -677,45 +672,30 @@ fn mistakes_are_named() {
             other => panic!("{field}: {other:?}"),
         }
     };
-    bad("GenerateStep.slot", GenerateStep { slot: Slot(9), ..step });
-    bad("GenerateStep.dt", GenerateStep { dt: -1.0, ..step });
-    bad("GenerateStep.dt", GenerateStep { dt: f32::NAN, ..step });
-    bad("GenerateStep.count", GenerateStep { count: Count::Cpu(101), ..step });
+    bad("GenerateStep.slot", step.with(|it| it.slot = Slot(9)));
+    bad("GenerateStep.dt", step.with(|it| it.dt = -1.0));
+    bad("GenerateStep.dt", step.with(|it| it.dt = f32::NAN));
+    bad("GenerateStep.count", step.with(|it| it.count = Count::Cpu(101)));
     let counter = Count::Gpu { buffer: data.buffer, offset: 2 };
-    bad("GenerateStep.count.offset", GenerateStep { count: counter, ..step });
-    bad("GenerateStep.positions", GenerateStep { positions: stream(&data, 4, 12), ..step });
-    bad("GenerateStep.velocities", GenerateStep { velocities: stream(&data, 0, 20), ..step });
-    bad("GenerateStep.ids", GenerateStep { ids: Some(stream(&data, 1000, 4)), ..step });
+    bad("GenerateStep.count.offset", step.with(|it| it.count = counter));
+    bad("GenerateStep.positions", step.with(|it| it.positions = stream(&data, 4, 12)));
+    bad("GenerateStep.velocities", step.with(|it| it.velocities = stream(&data, 0, 20)));
+    bad("GenerateStep.ids", step.with(|it| it.ids = Some(stream(&data, 1000, 4))));
     let limits = |least, most| Limits { least, most };
     for (field, settings) in [
-        ("GenerateSettings.spacing", GenerateSettings { spacing: 0.0, ..settings }),
-        (
-            "GenerateSettings.trapped_air",
-            GenerateSettings { trapped_air: limits(2.0, 1.0), ..settings },
-        ),
-        (
-            "GenerateSettings.wave_crest",
-            GenerateSettings { wave_crest: limits(-1.0, 1.0), ..settings },
-        ),
-        ("GenerateSettings.energy", GenerateSettings { energy: limits(0.0, f32::NAN), ..settings }),
-        (
-            "GenerateSettings.trapped_air_rate",
-            GenerateSettings { trapped_air_rate: -1.0, ..settings },
-        ),
-        (
-            "GenerateSettings.wave_crest_rate",
-            GenerateSettings { wave_crest_rate: f32::NAN, ..settings },
-        ),
-        ("GenerateSettings.lifetime", GenerateSettings { lifetime: [0.0, 1.0], ..settings }),
-        ("GenerateSettings.buoyancy", GenerateSettings { buoyancy: 65.0, ..settings }),
-        ("GenerateSettings.drag", GenerateSettings { drag: 1.5, ..settings }),
-        ("GenerateSettings.gravity", GenerateSettings { gravity: [f32::NAN; 3], ..settings }),
-        (
-            "GenerateSettings.bounds",
-            GenerateSettings { bounds: Some([[1.0; 3], [0.0; 3]]), ..settings },
-        ),
+        ("GenerateSettings.spacing", settings.with(|it| it.spacing = 0.0)),
+        ("GenerateSettings.trapped_air", settings.with(|it| it.trapped_air = limits(2.0, 1.0))),
+        ("GenerateSettings.wave_crest", settings.with(|it| it.wave_crest = limits(-1.0, 1.0))),
+        ("GenerateSettings.energy", settings.with(|it| it.energy = limits(0.0, f32::NAN))),
+        ("GenerateSettings.trapped_air_rate", settings.with(|it| it.trapped_air_rate = -1.0)),
+        ("GenerateSettings.wave_crest_rate", settings.with(|it| it.wave_crest_rate = f32::NAN)),
+        ("GenerateSettings.lifetime", settings.with(|it| it.lifetime = [0.0, 1.0])),
+        ("GenerateSettings.buoyancy", settings.with(|it| it.buoyancy = 65.0)),
+        ("GenerateSettings.drag", settings.with(|it| it.drag = 1.5)),
+        ("GenerateSettings.gravity", settings.with(|it| it.gravity = [f32::NAN; 3])),
+        ("GenerateSettings.bounds", settings.with(|it| it.bounds = Some([[1.0; 3], [0.0; 3]]))),
     ] {
-        bad(field, GenerateStep { settings: &settings, ..step });
+        bad(field, step.with(|it| it.settings = &settings));
     }
 }
 
@@ -724,8 +704,8 @@ fn mistakes_are_named() {
 fn what_is_made_is_drawn() {
     let gpu = Gpu::shared();
     let size = vk::Extent2D { width: 64, height: 48 };
-    let diffuse = DiffuseConfig { max_stride: 16, ..DiffuseConfig::new(4000) };
-    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..rig_config(size) }, 1);
+    let diffuse = DiffuseConfig::new(4000).with(|it| it.max_stride = 16);
+    let mut rig = Rig::lit(&gpu, &rig_config(size).with(|it| it.diffuse = Some(diffuse)), 1);
     let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(31, 10, 6.0, 9.0));
     shot.settings.diffuse.radius = 0.05;
     let mut fluid = sea(0);
@@ -733,7 +713,7 @@ fn what_is_made_is_drawn() {
     let eye: Vec<_> =
         fluid.positions.iter().map(|p| [p[0] - 0.3, p[1] - 0.3, 1.5 + p[2]]).collect();
     fluid.positions = scenes::world(&shot.camera, &eye);
-    let settings = GenerateSettings { bounds: None, ..settings() };
+    let settings = settings().with(|it| it.bounds = None);
     let mut making = Making::new(&gpu, &config());
     for number in 0..4 {
         making.step(&fluid, &settings, 0.03, number);
@@ -755,14 +735,13 @@ fn what_is_made_is_drawn() {
         [bytemuck::cast_slice(&ages), bytemuck::cast_slice(&kinds), bytemuck::cast_slice(&ids)]
             .map(data);
     let count = Count::Cpu(made.particles.len() as u32);
-    let copied = DiffuseParticles {
-        kinds: Some(stream(&kinds, 0, 4)),
-        ages: Some(stream(&ages, 0, 4)),
-        ids: Some(stream(&ids, 0, 4)),
-        before: HOST_WRITE,
-        after: HOST_WRITE,
-        ..DiffuseParticles::new(stream(&positions, 0, 12), count)
-    };
+    let copied = DiffuseParticles::new(stream(&positions, 0, 12), count).with(|it| {
+        it.kinds = Some(stream(&kinds, 0, 4));
+        it.ages = Some(stream(&ages, 0, 4));
+        it.ids = Some(stream(&ids, 0, 4));
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    });
     let expected = rig.draw_diffuse(&shot, &water.particles(), Some(copied));
     compare::same_color("generate-drawn", &found.output, &expected.output);
     let without = rig.draw_diffuse(&shot, &water.particles(), None);

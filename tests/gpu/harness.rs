@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use ash::vk;
 use glam::DVec3;
-use whitewater::{Access, Config};
+use whitewater::Access;
 
 use crate::depth::spheres;
 use crate::reference::Image;
@@ -90,7 +90,10 @@ fn shifted(image: &Image<f32>, dx: isize, dy: isize) -> Image<f32> {
 fn a_shifted_image_is_not_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let config = Config { smoothing_level: 0, thickness_level: 0, ..config(size) };
+    let config = config(size).with(|it| {
+        it.smoothing_level = 0;
+        it.thickness_level = 0;
+    });
     let mut rig = Rig::new(&gpu, &config);
     let shot = water(size);
     let drawn = rig.draw(&shot);

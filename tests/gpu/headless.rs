@@ -8,7 +8,7 @@ use glam::{Mat4, Vec3};
 use whitewater::headless::scene::{Material, Mesh, Scene, Texture};
 use whitewater::headless::{Background, Device, Headless};
 use whitewater::water::FoamSettings;
-use whitewater::{Camera, Config, Error, Sky};
+use whitewater::{Camera, Error, Sky};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Shot, config, extent};
@@ -195,7 +195,10 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
 
 /// The same camera a little to the side.
 fn beside(camera: &Camera) -> Camera {
-    Camera { view: Mat4::from_translation(Vec3::X * 0.3) * camera.view, ..*camera }
+    Camera {
+        view: (Mat4::from_translation(Vec3::X * 0.3) * camera.view_matrix()).to_cols_array_2d(),
+        ..*camera
+    }
 }
 
 /// For a camera that rests the scene is drawn once, and anew for whatever changes it.
@@ -228,7 +231,7 @@ fn a_camera_that_rests_keeps_the_scene() {
     let (back, same, _) = frame(&mut headless, &camera, &few);
     assert!([moved, back] == [first; 2] && other != color && same == color);
     // Another sky, another scene.
-    headless.sky(&Sky { intensity: 5.0, ..Sky::default() }).expect("sky");
+    headless.sky(&Sky::default().with(|it| it.intensity = 5.0)).expect("sky");
     let (anew, hazy, _) = frame(&mut headless, &camera, &few);
     assert!(anew == first && hazy != color);
     let Scene { mut meshes, .. } = scene();
@@ -247,7 +250,7 @@ fn a_step_makes_foam() {
     let mut gpu = Gpu::spied();
     let device = gpu.take_device();
     let size = extent(64, 48);
-    let config = Config { foam: true, ..config(size) };
+    let config = config(size).with(|it| it.foam = true);
     let mut headless = Headless::new(device, &config).expect("headless");
     let camera = scenes::camera(Lens::Standard, size);
     let points = scenes::world(&camera, &scenes::cloud(3, 200, 2.0, 6.0));
@@ -284,7 +287,7 @@ fn a_step_makes_foam() {
 #[test]
 fn a_failed_step_keeps_the_state() {
     let (_gpu, device) = spied();
-    let config = Config { foam: true, ..config(SIZE) };
+    let config = config(SIZE).with(|it| it.foam = true);
     let mut headless = Headless::new(device, &config).expect("headless");
     let points = [[0.0, 0.0, -3.0]; 8];
     let ids: Vec<u32> = (0..8).collect();

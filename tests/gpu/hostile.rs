@@ -7,7 +7,7 @@ use whitewater::bubbles::{BubbleConfig, HandOver};
 use whitewater::foam::{DiffuseConfig, Splat};
 use whitewater::headless::Bubble;
 use whitewater::water::Shading;
-use whitewater::{Blobs, Config, Count, DiffuseParticles, Frame, Packets, Particles, Previous};
+use whitewater::{Blobs, Count, DiffuseParticles, Packets, Particles, Previous};
 use whitewater::{Slot, Stream};
 
 use crate::foam::Foamy;
@@ -110,43 +110,40 @@ fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
         count: (all[at(name)].1.len() / 8) as u32,
     };
     let (before, after) = (HOST_WRITE, HOST_WRITE);
-    let particles = Particles {
-        densities: Some(of("densities")),
-        velocities: Some(of("velocities")),
-        foam: Some(of("foam")),
-        ids: Some(of("ids")),
-        packets: Some(packets("packets")),
-        before,
-        after,
-        ..Particles::new(of("positions"), count("count"))
-    };
-    let diffuse = DiffuseParticles {
-        kinds: Some(of("diffuse kinds")),
-        radii: Some(of("diffuse radii")),
-        ages: Some(of("diffuse ages")),
-        ids: Some(of("diffuse ids")),
-        packets: Some(packets("diffuse packets")),
-        before,
-        after,
-        ..DiffuseParticles::new(of("diffuse positions"), count("diffuse count"))
-    };
+    let particles = Particles::new(of("positions"), count("count")).with(|it| {
+        it.densities = Some(of("densities"));
+        it.velocities = Some(of("velocities"));
+        it.foam = Some(of("foam"));
+        it.ids = Some(of("ids"));
+        it.packets = Some(packets("packets"));
+        it.before = before;
+        it.after = after;
+    });
+    let diffuse =
+        DiffuseParticles::new(of("diffuse positions"), count("diffuse count")).with(|it| {
+            it.kinds = Some(of("diffuse kinds"));
+            it.radii = Some(of("diffuse radii"));
+            it.ages = Some(of("diffuse ages"));
+            it.ids = Some(of("diffuse ids"));
+            it.packets = Some(packets("diffuse packets"));
+            it.before = before;
+            it.after = after;
+        });
     let balls = of("blobs");
     let part = |offset| Stream { offset, ..balls };
-    let blobs = Blobs {
-        turns: Some(part(16)),
-        ids: Some(part(32)),
-        before,
-        after,
-        ..Blobs::new(balls, count("blob count"))
-    };
+    let blobs = Blobs::new(balls, count("blob count")).with(|it| {
+        it.turns = Some(part(16));
+        it.ids = Some(part(32));
+        it.before = before;
+        it.after = after;
+    });
     let theirs = rig.config.bubbles.filter(|bubbles| !bubbles.hand_over);
     let (color, depth) = rig.scene(&case.shot);
     let output = color.host_image();
-    let frame = Frame {
-        diffuse: rig.config.diffuse.map(|_| diffuse),
-        bubbles: theirs.map(|_| blobs),
-        ..case.shot.frame(output, depth.host_image(), particles)
-    };
+    let frame = case.shot.frame(output, depth.host_image(), particles).with(|it| {
+        it.diffuse = rig.config.diffuse.map(|_| diffuse);
+        it.bubbles = theirs.map(|_| blobs);
+    });
     let cmd = rig.stub.begin(0);
     // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
     let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
@@ -165,28 +162,30 @@ fn hostile_bits_in_any_stream_of_a_frame() {
     case.shot.settings.bubbles.hand_over = HandOver { near: 2.0, far: 4.0, size: 1.0 };
     let base = everything(&mut case);
     case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.02 });
-    let bubbles = BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(64) };
-    let diffuse = DiffuseConfig { packets: true, ..DiffuseConfig::new(1024) };
-    let base = Config {
-        motion: true,
-        noise: Some(1),
-        diffuse: Some(diffuse),
-        bubbles: Some(bubbles),
-        shadow: None,
-        ..base
-    };
+    let bubbles = BubbleConfig::new(64).with(|it| {
+        it.templates = 2;
+        it.bubbles = 32;
+        it.map = 64;
+    });
+    let diffuse = DiffuseConfig::new(1024).with(|it| it.packets = true);
+    let base = base.with(|it| {
+        it.motion = true;
+        it.noise = Some(1);
+        it.diffuse = Some(diffuse);
+        it.bubbles = Some(bubbles);
+        it.shadow = None;
+    });
     let others = [
         ("compute", base),
         (
             "raster",
-            Config {
-                depth_splat: Some(whitewater::water::Splat::Raster),
-                thickness_splat: Some(whitewater::water::Splat::Raster),
-                composite: Some(Shading::Compute),
-                diffuse: Some(DiffuseConfig { splat: Some(Splat::Raster), ..diffuse }),
-                bubbles: Some(BubbleConfig { hand_over: true, ..bubbles }),
-                ..base
-            },
+            base.with(|it| {
+                it.depth_splat = Some(whitewater::water::Splat::Raster);
+                it.thickness_splat = Some(whitewater::water::Splat::Raster);
+                it.composite = Some(Shading::Compute);
+                it.diffuse = Some(diffuse.with(|it| it.splat = Some(Splat::Raster)));
+                it.bubbles = Some(bubbles.with(|it| it.hand_over = true));
+            }),
         ),
     ];
     for (name, config) in others {

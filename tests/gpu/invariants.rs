@@ -19,11 +19,10 @@ use crate::support::tolerance::{self, Sum};
 
 /// Sums in fixed point: the order of the particles is no matter.
 pub fn exact(size: vk::Extent2D) -> Config {
-    Config {
-        depth_splat: Some(Splat::Compute),
-        thickness_splat: Some(Splat::Compute),
-        ..config(size)
-    }
+    config(size).with(|it| {
+        it.depth_splat = Some(Splat::Compute);
+        it.thickness_splat = Some(Splat::Compute);
+    })
 }
 
 pub fn water(size: vk::Extent2D) -> Shot {
@@ -62,7 +61,13 @@ fn no_particles_change_nothing() {
         for (in_place, way) in [(true, Raster), (false, Raster), (true, Compute), (false, Compute)]
         {
             let composite = Some(way);
-            let mut rig = Rig::new(&gpu, &Config { in_place, composite, ..exact(size) });
+            let mut rig = Rig::new(
+                &gpu,
+                &exact(size).with(|it| {
+                    it.in_place = in_place;
+                    it.composite = composite;
+                }),
+            );
             let mut shot = water(size);
             shot.positions.clear();
             // Another frame's water must not come back.
@@ -88,12 +93,11 @@ fn pixels_outside_the_water_are_untouched() {
         let size = extent(width, height);
         let levels = [(0, 0), (1, 1), (2, 0)].map(|levels| [(levels, Raster), (levels, Compute)]);
         for ((level, thickness_level), way) in levels.into_iter().flatten() {
-            let config = Config {
-                smoothing_level: level,
-                thickness_level,
-                composite: Some(way),
-                ..config(size)
-            };
+            let config = config(size).with(|it| {
+                it.smoothing_level = level;
+                it.thickness_level = thickness_level;
+                it.composite = Some(way);
+            });
             let mut rig = Rig::lit(&gpu, &config, 1);
             let shot = water(size);
             let drawn = rig.draw(&shot);
@@ -123,7 +127,7 @@ fn the_order_of_the_particles_is_no_matter() {
     same_drawn("permutation", &second, &first);
 
     // Added in another order, floats round otherwise: both are in the bounds.
-    let mut rig = Rig::new(&gpu, &Config { thickness_splat: Some(Splat::Raster), ..exact(size) });
+    let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.thickness_splat = Some(Splat::Raster)));
     for shot in [&shot, &mixed] {
         let drawn = rig.draw(shot);
         let (spheres, level) = (spheres(shot), rig.config.thickness_level);
@@ -138,7 +142,10 @@ fn strays_do_no_harm() {
     let size = extent(96, 64);
     for (splat, sheets) in [(Splat::Compute, 1), (Splat::Raster, 1), (Splat::Compute, 2)] {
         // Added in another order, floats would round otherwise.
-        let config = Config { depth_splat: Some(splat), sheets, ..exact(size) };
+        let config = exact(size).with(|it| {
+            it.depth_splat = Some(splat);
+            it.sheets = sheets;
+        });
         let mut rig = Rig::new(&gpu, &config);
         let clean = water(size);
         let expected = rig.draw(&clean);
@@ -212,7 +219,10 @@ fn words(values: &[u32]) -> Vec<u8> {
 }
 
 fn packed(positions: Stream, count: Count) -> Particles {
-    Particles { before: HOST_WRITE, after: HOST_WRITE, ..Particles::new(positions, count) }
+    Particles::new(positions, count).with(|it| {
+        it.before = HOST_WRITE;
+        it.after = HOST_WRITE;
+    })
 }
 
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
@@ -224,7 +234,7 @@ fn a_count_on_the_gpu_is_that_of_the_cpu_and_is_clamped() {
     let shot = water(size);
     let all = shot.positions.len() as u32;
     let most = 200;
-    let mut rig = Rig::new(&gpu, &Config { max_particles: most, ..exact(size) });
+    let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.max_particles = most));
     let positions = rig.stub.data(bytemuck::cast_slice(&shot.positions), STORAGE);
     let alignment = gpu.limits().min_storage_buffer_offset_alignment.max(4);
     assert!(all > most + 50);
@@ -258,7 +268,7 @@ fn a_count_on_the_gpu_is_that_of_the_cpu_and_is_clamped() {
 fn streams_may_be_strided_offset_and_interleaved() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &Config { max_stride: 64, ..exact(size) });
+    let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.max_stride = 64));
     let mut shot = water(size);
     let mut random = Random(8);
     shot.densities = Some(shot.positions.iter().map(|_| random.between(300.0, 500.0)).collect());
@@ -317,7 +327,7 @@ fn packets_cull_as_single_particles() {
     let n = shot.positions.len() as u32;
     // One chunk, and several that cut through the packets.
     for max_stride in [16, 1 << 19] {
-        let mut rig = Rig::new(&gpu, &Config { max_stride, ..exact(size) });
+        let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.max_stride = max_stride));
         let expected = rig.draw(&shot);
         let all: Vec<(u32, u32)> = (0..n).step_by(70).map(|i| (i, 70.min(n - i))).collect();
         // The last one counts beyond the particles, and beyond 32 bits.
@@ -330,7 +340,7 @@ fn packets_cull_as_single_particles() {
             let packets = rig.stub.data(&packet_bytes(&shot, ranges), STORAGE);
             let (buffer, count) = (packets.buffer, ranges.len() as u32);
             let packets = Some(Packets { buffer, offset: 0, count });
-            let particles = Particles { packets, ..cloud.particles() };
+            let particles = cloud.particles().with(|it| it.packets = packets);
             let drawn = rig.draw_particles(&shot, &particles);
             same_drawn(&format!("packets-{name}-{max_stride}"), &drawn, &expected);
         }
@@ -339,7 +349,7 @@ fn packets_cull_as_single_particles() {
         let cloud = rig.particles(&shot);
         let data = rig.stub.data(&packet_bytes(&shot, &half), STORAGE);
         let packets = Some(Packets { buffer: data.buffer, offset: 0, count: 1 });
-        let drawn = rig.draw_particles(&shot, &Particles { packets, ..cloud.particles() });
+        let drawn = rig.draw_particles(&shot, &cloud.particles().with(|it| it.packets = packets));
         let mut less = shot.clone();
         less.positions.truncate(n as usize / 2);
         same_drawn("packets-half", &drawn, &rig.draw(&less));
@@ -353,9 +363,20 @@ fn particles_in_no_packet_are_in_no_pass() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     for max_stride in [16, 1 << 19] {
-        let passes =
-            Config { foam: true, spray: true, noise: Some(1), motion: true, ..exact(size) };
-        let mut rig = Rig::lit(&gpu, &Config { cast: Some(64), max_stride, ..passes }, 1);
+        let passes = exact(size).with(|it| {
+            it.foam = true;
+            it.spray = true;
+            it.noise = Some(1);
+            it.motion = true;
+        });
+        let mut rig = Rig::lit(
+            &gpu,
+            &passes.with(|it| {
+                it.cast = Some(64);
+                it.max_stride = max_stride;
+            }),
+            1,
+        );
         let mut case = Foamy::new(size, Lens::Standard, 20.0);
         let n = case.shot.positions.len();
         let mut random = Random(8);
@@ -373,7 +394,7 @@ fn particles_in_no_packet_are_in_no_pass() {
             let data = rig.stub.data(&bytes, STORAGE);
             let count = ranges.len() as u32;
             let packets = Some(Packets { buffer: data.buffer, offset: 0, count });
-            rig.draw_particles(&case.shot, &Particles { packets, ..streams.particles() })
+            rig.draw_particles(&case.shot, &streams.particles().with(|it| it.packets = packets))
         };
         let of = |case: &Foamy, ranges: &[(u32, u32)]| {
             let which = || ranges.iter().flat_map(|&(first, count)| first..first + count);
@@ -437,17 +458,20 @@ fn chunks_do_not_show() {
     let more = scenes::cloud(21, 3000, 0.5, 15.0);
     shot.positions.extend(scenes::world(&shot.camera, &more));
     for splat in [Splat::Compute, Splat::Raster] {
-        let config = Config { depth_splat: Some(splat), max_stride: 1 << 17, ..exact(size) };
+        let config = exact(size).with(|it| {
+            it.depth_splat = Some(splat);
+            it.max_stride = 1 << 17;
+        });
         let mut rig = Rig::new(&gpu, &config);
         let drawn = rig.draw(&shot);
-        let one = Config { depth_splat: Some(splat), ..exact(size) };
+        let one = exact(size).with(|it| it.depth_splat = Some(splat));
         let expected = Rig::new(&gpu, &one).draw(&shot);
         same_drawn(&format!("chunks-{splat:?}"), &drawn, &expected);
         // A chunk or more without particles.
         let mut few = shot.clone();
         few.positions.truncate(100);
         let expected =
-            Rig::new(&gpu, &Config { depth_splat: Some(splat), ..exact(size) }).draw(&few);
+            Rig::new(&gpu, &exact(size).with(|it| it.depth_splat = Some(splat))).draw(&few);
         same_drawn(&format!("chunks-few-{splat:?}"), &rig.draw(&few), &expected);
     }
 }
@@ -458,8 +482,13 @@ fn many_chunks_have_their_descriptors() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
     let most = 65_536;
-    let mut rig =
-        Rig::new(&gpu, &Config { max_stride: 1 << 16, max_particles: most, ..exact(size) });
+    let mut rig = Rig::new(
+        &gpu,
+        &exact(size).with(|it| {
+            it.max_stride = 1 << 16;
+            it.max_particles = most;
+        }),
+    );
     let shot = water(size);
     let expected = Rig::new(&gpu, &exact(size)).draw(&shot);
     same_drawn("many-chunks", &rig.draw(&shot), &expected);
@@ -479,7 +508,7 @@ fn a_stream_longer_than_a_binding_is_read_whole() {
     let stride = 1_u64 << 20;
     let count = (range / stride + 20).min(shot.positions.len() as u64);
     let data = {
-        let mut rig = Rig::new(&gpu, &Config { max_stride: 1 << 20, ..exact(size) });
+        let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.max_stride = 1 << 20));
         let mut data = rig.stub.sized(count * stride, STORAGE);
         // Only the pages that are written cost memory.
         for (i, p) in shot.positions.iter().take(count as usize).enumerate() {
@@ -500,10 +529,10 @@ pub fn scaled(shot: &Shot, scale: f32) -> Shot {
         *p = p.map(|x| x * scale);
     }
     // Depths are scaled, device depths stay as they are.
-    let mut view = shot.camera.view;
+    let mut view = shot.camera.view_matrix();
     view.w_axis = (view.w_axis.truncate() * scale).extend(1.0);
-    shot.camera.view = view;
-    shot.camera.projection.w_axis.z *= scale;
+    shot.camera.view = view.to_cols_array_2d();
+    shot.camera.projection[3][2] *= scale;
     shot.settings.water.spacing *= scale;
     if let Medium::Physical { absorption, scattering } = &mut shot.settings.water.medium {
         *absorption = absorption.map(|k| k / scale);
@@ -518,8 +547,13 @@ pub fn scaled(shot: &Shot, scale: f32) -> Shot {
 fn the_unit_of_length_does_not_show() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig =
-        Rig::new(&gpu, &Config { mirror_steps: 10, exit: Exit::TwoInterfaces, ..exact(size) });
+    let mut rig = Rig::new(
+        &gpu,
+        &exact(size).with(|it| {
+            it.mirror_steps = 10;
+            it.exit = Exit::TwoInterfaces;
+        }),
+    );
     rig.environment(extent(4, 2), &[[0.5, 0.75, 1.0, 1.0]; 8]);
     let mut shot = water(size);
     shot.scene_depth(|x, _| Some(if x < 40 { 4.5 } else { 60.0 }));
@@ -556,11 +590,10 @@ fn the_last_interleaved_particle_is_drawn() {
         shot.positions.iter().flat_map(|[x, y, z]| [*x, *y, *z, 1000.0]).collect();
     let storage = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
     let data = rig.stub.data(bytemuck::cast_slice(&words), storage);
-    let particles = Particles {
-        positions: stream(&data, 0, 16),
-        densities: Some(stream(&data, 12, 16)),
-        ..rig.particles(&shot).particles()
-    };
+    let particles = rig.particles(&shot).particles().with(|it| {
+        it.positions = stream(&data, 0, 16);
+        it.densities = Some(stream(&data, 12, 16));
+    });
     let found = rig.draw_particles(&shot, &particles);
     compare::same("interleaved-last", &found.depth, &expected.depth);
 }

@@ -28,14 +28,13 @@ fn pool() -> Shot {
 }
 
 fn at(level: u32, coarsening: u32, cap: u32) -> Config {
-    Config {
-        smoothing_level: level,
-        thickness_level: 3,
-        coarsening,
-        max_iterations: cap,
-        max_particles: 10_000,
-        ..config(extent(SIZE.0, SIZE.1))
-    }
+    config(extent(SIZE.0, SIZE.1)).with(|it| {
+        it.smoothing_level = level;
+        it.thickness_level = 3;
+        it.coarsening = coarsening;
+        it.max_iterations = cap;
+        it.max_particles = 10_000;
+    })
 }
 
 fn draw(gpu: &Gpu, config: &Config, shot: &Shot) -> Drawn {
@@ -123,7 +122,7 @@ fn levels_are_the_twins() {
         for form in &forms {
             let name =
                 format!("levels-{first}-{coarsening}-{cap}-{form:?}").replace(['(', ')'], "");
-            let config = Config { smoothing: Some(*form), ..at(first, coarsening, cap) };
+            let config = at(first, coarsening, cap).with(|it| it.smoothing = Some(*form));
             let drawn = draw(&gpu, &config, &shot);
             assert_eq!(drawn.coarser.len(), coarsening as usize, "{name}");
             if let Some(before) = &before {
@@ -205,13 +204,16 @@ fn a_coarser_level_is_the_configured_one() {
         (0, 2, Shading::Raster),
     ] {
         let shot = cloud(2.6 * 4.0_f64.powi((first + coarser) as i32 - 1), CAP);
-        let config = Config { composite: Some(shading), ..at(first, 2, CAP) };
+        let config = at(first, 2, CAP).with(|it| it.composite = Some(shading));
         let drawn = draw(&gpu, &config, &shot);
         let name = format!("level-{first}-{coarser}");
         let [low, high] = range(&drawn, &levels(&drawn, &shot, CAP));
         let own = 4.0_f64.powi(coarser as i32);
         assert!(low > 0.5 * own && high < own, "{name}: {low} to {high}, not the case meant");
-        let same = Config { smoothing_level: first + coarser, coarsening: 0, ..config };
+        let same = config.with(|it| {
+            it.smoothing_level = first + coarser;
+            it.coarsening = 0;
+        });
         let expected = draw(&gpu, &same, &shot);
         let (surface, plan) = &drawn.coarser[coarser as usize - 1];
         assert!(plan.data == expected.plan.data, "{name}: other plans");
@@ -247,7 +249,7 @@ fn the_next_level_fades_in() {
         let name = format!("fade-{nearness}");
         compare::same(&name, &drawn.surface, &fine.surface);
         compare::same(&format!("{name}-coarser"), &drawn.coarser[0].0, &coarse.surface);
-        let stored = Config { composite: Some(Shading::Compute), ..at(0, 3, cap) };
+        let stored = at(0, 3, cap).with(|it| it.composite = Some(Shading::Compute));
         close(&name, stored.output_format, &draw(&gpu, &stored, &shot), &drawn);
         let [mut way, mut fades, mut weights] = [0.0; 3];
         let inside = |i: &usize| {
@@ -286,9 +288,9 @@ fn a_drop_before_the_lens_changes_nothing_else() {
         let mut shot = cloud(0.5, CAP);
         // In the middle of the view, much nearer than the block.
         shot.positions.push([2.5, 1.5, 1.0]);
-        let config = Config { sheets, ..at(0, 3, CAP) };
+        let config = at(0, 3, CAP).with(|it| it.sheets = sheets);
         let drawn = draw(&gpu, &config, &shot);
-        let expected = draw(&gpu, &Config { coarsening: 0, ..config }, &shot);
+        let expected = draw(&gpu, &config.with(|it| it.coarsening = 0), &shot);
         let levels = levels(&drawn, &shot, CAP);
         let (mut near, mut far, mut other) = (0, 0, 0);
         for i in 0..drawn.depth.data.len() {
@@ -316,10 +318,10 @@ fn a_drop_before_the_lens_changes_nothing_else() {
 fn other_rules_stay() {
     let gpu = Gpu::shared();
     for rule in [Rule::Source, Rule::Fixed(40)] {
-        let config = Config { rule, ..at(0, 3, 2) };
+        let config = at(0, 3, 2).with(|it| it.rule = rule);
         let drawn = draw(&gpu, &config, &pool());
         assert!(drawn.coarser.is_empty(), "{rule:?}");
-        let none = draw(&gpu, &Config { coarsening: 0, ..config }, &pool());
+        let none = draw(&gpu, &config.with(|it| it.coarsening = 0), &pool());
         assert!(drawn.output.data == none.output.data, "{rule:?}");
     }
 }
@@ -338,13 +340,12 @@ fn small_images_go_coarser_too() {
                     continue;
                 }
                 let size = extent(width, height);
-                let config = Config {
-                    smoothing_level: level,
-                    max_iterations: 3,
-                    smoothing: Some(smoothing),
-                    sheets: 1 + level % 2,
-                    ..coarsening(config(size))
-                };
+                let config = coarsening(config(size)).with(|it| {
+                    it.smoothing_level = level;
+                    it.max_iterations = 3;
+                    it.smoothing = Some(smoothing);
+                    it.sheets = 1 + level % 2;
+                });
                 let mut rig = Rig::new(&gpu, &config);
                 let mut shot = Shot::new(size, Lens::Reversed, 1.0, &[[0.0, 0.0, 2.0]]);
                 shot.settings.water.smoothing_width = 40.0;

@@ -59,17 +59,17 @@ fn claimed(
             let data = rig.stub.data(bytemuck::cast_slice(&data), STORAGE);
             let (buffer, count) = (data.buffer, ranges.len() as u32);
             let bytes = 4 * stride as u32;
-            let particles = Particles {
-                densities: Some(stream(&data, 4 * (start + density) as u64, bytes)),
-                velocities: Some(stream(&data, 4 * start as u64, bytes)),
-                packets: (!apart).then_some(Packets { buffer, offset: 512, count }),
-                before: HOST_WRITE,
-                after: HOST_WRITE,
-                ..Particles::new(
-                    stream(&data, 4 * start as u64, bytes),
-                    if apart { Count::Cpu(n) } else { Count::Gpu { buffer, offset: 256 } },
-                )
-            };
+            let particles = Particles::new(
+                stream(&data, 4 * start as u64, bytes),
+                if apart { Count::Cpu(n) } else { Count::Gpu { buffer, offset: 256 } },
+            )
+            .with(|it| {
+                it.densities = Some(stream(&data, 4 * (start + density) as u64, bytes));
+                it.velocities = Some(stream(&data, 4 * start as u64, bytes));
+                it.packets = (!apart).then_some(Packets { buffer, offset: 512, count });
+                it.before = HOST_WRITE;
+                it.after = HOST_WRITE;
+            });
             drop(spy::take_bound());
             let drawn = rig.draw_particles(&shot, &particles);
             same_drawn(&format!("{name}-{word}-{stride}"), &drawn, &expected);
@@ -87,7 +87,10 @@ fn claimed(
 #[test]
 fn offsets_are_multiples_of_the_devices_alignment() {
     for splat in [Splat::Compute, Splat::Raster] {
-        let config = Config { depth_splat: Some(splat), max_stride: 64, ..exact(extent(96, 64)) };
+        let config = exact(extent(96, 64)).with(|it| {
+            it.depth_splat = Some(splat);
+            it.max_stride = 64;
+        });
         for alignment in [64, 256] {
             let claims = Claims { offset_alignment: Some(alignment), ..Claims::default() };
             let name = format!("aligned-{alignment}-{splat:?}");
@@ -103,8 +106,12 @@ fn offsets_are_multiples_of_the_devices_alignment() {
 fn bindings_are_no_longer_than_the_device_allows() {
     for splat in [Splat::Compute, Splat::Raster] {
         let (depth_splat, max_particles) = (Some(splat), 1024);
-        let base = Config { motion: true, ..exact(extent(96, 64)) };
-        let config = Config { depth_splat, max_particles, max_stride: 64, ..base };
+        let base = exact(extent(96, 64)).with(|it| it.motion = true);
+        let config = base.with(|it| {
+            it.depth_splat = depth_splat;
+            it.max_particles = max_particles;
+            it.max_stride = 64;
+        });
         for (range, alignment) in [(1 << 13, 256), (5000, 16)] {
             let claims = Claims {
                 offset_alignment: Some(alignment),
@@ -135,11 +142,11 @@ fn offsets_that_the_device_cannot_bind_are_errors() {
     for (field, particles) in [
         (
             "Frame.particles.count.offset",
-            Particles { count: Count::Gpu { buffer, offset: 64 }, ..good },
+            good.with(|it| it.count = Count::Gpu { buffer, offset: 64 }),
         ),
         (
             "Frame.particles.packets.offset",
-            Particles { packets: Some(Packets { buffer, offset: 128, count: 1 }), ..good },
+            good.with(|it| it.packets = Some(Packets { buffer, offset: 128, count: 1 })),
         ),
     ] {
         let frame = shot.frame(color.host_image(), depth.host_image(), particles);
@@ -213,28 +220,33 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
     claim(&mut gpu, Claims { max_storage_buffer_range: Some(1 << 17), ..Claims::default() });
     let gpu = gpu;
     // 8 bytes a pixel of 120x120 are 115 200, under the 131 072.
-    let base = Config { thickness_level: 0, ..config(extent(120, 120)) };
+    let base = config(extent(120, 120)).with(|it| it.thickness_level = 0);
     drop(Rig::new(&gpu, &base));
-    let foam = Config { foam: true, ..base };
+    let foam = base.with(|it| it.foam = true);
     // Blended, they are images.
-    drop(Rig::new(&gpu, &Config { thickness_splat: Some(Splat::Raster), ..foam }));
-    let bubbles = BubbleConfig { templates: 1, bubbles: 8, ..BubbleConfig::new(8) };
-    let of = |own| Config { bubbles: Some(own), ..base };
-    drop(Rig::new(&gpu, &of(BubbleConfig { layers: 1, ..bubbles })));
-    let many = BubbleConfig { layers: 1, max_blobs: 10_000, ..bubbles };
+    drop(Rig::new(&gpu, &foam.with(|it| it.thickness_splat = Some(Splat::Raster))));
+    let bubbles = BubbleConfig::new(8).with(|it| {
+        it.templates = 1;
+        it.bubbles = 8;
+    });
+    let of = |own| base.with(|it| it.bubbles = Some(own));
+    drop(Rig::new(&gpu, &of(bubbles.with(|it| it.layers = 1))));
+    let many = bubbles.with(|it| {
+        it.layers = 1;
+        it.max_blobs = 10_000;
+    });
     // Blended, two sheets still have a depth a texel between them: of 200x200, 160 000 bytes.
-    let blended = Config {
-        thickness_level: 0,
-        thickness_splat: Some(Splat::Raster),
-        ..config(extent(200, 200))
-    };
-    drop(Rig::new(&gpu, &Config { sheets: 1, ..blended }));
+    let blended = config(extent(200, 200)).with(|it| {
+        it.thickness_level = 0;
+        it.thickness_splat = Some(Splat::Raster);
+    });
+    drop(Rig::new(&gpu, &blended.with(|it| it.sheets = 1)));
     for (field, bad) in [
-        ("Config.extent", Config { sheets: 2, ..blended }),
-        ("Config.extent", Config { sheets: 2, ..base }),
+        ("Config.extent", blended.with(|it| it.sheets = 2)),
+        ("Config.extent", base.with(|it| it.sheets = 2)),
         ("Config.extent", foam),
-        ("Config.diffuse", Config { diffuse: Some(DiffuseConfig::new(64)), ..base }),
-        ("Config.bubbles.layers", of(BubbleConfig { layers: 2, ..bubbles })),
+        ("Config.diffuse", base.with(|it| it.diffuse = Some(DiffuseConfig::new(64)))),
+        ("Config.bubbles.layers", of(bubbles.with(|it| it.layers = 2))),
         ("Config.bubbles.max_blobs", of(many)),
     ] {
         match Rig::try_new(&gpu, &bad, 1) {
@@ -294,18 +306,40 @@ fn limits_are_what_the_shaders_use() {
     let all = gpu.limits();
     let base = config(extent(64, 48));
     let diffuse = Some(DiffuseConfig::new(64));
-    let bubbles =
-        Some(BubbleConfig { templates: 1, bubbles: 8, hand_over: true, ..BubbleConfig::new(8) });
-    let own = |splat| Some(DiffuseConfig { splat: Some(splat), ..DiffuseConfig::new(64) });
-    let fluid = Config { foam: true, spray: true, motion: true, noise: Some(1), sheets: 2, ..base };
+    let bubbles = Some(BubbleConfig::new(8).with(|it| {
+        it.templates = 1;
+        it.bubbles = 8;
+        it.hand_over = true;
+    }));
+    let own = |splat| Some(DiffuseConfig::new(64).with(|it| it.splat = Some(splat)));
+    let fluid = base.with(|it| {
+        it.foam = true;
+        it.spray = true;
+        it.motion = true;
+        it.noise = Some(1);
+        it.sheets = 2;
+    });
     let configs = [
         base,
-        Config { composite: Some(Shading::Compute), smoothing: Some(Smoothing::Fused), ..base },
-        Config { depth_splat: Some(Splat::Raster), thickness_splat: Some(Splat::Raster), ..fluid },
-        Config { cast: Some(32), diffuse, ..fluid },
-        Config { diffuse: own(foam::Splat::Compute), ..base },
-        Config { diffuse: own(foam::Splat::Raster), ..base },
-        Config { diffuse, bubbles, shore: Some(ShoreConfig::default()), ..base },
+        base.with(|it| {
+            it.composite = Some(Shading::Compute);
+            it.smoothing = Some(Smoothing::Fused);
+        }),
+        fluid.with(|it| {
+            it.depth_splat = Some(Splat::Raster);
+            it.thickness_splat = Some(Splat::Raster);
+        }),
+        fluid.with(|it| {
+            it.cast = Some(32);
+            it.diffuse = diffuse;
+        }),
+        base.with(|it| it.diffuse = own(foam::Splat::Compute)),
+        base.with(|it| it.diffuse = own(foam::Splat::Raster)),
+        base.with(|it| {
+            it.diffuse = diffuse;
+            it.bubbles = bubbles;
+            it.shore = Some(ShoreConfig::default());
+        }),
     ];
     for config in &configs {
         let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
@@ -320,7 +354,7 @@ fn limits_are_what_the_shaders_use() {
             assert!(limit.of(&all) >= limit.needed, "{limit:?}");
             let mut less = exact;
             set(&mut less, limit.name, limit.needed - 1);
-            let offer = whitewater::Offer { limits: less, ..offer };
+            let offer = offer.with(|it| it.limits = less);
             match offer.check(config) {
                 Err(Error::Missing { what, why }) => {
                     let said = format!(
@@ -364,14 +398,13 @@ fn levels_beside_each_other_smooth_the_same() {
     let mut gpu = Gpu::spied();
     let all = gpu.limits();
     for smoothing in [Smoothing::Fused, Smoothing::Tiles, Smoothing::Query(Gate::VertexCull)] {
-        let config = Config {
-            smoothing_level: 0,
-            sheets: 2,
-            coarsening: 3,
-            max_iterations: 8,
-            smoothing: Some(smoothing),
-            ..exact(extent(64, 64))
-        };
+        let config = exact(extent(64, 64)).with(|it| {
+            it.smoothing_level = 0;
+            it.sheets = 2;
+            it.coarsening = 3;
+            it.max_iterations = 8;
+            it.smoothing = Some(smoothing);
+        });
         let shot = water(extent(64, 64));
         gpu.claims = None;
         let expected = Rig::new(&gpu, &config).draw(&shot);
@@ -380,14 +413,18 @@ fn levels_beside_each_other_smooth_the_same() {
         same_drawn(&format!("{smoothing:?}"), &Rig::new(&gpu, &config).draw(&shot), &expected);
     }
     // What finds no room at all is refused by a name, and drawn at half the resolution.
-    let wide = Config { smoothing_level: 0, sheets: 2, coarsening: 3, ..config(extent(80, 80)) };
+    let wide = config(extent(80, 80)).with(|it| {
+        it.smoothing_level = 0;
+        it.sheets = 2;
+        it.coarsening = 3;
+    });
     match Rig::try_new(&gpu, &wide, 1) {
         Err(Error::BadInput { field: "Config.extent", why }) => {
             assert!(why.contains("smoothing") && why.contains("96x96"), "{why}");
         }
         other => panic!("{:?}", other.map(|_| "no error")),
     }
-    drop(Rig::new(&gpu, &Config { smoothing_level: 1, ..wide }));
+    drop(Rig::new(&gpu, &wide.with(|it| it.smoothing_level = 1)));
     for larger in [extent(97, 8), extent(8, 97)] {
         let made = Rig::try_new(&gpu, &config(larger), 1);
         assert!(matches!(made, Err(Error::BadInput { field: "Config.extent", .. })));
@@ -406,7 +443,10 @@ fn the_longest_images_are_drawn() {
     });
     for size in [extent(16, down), extent(across, 16)] {
         for smoothing_level in [0, 1] {
-            let config = Config { smoothing_level, sheets: 2, ..config(size) };
+            let config = config(size).with(|it| {
+                it.smoothing_level = smoothing_level;
+                it.sheets = 2;
+            });
             let mut rig = Rig::new(&gpu, &config);
             // A part of it: all would take long.
             rig.draw(&water(extent(16, 16)));

@@ -3,7 +3,7 @@
 
 use ash::vk;
 use glam::{DMat4, DVec2, DVec3, Mat4, Quat, Vec3};
-use whitewater::{Camera, Config, Error, Particles, Previous};
+use whitewater::{Camera, Config, Error, Previous};
 
 use crate::level::smoothed;
 use crate::reference::motion::{self, Particle, Settings, Shown, Vector};
@@ -16,7 +16,7 @@ use crate::support::scenes::{self, LENSES, Lens, Random};
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
 
 fn moving(size: vk::Extent2D) -> Config {
-    Config { motion: true, ..config(size) }
+    config(size).with(|it| it.motion = true)
 }
 
 /// A shot of particles that move.
@@ -54,12 +54,11 @@ impl Moving {
         let velocities = self.velocities.as_ref().map(|all| data(bytemuck::cast_slice(all)));
         let amounts = self.amounts.as_ref().map(|all| data(bytemuck::cast_slice(all)));
         let ids = self.ids.as_ref().map(|all| data(bytemuck::cast_slice(all)));
-        let particles = Particles {
-            ids: ids.as_ref().map(|data| stream(data, 0, 4)),
-            velocities: velocities.as_ref().map(|data| stream(data, 0, 12)),
-            foam: amounts.as_ref().map(|data| stream(data, 0, 8)),
-            ..cloud.particles()
-        };
+        let particles = cloud.particles().with(|it| {
+            it.ids = ids.as_ref().map(|data| stream(data, 0, 4));
+            it.velocities = velocities.as_ref().map(|data| stream(data, 0, 12));
+            it.foam = amounts.as_ref().map(|data| stream(data, 0, 8));
+        });
         rig.draw_particles(&self.shot, &particles)
     }
 
@@ -115,12 +114,12 @@ impl Moving {
 fn elsewhere(camera: &Camera) -> Camera {
     let turn = Quat::from_scaled_axis(Vec3::new(0.02, -0.03, 0.015));
     let moved = Mat4::from_rotation_translation(turn, Vec3::new(0.11, -0.07, 0.2));
-    let mut projection = camera.projection;
+    let mut projection = camera.projection_matrix();
     projection.x_axis.x *= 0.97;
     projection.y_axis.y *= 0.98;
     projection.z_axis.x += 0.01;
     projection.z_axis.y -= 0.007;
-    Camera { view: moved * camera.view, projection }
+    Camera::of(moved * camera.view_matrix(), projection)
 }
 
 fn of(drawn: &Drawn) -> &Image<[f32; 2]> {
@@ -169,7 +168,7 @@ fn vectors_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for foam in [false, true] {
-        let mut rig = Rig::new(&gpu, &Config { foam, ..moving(size) });
+        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.foam = foam));
         for lens in LENSES {
             for (kind, points) in [
                 ("cloud", scenes::cloud(31, 160, 2.0, 9.0)),
@@ -201,8 +200,12 @@ fn vectors_of_every_resolution_are_the_twins() {
     for (thickness_level, smoothing_level, coarsening, max_stride) in
         [(0, 0, 3, 16), (1, 1, 0, 16), (2, 2, 3, 1 << 20), (3, 1, 3, 16), (0, 2, 3, 1 << 20)]
     {
-        let levels = Config { thickness_level, smoothing_level, coarsening, ..moving(size) };
-        let mut rig = Rig::new(&gpu, &Config { max_stride, ..levels });
+        let levels = moving(size).with(|it| {
+            it.thickness_level = thickness_level;
+            it.smoothing_level = smoothing_level;
+            it.coarsening = coarsening;
+        });
+        let mut rig = Rig::new(&gpu, &levels.with(|it| it.max_stride = max_stride));
         for (radius, points) in [
             (0.2, scenes::cloud(31, 160, 2.0, 9.0)),
             (0.05, scenes::block(3, 0.08, [30, 20, 4], [-1.6, -1.0, 3.0])),
@@ -225,7 +228,7 @@ fn strange_particles_move_as_the_twins() {
     let points = scenes::cloud(31, 160, 2.0, 9.0);
     let mut case = Moving::new(size, Lens::Reversed, &points, 10.0);
     // To the right, down and towards the eye: it was farther off.
-    let fast = |row: usize| case.shot.camera.view.row(row).truncate() * 1e9;
+    let fast = |row: usize| case.shot.camera.view_matrix().row(row).truncate() * 1e9;
     let fast = (fast(0) - fast(1) + fast(2)).to_array();
     let velocities = case.velocities.as_mut().expect("velocities");
     for (i, v) in velocities.iter_mut().enumerate() {
@@ -255,7 +258,7 @@ fn what_is_still_has_no_motion() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for lens in LENSES {
-        let mut rig = Rig::new(&gpu, &Config { foam: true, ..moving(size) });
+        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.foam = true));
         let points = scenes::block(3, 0.3, [12, 8, 4], [-1.6, -1.0, 4.0]);
         let mut case = Moving::new(size, lens, &points, 30.0);
         case.amounts = Some((0..points.len()).map(|i| [(i % 3) as f32 / 2.0, 0.0]).collect());
@@ -365,13 +368,19 @@ fn outlines_keep_both_sides() {
     let gpu = Gpu::shared();
     let size = extent(193, 121);
     for (thickness_level, foam) in [(0, false), (2, false), (3, false), (2, true)] {
-        let mut rig = Rig::new(&gpu, &Config { thickness_level, foam, ..moving(size) });
+        let mut rig = Rig::new(
+            &gpu,
+            &moving(size).with(|it| {
+                it.thickness_level = thickness_level;
+                it.foam = foam;
+            }),
+        );
         let pool = scenes::block(3, 0.3, [30, 20, 3], [-4.5, -3.0, 8.0]);
         let drop = scenes::block(4, 0.3, [3, 3, 3], [-0.3, -0.3, 4.0]);
         let points = [drop.clone(), pool].concat();
         let mut case = Moving::new(size, Lens::Standard, &points, 0.0);
         // Across the view, as it lies in the world.
-        let right = case.shot.camera.view.row(0).truncate();
+        let right = case.shot.camera.view_matrix().row(0).truncate();
         let of_drop = (right * 6.0).to_array();
         let of_pool = (right * -4.0).to_array();
         let velocity = |i: usize| if i < drop.len() { of_drop } else { of_pool };
@@ -415,7 +424,12 @@ fn the_order_of_particles_does_not_show() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for foam in [false, true] {
-        let make = |max_stride| Config { foam, max_stride, ..moving(size) };
+        let make = |max_stride| {
+            moving(size).with(|it| {
+                it.foam = foam;
+                it.max_stride = max_stride;
+            })
+        };
         let mut rig = Rig::new(&gpu, &make(16));
         let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 2.0]);
         let mut case = Moving::new(size, Lens::Infinite, &points, 30.0);
@@ -470,7 +484,7 @@ fn motion_is_a_layer_of_its_own() {
     let size = extent(97, 61);
     let points = scenes::cloud(31, 160, 2.0, 9.0);
     let mut case = Moving::new(size, Lens::Standard, &points, 30.0);
-    let mut rig = Rig::new(&gpu, &Config { keep_layers: false, ..moving(size) });
+    let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.keep_layers = false));
     let with = rig.renderer().memory();
     let drawn = case.draw(&mut rig);
     assert_eq!(drawn.depth.data.len(), 0, "no other layer");
@@ -500,8 +514,8 @@ fn cuts_have_finite_vectors() {
             let mut case = Moving::new(size, lens, &points, 30.0);
             case.shot.scene_depth(|x, _| (x < 40).then_some(6.0));
             let moved = Mat4::from_translation(Vec3::new(0.0, 0.0, forward));
-            let view = moved * Mat4::from_rotation_y(angle) * case.shot.camera.view;
-            let camera = Camera { view, ..case.shot.camera };
+            let view = moved * Mat4::from_rotation_y(angle) * case.shot.camera.view_matrix();
+            let camera = Camera { view: view.to_cols_array_2d(), ..case.shot.camera };
             case.shot.previous = Some(Previous { camera, dt: 0.05 });
             let drawn = case.draw(&mut rig);
             assert!(of(&drawn).data.iter().flatten().all(|v| v.is_finite()), "{lens:?} {angle}");
@@ -521,7 +535,10 @@ fn vectors_find_the_frame_before() {
     let dt = 0.1_f32;
     let velocity = Vec3::new(1.5, -0.6, 1.0);
     let turn = Mat4::from_rotation_y(0.03) * Mat4::from_translation(Vec3::new(0.05, 0.02, 0.1));
-    let before = Camera { view: turn * case.shot.camera.view, ..case.shot.camera };
+    let before = Camera {
+        view: (turn * case.shot.camera.view_matrix()).to_cols_array_2d(),
+        ..case.shot.camera
+    };
     let mut first = case.clone();
     first.shot.camera = before;
     first.shot.previous = None;
@@ -584,9 +601,15 @@ fn bad_frames_before_are_errors() {
     let good = Moving::new(size, Lens::Standard, &points, 1.0).shot;
     let camera = good.previous.expect("one").camera;
     let with = |previous: Previous| Shot { previous: Some(previous), ..good.clone() };
-    let view = |view: Mat4| with(Previous { camera: Camera { view, ..camera }, dt: 0.1 });
-    let lens =
-        |projection: Mat4| with(Previous { camera: Camera { projection, ..camera }, dt: 0.1 });
+    let view = |view: Mat4| {
+        with(Previous { camera: Camera { view: view.to_cols_array_2d(), ..camera }, dt: 0.1 })
+    };
+    let lens = |projection: Mat4| {
+        with(Previous {
+            camera: Camera { projection: projection.to_cols_array_2d(), ..camera },
+            dt: 0.1,
+        })
+    };
     let flat = Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
     let cases = [
         (true, with(Previous { camera, dt: -0.1 }), "Frame.previous.dt"),
@@ -599,7 +622,7 @@ fn bad_frames_before_are_errors() {
         (false, good.clone(), "Frame.previous"),
     ];
     for (on, shot, wanted) in cases {
-        let mut rig = Rig::new(&gpu, &Config { motion: on, ..config(size) });
+        let mut rig = Rig::new(&gpu, &config(size).with(|it| it.motion = on));
         let (color, depth) = rig.scene(&shot);
         let cloud = rig.particles(&shot);
         let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());

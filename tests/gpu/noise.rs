@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{NoiseLook, Rule, Shading};
-use whitewater::{Camera, Config, Particles};
+use whitewater::{Camera, Config};
 
 use crate::composite::{FLAT, SKY, Sky, check, check_told};
 use crate::harness::fails;
@@ -17,7 +17,7 @@ use crate::support::scenes::{self, LENSES, Lens, Random};
 const STORAGE: ash::vk::BufferUsageFlags = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
 
 fn noisy(size: ash::vk::Extent2D, level: u32) -> Config {
-    Config { noise: Some(level), ..config(size) }
+    config(size).with(|it| it.noise = Some(level))
 }
 
 /// A shot with ids.
@@ -51,7 +51,7 @@ impl Noisy {
         let cloud = rig.particles(&self.shot);
         let ids = self.ids.as_ref().map(|ids| rig.stub.data(bytemuck::cast_slice(ids), STORAGE));
         let ids = ids.as_ref().map(|ids| stream(ids, 0, 4));
-        rig.draw_particles(&self.shot, &Particles { ids, ..cloud.particles() })
+        rig.draw_particles(&self.shot, &cloud.particles().with(|it| it.ids = ids))
     }
 
     /// As the twin takes them.
@@ -146,7 +146,7 @@ const CHANGES: [Change; 8] = [
 fn noise_of_all_settings_is_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig = Rig::new(&gpu, &Config { max_stride: 1 << 20, ..noisy(size, 1) });
+    let mut rig = Rig::new(&gpu, &noisy(size, 1).with(|it| it.max_stride = 1 << 20));
     for (name, change) in CHANGES {
         for deep in [false, true] {
             let mut case = Noisy::new(size, Lens::OffAxis);
@@ -205,7 +205,7 @@ fn pick<T: Copy>(all: &[T], order: &[usize]) -> Vec<T> {
 fn noise_goes_by_ids_not_by_places() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig = Rig::lit(&gpu, &Config { noise: Some(1), ..config(size) }, 1);
+    let mut rig = Rig::lit(&gpu, &config(size).with(|it| it.noise = Some(1)), 1);
     let mut case = Noisy::new(size, Lens::Standard);
     *case.look() = NoiseLook::SOURCE;
     let first = case.draw(&mut rig);
@@ -237,8 +237,8 @@ fn noise_moves_with_its_particles() {
     let mut moved = case.clone();
     let by = Vec3::new(3.25, -1.5, 2.75);
     moved.shot.positions.iter_mut().for_each(|p| *p = (Vec3::from(*p) + by).to_array());
-    let view = case.shot.camera.view * Mat4::from_translation(-by);
-    moved.shot.camera = Camera { view, ..case.shot.camera };
+    let view = case.shot.camera.view_matrix() * Mat4::from_translation(-by);
+    moved.shot.camera = Camera { view: view.to_cols_array_2d(), ..case.shot.camera };
     let second = moved.draw(&mut rig);
     // Both owe the bounds of both, where the surface is the same but for its roundings.
     moved.check("noise-moved", 1, &second);
@@ -265,12 +265,11 @@ fn the_picture_with_noise_is_the_twins() {
     let size = extent(97, 61);
     for (level, smoothing_level) in [(1, 1), (0, 1), (2, 0), (3, 1), (1, 2)] {
         for (shading, flat) in [(Shading::Raster, true), (Shading::Compute, false)] {
-            let config = Config {
-                composite: Some(shading),
-                smoothing_level,
-                coarsening: 0,
-                ..noisy(size, level)
-            };
+            let config = noisy(size, level).with(|it| {
+                it.composite = Some(shading);
+                it.smoothing_level = smoothing_level;
+                it.coarsening = 0;
+            });
             let mut rig = Rig::new(&gpu, &config);
             rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
             for (lens, weight, foam) in [
@@ -284,8 +283,11 @@ fn the_picture_with_noise_is_the_twins() {
                 if flat {
                     case.shot.color.fill(FLAT);
                 }
-                *case.look() =
-                    NoiseLook { weight, foam, color: [0.5, 0.4, 0.3], ..NoiseLook::default() };
+                *case.look() = NoiseLook::default().with(|it| {
+                    it.weight = weight;
+                    it.foam = foam;
+                    it.color = [0.5, 0.4, 0.3];
+                });
                 let name = format!("noise-picture-{level}-{smoothing_level}-{lens:?}");
                 check(&name, &mut rig, &case.shot, Sky::Even);
             }
@@ -298,12 +300,12 @@ fn the_picture_with_noise_is_the_twins() {
 fn a_hundredth_of_the_ripples_is_seen() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..noisy(size, 1) });
+    let mut rig = Rig::new(&gpu, &noisy(size, 1).with(|it| it.coarsening = 0));
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let mut case = Noisy::new(size, Lens::Standard);
     case.shot.settings.water.shininess = 20.0;
     case.shot.color.fill(FLAT);
-    *case.look() = NoiseLook { foam: 1.0, ..NoiseLook::default() };
+    *case.look() = NoiseLook::default().with(|it| it.foam = 1.0);
     check("planted-ripples", &mut rig, &case.shot, Sky::Even);
     type Fault = fn(&mut NoiseLook);
     let faults: [(&str, Fault); 3] = [
@@ -327,10 +329,13 @@ fn without_weight_nothing_changes() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for (shading, sheets) in [(Shading::Raster, 1), (Shading::Compute, 2)] {
-        let plain =
-            Config { composite: Some(shading), sheets, rule: Rule::Fixed(40), ..config(size) };
+        let plain = config(size).with(|it| {
+            it.composite = Some(shading);
+            it.sheets = sheets;
+            it.rule = Rule::Fixed(40);
+        });
         let mut off = Rig::lit(&gpu, &plain, 1);
-        let mut on = Rig::lit(&gpu, &Config { noise: Some(1), ..plain }, 1);
+        let mut on = Rig::lit(&gpu, &plain.with(|it| it.noise = Some(1)), 1);
         let mut case = Noisy::new(size, Lens::Standard);
         *case.look() = NoiseLook::SOURCE;
         let expected = case.draw(&mut off);

@@ -13,24 +13,23 @@ fn draw(read_back: bool, test: impl FnOnce(&mut Headless)) {
     let mut gpu = Gpu::own();
     let device = gpu.take_device();
     let extent = vk::Extent2D { width: 97, height: 61 };
-    let config = Config {
-        smoothing_level: 0,
-        thickness_level: 0,
+    let config = Config::new(extent, COLOR_FORMAT, 4096).with(|it| {
+        it.smoothing_level = 0;
+        it.thickness_level = 0;
         // The queries count all levels.
-        coarsening: 0,
-        smoothing: Some(Smoothing::Query(Gate::VertexCull)),
-        ..Config::new(extent, COLOR_FORMAT, 4096)
-    };
+        it.coarsening = 0;
+        it.smoothing = Some(Smoothing::Query(Gate::VertexCull));
+    });
     let mut headless = Headless::new(device, &config).expect("a renderer");
     let positions: Vec<[f32; 3]> = (0..40)
         .flat_map(|x| (0..60).map(move |z| [0.1 * x as f32 - 2.0, 0.0, -0.1 * z as f32]))
         .collect();
     headless.particles(&positions, None).expect("particles");
-    let camera = Camera {
-        view: Mat4::look_at_rh(Vec3::new(0.0, 0.8, 1.0), Vec3::new(0.0, 0.0, -2.0), Vec3::Y),
-        projection: Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
+    let camera = Camera::of(
+        Mat4::look_at_rh(Vec3::new(0.0, 0.8, 1.0), Vec3::new(0.0, 0.0, -2.0), Vec3::Y),
+        Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
             * Mat4::perspective_infinite_reverse_rh(0.8, 97.0 / 61.0, 0.1),
-    };
+    );
     let mut settings = Settings::default();
     settings.water.spacing = 0.1;
     let background = Background::Color([0.3; 3]);

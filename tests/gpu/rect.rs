@@ -45,15 +45,21 @@ fn assert_same(name: &str, found: &Drawn, expected: &Drawn) {
 /// Every way that has images of its own size.
 fn ways() -> Vec<(&'static str, Config)> {
     let base = config(extent(SIZE.0, SIZE.1));
-    let sums = Config { thickness_level: 1, ..base };
+    let sums = base.with(|it| it.thickness_level = 1);
     vec![
-        ("tiles", Config { smoothing: Some(Smoothing::Tiles), ..base }),
-        ("fused", Config { smoothing: Some(Smoothing::Fused), smoothing_level: 0, ..base }),
-        ("query", Config { smoothing: Some(Smoothing::Query(Gate::VertexCull)), ..sums }),
-        ("depth", Config { depth_splat: Some(Splat::Raster), ..sums }),
-        ("stored", Config { composite: Some(Shading::Compute), ..sums }),
-        ("coarser", Config { max_iterations: 3, ..base }),
-        ("sheets", Config { sheets: 2, ..base }),
+        ("tiles", base.with(|it| it.smoothing = Some(Smoothing::Tiles))),
+        (
+            "fused",
+            base.with(|it| {
+                it.smoothing = Some(Smoothing::Fused);
+                it.smoothing_level = 0;
+            }),
+        ),
+        ("query", sums.with(|it| it.smoothing = Some(Smoothing::Query(Gate::VertexCull)))),
+        ("depth", sums.with(|it| it.depth_splat = Some(Splat::Raster))),
+        ("stored", sums.with(|it| it.composite = Some(Shading::Compute))),
+        ("coarser", base.with(|it| it.max_iterations = 3)),
+        ("sheets", base.with(|it| it.sheets = 2)),
     ]
 }
 
@@ -67,7 +73,7 @@ fn a_view_may_be_a_part_of_the_images() {
                 if !slow() && in_place != ((turn + number) % 2 == 0) {
                     continue;
                 }
-                let config = Config { in_place, ..config };
+                let config = config.with(|it| it.in_place = in_place);
                 let mut rig = Rig::lit(&gpu, &config, 1);
                 let alone = rig.draw(&shot(depth_extent));
                 let part = Shot { margin: [13, 30, 7, 21], ..shot(depth_extent) };
@@ -97,7 +103,7 @@ fn a_frame_may_be_smaller_than_the_renderer_is_made_for() {
     for (way, config) in ways() {
         let shot = shot(SIZE);
         let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
-        let mut rig = Rig::lit(&gpu, &Config { extent: extent(150, 101), ..config }, 1);
+        let mut rig = Rig::lit(&gpu, &config.with(|it| it.extent = extent(150, 101)), 1);
         // What a larger frame left behind is not seen.
         let whole =
             Shot::new(extent(150, 101), Lens::Standard, 0.5, &scenes::cloud(1, 900, 1.0, 9.0));

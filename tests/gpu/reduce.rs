@@ -1,6 +1,5 @@
 //! Pass `reduce`: occlusion by the scene, nearest of each block, and the plan of the smoothing.
 
-use whitewater::Config;
 use whitewater::water::Rule;
 
 use crate::reference::smooth::{self, Params};
@@ -34,7 +33,10 @@ fn each_block_keeps_its_nearest_surface() {
     for (width, height) in [(96, 64), (33, 17), (5, 3), (1, 7), (1, 1), (130, 2)] {
         for level in 0..3 {
             let size = extent(width, height);
-            let config = Config { smoothing_level: level, thickness_level: level, ..config(size) };
+            let config = config(size).with(|it| {
+                it.smoothing_level = level;
+                it.thickness_level = level;
+            });
             let mut rig = Rig::new(&gpu, &config);
             let points = scenes::cloud(11, 300, 1.0, 9.0);
             let shot = Shot::new(size, Lens::Reversed, 0.12, &points);
@@ -56,7 +58,7 @@ fn what_the_scene_hides_is_gone() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let points = scenes::cloud(5, 500, 1.0, 12.0);
-    let mut rig = Rig::new(&gpu, &Config { smoothing_level: 1, ..config(size) });
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.smoothing_level = 1));
     for lens in LENSES {
         for depth_extent in [size, extent(192, 128), extent(50, 31), extent(1, 1)] {
             let mut shot = Shot::new(size, lens, 0.2, &points);
@@ -176,14 +178,13 @@ fn the_plan_is_the_twins() {
     let size = extent(97, 61);
     for (level, radius, cap) in [(0, 0.1, 256), (1, 0.2, 256), (1, 0.3, 25), (2, 0.3, 256)] {
         for (rule, twin) in rules() {
-            let config = Config {
-                smoothing_level: level,
-                thickness_level: level,
-                rule,
-                max_iterations: cap,
-                coarsening: 0,
-                ..config(size)
-            };
+            let config = config(size).with(|it| {
+                it.smoothing_level = level;
+                it.thickness_level = level;
+                it.rule = rule;
+                it.max_iterations = cap;
+                it.coarsening = 0;
+            });
             let mut rig = Rig::new(&gpu, &config);
             for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
                 let shot = Shot::new(size, lens, radius, &scenes::cloud(9, 300, 1.0, 30.0));

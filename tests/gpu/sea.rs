@@ -17,10 +17,7 @@ const SIZE: vk::Extent2D = vk::Extent2D { width: 32, height: 24 };
 type Shot = (Vec<[f32; 4]>, Vec<f32>);
 
 fn camera(eye: [f32; 3], target: [f32; 3], up: [f32; 3], lens: Lens) -> Camera {
-    Camera {
-        view: Mat4::look_at_rh(eye.into(), target.into(), up.into()),
-        projection: projection(lens, SIZE),
-    }
+    Camera::of(Mat4::look_at_rh(eye.into(), target.into(), up.into()), projection(lens, SIZE))
 }
 
 /// Down on what is below the origin from 10 over it.

@@ -11,7 +11,7 @@ use whitewater::headless::{Bubble, Diffuse};
 use whitewater::water::{
     Amplitude, Convolution, Fresnel, Ladder, Medium, NoiseLook, Rule, Shadows, SprayLook,
 };
-use whitewater::{Config, Region, Settings, Shadow};
+use whitewater::{Region, Settings, Shadow};
 
 use crate::foam::Foamy;
 use crate::light::shadows;
@@ -71,8 +71,8 @@ fn layered() -> Foamy {
     settings.water.shininess = 4.0;
     // A front layer that ends within the foam.
     settings.foam.front_depth = 2.0 * settings.water.spacing;
-    settings.noise = NoiseLook { foam: 0.5, ..NoiseLook::default() };
-    settings.spray = SprayLook { size: 1.5, ..SprayLook::default() };
+    settings.noise = NoiseLook::default().with(|it| it.foam = 0.5);
+    settings.spray = SprayLook::default().with(|it| it.size = 1.5);
     case
 }
 
@@ -87,8 +87,16 @@ fn drawer<'r>(case: Foamy, rig: &'r mut Rig<'_>) -> impl FnMut(&Settings) -> Dra
 #[test]
 fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let gpu = Gpu::shared();
-    let both = Config { foam: true, spray: true, noise: Some(0), ..config(SIZE) };
-    let config = Config { cast: Some(64), sheets: 2, thickness_level: 0, ..both };
+    let both = config(SIZE).with(|it| {
+        it.foam = true;
+        it.spray = true;
+        it.noise = Some(0);
+    });
+    let config = both.with(|it| {
+        it.cast = Some(64);
+        it.sheets = 2;
+        it.thickness_level = 0;
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
@@ -165,7 +173,10 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
 #[test]
 fn every_setting_of_the_other_modes_shows() {
     let gpu = Gpu::shared();
-    let plain = Config { foam: true, thickness_level: 0, ..config(SIZE) };
+    let plain = config(SIZE).with(|it| {
+        it.foam = true;
+        it.thickness_level = 0;
+    });
     let mut rig = Rig::lit(&gpu, &plain, 1);
     let mut case = layered();
     case.shot.sun.region = None;
@@ -198,7 +209,7 @@ fn every_setting_of_the_other_modes_shows() {
     ];
     all_show("other modes", &base, &changes, drawer(case, &mut rig));
     // A rule of the smoothing that has a width of its own says so.
-    let ruled = Config { rule: Rule::Source, ..plain };
+    let ruled = plain.with(|it| it.rule = Rule::Source);
     let mut rig = Rig::lit(&gpu, &ruled, 1);
     let mut case = layered();
     case.shot.sun.region = None;
@@ -219,7 +230,11 @@ fn every_setting_of_the_shadow_filter_shows() {
     let gpu = Gpu::shared();
     let convolution = Convolution { texels: 64, ..Convolution::default() };
     let shadow = Some(Shadows::Convolution(convolution));
-    let config = Config { foam: true, shadow, thickness_level: 0, ..config(SIZE) };
+    let config = config(SIZE).with(|it| {
+        it.foam = true;
+        it.shadow = shadow;
+        it.thickness_level = 0;
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = layered();
     case.shot.sun.region = None;
@@ -229,7 +244,10 @@ fn every_setting_of_the_shadow_filter_shows() {
     let view_projection = Mat4::orthographic_rh(-9.0, 9.0, -9.0, 9.0, 1.0, 40.0) * light;
     let map = Image::from_fn(64, 64, |x, y| if (x / 9 + y / 7) % 2 == 0 { 0.3 } else { 0.9 });
     let image = shadows(&rig, Shadows::Convolution(convolution), &map);
-    case.shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.05 });
+    case.shot.sun.shadow = Some(
+        Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+            .with(|it| it.bias = 0.05),
+    );
     let base = case.shot.settings.clone();
     let changes: [Change; 4] = [
         ("shadow.width", |s| s.shadow.width = 6.0),
@@ -313,8 +331,8 @@ fn every_setting_of_diffuse_particles_shows() {
         ("diffuse.samples[0]", |s| s.diffuse.samples[0] = 300),
     ];
     for occlusion in [Occlusion::Fast, Occlusion::Reference] {
-        let diffuse = DiffuseConfig { occlusion, ..DiffuseConfig::new(4096) };
-        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..config(SIZE) }, 1);
+        let diffuse = DiffuseConfig::new(4096).with(|it| it.occlusion = occlusion);
+        let mut rig = Rig::lit(&gpu, &config(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
         let (mut base, mut draw) = heap_drawer(&mut rig);
         all_show(&format!("{occlusion:?}"), &base, &changes, &mut draw);
         match occlusion {
@@ -332,8 +350,11 @@ const FALLOFF: Submerged = Submerged::Falloff { most: 2.0, n: 2.0, m: 4.0 };
 fn every_setting_of_bubble_foam_shows() {
     let gpu = Gpu::shared();
     let size = extent(112, 96);
-    let bubbles = BubbleConfig { templates: 3, bubbles: 28, ..BubbleConfig::new(64) };
-    let mut rig = Rig::lit(&gpu, &Config { bubbles: Some(bubbles), ..config(size) }, 1);
+    let bubbles = BubbleConfig::new(64).with(|it| {
+        it.templates = 3;
+        it.bubbles = 28;
+    });
+    let mut rig = Rig::lit(&gpu, &config(size).with(|it| it.bubbles = Some(bubbles)), 1);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     let mut random = Random(11);
     let mut blob = |place: [f32; 3], radius: f32, id| {
@@ -352,7 +373,7 @@ fn every_setting_of_bubble_foam_shows() {
     blobs.extend((0..8).map(small).map(|(place, radius, id)| blob(place, radius, id)));
     shot.blobs = blobs;
     // The sun at the eye.
-    let eye = shot.camera.view.inverse().transform_point3(Vec3::ZERO);
+    let eye = shot.camera.view_matrix().inverse().transform_point3(Vec3::ZERO);
     let [x, y, z] = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
     shot.settings.light.direction = (eye - Vec3::new(x, y, z)).normalize().to_array();
     let base = shot.settings.clone();
@@ -381,10 +402,20 @@ fn every_setting_of_bubble_foam_shows() {
 #[test]
 fn every_setting_of_the_hand_over_shows() {
     let gpu = Gpu::shared();
-    let bubbles =
-        BubbleConfig { templates: 3, bubbles: 28, hand_over: true, ..BubbleConfig::new(600) };
+    let bubbles = BubbleConfig::new(600).with(|it| {
+        it.templates = 3;
+        it.bubbles = 28;
+        it.hand_over = true;
+    });
     let diffuse = Some(DiffuseConfig::new(4096));
-    let mut rig = Rig::lit(&gpu, &Config { bubbles: Some(bubbles), diffuse, ..config(SIZE) }, 1);
+    let mut rig = Rig::lit(
+        &gpu,
+        &config(SIZE).with(|it| {
+            it.bubbles = Some(bubbles);
+            it.diffuse = diffuse;
+        }),
+        1,
+    );
     let (mut base, draw) = heap_drawer(&mut rig);
     base.bubbles.hand_over = HandOver { near: 4.0, far: 5.0, size: 1.0 };
     let changes: [Change; 3] = [

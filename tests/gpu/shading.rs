@@ -6,7 +6,7 @@
 
 use ash::vk;
 use whitewater::water::{Fresnel, Shading};
-use whitewater::{Access, Config, HostImage, Layer, Recorded};
+use whitewater::{Access, Config, Layer, Recorded};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -35,7 +35,7 @@ pub fn close(name: &str, format: vk::Format, stored: &Drawn, drawn: &Drawn) {
 /// Draws shots both ways, one after the other: each starts from what the one before left.
 fn same(gpu: &Gpu, name: &str, config: &Config, shots: &[&Shot]) -> Vec<Drawn> {
     let [mut drawn, mut stored] = [Shading::Raster, Shading::Compute].map(|way| {
-        let config = Config { composite: Some(way), ..*config };
+        let config = config.with(|it| it.composite = Some(way));
         Rig::lit(gpu, &config, 1)
     });
     shots
@@ -69,8 +69,14 @@ fn both_ways_give_the_same_picture() {
         let size = extent(width, height);
         let few = if width == 97 { &kinds[..] } else { &kinds[..if slow() { 2 } else { 1 }] };
         for &(smoothing_level, thickness_level, in_place, output_format) in few {
-            let levels = Config { smoothing_level, thickness_level, ..config(size) };
-            let config = Config { in_place, output_format, ..levels };
+            let levels = config(size).with(|it| {
+                it.smoothing_level = smoothing_level;
+                it.thickness_level = thickness_level;
+            });
+            let config = levels.with(|it| {
+                it.in_place = in_place;
+                it.output_format = output_format;
+            });
             let (first, mut second) = (water(size, Lens::OffAxis), water(size, Lens::Reversed));
             second.settings.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
             let mut none = first.clone();
@@ -99,7 +105,11 @@ fn tiles_of_every_level_are_shaded_whole() {
             if !slow() && (turn + number) % 2 == 1 {
                 continue;
             }
-            let config = Config { smoothing_level, coarsening, max_iterations: 3, ..config(size) };
+            let config = config(size).with(|it| {
+                it.smoothing_level = smoothing_level;
+                it.coarsening = coarsening;
+                it.max_iterations = 3;
+            });
             let row: Vec<_> = (-30_i8..=30).map(|x| [f32::from(x), 0.0, 2.0]).collect();
             let mut shot = Shot::new(size, Lens::Reversed, 1.0, &row);
             shot.settings.water.smoothing_width = 40.0;
@@ -118,7 +128,7 @@ fn tiles_of_every_level_are_shaded_whole() {
 fn a_stored_output_need_not_be_an_attachment() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config { composite: Some(Shading::Compute), ..config(size) };
+    let config = config(size).with(|it| it.composite = Some(Shading::Compute));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let shot = water(size, Lens::Standard);
     let expected = rig.draw(&shot);
@@ -132,7 +142,7 @@ fn a_stored_output_need_not_be_an_attachment() {
     let texels = bytemuck::cast_slice(&shot.color);
     let color = rig.stub.uploaded(OUTPUT, size, usage, texels, written);
     let cloud = rig.particles(&shot);
-    let output = HostImage { after: written, ..color.host_image() };
+    let output = color.host_image().with(|it| it.after = written);
     let frame = shot.frame(output, depth.host_image(), cloud.particles());
     let cmd = rig.stub.begin(0);
     // SAFETY: cmd is recording; the handles live to the end of this.

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use ash::vk;
 use glam::{DMat3, DVec2, DVec3};
 use whitewater::water::{Ellipsoids, Kernels, Splat};
-use whitewater::{Config, Count, Particles, Region};
+use whitewater::{Config, Count, Region};
 
 use crate::hostile::spoil;
 use crate::invariants::{packet_bytes, same_drawn, scaled};
@@ -23,14 +23,13 @@ use crate::support::tolerance::{Between, U, eye_space, ray_distance};
 const BOTH: [Splat; 2] = [Splat::Raster, Splat::Compute];
 
 fn ellipsoids(size: vk::Extent2D, splat: Splat) -> Config {
-    Config {
-        kernels: Kernels::Ellipsoids,
-        depth_splat: Some(splat),
-        thickness_splat: Some(splat),
-        smoothing_level: 0,
-        thickness_level: 0,
-        ..config(size)
-    }
+    config(size).with(|it| {
+        it.kernels = Kernels::Ellipsoids;
+        it.depth_splat = Some(splat);
+        it.thickness_splat = Some(splat);
+        it.smoothing_level = 0;
+        it.thickness_level = 0;
+    })
 }
 
 /// An ellipsoid in eye space.
@@ -325,8 +324,8 @@ fn there_is_as_much_water_as_with_spheres() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     for (splat, level) in BOTH.into_iter().flat_map(|splat| [0, 2].map(|level| (splat, level))) {
-        let config = Config { thickness_level: level, ..ellipsoids(size, splat) };
-        let round = Config { kernels: Kernels::Spheres, ..config };
+        let config = ellipsoids(size, splat).with(|it| it.thickness_level = level);
+        let round = config.with(|it| it.kernels = Kernels::Spheres);
         let [mut rig, mut round] = [config, round].map(|config| Rig::new(&gpu, &config));
         for (depth, steps) in [4.0_f32, 60.0]
             .into_iter()
@@ -357,7 +356,7 @@ fn a_sheet_has_no_holes_and_is_flat() {
         let (spacing, far) = (shot.settings.water.spacing, 4.0);
         shot.positions = lattice(&shot, [0.0, 0.0, far], facing(&shot), [18, 14, 0]);
         let drawn = Rig::new(&gpu, &ellipsoids(size, splat)).draw(&shot);
-        let round = Config { kernels: Kernels::Spheres, ..ellipsoids(size, splat) };
+        let round = ellipsoids(size, splat).with(|it| it.kernels = Kernels::Spheres);
         let spheres = Rig::new(&gpu, &round).draw(&shot);
         // No neighbour's neighbour is missing there.
         let inside = |x: usize, y: usize| {
@@ -503,17 +502,17 @@ fn counts_packets_and_chunks_do_not_show() {
     for count in [n, n + 1000] {
         let counted = rig.stub.data(&count.to_le_bytes(), usage);
         let count = Count::Gpu { buffer: counted.buffer, offset: 0 };
-        let drawn = rig.draw_particles(&shot, &Particles { count, ..plain });
+        let drawn = rig.draw_particles(&shot, &plain.with(|it| it.count = count));
         same_drawn("shape-count", &drawn, &expected);
     }
     let ranges = [(0, n / 2), (n / 2, n - n / 2)];
     let packets = rig.stub.data(&packet_bytes(&shot, &ranges), usage);
     let packets = whitewater::Packets { buffer: packets.buffer, offset: 0, count: 2 };
-    let drawn = rig.draw_particles(&shot, &Particles { packets: Some(packets), ..plain });
+    let drawn = rig.draw_particles(&shot, &plain.with(|it| it.packets = Some(packets)));
     same_drawn("shape-packets", &drawn, &expected);
     // Of such strides the device binds few particles at a time.
     let max_stride = 1 << 19;
-    let mut rig = Rig::new(&gpu, &Config { max_stride, ..config });
+    let mut rig = Rig::new(&gpu, &config.with(|it| it.max_stride = max_stride));
     let drawn = rig.draw(&shot);
     same_drawn("shape-chunks", &drawn, &expected);
 }
@@ -524,7 +523,11 @@ fn hostile_positions_end() {
     let gpu = Gpu::shared();
     let size = extent(64, 48);
     for splat in BOTH {
-        let config = Config { sheets: 2, cast: Some(64), spray: true, ..ellipsoids(size, splat) };
+        let config = ellipsoids(size, splat).with(|it| {
+            it.sheets = 2;
+            it.cast = Some(64);
+            it.spray = true;
+        });
         let mut rig = Rig::new(&gpu, &config);
         let mut shot = mixed(size, Lens::Standard);
         let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
@@ -584,7 +587,7 @@ fn every_setting_shows() {
     }
     // Of spheres none does.
     let mut rig =
-        Rig::new(&gpu, &Config { kernels: Kernels::Spheres, ..ellipsoids(size, Splat::Compute) });
+        Rig::new(&gpu, &ellipsoids(size, Splat::Compute).with(|it| it.kernels = Kernels::Spheres));
     let before = rig.draw(&shot).depth.data;
     let mut other = shot.clone();
     other.settings.water.ellipsoids.ratio = 3.0;

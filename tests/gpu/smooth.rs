@@ -1,7 +1,6 @@
 //! Pass `smooth`: curvature flow against the twin on the same input and plan, and all forms of it
 //! against each other.
 
-use whitewater::Config;
 use whitewater::water::{Gate, Rule, Smoothing};
 
 use crate::reduce::{decoded, params, rules, wide};
@@ -25,8 +24,11 @@ fn the_surface_is_the_twins() {
     let size = extent(97, 61);
     for level in 0..3 {
         for (rule, twin) in rules() {
-            let config =
-                Config { smoothing_level: level, thickness_level: 0, rule, ..config(size) };
+            let config = config(size).with(|it| {
+                it.smoothing_level = level;
+                it.thickness_level = 0;
+                it.rule = rule;
+            });
             let mut rig = Rig::new(&gpu, &config);
             let lenses: &[Lens] = match (level, rule) {
                 (1, Rule::ConstantWidth) => &LENSES,
@@ -83,14 +85,13 @@ fn all_forms_give_the_same_surface() {
         for (rule, _) in rules() {
             let mut first = None;
             for form in &forms {
-                let config = Config {
-                    smoothing_level: 0,
-                    thickness_level: 0,
-                    smoothing: Some(*form),
-                    max_iterations: cap,
-                    rule,
-                    ..config(size)
-                };
+                let config = config(size).with(|it| {
+                    it.smoothing_level = 0;
+                    it.thickness_level = 0;
+                    it.smoothing = Some(*form);
+                    it.max_iterations = cap;
+                    it.rule = rule;
+                });
                 let mut rig = Rig::new(&gpu, &config);
                 let shot = water(size, Lens::OffAxis);
                 // The second frame starts from the state that the first one left.

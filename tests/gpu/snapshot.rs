@@ -25,7 +25,7 @@ fn left(made: &Made) -> (u32, u32, u32, &[Particle]) {
 }
 
 fn roomy() -> GenerateConfig {
-    GenerateConfig { max_particles: 100_000, ..config() }
+    config().with(|it| it.max_particles = 100_000)
 }
 
 /// A flow that is stirred at its beginning and calm after it, on a bed that slows it.
@@ -143,7 +143,11 @@ fn torn(number: u32) -> Fluid {
 
 /// Lives so short that the way back is of a few spacings.
 fn short(lifetime: [f32; 2]) -> GenerateSettings {
-    GenerateSettings { lifetime, trapped_air_rate: 400.0, wave_crest_rate: 300.0, ..settings() }
+    settings().with(|it| {
+        it.lifetime = lifetime;
+        it.trapped_air_rate = 400.0;
+        it.wave_crest_rate = 300.0;
+    })
 }
 
 /// Where ways are long much is left open; the order, the ids and all but the ages are told all the same.
@@ -202,7 +206,7 @@ fn the_fluids_order_is_a_snapshots_order_alone() {
 fn a_snapshot_knows_nothing_of_what_was_before() {
     let gpu = Gpu::shared();
     let settings = settings();
-    let small = GenerateConfig { max_particles: 500, ..config() };
+    let small = config().with(|it| it.max_particles = 500);
     for config in [roomy(), small] {
         let fluid = torn(3);
         let expected = Making::new(&gpu, &config).snapshot(&fluid, &settings, 3);
@@ -218,9 +222,9 @@ fn a_snapshot_knows_nothing_of_what_was_before() {
             making.step(&sea(number), &settings, 0.03, number);
         }
         same(&mut making, "steps");
-        making.snapshot(&sea(0), &GenerateSettings { trapped_air_rate: 400.0, ..settings }, 9);
+        making.snapshot(&sea(0), &settings.with(|it| it.trapped_air_rate = 400.0), 9);
         same(&mut making, "one of more");
-        making.snapshot(&river(), &GenerateSettings { trapped_air_rate: 1.0, ..settings }, 9);
+        making.snapshot(&river(), &settings.with(|it| it.trapped_air_rate = 1.0), 9);
         same(&mut making, "one of less");
         making.snapshot(&Fluid::default(), &settings, 9);
         same(&mut making, "one of nothing");
@@ -251,7 +255,7 @@ fn a_snapshot_counts_what_has_no_room() {
     let wanted = all.particles.len() as u32;
     assert!(wanted > 200, "{wanted}");
     for most in [1, 150, wanted - 1, wanted] {
-        let config = GenerateConfig { max_particles: most, ..config() };
+        let config = config().with(|it| it.max_particles = most);
         let mut making = Making::new(&gpu, &config);
         for _ in 0..2 {
             let made = making.snapshot(&fluid, &settings(), 1);

@@ -8,7 +8,7 @@ use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Background, Headless};
 use whitewater::water::{Convolution, Gate, Shading, Shadows, Smoothing, Splat};
-use whitewater::{Config, Context, Error, Frame, Particles, Recorded, Renderer, Slot};
+use whitewater::{Config, Context, Error, Particles, Recorded, Renderer, Slot};
 
 use crate::foam::Foamy;
 use crate::light::{even, everything};
@@ -32,10 +32,9 @@ fn water(size: vk::Extent2D) -> Shot {
 fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
     let (color, depth) = rig.scene(shot);
     let blobs = rig.config.bubbles.map(|_| rig.blobs(shot));
-    let frame = Frame {
-        bubbles: blobs.as_ref().map(Foamed::streams),
-        ..shot.frame(color.host_image(), depth.host_image(), particles)
-    };
+    let frame = shot
+        .frame(color.host_image(), depth.host_image(), particles)
+        .with(|it| it.bubbles = blobs.as_ref().map(Foamed::streams));
     let shadow = shot.sun.shadow.map(|shadow| shadow.image.image);
     for _ in 0..3 {
         let cmd = rig.stub.begin(0);
@@ -73,41 +72,43 @@ fn record_only_records() {
     let size = extent(48, 32);
     let base = config(size);
     let query = Some(Smoothing::Query(Gate::VertexCull));
-    let bubbles = BubbleConfig { templates: 2, bubbles: 16, ..BubbleConfig::new(64) };
-    let billboards = BubbleConfig { sort: BubbleSort::Peel, ..bubbles };
+    let bubbles = BubbleConfig::new(64).with(|it| {
+        it.templates = 2;
+        it.bubbles = 16;
+    });
+    let billboards = bubbles.with(|it| it.sort = BubbleSort::Peel);
     let mut configs = vec![
         ("one sheet", base),
-        ("two sheets", Config { sheets: 2, ..base }),
+        ("two sheets", base.with(|it| it.sheets = 2)),
         (
             "raster",
-            Config {
-                depth_splat: Some(Splat::Raster),
-                thickness_splat: Some(Splat::Raster),
-                ..base
-            },
+            base.with(|it| {
+                it.depth_splat = Some(Splat::Raster);
+                it.thickness_splat = Some(Splat::Raster);
+            }),
         ),
-        ("compute composite", Config { composite: Some(Shading::Compute), ..base }),
-        ("fused", Config { smoothing: Some(Smoothing::Fused), ..base }),
-        ("query", Config { smoothing: query, ..base }),
-        ("motion", Config { motion: true, ..base }),
-        ("noise", Config { noise: Some(1), ..base }),
-        ("diffuse", Config { diffuse: Some(DiffuseConfig::new(1024)), ..base }),
-        ("bubbles", Config { bubbles: Some(bubbles), ..base }),
-        ("billboards", Config { bubbles: Some(billboards), ..base }),
+        ("compute composite", base.with(|it| it.composite = Some(Shading::Compute))),
+        ("fused", base.with(|it| it.smoothing = Some(Smoothing::Fused))),
+        ("query", base.with(|it| it.smoothing = query)),
+        ("motion", base.with(|it| it.motion = true)),
+        ("noise", base.with(|it| it.noise = Some(1))),
+        ("diffuse", base.with(|it| it.diffuse = Some(DiffuseConfig::new(1024)))),
+        ("bubbles", base.with(|it| it.bubbles = Some(bubbles))),
+        ("billboards", base.with(|it| it.bubbles = Some(billboards))),
     ];
     if gpu.enabled.conditional_rendering {
         let smoothing = Some(Smoothing::Query(Gate::Predicate));
-        configs.push(("predicate", Config { smoothing, ..base }));
+        configs.push(("predicate", base.with(|it| it.smoothing = smoothing)));
     }
     if gpu.enabled.draw_indirect_count {
         let smoothing = Some(Smoothing::Query(Gate::DrawCount));
-        configs.push(("draw count", Config { smoothing, ..base }));
+        configs.push(("draw count", base.with(|it| it.smoothing = smoothing)));
     }
     for (name, config) in configs {
         let mut rig = Rig::new(&gpu, &config);
         let (shot, cloud) = (water(size), rig.particles(&water(size)));
         let velocities = Some(stream(&cloud.positions, 0, 12)); // any
-        watched(name, &mut rig, &shot, Particles { velocities, ..cloud.particles() });
+        watched(name, &mut rig, &shot, cloud.particles().with(|it| it.velocities = velocities));
     }
 }
 
@@ -118,7 +119,10 @@ fn record_only_records_with_foam_spray_and_light() {
     let mut case = Foamy::new(extent(48, 32), Lens::Reversed, 30.0);
     let all = everything(&mut case);
     for (name, splat) in [("compute", Splat::Compute), ("raster", Splat::Raster)] {
-        let config = Config { depth_splat: Some(splat), thickness_splat: Some(splat), ..all };
+        let config = all.with(|it| {
+            it.depth_splat = Some(splat);
+            it.thickness_splat = Some(splat);
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let (_image, shadow) = even(&rig, 0.5);
         case.shot.sun.shadow = Some(shadow);
@@ -129,8 +133,13 @@ fn record_only_records_with_foam_spray_and_light() {
     let convolution = Convolution { terms: 16, texels: 32, bits: 8 };
     let shadow = Some(Shadows::Convolution(convolution));
     let size = extent(48, 32);
-    let config =
-        Config { shadow, cast: Some(16), foam: true, spray: true, sheets: 2, ..config(size) };
+    let config = config(size).with(|it| {
+        it.shadow = shadow;
+        it.cast = Some(16);
+        it.foam = true;
+        it.spray = true;
+        it.sheets = 2;
+    });
     let (mut rig, mut shot) = (Rig::new(&gpu, &config), water(size));
     let _shade = crate::contract::sunny(&rig, &mut shot);
     let cloud = rig.particles(&shot);
@@ -142,12 +151,15 @@ fn record_only_records_with_foam_spray_and_light() {
 fn many_chunks_have_their_descriptor_sets() {
     let gpu = spied();
     let size = extent(48, 32);
-    let config =
-        Config { max_stride: 1 << 16, max_particles: 1 << 16, motion: true, ..config(size) };
+    let config = config(size).with(|it| {
+        it.max_stride = 1 << 16;
+        it.max_particles = 1 << 16;
+        it.motion = true;
+    });
     let mut rig = Rig::new(&gpu, &config);
     let (shot, cloud) = (water(size), rig.particles(&water(size)));
     watched("many chunks", &mut rig, &shot, cloud.particles());
-    let noisy = Config { noise: Some(0), ..config };
+    let noisy = config.with(|it| it.noise = Some(0));
     let mut rig = Rig::new(&gpu, &noisy);
     let (shot, cloud) = (water(size), rig.particles(&water(size)));
     watched("many chunks of noise", &mut rig, &shot, cloud.particles());
@@ -158,7 +170,7 @@ fn many_chunks_have_their_descriptor_sets() {
 fn memory_is_steady() {
     let gpu = spied();
     let size = extent(16, 8);
-    let mut rig = Rig::with_slots(&gpu, &Config { sheets: 2, ..config(size) }, 3);
+    let mut rig = Rig::with_slots(&gpu, &config(size).with(|it| it.sheets = 2), 3);
     let shot = Shot::new(size, Lens::Standard, 0.3, &[[0.0, 0.0, 3.0], [0.4, 0.1, 4.0]]);
     let (color, depth) = rig.scene(&shot);
     let cloud = rig.particles(&shot);
@@ -166,10 +178,9 @@ fn memory_is_steady() {
     let frames = if slow() { 10_000 } else { 300 };
     for i in 0..frames {
         let slot = i % 3;
-        let frame = Frame {
-            slot: Slot(slot),
-            ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
-        };
+        let frame = shot
+            .frame(color.host_image(), depth.host_image(), cloud.particles())
+            .with(|it| it.slot = Slot(slot));
         let cmd = rig.stub.begin(slot);
         rig.collect(Slot(slot));
         // SAFETY: cmd is recording; the slot was waited for.
@@ -206,7 +217,7 @@ fn is_memory_error(error: &Error) -> bool {
 fn a_failed_construction_leaves_nothing() {
     let gpu = spied();
     let size = extent(32, 16);
-    let config = Config { depth_splat: Some(Splat::Raster), ..config(size) };
+    let config = config(size).with(|it| it.depth_splat = Some(Splat::Raster));
     // SAFETY: live handles.
     let context = || unsafe { Context::new(&gpu.host(2)) };
     let make = || context().and_then(|context| Renderer::new(&context, &config));
@@ -271,7 +282,7 @@ fn objects_of_a_context_share_its_pipelines() {
     let mut second = Renderer::new(&other, &config).expect("a renderer");
     assert_eq!(made(), 0, "the same pipelines");
     // Another configuration needs others, once.
-    let raster = Config { depth_splat: Some(Splat::Raster), ..config };
+    let raster = config.with(|it| it.depth_splat = Some(Splat::Raster));
     second.reconfigure(&raster).expect("raster");
     assert!(made() > 0);
     spy::reset();
@@ -372,8 +383,10 @@ fn a_failed_resize_is_made_good_by_another() {
     let (old, new) = (extent(48, 32), extent(96, 64));
     let mut wrong = Vec::new();
     for splat in [Splat::Raster, Splat::Compute] {
-        let config =
-            Config { depth_splat: Some(splat), thickness_splat: Some(splat), ..config(old) };
+        let config = config(old).with(|it| {
+            it.depth_splat = Some(splat);
+            it.thickness_splat = Some(splat);
+        });
         for function in CHANGED {
             // All of them in the long tests, else some.
             for k in (1..=20).filter(|k| slow() || [1, 2, 4, 8, 16].contains(k)) {
@@ -426,7 +439,10 @@ fn frames_are_refused_after_a_failed_resize() {
 fn a_failed_reconfigure_changes_nothing() {
     let gpu = spied();
     let old = config(extent(48, 32));
-    let new = Config { smoothing_level: 0, environment_size: 32, ..config(extent(96, 64)) };
+    let new = config(extent(96, 64)).with(|it| {
+        it.smoothing_level = 0;
+        it.environment_size = 32;
+    });
     let mut wrong = Vec::new();
     for function in CHANGED {
         for k in [1, 2, 3, 5, 8, 13].into_iter().filter(|k| slow() || [1, 3, 8].contains(k)) {
@@ -504,7 +520,7 @@ fn headless_reports_a_lost_device() {
     let mut headless = Headless::new(device, &config(size)).expect("headless");
     let shot = water(size);
     headless.particles(&shot.positions, None).expect("particles");
-    for function in [&spy::QUEUE_SUBMIT2, &spy::WAIT_FOR_FENCES] {
+    for function in [&spy::QUEUE_SUBMIT, &spy::WAIT_FOR_FENCES] {
         spy::reset();
         function.fail(1, vk::Result::ERROR_DEVICE_LOST);
         let background = Background::Color([0.1, 0.2, 0.3]);

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Shading, Shadows, SprayLook};
-use whitewater::{Config, Packets, Particles, Shadow};
+use whitewater::{Config, Packets, Shadow};
 
 use crate::foam::nearly;
 use crate::harness::fails;
@@ -24,7 +24,7 @@ use crate::support::scenes::{self, LENSES, Lens, Random};
 const STORAGE: ash::vk::BufferUsageFlags = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
 
 fn spraying(size: ash::vk::Extent2D) -> Config {
-    Config { spray: true, ..config(size) }
+    config(size).with(|it| it.spray = true)
 }
 
 /// A shot with spray.
@@ -76,13 +76,12 @@ impl Sprayed {
         let packets = data(&packet_bytes(&self.shot, &ranges));
         let packets = Packets { buffer: packets.buffer, offset: 0, count: cloud.count };
         let all = |data: &Option<Data>, stride| data.as_ref().map(|data| stream(data, 0, stride));
-        let particles = Particles {
-            velocities: all(&velocities, 12),
-            ids: all(&ids, 4),
-            foam: all(&amounts, 8),
-            packets: self.packets.then_some(packets),
-            ..cloud.particles()
-        };
+        let particles = cloud.particles().with(|it| {
+            it.velocities = all(&velocities, 12);
+            it.ids = all(&ids, 4);
+            it.foam = all(&amounts, 8);
+            it.packets = self.packets.then_some(packets);
+        });
         rig.draw_particles(&self.shot, &particles)
     }
 
@@ -225,7 +224,7 @@ fn spray_of_all_settings_is_the_twins() {
     for (name, change) in changes {
         for (i, near) in [false, true].into_iter().enumerate() {
             let (from, to, radius) = if near { (0.01, 1.2, 0.05) } else { (1.5, 6.0, 0.2) };
-            let mut look = SprayLook { size: 1.5, ..SprayLook::default() };
+            let mut look = SprayLook::default().with(|it| it.size = 1.5);
             change(&mut look);
             let mut points = scenes::cloud(8, 90, from, to);
             // Just before and just behind what they begin at.
@@ -258,7 +257,7 @@ fn spray_of_all_settings_is_the_twins() {
 fn chunks_and_packets_of_spray_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig = Rig::new(&gpu, &Config { max_stride: 1 << 20, ..spraying(size) });
+    let mut rig = Rig::new(&gpu, &spraying(size).with(|it| it.max_stride = 1 << 20));
     let mut case = Sprayed::new(size, Lens::OffAxis, 20.0);
     (case.look().shutter, case.look().spread) = (0.2, 2.0);
     for (ids, packets) in [(true, false), (false, false), (false, true)] {
@@ -275,7 +274,7 @@ fn spray_lies_over_the_scene() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for shading in [Shading::Raster, Shading::Compute] {
-        let mut rig = Rig::lit(&gpu, &Config { composite: Some(shading), ..spraying(size) }, 1);
+        let mut rig = Rig::lit(&gpu, &spraying(size).with(|it| it.composite = Some(shading)), 1);
         let mut case = Sprayed::new(size, Lens::Mirrored, 40.0);
         case.shot.densities.as_mut().expect("densities").fill(100.0);
         case.look().color = [0.9, 0.5, 0.0];
@@ -301,7 +300,11 @@ fn spray_lies_over_water_and_foam() {
     for (shading, foam) in
         [(Shading::Raster, true), (Shading::Compute, true), (Shading::Raster, false)]
     {
-        let config = Config { composite: Some(shading), foam, sheets: 2, ..spraying(size) };
+        let config = spraying(size).with(|it| {
+            it.composite = Some(shading);
+            it.foam = foam;
+            it.sheets = 2;
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = Sprayed::new(size, Lens::Reversed, 10.0);
         case.amounts = foam.then(|| vec![[0.4, 0.3]; case.shot.positions.len()]);
@@ -340,7 +343,7 @@ fn without_spray_nothing_changes() {
     // No setting of it counts where it is not drawn.
     let mut case = Sprayed::new(size, Lens::Standard, 10.0);
     let expected = case.draw(&mut plain);
-    *case.look() = SprayLook { densities: [0.9, 0.95, 1.2], ..SprayLook::SOURCE };
+    *case.look() = SprayLook::SOURCE.with(|it| it.densities = [0.9, 0.95, 1.2]);
     let drawn = case.draw(&mut plain);
     compare::same_color("spray-off", &drawn.output, &expected.output);
     compare::same("spray-off-depth", &drawn.depth, &expected.depth);
@@ -421,8 +424,12 @@ fn tiles_with_spray_alone_are_drawn() {
     for (shading, smoothing_level, coarsening) in
         [(Shading::Raster, 0, 3), (Shading::Compute, 1, 2), (Shading::Raster, 2, 0)]
     {
-        let levels = Config { smoothing_level, coarsening, max_iterations: 3, ..spraying(size) };
-        let mut rig = Rig::lit(&gpu, &Config { composite: Some(shading), ..levels }, 1);
+        let levels = spraying(size).with(|it| {
+            it.smoothing_level = smoothing_level;
+            it.coarsening = coarsening;
+            it.max_iterations = 3;
+        });
+        let mut rig = Rig::lit(&gpu, &levels.with(|it| it.composite = Some(shading)), 1);
         let row: Vec<_> = (-30_i8..=30).map(|x| [f32::from(x) / 4.0, 0.9, 2.0]).collect();
         let mut points = row.clone();
         // In halves of the view.
@@ -480,7 +487,7 @@ fn straight_at_the_eye_spray_is_round() {
 fn each_droplet_has_its_own_sun() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config { shadow: Some(Shadows::Map), ..spraying(size) };
+    let config = spraying(size).with(|it| it.shadow = Some(Shadows::Map));
     let mut rig = Rig::lit(&gpu, &config, 1);
     for (lens, droplets) in [(Lens::Standard, 16), (Lens::OffAxis, 40), (Lens::Reversed, 1)] {
         let mut case = Sprayed::new(size, lens, 20.0);
@@ -494,8 +501,10 @@ fn each_droplet_has_its_own_sun() {
         let map = Image::from_fn(96, 96, |x, y| f32::from(u8::from((x + y / 2) / 5 % 2 == 0)));
         let image = shadows(&rig, Shadows::Map, &map);
         case.shot.settings.light.direction = sun.to_array();
-        case.shot.sun.shadow =
-            Some(Shadow { image: image.host_image(), view_projection, bias: 0.05 });
+        case.shot.sun.shadow = Some(
+            Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+                .with(|it| it.bias = 0.05),
+        );
         let drawn = case.draw(&mut rig);
         let found = drawn.lit_spray.as_ref().expect("spray in the sun");
 

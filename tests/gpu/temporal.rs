@@ -25,13 +25,12 @@ const MARGIN: isize = 8;
 
 /// A renderer of foam that moves.
 fn moving(thickness_level: u32) -> Config {
-    Config {
-        foam: true,
-        motion: true,
-        thickness_level,
-        max_particles: 8192,
-        ..config(extent(WIDTH, HEIGHT))
-    }
+    config(extent(WIDTH, HEIGHT)).with(|it| {
+        it.foam = true;
+        it.motion = true;
+        it.thickness_level = thickness_level;
+        it.max_particles = 8192;
+    })
 }
 
 /// A block of foam before the middle of the view, so many pixels from particle to particle.
@@ -46,7 +45,10 @@ fn block(pixels: f32, layers: usize) -> Foamy {
     let points = scenes::block(3, spacing, count, [-w, -h, depth]);
     let mut shot = Shot::new(size, Lens::Standard, 0.656 * spacing, &points);
     let look = FoamLook::of_spacing(shot.settings.water.spacing);
-    shot.settings.foam = FoamLook { pattern: 0.0, noise: 1.0, ..look };
+    shot.settings.foam = look.with(|it| {
+        it.pattern = 0.0;
+        it.noise = 1.0;
+    });
     Foamy {
         shot,
         amounts: vec![[1.0, 0.0]; points.len()],
@@ -171,16 +173,17 @@ impl Take {
         let mut case = block(self.pixels, self.layers);
         let shot = &mut case.shot;
         let pixel = shot.settings.water.spacing / self.pixels;
-        let [right, up] = [0, 1].map(|row| shot.camera.view.row(row).truncate());
+        let [right, up] = [0, 1].map(|row| shot.camera.view_matrix().row(row).truncate());
         let velocity = (right * self.by[0] - up * self.by[1]) * pixel / DT;
         let time = n as f32 * DT;
         shot.positions.iter_mut().for_each(|p| *p = (Vec3::from(*p) + velocity * time).to_array());
         let first = shot.camera;
         // It looks aside by a pixel and a half a frame, and goes nearer.
         let pan = |n: f32| Camera {
-            view: Mat4::from_translation(Vec3::new(0.0, 0.0, 0.01 * n))
+            view: (Mat4::from_translation(Vec3::new(0.0, 0.0, 0.01 * n))
                 * Mat4::from_rotation_y(0.014 * n)
-                * first.view,
+                * first.view_matrix())
+            .to_cols_array_2d(),
             ..first
         };
         let camera = |n: f32| if self.panned { pan(n) } else { first };
@@ -242,7 +245,13 @@ fn what_moves_as_one_does_not_flicker() {
                 base,
                 &[(12.0, 1.0, false), (6.0, 0.7, false), (3.0, 1.0, false), (12.0, 1.0, true)][..],
             ),
-            (Config { sheets: 2, spray: true, ..base }, &[(12.0, 1.0, false)][..]),
+            (
+                base.with(|it| {
+                    it.sheets = 2;
+                    it.spray = true;
+                }),
+                &[(12.0, 1.0, false)][..],
+            ),
         ] {
             let mut rig = Rig::lit(&gpu, &config, 1);
             for (pixels, foam, panned) in takes.iter().copied() {
@@ -442,7 +451,7 @@ fn foam_comes_and_goes_without_a_pop() {
         if level == 0 && !crate::support::slow() {
             continue;
         }
-        let mut rig = Rig::lit(&gpu, &Config { sheets, ..moving(level) }, 1);
+        let mut rig = Rig::lit(&gpu, &moving(level).with(|it| it.sheets = sheets), 1);
         let of = |t: f32| match name {
             "grows" => growing(t),
             "passes" => passing(t),
@@ -469,7 +478,7 @@ fn foam_comes_and_goes_without_a_pop() {
 #[test]
 fn foam_lands_without_a_pop() {
     let gpu = Gpu::shared();
-    let mut rig = Rig::lit(&gpu, &Config { sheets: 2, ..moving(2) }, 1);
+    let mut rig = Rig::lit(&gpu, &moving(2).with(|it| it.sheets = 2), 1);
     // A deep pool mirrors and bends more.
     for (layers, bound) in [(3, 8.0), (10, 10.0)] {
         // Well within the drop.

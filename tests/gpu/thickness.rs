@@ -1,6 +1,5 @@
 //! Pass `thickness`: metres of water along z, against the twin.
 
-use whitewater::Config;
 use whitewater::water::{Amplitude, Splat};
 
 use std::f64::consts::PI;
@@ -31,8 +30,10 @@ fn it_is_the_twins_through_every_lens() {
     let points = scenes::cloud(17, 500, 0.4, 15.0);
     for (splat, sum) in PATHS {
         for level in [0, 1] {
-            let config =
-                Config { thickness_splat: Some(splat), thickness_level: level, ..config(size) };
+            let config = config(size).with(|it| {
+                it.thickness_splat = Some(splat);
+                it.thickness_level = level;
+            });
             let mut rig = Rig::new(&gpu, &config);
             for lens in LENSES {
                 let mut shot = Shot::new(size, lens, 0.15, &points);
@@ -51,12 +52,11 @@ fn sums_of_many_and_of_large_sprites() {
     for (splat, sum) in PATHS {
         for (width, height, level) in [(33, 17, 1), (97, 61, 2), (5, 3, 1), (1, 7, 0)] {
             let size = extent(width, height);
-            let config = Config {
-                thickness_splat: Some(splat),
-                smoothing_level: level,
-                thickness_level: level,
-                ..config(size)
-            };
+            let config = config(size).with(|it| {
+                it.thickness_splat = Some(splat);
+                it.smoothing_level = level;
+                it.thickness_level = level;
+            });
             let mut rig = Rig::new(&gpu, &config);
             let cases: [(&str, f32, Vec<[f32; 3]>); 3] = [
                 ("many", 0.3, scenes::cloud(1, 2000, 2.0, 6.0)),
@@ -100,8 +100,10 @@ fn the_volume_is_kept_at_every_distance() {
     let count = 4000;
     for (splat, sum) in PATHS {
         for level in [0, 2] {
-            let config =
-                Config { thickness_splat: Some(splat), thickness_level: level, ..config(size) };
+            let config = config(size).with(|it| {
+                it.thickness_splat = Some(splat);
+                it.thickness_level = level;
+            });
             let mut rig = Rig::new(&gpu, &config);
             for axis in [0.001, 0.01, 0.03, 0.1, 0.4, 0.9, 1.0, 1.1, 1.7] {
                 let depth = 8.0_f32;
@@ -146,7 +148,7 @@ fn the_sources_amplitude() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for (splat, _) in PATHS {
-        let mut rig = Rig::new(&gpu, &Config { thickness_splat: Some(splat), ..config(size) });
+        let mut rig = Rig::new(&gpu, &config(size).with(|it| it.thickness_splat = Some(splat)));
         let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(3, 300, 1.0, 9.0));
         let volume = rig.draw(&shot).thickness;
         shot.settings.water.amplitude = Amplitude::Source;
@@ -175,7 +177,7 @@ fn any_number_of_particles_on_one_spot() {
         counts.push(10_000_000);
     }
     for count in counts {
-        let mut rig = Rig::new(&gpu, &Config { max_particles: count, ..config(size) });
+        let mut rig = Rig::new(&gpu, &config(size).with(|it| it.max_particles = count));
         // Just no spray, a particle has half the radius and four times the amplitude.
         for (name, density) in [("whole", 1000.0), ("half", 350.1)] {
             let draw = |rig: &mut Rig<'_>, count: u32| {
@@ -205,7 +207,7 @@ fn carries_come_in_any_order() {
     let order = Random(7).order(points.len());
     let mixed: Vec<_> = order.iter().map(|i| points[*i]).collect();
     let max_particles = points.len() as u32;
-    let mut rig = Rig::new(&gpu, &Config { max_particles, ..config(size) });
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.max_particles = max_particles));
     let [first, second] = [points, mixed].map(|points| {
         let shot = Shot::new(size, Lens::Standard, 1.0, &points);
         let spacing = f64::from(shot.settings.water.spacing);

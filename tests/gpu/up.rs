@@ -5,7 +5,7 @@ use whitewater::bubbles::BubbleConfig;
 use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Bubble, Diffuse};
 use whitewater::shore::ShoreConfig;
-use whitewater::{Config, EnvironmentSource, Error, Particles, Region, Settings, Shore, Sky, Slot};
+use whitewater::{Config, EnvironmentSource, Error, Region, Settings, Shore, Sky, Slot};
 
 use crate::reference::Image;
 use crate::support::device::Gpu;
@@ -60,7 +60,7 @@ impl World {
         settings.shore.contact.particle_opacity = 1.0;
         let [x, y, z] = shot.positions[0];
         shot.sun.region = Some(Region { center: [x, y, z], radius: 4.0 });
-        let sky = Sky { sun: shot.settings.light.direction, ..Sky::default() };
+        let sky = Sky::default().with(|it| it.sun = shot.settings.light.direction);
         Self { shot, sky, velocities, foam, diffuse }
     }
 
@@ -72,7 +72,7 @@ impl World {
         let shot = &mut other.shot;
         let back =
             Mat4::from_mat3(glam::Mat3::from_cols(Vec3::X, Vec3::Z, Vec3::NEG_Y)).transpose();
-        shot.camera.view *= back;
+        shot.camera.view = (shot.camera.view_matrix() * back).to_cols_array_2d();
         shot.positions = all(&shot.positions);
         let quarter = Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
         for blob in &mut shot.blobs {
@@ -88,7 +88,10 @@ impl World {
         settings.light.direction = turned(settings.light.direction);
         // Of any length.
         settings.up = [0.0, 0.0, 2.5];
-        other.sky = Sky { sun: turned(self.sky.sun), up: [0.0, 0.0, 0.5], ..self.sky };
+        other.sky = self.sky.with(|it| {
+            it.sun = turned(self.sky.sun);
+            it.up = [0.0, 0.0, 0.5];
+        });
         other.velocities = all(&self.velocities);
         other.diffuse = all(&self.diffuse);
         other
@@ -101,11 +104,10 @@ impl World {
         let cloud = rig.particles(&self.shot);
         let velocities = rig.stub.data(bytemuck::cast_slice(&self.velocities), usage);
         let foam = rig.stub.data(bytemuck::cast_slice(&self.foam), usage);
-        let particles = Particles {
-            velocities: Some(stream(&velocities, 0, 12)),
-            foam: config.foam.then(|| stream(&foam, 0, 8)),
-            ..cloud.particles()
-        };
+        let particles = cloud.particles().with(|it| {
+            it.velocities = Some(stream(&velocities, 0, 12));
+            it.foam = config.foam.then(|| stream(&foam, 0, 8));
+        });
         let diffuse = rig.diffuse(&Diffuse { positions: &self.diffuse, ..Diffuse::default() });
         let some = config.diffuse.is_some().then(|| diffuse.particles());
         let mut shot = self.shot.clone();
@@ -129,7 +131,10 @@ fn a_turned_world_looks_the_same() {
     let gpu = Gpu::shared();
     let base = config(extent(96, 64));
     let diffuse = Some(DiffuseConfig::new(64));
-    let bubbles = Some(BubbleConfig { templates: 1, bubbles: 12, ..BubbleConfig::new(8) });
+    let bubbles = Some(BubbleConfig::new(8).with(|it| {
+        it.templates = 1;
+        it.bubbles = 12;
+    }));
     let (world, z_up) = (World::new(), World::new().z_up());
     let mut unsaid = z_up.clone();
     unsaid.shot.settings.up = Settings::default().up;
@@ -137,12 +142,12 @@ fn a_turned_world_looks_the_same() {
     let mut wrong = Vec::new();
     for (name, config) in [
         ("water", base),
-        ("foam", Config { foam: true, ..base }),
-        ("spray", Config { spray: true, ..base }),
-        ("diffuse", Config { diffuse, ..base }),
-        ("bubbles", Config { bubbles, ..base }),
-        ("shore", Config { shore: Some(ShoreConfig::default()), ..base }),
-        ("cast", Config { cast: Some(64), ..base }),
+        ("foam", base.with(|it| it.foam = true)),
+        ("spray", base.with(|it| it.spray = true)),
+        ("diffuse", base.with(|it| it.diffuse = diffuse)),
+        ("bubbles", base.with(|it| it.bubbles = bubbles)),
+        ("shore", base.with(|it| it.shore = Some(ShoreConfig::default()))),
+        ("cast", base.with(|it| it.cast = Some(64))),
     ] {
         let expected = world.draw(&gpu, &config);
         let (same, other) = (z_up.draw(&gpu, &config), unsaid.draw(&gpu, &config));
@@ -164,7 +169,7 @@ fn up_is_a_direction() {
         shot.settings.up = up;
         let error = rig.refused(&shot, None);
         assert!(error.starts_with("Settings.up: "), "{error}");
-        let sky = EnvironmentSource::Sky(Sky { up, ..Sky::default() });
+        let sky = EnvironmentSource::Sky(Sky::default().with(|it| it.up = up));
         let cmd = rig.stub.begin(0);
         // SAFETY: cmd is recording; nothing is recorded of what is refused.
         let result = unsafe { rig.renderer().record_environment(cmd, Slot(0), &sky) };

@@ -1,7 +1,7 @@
 //! Only what is needed is done: particles off the screen, spheres that cannot show and tiles without water
 //! cost nothing. The pictures are the same without any of it, so that only counts can tell.
 
-use whitewater::{Packets, Particles};
+use whitewater::Packets;
 
 use super::invariants::packet_bytes;
 use crate::reference::Image;
@@ -63,7 +63,7 @@ fn packets_off_the_screen_are_culled() {
     let cloud = rig.particles(&shot);
     let boxes = rig.stub.data(&bytes, ash::vk::BufferUsageFlags::STORAGE_BUFFER);
     let packets = Some(Packets { buffer: boxes.buffer, offset: 0, count: 2 });
-    let drawn = rig.draw_particles(&shot, &Particles { packets, ..cloud.particles() });
+    let drawn = rig.draw_particles(&shot, &cloud.particles().with(|it| it.packets = packets));
     assert_eq!(drawn.work.visible, half);
 }
 

@@ -193,12 +193,11 @@ impl Gpu {
 
     /// The host's side of the contract.
     pub fn host(&self, frames_in_flight: u32) -> Host<'_> {
-        Host {
-            instance: self.claims.as_ref().unwrap_or(&self.instance),
-            device: &self.functions,
-            allocator: self.allocator.clone(),
-            ..Device::host(self, frames_in_flight)
-        }
+        Device::host(self, frames_in_flight).with(|it| {
+            it.instance = self.claims.as_ref().unwrap_or(&self.instance);
+            it.device = &self.functions;
+            it.allocator = Some(self.allocator.clone());
+        })
     }
 
     /// What a host makes of it: one for several tests of a shared device, a new one where it is the test's own.

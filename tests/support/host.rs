@@ -53,16 +53,7 @@ pub struct Texture {
 impl Texture {
     /// The image as handed to a record, which takes it over from `state` and hands it back so.
     pub fn host_image(&self) -> HostImage {
-        HostImage {
-            image: self.image,
-            view: self.view,
-            format: self.format,
-            aspect: self.aspect,
-            extent: self.extent,
-            rect: self.extent.into(),
-            before: self.state,
-            after: self.state,
-        }
+        HostImage::new(self.image, self.view, self.format, self.extent, self.state)
     }
 }
 
@@ -122,6 +113,8 @@ impl Drop for Data {
 /// Command buffers and fences, one of each a slot.
 pub struct Stub {
     device: ash::Device,
+    /// The device has synchronization2.
+    second: bool,
     queue: vk::Queue,
     memory_types: vk::PhysicalDeviceMemoryProperties,
     pool: vk::CommandPool,
@@ -167,7 +160,8 @@ impl Stub {
                 .map(|cmd| (cmd, device.create_fence(&fence, None).expect("fence"), false))
                 .collect();
             let memory_types = gpu.instance.get_physical_device_memory_properties(gpu.physical);
-            Self { device, queue: gpu.queue, memory_types, pool, slots, utility }
+            let second = gpu.enabled.synchronization2;
+            Self { device, second, queue: gpu.queue, memory_types, pool, slots, utility }
         }
     }
 
@@ -271,12 +265,12 @@ impl Stub {
     }
 
     fn submit(&self, cmd: vk::CommandBuffer, fence: vk::Fence) {
-        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
+        let buffers = [cmd];
+        let submit = [vk::SubmitInfo::default().command_buffers(&buffers)];
         // SAFETY: the command buffer is recorded; one thread uses the queue.
         unsafe {
             self.device.end_command_buffer(cmd).expect("end");
-            self.device.queue_submit2(self.queue, &submit, fence).expect("submit");
+            self.device.queue_submit(self.queue, &submit, fence).expect("submit");
         }
     }
 
@@ -335,6 +329,22 @@ impl Stub {
         before: Access,
         after: Access,
     ) {
+        if !self.second {
+            let barrier = [vk::ImageMemoryBarrier::default()
+                .image(image)
+                .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
+                .old_layout(before.layout)
+                .dst_access_mask(vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE)
+                .new_layout(after.layout)
+                .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                .subresource_range(range(aspect))];
+            let all = vk::PipelineStageFlags::ALL_COMMANDS | vk::PipelineStageFlags::HOST;
+            let flags = vk::DependencyFlags::empty();
+            // SAFETY: cmd is recording, the image is alive.
+            unsafe { self.device.cmd_pipeline_barrier(cmd, all, all, flags, &[], &[], &barrier) };
+            return;
+        }
         let barriers = [vk::ImageMemoryBarrier2::default()
             .image(image)
             .src_stage_mask(before.stage)
@@ -359,6 +369,20 @@ impl Stub {
         before: Access,
         after: Access,
     ) {
+        if !self.second {
+            let barrier = [vk::BufferMemoryBarrier::default()
+                .buffer(buffer)
+                .size(vk::WHOLE_SIZE)
+                .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
+                .dst_access_mask(vk::AccessFlags::MEMORY_READ | vk::AccessFlags::MEMORY_WRITE)
+                .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)];
+            let all = vk::PipelineStageFlags::ALL_COMMANDS | vk::PipelineStageFlags::HOST;
+            let flags = vk::DependencyFlags::empty();
+            // SAFETY: cmd is recording, the buffer is alive.
+            unsafe { self.device.cmd_pipeline_barrier(cmd, all, all, flags, &[], &barrier, &[]) };
+            return;
+        }
         let barriers = [vk::BufferMemoryBarrier2::default()
             .buffer(buffer)
             .size(vk::WHOLE_SIZE)

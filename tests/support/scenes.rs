@@ -70,12 +70,13 @@ pub fn camera(lens: Lens, extent: vk::Extent2D) -> Camera {
         Lens::LeftHanded => Mat4::look_to_lh(eye, forward, Vec3::Y),
         _ => Mat4::look_to_rh(eye, forward, Vec3::Y),
     };
-    Camera { view, projection: projection(lens, extent) }
+    Camera::of(view, projection(lens, extent))
 }
 
 /// The same camera for the twins, which look down -z.
 pub fn twin(camera: &Camera, extent: vk::Extent2D) -> View {
-    let (mut view, mut projection) = (camera.view.as_dmat4(), camera.projection.as_dmat4());
+    let (mut view, mut projection) =
+        (camera.view_matrix().as_dmat4(), camera.projection_matrix().as_dmat4());
     if projection.z_axis.w > 0.0 {
         let mirror = DMat4::from_diagonal(DVec4::new(1.0, 1.0, -1.0, 1.0));
         view = mirror * view;
@@ -87,8 +88,8 @@ pub fn twin(camera: &Camera, extent: vk::Extent2D) -> View {
 
 /// World-space points of eye-space points (x, y, depth).
 pub fn world(camera: &Camera, points: &[[f32; 3]]) -> Vec<[f32; 3]> {
-    let forward = if camera.projection.z_axis.w > 0.0 { 1.0 } else { -1.0 };
-    let back = camera.view.as_dmat4().inverse();
+    let forward = if camera.projection_matrix().z_axis.w > 0.0 { 1.0 } else { -1.0 };
+    let back = camera.view_matrix().as_dmat4().inverse();
     points
         .iter()
         .map(|p| {

@@ -10,9 +10,9 @@ mod settings;
 
 use std::sync::Arc;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::lists::{Places, buffers_of, windows};
 use crate::check;

@@ -6,11 +6,14 @@ use crate::contract::Slot;
 use crate::error::Error;
 use crate::water::settings::range;
 
+crate::contract::with!(HeapConfig, HeapSettings, HeapStep<'_>);
+
 /// Most parts of a step.
 const MOST_SUBSTEPS: u32 = 64;
 
 /// How blobs move.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct HeapSettings {
     /// Gravity, m/s², default (0, −9.81, 0).
     pub gravity: [f32; 3],
@@ -169,6 +172,7 @@ impl Solid {
 
 /// Configuration of a [`Heap`](super::Heap): what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct HeapConfig {
     /// Maximum number of blobs, 1 to 2^20.
     pub max_blobs: u32,
@@ -188,6 +192,7 @@ impl HeapConfig {
 
 /// One step of the simulation.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct HeapStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
@@ -197,4 +202,11 @@ pub struct HeapStep<'a> {
     pub settings: &'a HeapSettings,
     /// Solids, in their state at the end of the step.
     pub solids: &'a [Solid],
+}
+
+impl<'a> HeapStep<'a> {
+    /// A step of so many seconds without solids.
+    pub fn new(slot: Slot, dt: f32, settings: &'a HeapSettings) -> Self {
+        Self { slot, dt, settings, solids: &[] }
+    }
 }

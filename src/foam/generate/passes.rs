@@ -1,8 +1,8 @@
 //! Passes of a step: `grid`, `potentials`, `crest`, `advance`, `emit`; of a snapshot `trace` in place of `advance`.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::settings::{GenerateConfig, Limits};
 use crate::contract::{Access, Count, GenerateStep};
@@ -306,8 +306,7 @@ impl Recorder<'_> {
             .dst_stage_mask(both.stage)
             .dst_access_mask(both.access)];
         let info = vk::DependencyInfo::default().memory_barriers(&barrier);
-        // SAFETY: cmd is recording outside a render pass.
-        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.cmd, &info) };
+        self.gpu.dependency(self.cmd, &info);
     }
 
     fn dispatch<T: NoUninit>(

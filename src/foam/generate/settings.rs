@@ -3,8 +3,11 @@
 use crate::error::Error;
 use crate::water::settings::{GREATEST, range};
 
+crate::contract::with!(GenerateConfig, GenerateSettings);
+
 /// Configuration of a [`Generator`](super::Generator): what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct GenerateConfig {
     /// Maximum number of fluid particles per step, at least 1.
     pub max_fluid: u32,
@@ -52,6 +55,7 @@ pub struct Limits {
 
 /// How a fluid emits spray, foam and bubbles, and how these move and age.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct GenerateSettings {
     /// Spacing of the fluid's particles, scene units, (0, ∞). Particles nearer than two spacings are
     /// neighbours.

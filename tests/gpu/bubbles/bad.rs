@@ -2,7 +2,7 @@
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleLook, Film};
-use whitewater::{Blobs, Config, Count, Error, Frame};
+use whitewater::{Blobs, Count, Error, Frame};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent, stream};
@@ -18,15 +18,21 @@ fn bad_blobs_are_errors_before_any_command() {
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);
-    let bubbles = BubbleConfig { templates: 1, bubbles: 8, ..BubbleConfig::new(16) };
-    let with = Config { bubbles: Some(bubbles), ..config(size) };
+    let bubbles = BubbleConfig::new(16).with(|it| {
+        it.templates = 1;
+        it.bubbles = 8;
+    });
+    let with = config(size).with(|it| it.bubbles = Some(bubbles));
     let mut rig = Rig::with_slots(&gpu, &with, 1);
     let shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     let (color, depth) = rig.scene(&shot);
     let cloud = rig.particles(&shot);
     let data = rig.stub.data(&[0; 36 * 16], vk::BufferUsageFlags::STORAGE_BUFFER);
     let all = stream(&data, 0, 36);
-    let good = Blobs { turns: Some(all), ids: Some(all), ..Blobs::new(all, Count::Cpu(16)) };
+    let good = Blobs::new(all, Count::Cpu(16)).with(|it| {
+        it.turns = Some(all);
+        it.ids = Some(all);
+    });
     let spoils: [Spoil; 7] = [
         ("Frame.bubbles.count", |b| b.count = Count::Cpu(17)),
         ("Frame.bubbles.balls", |b| b.balls.stride = 12),
@@ -69,22 +75,29 @@ fn bad_blobs_are_errors_before_any_command() {
     for (field, spoil) in spoils {
         let mut bad = good;
         spoil(&mut bad);
-        refused(field, &Frame { bubbles: Some(bad), ..frame });
+        refused(field, &frame.with(|it| it.bubbles = Some(bad)));
     }
     for (field, spoil) in looks {
         let mut settings = shot.settings.clone();
         spoil(&mut settings.bubbles);
-        refused(field, &Frame { bubbles: Some(good), settings: &settings, ..frame });
+        refused(
+            field,
+            &frame.with(|it| {
+                it.bubbles = Some(good);
+                it.settings = &settings;
+            }),
+        );
     }
     // SAFETY: a good frame, though all of its blobs are none.
-    unsafe { rig.renderer().record(cmd, &Frame { bubbles: Some(good), ..frame }) }.expect("record");
+    unsafe { rig.renderer().record(cmd, &frame.with(|it| it.bubbles = Some(good))) }
+        .expect("record");
     rig.stub.end(0);
     rig.stub.wait(0);
     // A renderer that knows of none.
     let mut plain = Rig::with_slots(&gpu, &config(size), 1);
     let cmd = plain.stub.begin(0);
     // SAFETY: nothing of a bad frame may be used.
-    let result = unsafe { plain.renderer().record(cmd, &Frame { bubbles: Some(good), ..frame }) };
+    let result = unsafe { plain.renderer().record(cmd, &frame.with(|it| it.bubbles = Some(good))) };
     plain.stub.end(0);
     plain.stub.wait(0);
     assert!(matches!(result, Err(Error::BadInput { field: "Frame.bubbles", .. })));
@@ -96,19 +109,19 @@ fn bad_configurations_are_errors() {
     let good = BubbleConfig::new(16);
     let film = |index| Film { index, ..Film::default() };
     for (field, bad) in [
-        ("Config.bubbles.max_blobs", BubbleConfig { max_blobs: 0, ..good }),
-        ("Config.bubbles.max_blobs", BubbleConfig { max_blobs: (1 << 20) + 1, ..good }),
-        ("Config.bubbles.templates", BubbleConfig { templates: 0, ..good }),
-        ("Config.bubbles.templates", BubbleConfig { templates: 33, ..good }),
-        ("Config.bubbles.bubbles", BubbleConfig { bubbles: 7, ..good }),
-        ("Config.bubbles.bubbles", BubbleConfig { bubbles: 257, ..good }),
-        ("Config.bubbles.map", BubbleConfig { map: 4, ..good }),
-        ("Config.bubbles.map", BubbleConfig { map: 30, ..good }),
-        ("Config.bubbles.steps", BubbleConfig { steps: 0, ..good }),
-        ("Config.bubbles.layers", BubbleConfig { layers: 9, ..good }),
-        ("Config.bubbles.film.index", BubbleConfig { film: film(0.5), ..good }),
+        ("Config.bubbles.max_blobs", good.with(|it| it.max_blobs = 0)),
+        ("Config.bubbles.max_blobs", good.with(|it| it.max_blobs = (1 << 20) + 1)),
+        ("Config.bubbles.templates", good.with(|it| it.templates = 0)),
+        ("Config.bubbles.templates", good.with(|it| it.templates = 33)),
+        ("Config.bubbles.bubbles", good.with(|it| it.bubbles = 7)),
+        ("Config.bubbles.bubbles", good.with(|it| it.bubbles = 257)),
+        ("Config.bubbles.map", good.with(|it| it.map = 4)),
+        ("Config.bubbles.map", good.with(|it| it.map = 30)),
+        ("Config.bubbles.steps", good.with(|it| it.steps = 0)),
+        ("Config.bubbles.layers", good.with(|it| it.layers = 9)),
+        ("Config.bubbles.film.index", good.with(|it| it.film = film(0.5))),
     ] {
-        let config = Config { bubbles: Some(bad), ..config(extent(32, 16)) };
+        let config = config(extent(32, 16)).with(|it| it.bubbles = Some(bad));
         match Rig::try_new(&gpu, &config, 1) {
             Err(Error::BadInput { field: found, .. }) => assert_eq!(found, field),
             Err(other) => panic!("{field}: {other}"),

@@ -1,9 +1,9 @@
 //! Blobs as the sun sees them: what they leave of its light on the scene.
 
 use glam::{DVec3, Vec3};
+use whitewater::Region;
 use whitewater::bubbles::BubbleConfig;
 use whitewater::headless::Bubble;
-use whitewater::{Config, Region};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
@@ -18,9 +18,15 @@ const LEFT: f64 = 0.15;
 fn a_blob_casts_the_shadow_of_its_core() {
     let gpu = Gpu::shared();
     let size = extent(128, 96);
-    let bubbles = BubbleConfig { templates: 1, bubbles: 32, ..BubbleConfig::new(4) };
+    let bubbles = BubbleConfig::new(4).with(|it| {
+        it.templates = 1;
+        it.bubbles = 32;
+    });
     let edge = 256;
-    let config = Config { bubbles: Some(bubbles), cast: Some(edge), ..config(size) };
+    let config = config(size).with(|it| {
+        it.bubbles = Some(bubbles);
+        it.cast = Some(edge);
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     for (lens, radius) in [(Lens::Standard, 0.5_f32), (Lens::LeftHanded, 0.45)] {
         let mut shot = Shot::new(size, lens, 0.1, &[]);

@@ -1,7 +1,6 @@
 //! Blobs too small to be seen one by one: which are left of them, and what they look like together.
 
 use glam::DVec3;
-use whitewater::Config;
 use whitewater::bubbles::BubbleConfig;
 use whitewater::headless::Bubble;
 
@@ -59,8 +58,12 @@ fn cloud(shot: &Shot, radius: f32) -> Vec<Bubble> {
 fn those_left_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(96, 80);
-    let bubbles = BubbleConfig { templates: 2, bubbles: 28, map: 64, ..BubbleConfig::new(256) };
-    let config = Config { bubbles: Some(bubbles), ..config(size) };
+    let bubbles = BubbleConfig::new(256).with(|it| {
+        it.templates = 2;
+        it.bubbles = 28;
+        it.map = 64;
+    });
+    let config = config(size).with(|it| it.bubbles = Some(bubbles));
     let mut rig = Rig::lit(&gpu, &config, 1);
     for (lens, merge) in [(Lens::Standard, 1.0), (Lens::OffAxis, 1.1)] {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
@@ -124,8 +127,12 @@ fn wall(shot: &Shot, radius: f32) -> Vec<Bubble> {
 fn far_foam_is_even_and_as_bright_as_near_foam() {
     let gpu = Gpu::shared();
     let size = extent(64, 48);
-    let bubbles = BubbleConfig { templates: 4, bubbles: 64, map: 64, ..BubbleConfig::new(65_536) };
-    let config = Config { bubbles: Some(bubbles), ..config(size) };
+    let bubbles = BubbleConfig::new(65_536).with(|it| {
+        it.templates = 4;
+        it.bubbles = 64;
+        it.map = 64;
+    });
+    let config = config(size).with(|it| it.bubbles = Some(bubbles));
     let mut rig = Rig::with_slots(&gpu, &config, 1);
     rig.environment(extent(16, 8), &[[0.5, 0.5, 0.5, 1.0]; 128]);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);

@@ -1,6 +1,5 @@
 //! The film's table against all the light in a film added up, and that against what is known of films.
 
-use whitewater::Config;
 use whitewater::bubbles::{BubbleConfig, Film, FilmFresnel, Spectrum};
 
 use crate::reference::bubbles::film::{self as twin, Face};
@@ -66,8 +65,12 @@ fn tables_are_the_twins() {
         faces.into_iter().zip([Spectrum::Whole, Spectrum::Three, Spectrum::Three])
     {
         let film = Film { index: INDEX as f32, fresnel, spectrum };
-        let bubbles = BubbleConfig { templates: 1, bubbles: 8, film, ..BubbleConfig::new(1) };
-        let config = Config { bubbles: Some(bubbles), ..config(extent(16, 8)) };
+        let bubbles = BubbleConfig::new(1).with(|it| {
+            it.templates = 1;
+            it.bubbles = 8;
+            it.film = film;
+        });
+        let config = config(extent(16, 8)).with(|it| it.bubbles = Some(bubbles));
         let mut rig = Rig::lit(&gpu, &config, 1);
         let shot = Shot::new(extent(16, 8), Lens::Standard, 0.1, &[]);
         let table = rig.draw(&shot).soap.expect("bubble foam").film;

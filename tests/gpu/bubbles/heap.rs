@@ -43,7 +43,7 @@ impl Running {
         halvings: u32,
         step: Option<&HeapStep<'_>>,
     ) -> Self {
-        let config = HeapConfig { halvings, ..HeapConfig::new(blobs.len().max(1) as u32) };
+        let config = HeapConfig::new(blobs.len().max(1) as u32).with(|it| it.halvings = halvings);
         let stub = Stub::new(gpu, 1);
         let mut heap = Heap::new(&gpu.context(1), &config, field).expect("a heap");
         let mut bytes = bytemuck::cast_slice(blobs).to_vec();
@@ -54,13 +54,12 @@ impl Running {
         speeds.resize(blobs.len().max(4), [0.0; 3]);
         let speeds = stub.data(bytemuck::cast_slice(&speeds), usage);
         let all = |offset| stream(&data, offset, size_of::<Bubble>() as u32);
-        let set = Blobs {
-            turns: Some(all(16)),
-            ids: Some(all(32)),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..Blobs::new(all(0), Count::Cpu(blobs.len() as u32))
-        };
+        let set = Blobs::new(all(0), Count::Cpu(blobs.len() as u32)).with(|it| {
+            it.turns = Some(all(16));
+            it.ids = Some(all(32));
+            it.before = HOST_WRITE;
+            it.after = HOST_WRITE;
+        });
         let largest = blobs.iter().map(|b| b.ball[3]).fold(0.01, f32::max);
         let drifts = stream(&speeds, 0, 12);
         // SAFETY: submitted at once, the buffers live to its end.
@@ -79,7 +78,7 @@ impl Running {
         solids: &[Solid],
     ) -> Result<(), Error> {
         let heap = self.heap.as_mut().expect("only drop takes it");
-        let step = HeapStep { slot: Slot(0), dt, settings, solids };
+        let step = HeapStep::new(Slot(0), dt, settings).with(|it| it.solids = solids);
         // SAFETY: submitted at once.
         self.stub.run(|cmd| unsafe { heap.record_step(cmd, &step) })
     }
@@ -139,7 +138,7 @@ pub const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 }
 #[test]
 fn a_step_is_the_twins() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings { substeps: 1, ..HeapSettings::default() };
+    let settings = HeapSettings::default().with(|it| it.substeps = 1);
     let mut random = Random(4);
     let blobs = cloud(120, [1.0, 1.2, 1.0], [0.05, 0.2], 8);
     let speeds: Vec<[f32; 3]> =
@@ -245,7 +244,10 @@ fn the_order_of_blobs_is_no_matter_to_a_heap() {
 #[test]
 fn blobs_slide_down_a_slope_that_is_steep() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings { cohesion: 0.0, drag: 0.0, ..HeapSettings::default() };
+    let settings = HeapSettings::default().with(|it| {
+        it.cohesion = 0.0;
+        it.drag = 0.0;
+    });
     let run = |steep: f32, friction: f32| {
         let (sine, cosine) = steep.to_radians().sin_cos();
         let slope = Solid::Plane { normal: [sine, cosine, 0.0], distance: 0.0 };
@@ -253,7 +255,7 @@ fn blobs_slide_down_a_slope_that_is_steep() {
         let ball = [sine * 0.085, cosine * 0.085, 0.0, r];
         let blob = Bubble { ball, turn: [0.0, 0.0, 0.0, 1.0], id: 0 };
         let mut running = Running::new(&gpu, &[blob], &[], None);
-        let settings = HeapSettings { friction, ..settings };
+        let settings = settings.with(|it| it.friction = friction);
         for _ in 0..60 {
             running.step(1.0 / 60.0, &settings, &[slope]).expect("a step");
         }
@@ -367,7 +369,7 @@ fn blobs_are_set_and_moved_in_one_command_buffer() {
     let gpu = Gpu::shared();
     let blobs = cloud(70, [0.8, 1.0, 0.8], [0.05, 0.2], 3);
     let settings = HeapSettings::default();
-    let step = HeapStep { slot: Slot(0), dt: 1.0 / 60.0, settings: &settings, solids: &[FLOOR] };
+    let step = HeapStep::new(Slot(0), 1.0 / 60.0, &settings).with(|it| it.solids = &[FLOOR]);
     let mut apart = Running::new(&gpu, &blobs, &[], None);
     apart.step(step.dt, step.settings, step.solids).expect("a step");
     let at_once = Running::stepped(&gpu, (&blobs, &[]), None, 0, Some(&step));

@@ -1,7 +1,6 @@
 //! What a ray meets of a blob by its impostors, against all of its bubbles.
 
 use glam::{DVec3, Quat, Vec3};
-use whitewater::Config;
 use whitewater::bubbles::{Blob, BubbleConfig, BubbleSort, Impostor};
 use whitewater::headless::Bubble;
 
@@ -64,7 +63,7 @@ fn seen(shot: &Shot, bubbles: &BubbleConfig) -> Image<Vec<(f64, usize, usize)>> 
 }
 
 fn draw(gpu: &Gpu, shot: &Shot, bubbles: BubbleConfig) -> Soaped {
-    let config = Config { bubbles: Some(bubbles), ..config(shot.size) };
+    let config = config(shot.size).with(|it| it.bubbles = Some(bubbles));
     Rig::lit(gpu, &config, 1).draw(shot).soap.expect("bubble foam")
 }
 
@@ -100,14 +99,13 @@ fn impostors_find_the_first_bubble() {
     let size = extent(160, 160);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     let mut random = Random(9);
-    let standard = BubbleConfig { templates: 4, ..BubbleConfig::new(1) };
-    let distance = BubbleConfig {
-        impostor: Impostor::Distance,
-        map: Impostor::Distance.map(),
-        steps: Impostor::Distance.steps(),
-        ..standard
-    };
-    let few = BubbleConfig { bubbles: 64, ..distance };
+    let standard = BubbleConfig::new(1).with(|it| it.templates = 4);
+    let distance = standard.with(|it| {
+        it.impostor = Impostor::Distance;
+        it.map = Impostor::Distance.map();
+        it.steps = Impostor::Distance.steps();
+    });
+    let few = distance.with(|it| it.bubbles = 64);
     for (name, bubbles, bounds) in [
         ("ids", standard, [0.9999, 0.0001, 1.0e-5]),
         ("distance", distance, [0.0, 0.006, 0.002]),
@@ -151,8 +149,11 @@ fn layers_are_the_nearest_blobs_in_order() {
     for lens in [Lens::Standard, Lens::ReversedInfinite, Lens::OffAxis, Lens::LeftHanded] {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.blobs = heap(&shot, 60);
-        let bubbles =
-            BubbleConfig { templates: 3, bubbles: 64, layers: 4, ..BubbleConfig::new(64) };
+        let bubbles = BubbleConfig::new(64).with(|it| {
+            it.templates = 3;
+            it.bubbles = 64;
+            it.layers = 4;
+        });
         let expected = seen(&shot, &bubbles);
         let found = draw(&gpu, &shot, bubbles);
         let (mut same, mut all) = (0, 0);
@@ -176,7 +177,10 @@ fn the_order_of_blobs_is_no_matter() {
     let size = extent(96, 80);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     shot.blobs = heap(&shot, 60);
-    let bubbles = BubbleConfig { templates: 3, bubbles: 64, ..BubbleConfig::new(64) };
+    let bubbles = BubbleConfig::new(64).with(|it| {
+        it.templates = 3;
+        it.bubbles = 64;
+    });
     let one = draw(&gpu, &shot, bubbles);
     let mut random = Random(3);
     let order = random.order(shot.blobs.len());
@@ -192,8 +196,11 @@ fn what_is_no_blob_is_not_drawn_and_none_changes_nothing() {
     let gpu = Gpu::shared();
     let size = extent(64, 48);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
-    let bubbles = BubbleConfig { templates: 2, bubbles: 64, ..BubbleConfig::new(16) };
-    let config = Config { bubbles: Some(bubbles), ..config(size) };
+    let bubbles = BubbleConfig::new(16).with(|it| {
+        it.templates = 2;
+        it.bubbles = 64;
+    });
+    let config = config(size).with(|it| it.bubbles = Some(bubbles));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let none = rig.draw(&shot);
     assert_eq!(none.output.data, shot.color);
@@ -246,9 +253,13 @@ fn billboards_find_what_the_tiles_do() {
     {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.blobs = heap(&shot, 60);
-        let tiles = BubbleConfig { templates: 3, bubbles: 64, layers, ..BubbleConfig::new(64) };
+        let tiles = BubbleConfig::new(64).with(|it| {
+            it.templates = 3;
+            it.bubbles = 64;
+            it.layers = layers;
+        });
         let one = draw(&gpu, &shot, tiles);
-        let other = draw(&gpu, &shot, BubbleConfig { sort: BubbleSort::Peel, ..tiles });
+        let other = draw(&gpu, &shot, tiles.with(|it| it.sort = BubbleSort::Peel));
         let (mut differ, mut all, mut off) = (0, 0, 0);
         for (a, b) in one.layers.iter().zip(&other.layers) {
             let last = layers as usize;
@@ -282,9 +293,13 @@ fn blobs_at_one_depth_are_all_layers() {
     let one = blob(&shot, [0.0, 0.0, 4.0], 1.0, 0, &mut Random(5));
     let behind = blob(&shot, [0.0, 0.0, 7.0], 1.0, 0, &mut Random(6));
     shot.blobs = vec![one, behind, one, Bubble { id: 9, ..one }];
-    let tiles = BubbleConfig { templates: 1, bubbles: 64, layers: 5, ..BubbleConfig::new(8) };
+    let tiles = BubbleConfig::new(8).with(|it| {
+        it.templates = 1;
+        it.bubbles = 64;
+        it.layers = 5;
+    });
     for sort in [BubbleSort::Tiles, BubbleSort::Peel] {
-        let found = draw(&gpu, &shot, BubbleConfig { sort, ..tiles });
+        let found = draw(&gpu, &shot, tiles.with(|it| it.sort = sort));
         let order = |words: &Vec<u32>| -> Vec<u32> {
             words[..5].iter().take_while(|word| **word != NONE).map(|word| word >> 8).collect()
         };

@@ -1,6 +1,5 @@
 //! Bubble foam when a renderer's size and configuration change.
 
-use whitewater::Config;
 use whitewater::bubbles::{BubbleConfig, BubbleSort, Film, Impostor};
 
 use crate::support::device::Gpu;
@@ -28,9 +27,14 @@ fn same(name: &str, rig: &mut Rig<'_>, fresh: &mut Rig<'_>, shot: &Shot) {
 #[test]
 fn a_resize_gives_what_a_new_renderer_gives() {
     let gpu = Gpu::shared();
-    let bubbles = BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(64) };
+    let bubbles = BubbleConfig::new(64).with(|it| {
+        it.templates = 2;
+        it.bubbles = 32;
+        it.map = 64;
+    });
     for sort in [BubbleSort::Tiles, BubbleSort::Peel] {
-        let of = |size| Config { bubbles: Some(BubbleConfig { sort, ..bubbles }), ..config(size) };
+        let of =
+            |size| config(size).with(|it| it.bubbles = Some(bubbles.with(|it| it.sort = sort)));
         let mut rig = Rig::lit(&gpu, &of(extent(96, 64)), 1);
         for (width, height) in [(33, 17), (120, 90)] {
             let shot = shot(width, height);
@@ -46,20 +50,47 @@ fn a_resize_gives_what_a_new_renderer_gives() {
 fn a_reconfiguration_gives_what_a_new_renderer_gives() {
     let gpu = Gpu::shared();
     let shot = shot(64, 48);
-    let base = BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(64) };
+    let base = BubbleConfig::new(64).with(|it| {
+        it.templates = 2;
+        it.bubbles = 32;
+        it.map = 64;
+    });
     let distance = Impostor::Distance;
     let film = |index| Film { index, ..Film::default() };
-    let of = |bubbles| Config { bubbles, ..config(shot.size) };
+    let of = |bubbles| config(shot.size).with(|it| it.bubbles = bubbles);
     let goes = [
-        ("layers", false, BubbleConfig { layers: 5, ..base }),
-        ("sort", false, BubbleConfig { sort: BubbleSort::Peel, ..base }),
-        ("count", false, BubbleConfig { max_blobs: 1000, ..base }),
-        ("steps", false, BubbleConfig { steps: 4, ..base }),
-        ("film", true, BubbleConfig { film: film(1.8), ..base }),
-        ("seed", true, BubbleConfig { seed: 5, film: film(1.8), ..base }),
-        ("templates", true, BubbleConfig { templates: 3, seed: 5, film: film(1.8), ..base }),
-        ("map", true, BubbleConfig { map: 32, ..base }),
-        ("impostor", true, BubbleConfig { impostor: distance, map: 32, steps: 20, ..base }),
+        ("layers", false, base.with(|it| it.layers = 5)),
+        ("sort", false, base.with(|it| it.sort = BubbleSort::Peel)),
+        ("count", false, base.with(|it| it.max_blobs = 1000)),
+        ("steps", false, base.with(|it| it.steps = 4)),
+        ("film", true, base.with(|it| it.film = film(1.8))),
+        (
+            "seed",
+            true,
+            base.with(|it| {
+                it.seed = 5;
+                it.film = film(1.8);
+            }),
+        ),
+        (
+            "templates",
+            true,
+            base.with(|it| {
+                it.templates = 3;
+                it.seed = 5;
+                it.film = film(1.8);
+            }),
+        ),
+        ("map", true, base.with(|it| it.map = 32)),
+        (
+            "impostor",
+            true,
+            base.with(|it| {
+                it.impostor = distance;
+                it.map = 32;
+                it.steps = 20;
+            }),
+        ),
         ("none", false, base),
         ("again", true, base),
     ];

@@ -1,10 +1,10 @@
 //! Diffuse foam that becomes blobs near the eye.
 
 use glam::{DVec3, Vec3, Vec4};
-use whitewater::bubbles::{BubbleConfig, BubbleLook, HandOver};
+use whitewater::bubbles::{BubbleConfig, HandOver};
 use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Bubble, Diffuse};
-use whitewater::{Config, Error, Frame, Region};
+use whitewater::{Config, Error, Region};
 
 use crate::reference::classify::pcg;
 use crate::reference::is_surface;
@@ -115,17 +115,20 @@ fn turn(id: u32) -> [f32; 4] {
 }
 
 fn bubbles(max_blobs: u32) -> BubbleConfig {
-    BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(max_blobs) }
+    BubbleConfig::new(max_blobs).with(|it| {
+        it.templates = 2;
+        it.bubbles = 32;
+        it.map = 64;
+    })
 }
 
 fn with(cloud: &Cloud, bubbles: BubbleConfig) -> Config {
     let most = cloud.positions.len() as u32;
-    Config {
-        diffuse: Some(DiffuseConfig::new(most)),
-        bubbles: Some(bubbles),
-        cast: Some(32),
-        ..config(cloud.shot.size)
-    }
+    config(cloud.shot.size).with(|it| {
+        it.diffuse = Some(DiffuseConfig::new(most));
+        it.bubbles = Some(bubbles);
+        it.cast = Some(32);
+    })
 }
 
 /// Pixels that differ by more than rounding moves them.
@@ -152,7 +155,7 @@ fn foam_near_the_eye_is_blobs() {
         for i in (0..40).step_by(10) {
             cloud.kinds[i] = 1 + i as u32 / 10 % 2;
         }
-        let over = BubbleConfig { hand_over: true, ..bubbles(64) };
+        let over = bubbles(64).with(|it| it.hand_over = true);
         let found = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, over), 1));
         let soap = found.soap.as_ref().expect("bubble foam");
         let mut other = cloud.clone();
@@ -200,7 +203,7 @@ fn where_blobs_have_no_room_sprites_stay() {
     let gpu = Gpu::shared();
     let mut cloud = Cloud::new(120, |i| 1.2 + 0.014 * i as f32);
     cloud.ages.fill(0.0);
-    let over = BubbleConfig { hand_over: true, ..bubbles(30) };
+    let over = bubbles(30).with(|it| it.hand_over = true);
     let mut rig = Rig::lit(&gpu, &with(&cloud, over), 1);
     let one = cloud.draw(&mut rig);
     let far = f64::from(cloud.shot.settings.bubbles.hand_over.far);
@@ -290,8 +293,8 @@ fn foam_that_is_handed_over_casts_one_shadow() {
     let gpu = Gpu::shared();
     let (mut cloud, away) = shading([-0.9, 0.0, 3.0]);
     let config = |hand_over| {
-        let own = with(&cloud, BubbleConfig { hand_over, ..bubbles(256) });
-        Config { cast: Some(128), ..own }
+        let own = with(&cloud, bubbles(256).with(|it| it.hand_over = hand_over));
+        own.with(|it| it.cast = Some(128))
     };
     let [mut over_rig, mut rig] =
         [true, false].map(|hand_over| Rig::lit(&gpu, &config(hand_over), 1));
@@ -333,8 +336,8 @@ fn foam_beside_the_view_casts_the_shadow_of_sprites() {
     let gpu = Gpu::shared();
     let (mut cloud, away) = shading([-3.6, 0.0, 2.6]);
     let [handed, sprites] = [true, false].map(|hand_over| {
-        let own = with(&cloud, BubbleConfig { hand_over, ..bubbles(256) });
-        let mut rig = Rig::lit(&gpu, &Config { cast: Some(128), ..own }, 1);
+        let own = with(&cloud, bubbles(256).with(|it| it.hand_over = hand_over));
+        let mut rig = Rig::lit(&gpu, &own.with(|it| it.cast = Some(128)), 1);
         let hand_over = HandOver { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
         cloud.shot.settings.bubbles.hand_over = hand_over;
         cloud.draw(&mut rig)
@@ -342,7 +345,7 @@ fn foam_beside_the_view_casts_the_shadow_of_sprites() {
     let mut none = cloud.clone();
     none.ages.fill(1.0);
     let own = with(&none, bubbles(256));
-    let lit = none.draw(&mut Rig::lit(&gpu, &Config { cast: Some(128), ..own }, 1));
+    let lit = none.draw(&mut Rig::lit(&gpu, &own.with(|it| it.cast = Some(128)), 1));
     assert_eq!(handed.soap.as_ref().expect("bubble foam").range[2], 0, "none is on the screen");
     let all = [sprites, handed];
     let shares = left(&all, &lit);
@@ -356,7 +359,7 @@ fn it_takes_the_memory_it_says() {
     let gpu = Gpu::shared();
     let cloud = Cloud::new(4, |_| 2.0);
     let [with_it, without] = [true, false].map(|hand_over| {
-        let bubbles = BubbleConfig { hand_over, ..bubbles(1 << 18) };
+        let bubbles = bubbles(1 << 18).with(|it| it.hand_over = hand_over);
         let mut rig = Rig::with_slots(&gpu, &with(&cloud, bubbles), 1);
         rig.renderer().memory().buffers
     });
@@ -368,8 +371,8 @@ fn it_takes_the_memory_it_says() {
 fn bad_hand_overs_are_errors() {
     let gpu = Gpu::shared();
     let cloud = Cloud::new(4, |_| 2.0);
-    let over = BubbleConfig { hand_over: true, ..bubbles(8) };
-    let without = Config { diffuse: None, ..with(&cloud, over) };
+    let over = bubbles(8).with(|it| it.hand_over = true);
+    let without = with(&cloud, over).with(|it| it.diffuse = None);
     assert!(matches!(
         Rig::try_new(&gpu, &without, 1),
         Err(Error::BadInput { field: "Config.bubbles.hand_over", .. })
@@ -379,7 +382,7 @@ fn bad_hand_overs_are_errors() {
     let fluid = rig.particles(&cloud.shot);
     let blobs = rig.blobs(&cloud.shot);
     let frame = cloud.shot.frame(color.host_image(), depth.host_image(), fluid.particles());
-    let bad = Frame { bubbles: Some(blobs.streams()), ..frame };
+    let bad = frame.with(|it| it.bubbles = Some(blobs.streams()));
     let cmd = rig.stub.begin(0);
     // SAFETY: nothing of a bad frame may be used.
     let result = unsafe { rig.renderer().record(cmd, &bad) };
@@ -390,9 +393,10 @@ fn bad_hand_overs_are_errors() {
         ("Settings.bubbles.hand_over.size", HandOver { near: 1.0, far: 2.0, size: f32::NAN }),
     ] {
         let mut settings = cloud.shot.settings.clone();
-        settings.bubbles = BubbleLook { hand_over, ..settings.bubbles };
+        settings.bubbles = settings.bubbles.with(|it| it.hand_over = hand_over);
         // SAFETY: as above.
-        let result = unsafe { rig.renderer().record(cmd, &Frame { settings: &settings, ..frame }) };
+        let result =
+            unsafe { rig.renderer().record(cmd, &frame.with(|it| it.settings = &settings)) };
         assert!(matches!(result, Err(Error::BadInput { field: found, .. }) if found == field));
     }
     rig.stub.end(0);

@@ -42,14 +42,13 @@ pub fn half_step(value: f64) -> f64 {
 
 /// Nothing of noise or pattern.
 pub fn even(film: f32) -> BubbleLook {
-    BubbleLook {
-        film,
-        variation: 0.0,
-        drainage: 0.0,
-        albedo: [0.9, 0.8, 0.5],
-        pattern: 0.0,
-        ..BubbleLook::default()
-    }
+    BubbleLook::default().with(|it| {
+        it.film = film;
+        it.variation = 0.0;
+        it.drainage = 0.0;
+        it.albedo = [0.9, 0.8, 0.5];
+        it.pattern = 0.0;
+    })
 }
 
 fn twin(look: &BubbleLook, side: DVec3) -> Look {
@@ -99,8 +98,12 @@ impl<'g> Scene<'g> {
 
     /// The same of so many layers, by a configuration.
     pub fn of(gpu: &'g Gpu, side: DVec3, layers: u32, config: Config) -> Self {
-        let bubbles = BubbleConfig { templates: 3, bubbles: 28, layers, ..BubbleConfig::new(64) };
-        let config = Config { bubbles: Some(bubbles), ..config };
+        let bubbles = BubbleConfig::new(64).with(|it| {
+            it.templates = 3;
+            it.bubbles = 28;
+            it.layers = layers;
+        });
+        let config = config.with(|it| it.bubbles = Some(bubbles));
         let mut rig = Rig::with_slots(gpu, &config, 1);
         let (width, height) = (64, 32);
         let texel = |i: u32| {
@@ -274,24 +277,35 @@ type Seen = [u32; 4];
 fn films_walls_cores_and_plugs_are_the_twins() {
     let gpu = Gpu::shared();
     let mut scene = Scene::new(&gpu, DVec3::ZERO);
-    let drained = BubbleLook { drainage: 0.35, ..even(380.0) };
-    let thin = BubbleLook { core: [0.1, 0.5], ..even(380.0) };
-    let varied = BubbleLook { variation: 0.35, ..drained };
-    let cores = BubbleLook { reflection: 0.0, pattern: 0.7, ..even(380.0) };
+    let drained = even(380.0).with(|it| it.drainage = 0.35);
+    let thin = even(380.0).with(|it| it.core = [0.1, 0.5]);
+    let varied = drained.with(|it| it.variation = 0.35);
+    let cores = even(380.0).with(|it| {
+        it.reflection = 0.0;
+        it.pattern = 0.7;
+    });
     let cases: [(_, _, _, Seen); 14] = [
         ("one", false, drained, [0, 0, 3000, 0]),
-        ("one-thick", false, BubbleLook { film: 900.0, ..thin }, [0, 0, 3000, 0]),
-        ("one-no-walls", false, BubbleLook { walls: false, ..thin }, [0; 4]),
-        ("one-dull", false, BubbleLook { reflection: 0.0, ..thin }, [0, 0, 3000, 0]),
+        ("one-thick", false, thin.with(|it| it.film = 900.0), [0, 0, 3000, 0]),
+        ("one-no-walls", false, thin.with(|it| it.walls = false), [0; 4]),
+        ("one-dull", false, thin.with(|it| it.reflection = 0.0), [0, 0, 3000, 0]),
         ("heap", true, drained, [1000, 400, 5000, 20]),
-        ("heap-thin", true, BubbleLook { drainage: 0.35, ..thin }, [3000, 2000, 5000, 20]),
-        ("heap-open", true, BubbleLook { film: 900.0, plug: false, ..thin }, [3000, 2000, 5000, 0]),
-        ("heap-no-walls", true, BubbleLook { walls: false, ..thin }, [3000, 2000, 0, 0]),
-        ("heap-bright", true, BubbleLook { reflection: 2.5, ..thin }, [3000, 2000, 5000, 10]),
+        ("heap-thin", true, thin.with(|it| it.drainage = 0.35), [3000, 2000, 5000, 20]),
+        (
+            "heap-open",
+            true,
+            thin.with(|it| {
+                it.film = 900.0;
+                it.plug = false;
+            }),
+            [3000, 2000, 5000, 0],
+        ),
+        ("heap-no-walls", true, thin.with(|it| it.walls = false), [3000, 2000, 0, 0]),
+        ("heap-bright", true, thin.with(|it| it.reflection = 2.5), [3000, 2000, 5000, 10]),
         ("one-varied", false, varied, [0, 0, 3000, 0]),
-        ("heap-varied", true, BubbleLook { variation: 1.0, ..thin }, [3000, 2000, 5000, 10]),
-        ("one-pattern", false, BubbleLook { distortion: 0.6, ..cores }, [0, 0, 3000, 0]),
-        ("heap-pattern", true, BubbleLook { pattern: 1.0, ..cores }, [1000, 400, 5000, 20]),
+        ("heap-varied", true, thin.with(|it| it.variation = 1.0), [3000, 2000, 5000, 10]),
+        ("one-pattern", false, cores.with(|it| it.distortion = 0.6), [0, 0, 3000, 0]),
+        ("heap-pattern", true, cores.with(|it| it.pattern = 1.0), [1000, 400, 5000, 20]),
         ("heap-default", true, BubbleLook::default(), [1000, 400, 5000, 5]),
     ];
     let shots = [Lens::Standard, Lens::LeftHanded];
@@ -343,9 +357,18 @@ fn films_walls_cores_and_plugs_are_the_twins() {
 fn films_and_cores_show_where_the_light_comes_from() {
     let gpu = Gpu::shared();
     let mut scene = Scene::new(&gpu, DVec3::new(0.3, 0.4, -0.5));
-    let films = BubbleLook { albedo: [0.0; 3], core: [0.1, 0.5], ..even(380.0) };
-    let cores = BubbleLook { reflection: 0.0, roundness: 0.7, ..even(380.0) };
-    let lean = BubbleLook { pattern: 1.0, roundness: 0.2, ..cores };
+    let films = even(380.0).with(|it| {
+        it.albedo = [0.0; 3];
+        it.core = [0.1, 0.5];
+    });
+    let cores = even(380.0).with(|it| {
+        it.reflection = 0.0;
+        it.roundness = 0.7;
+    });
+    let lean = cores.with(|it| {
+        it.pattern = 1.0;
+        it.roundness = 0.2;
+    });
     for (name, lens, many, look, part) in [
         ("films", Lens::Standard, false, films, 64.0),
         ("cores", Lens::LeftHanded, false, cores, 400.0),

@@ -12,26 +12,9 @@ use crate::support::device::Gpu;
 use crate::support::scenes::Random;
 
 const DT: f32 = 1.0 / 60.0;
-const FREE: HeapSettings = HeapSettings { gravity: [0.0; 3], ..DEFAULT };
-const DEFAULT: HeapSettings = HeapSettings {
-    gravity: [0.0, -9.81, 0.0],
-    drag: 0.8,
-    rest: 0.75,
-    reach: 0.95,
-    stiffness: 4000.0,
-    cohesion: 12.0,
-    damping: [12.0, 6.0],
-    contact: 0.85,
-    solidity: 20_000.0,
-    solid_damping: 60.0,
-    friction: 0.35,
-    water: None,
-    density: 0.2,
-    support: 2.5,
-    alone: 0.1,
-    parting: 0.5,
-    substeps: 4,
-};
+fn free() -> HeapSettings {
+    HeapSettings::default().with(|it| it.gravity = [0.0; 3])
+}
 
 fn one(radius: f32) -> Bubble {
     Bubble { ball: [0.0, 1.0, 0.0, radius], turn: [0.0, 0.0, 0.0, 1.0], id: 7 }
@@ -66,7 +49,7 @@ fn a_lone_blob_becomes_a_clump() {
     assert_eq!((last.len(), there(&last).len()), (16, 1), "places, blobs");
     let mut counts = vec![1];
     for step in 0..300 {
-        running.step(DT, &FREE, &[]).expect("a step");
+        running.step(DT, &free(), &[]).expect("a step");
         let now = running.blobs();
         // A cube root by powers of two is off by 2^-20; halves of halves are rounded at most four times.
         let volume = volume(&now);
@@ -75,7 +58,7 @@ fn a_lone_blob_becomes_a_clump() {
             // A half grows to 0.79 of the radius in half a second; its whole shrinks by three quarters of that at its
             // fastest: the volume goes by 3 p².
             let change = (now.radius - last.radius).abs();
-            let fastest = f64::from(DT / FREE.parting) * f64::from(radius);
+            let fastest = f64::from(DT / free().parting) * f64::from(radius);
             assert!(change <= fastest, "{} to {} at {step}", last.radius, now.radius);
         }
         let count = there(&now).len();
@@ -95,7 +78,7 @@ fn a_lone_blob_becomes_a_clump() {
         );
         let level = (f64::from(radius) / blob.radius).log2() * 3.0;
         assert!((level - level.round()).abs() < 1.0e-4, "a radius of no half: {}", blob.radius);
-        let company = beside(&clump, blob, &FREE);
+        let company = beside(&clump, blob, &free());
         assert!(company >= 2.5 || level > 3.5, "one could still split: {blob:?}");
     }
 }
@@ -104,7 +87,10 @@ fn a_lone_blob_becomes_a_clump() {
 #[test]
 fn what_has_enough_beside_it_stays_whole() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings { alone: 0.0, parting: 0.05, ..DEFAULT };
+    let settings = HeapSettings::default().with(|it| {
+        it.alone = 0.0;
+        it.parting = 0.05;
+    });
     let mut random = Random(3);
     let mut blobs = cloud(300, [0.9, 0.8, 0.9], [0.07, 0.11], 9);
     // Some are thrown out.
@@ -113,7 +99,7 @@ fn what_has_enough_beside_it_stays_whole() {
     }
     let halvings = 3;
     let mut running = Running::halving(&gpu, &blobs, halvings);
-    let step = HeapSettings { substeps: 1, ..settings };
+    let step = settings.with(|it| it.substeps = 1);
     let (mut split, mut whole) = (0, 0);
     // Since its last split; what parts does not split.
     let mut parting: HashMap<usize, u32> = HashMap::new();
@@ -166,7 +152,7 @@ fn the_order_of_blobs_is_no_matter_to_their_halves() {
     let end = |blobs: &[Bubble]| {
         let mut running = Running::halving(&gpu, blobs, 2);
         for _ in 0..60 {
-            running.step(DT, &DEFAULT, &[FLOOR]).expect("a step");
+            running.step(DT, &HeapSettings::default(), &[FLOOR]).expect("a step");
         }
         running.blobs()
     };
@@ -184,14 +170,13 @@ fn the_order_of_blobs_is_no_matter_to_their_halves() {
 fn bad_halvings_are_errors() {
     let gpu = Gpu::shared();
     for config in [
-        HeapConfig { halvings: 7, ..HeapConfig::new(4) },
-        HeapConfig { halvings: 3, ..HeapConfig::new(1 << 18) },
+        HeapConfig::new(4).with(|it| it.halvings = 7),
+        HeapConfig::new(1 << 18).with(|it| it.halvings = 3),
     ] {
         let result = Heap::new(&gpu.context(1), &config, None);
         let field = result.err().map(|error| error.to_string()).unwrap_or_default();
         assert!(field.contains("HeapConfig.halvings"), "{field}");
     }
-    assert_eq!(DEFAULT, HeapSettings::default());
     type Spoil = fn(&mut HeapSettings);
     let spoils: [(&str, Spoil); 3] = [
         ("HeapSettings.support", |s| s.support = -1.0),

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 use whitewater::Config;
-use whitewater::bubbles::BubbleLook;
 use whitewater::water::{Medium, Shading};
 
 use super::soap::{Expected, Scene, even, water};
@@ -26,7 +25,7 @@ fn block(depth: f32, deep: usize) -> Vec<[f32; 3]> {
 }
 
 fn small(thickness_level: u32) -> Config {
-    Config { thickness_level, ..config(extent(112, 96)) }
+    config(extent(112, 96)).with(|it| it.thickness_level = thickness_level)
 }
 
 /// Layers before water, in it and behind it: each is seen through as much of it as lies before that layer, whatever the
@@ -35,13 +34,13 @@ fn small(thickness_level: u32) -> Config {
 fn layers_in_water_are_the_twins() {
     let gpu = Gpu::shared();
     let source = Medium::Source { base: [0.3, 0.5, 0.9], falloff: [0.5, 0.4, 0.2, 0.7] };
-    let thin = BubbleLook { core: [0.1, 0.5], ..even(380.0) };
+    let thin = even(380.0).with(|it| it.core = [0.1, 0.5]);
     for (name, level, layers, medium, look) in [
         ("turbid", 0, 3, TURBID, thin),
         ("turbid, coarse", 2, 3, TURBID, even(380.0)),
         ("turbid, eight", 2, 8, TURBID, thin),
         ("source's", 0, 3, source, thin),
-        ("source's, open", 2, 3, source, BubbleLook { plug: false, ..thin }),
+        ("source's, open", 2, 3, source, thin.with(|it| it.plug = false)),
     ] {
         let mut scene = Scene::of(&gpu, DVec3::ZERO, layers, small(level));
         for (lens, depth, deep) in [(Lens::Standard, 2.6, 4), (Lens::LeftHanded, 1.6, 3)] {
@@ -79,7 +78,7 @@ fn layers_in_water_are_the_twins() {
 fn water_before_foam_takes_of_its_colour_alone() {
     let gpu = Gpu::shared();
     let mut scene = Scene::of(&gpu, DVec3::ZERO, 3, small(0));
-    for (deep, look) in [(3, even(380.0)), (2, BubbleLook { core: [0.1, 0.5], ..even(500.0) })] {
+    for (deep, look) in [(3, even(380.0)), (2, even(500.0).with(|it| it.core = [0.1, 0.5]))] {
         let mut shot = scene.shot_in(Lens::Standard, true, (RADIUS, &block(0.9, deep)));
         shot.settings.water.medium = CLEAR;
         shot.settings.bubbles = look;
@@ -112,7 +111,10 @@ fn water_before_foam_takes_of_its_colour_alone() {
 fn opaque_foam_has_one_colour_in_water_however_many_layers() {
     let gpu = Gpu::shared();
     // Nothing of a film: of two layers the first is all there is to see.
-    let look = BubbleLook { core: [1.9, 2.0], plug: false, ..even(380.0) };
+    let look = even(380.0).with(|it| {
+        it.core = [1.9, 2.0];
+        it.plug = false;
+    });
     let mut means = Vec::new();
     for layers in [1, 3, 8] {
         let mut scene = Scene::of(&gpu, DVec3::ZERO, layers, small(2));
@@ -136,12 +138,12 @@ fn opaque_foam_has_one_colour_in_water_however_many_layers() {
 fn foam_in_water_hides_what_is_behind_it_alone() {
     let gpu = Gpu::shared();
     for (shading, level) in [(Shading::Raster, 0), (Shading::Compute, 2)] {
-        let base = Config { composite: Some(shading), ..small(level) };
+        let base = small(level).with(|it| it.composite = Some(shading));
         let mut scene = Scene::of(&gpu, DVec3::new(0.2, 0.5, 0.1), 3, base);
         for (lens, depth) in [(Lens::Standard, 1.6), (Lens::LeftHanded, 3.2)] {
             let mut shot = scene.shot_in(lens, true, (RADIUS, &block(depth, 4)));
             shot.settings.water.medium = TURBID;
-            shot.settings.bubbles = BubbleLook { core: [0.1, 0.5], ..even(380.0) };
+            shot.settings.bubbles = even(380.0).with(|it| it.core = [0.1, 0.5]);
             shot.settings.light.color = [3.0, 2.0, 1.0];
             shot.settings.light.direction = [0.2, 0.4, 0.9];
             let whole = scene.rig.draw(&shot);

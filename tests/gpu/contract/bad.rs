@@ -3,8 +3,8 @@
 use ash::vk;
 use whitewater::water::{Convolution, Shading, Shadows};
 use whitewater::{
-    Config, Context, Count, Error, Frame, Packets, Previous, Recorded, Region, Settings, Shadow,
-    Slot, Stream,
+    Context, Count, Error, Frame, Packets, Previous, Recorded, Region, Settings, Shadow, Slot,
+    Stream,
 };
 
 use crate::support::device::Gpu;
@@ -87,20 +87,20 @@ fn spoils() -> Vec<Spoil> {
             let buffer = g.frame.particles.positions.buffer;
             g.frame.particles.packets = Some(Packets { buffer, offset: 0, count: 65_536 });
         }),
-        ("view", "Frame.camera.view", |g| g.frame.camera.view = glam::Mat4::ZERO),
-        ("view of NaN", "Frame.camera.view", |g| g.frame.camera.view.x_axis.y = f32::NAN),
+        ("view", "Frame.camera.view", |g| g.frame.camera.view = [[0.0; 4]; 4]),
+        ("view of NaN", "Frame.camera.view", |g| g.frame.camera.view[0][1] = f32::NAN),
         ("no projection", "Frame.camera.projection", |g| {
-            g.frame.camera.projection = glam::Mat4::ZERO;
+            g.frame.camera.projection = [[0.0; 4]; 4];
         }),
         ("infinite projection", "Frame.camera.projection", |g| {
-            g.frame.camera.projection.x_axis.x = f32::INFINITY;
+            g.frame.camera.projection[0][0] = f32::INFINITY;
         }),
         ("orthographic", "Frame.camera.projection", |g| {
             g.frame.camera.projection =
-                glam::Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
+                glam::Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0).to_cols_array_2d();
         }),
         ("flat projection", "Frame.camera.projection", |g| {
-            g.frame.camera.projection.y_axis.y = 0.0;
+            g.frame.camera.projection[1][1] = 0.0;
         }),
         ("spacing", "Settings.water.spacing", |g| g.settings.water.spacing = 0.0),
         ("spacing of NaN", "Settings.water.spacing", |g| g.settings.water.spacing = f32::NAN),
@@ -192,7 +192,7 @@ fn spoils() -> Vec<Spoil> {
 
 /// The scene's depth as it were the light's.
 fn shadow(frame: &Frame<'_>) -> Shadow {
-    Shadow { image: frame.scene_depth, view_projection: glam::Mat4::IDENTITY, bias: 0.0 }
+    Shadow::new(frame.scene_depth, glam::Mat4::IDENTITY.to_cols_array_2d())
 }
 
 /// The sun's way where the configuration has it.
@@ -211,7 +211,7 @@ fn sunny_spoils() -> Vec<Spoil> {
         ("center", "Frame.sun.region", |g| region_of(g).center[1] = f32::INFINITY),
         ("bias", "Frame.sun.shadow.bias", |g| shadow_of(g).bias = f32::NAN),
         ("matrix", "Frame.sun.shadow.view_projection", |g| {
-            shadow_of(g).view_projection = glam::Mat4::ZERO;
+            shadow_of(g).view_projection = [[0.0; 4]; 4];
         }),
         ("part", "HostImage.rect", |g| shadow_of(g).image.rect.offset.x = 1),
         ("lost shadow", "Frame.sun.shadow.image.before", |g| {
@@ -232,14 +232,16 @@ fn bad_frames_in_the_sun(kind: Shadows) {
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);
-    let config = Config { shadow: Some(kind), cast: Some(16), ..config(size) };
+    let config = config(size).with(|it| {
+        it.shadow = Some(kind);
+        it.cast = Some(16);
+    });
     let mut rig = Rig::with_slots(&gpu, &config, 1);
     let mut shot = water(size, Lens::Standard);
     shot.sun.region = Some(Region { center: [0.0; 3], radius: 4.0 });
     let ((color, depth), (_, map)) = (rig.scene(&shot), rig.scene(&shot));
     let cloud = rig.particles(&shot);
-    shot.sun.shadow =
-        Some(Shadow { image: map.host_image(), view_projection: glam::Mat4::IDENTITY, bias: 0.0 });
+    shot.sun.shadow = Some(Shadow::new(map.host_image(), glam::Mat4::IDENTITY.to_cols_array_2d()));
     let cmd = rig.stub.begin(0);
     let good = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     for (name, field, spoil) in sunny_spoils() {
@@ -248,7 +250,8 @@ fn bad_frames_in_the_sun(kind: Shadows) {
         let Good { frame, settings } = bad;
         spy::reset();
         // SAFETY: nothing of a bad frame may be used.
-        let result = unsafe { rig.renderer().record(cmd, &Frame { settings: &settings, ..frame }) };
+        let result =
+            unsafe { rig.renderer().record(cmd, &frame.with(|it| it.settings = &settings)) };
         let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
         match result {
             Err(Error::BadInput { field: found, why }) => {
@@ -279,16 +282,15 @@ fn bad_frames_are_errors_before_any_command() {
     let (color, depth) = rig.scene(&shot);
     let cloud = rig.particles(&shot);
     let mut cmd = rig.stub.begin(1);
-    let good = Frame {
-        slot: Slot(1),
-        ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
-    };
+    let good = shot
+        .frame(color.host_image(), depth.host_image(), cloud.particles())
+        .with(|it| it.slot = Slot(1));
     let mut wrong = Vec::new();
     for (name, field, spoil) in spoils() {
         let mut bad = Good { frame: good, settings: shot.settings.clone() };
         spoil(&mut bad);
         let Good { frame, settings } = bad;
-        let frame = Frame { settings: &settings, ..frame };
+        let frame = frame.with(|it| it.settings = &settings);
         spy::reset();
         let renderer = rig.renderer();
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
@@ -328,7 +330,7 @@ fn bad_frames_are_errors_before_any_command() {
 fn the_output_as_scene_needs_in_place() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let mut rig = Rig::new(&gpu, &Config { in_place: false, ..config(size) });
+    let mut rig = Rig::new(&gpu, &config(size).with(|it| it.in_place = false));
     let shot = water(size, Lens::Standard);
     let (color, depth) = rig.scene(&shot);
     let cloud = rig.particles(&shot);
@@ -350,32 +352,38 @@ fn bad_configurations_are_errors() {
     let good = config(size);
     let most = gpu.limits().max_image_dimension2_d;
     let bad = [
-        ("Config.extent", Config { extent: extent(0, 4), ..good }),
-        ("Config.extent", Config { extent: extent(4, 0), ..good }),
-        ("Config.extent", Config { extent: extent(most + 1, 1), ..good }),
-        ("Config.max_particles", Config { max_particles: 0, ..good }),
-        ("Config.max_stride", Config { max_stride: 0, ..good }),
-        ("Config.max_stride", Config { max_stride: 18, ..good }),
-        ("Config.smoothing_level", Config { smoothing_level: 3, thickness_level: 0, ..good }),
-        ("Config.thickness_level", Config { thickness_level: 4, ..good }),
-        ("Config.max_iterations", Config { max_iterations: 0, ..good }),
-        ("Config.max_iterations", Config { max_iterations: 257, ..good }),
-        ("Config.coarsening", Config { coarsening: 4, ..good }),
-        ("Config.mirror_steps", Config { mirror_steps: 65, ..good }),
-        ("Config.mirror_steps", Config { mirror_steps: u32::MAX, ..good }),
-        ("Config.sheets", Config { sheets: 0, ..good }),
-        ("Config.sheets", Config { sheets: 3, ..good }),
-        ("Config.noise", Config { noise: Some(4), ..good }),
-        ("Config.cast", Config { cast: Some(0), ..good }),
-        ("Config.cast", Config { cast: Some(24), ..good }),
-        ("Config.cast", Config { cast: Some(4112), ..good }),
-        ("Config.shadow", Config { shadow: convolved(5, 8), ..good }),
-        ("Config.shadow", Config { shadow: convolved(8, 12), ..good }),
-        ("Config.shadow", Config { shadow: of_texels(15), ..good }),
-        ("Config.shadow", Config { shadow: of_texels(4097), ..good }),
-        ("Config.environment_size", Config { environment_size: 8, ..good }),
-        ("Config.environment_size", Config { environment_size: 100, ..good }),
-        ("Config.environment_size", Config { environment_size: 4096, ..good }),
+        ("Config.extent", good.with(|it| it.extent = extent(0, 4))),
+        ("Config.extent", good.with(|it| it.extent = extent(4, 0))),
+        ("Config.extent", good.with(|it| it.extent = extent(most + 1, 1))),
+        ("Config.max_particles", good.with(|it| it.max_particles = 0)),
+        ("Config.max_stride", good.with(|it| it.max_stride = 0)),
+        ("Config.max_stride", good.with(|it| it.max_stride = 18)),
+        (
+            "Config.smoothing_level",
+            good.with(|it| {
+                it.smoothing_level = 3;
+                it.thickness_level = 0;
+            }),
+        ),
+        ("Config.thickness_level", good.with(|it| it.thickness_level = 4)),
+        ("Config.max_iterations", good.with(|it| it.max_iterations = 0)),
+        ("Config.max_iterations", good.with(|it| it.max_iterations = 257)),
+        ("Config.coarsening", good.with(|it| it.coarsening = 4)),
+        ("Config.mirror_steps", good.with(|it| it.mirror_steps = 65)),
+        ("Config.mirror_steps", good.with(|it| it.mirror_steps = u32::MAX)),
+        ("Config.sheets", good.with(|it| it.sheets = 0)),
+        ("Config.sheets", good.with(|it| it.sheets = 3)),
+        ("Config.noise", good.with(|it| it.noise = Some(4))),
+        ("Config.cast", good.with(|it| it.cast = Some(0))),
+        ("Config.cast", good.with(|it| it.cast = Some(24))),
+        ("Config.cast", good.with(|it| it.cast = Some(4112))),
+        ("Config.shadow", good.with(|it| it.shadow = convolved(5, 8))),
+        ("Config.shadow", good.with(|it| it.shadow = convolved(8, 12))),
+        ("Config.shadow", good.with(|it| it.shadow = of_texels(15))),
+        ("Config.shadow", good.with(|it| it.shadow = of_texels(4097))),
+        ("Config.environment_size", good.with(|it| it.environment_size = 8)),
+        ("Config.environment_size", good.with(|it| it.environment_size = 100)),
+        ("Config.environment_size", good.with(|it| it.environment_size = 4096)),
     ];
     for (field, bad) in bad {
         match Rig::try_new(&gpu, &bad, 1) {
@@ -391,14 +399,17 @@ fn bad_configurations_are_errors() {
         let result = gpu.context(1).with_frames_in_flight(slots).map(|_| ());
         assert!(matches!(result, Err(Error::BadInput { field: "Host.frames_in_flight", .. })));
     }
-    let host = whitewater::Host { queue_family: 77, ..gpu.host(1) };
+    let host = gpu.host(1).with(|it| it.queue_family = 77);
     // SAFETY: live handles; the family is only looked up.
     let result = unsafe { Context::new(&host) }.map(|_| ());
     assert!(matches!(result, Err(Error::BadInput { field: "Host.queue_family", .. })));
-    let depth = Config { output_format: vk::Format::D32_SFLOAT, ..good };
+    let depth = good.with(|it| it.output_format = vk::Format::D32_SFLOAT);
     assert!(matches!(Rig::try_new(&gpu, &depth, 1), Err(Error::Missing { .. })));
     let srgb = vk::Format::R8G8B8A8_SRGB;
-    let stored = Config { output_format: srgb, composite: Some(Shading::Compute), ..good };
+    let stored = good.with(|it| {
+        it.output_format = srgb;
+        it.composite = Some(Shading::Compute);
+    });
     let storage = vk::FormatFeatureFlags::STORAGE_IMAGE;
     if !gpu.format_features(srgb).contains(storage) {
         assert!(matches!(Rig::try_new(&gpu, &stored, 1), Err(Error::Missing { .. })));

@@ -3,7 +3,7 @@
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::water::{Gate, Shading, Smoothing};
-use whitewater::{Config, Context, Enabled, Error, Host, Renderer, Slot, State, StateConfig};
+use whitewater::{Config, Context, Enabled, Error, Renderer, Slot, State, StateConfig};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, config, extent};
@@ -12,6 +12,19 @@ use crate::support::{compare, slow};
 
 use super::life::convolved;
 use super::{sunny, water};
+
+/// Engines keep these in resources that threads share, and make them on threads of their own.
+const _: () = {
+    const fn shared<T: Send + Sync>() {}
+    shared::<Context>();
+    shared::<Renderer>();
+    shared::<State>();
+    shared::<whitewater::foam::Generator>();
+    shared::<whitewater::bubbles::Heap>();
+    shared::<whitewater::shore::ShoreMap>();
+    shared::<whitewater::Frame<'static>>();
+    shared::<Error>();
+};
 
 #[test]
 fn a_device_with_nothing_optional_draws_the_same() {
@@ -28,6 +41,64 @@ fn a_device_with_nothing_optional_draws_the_same() {
     compare::same_color("bare", &found.output, &expected.output);
 }
 
+/// An old driver: an instance and a device of Vulkan 1.2, barriers of 1.0. Bit for bit the same, silent under validation.
+#[test]
+fn a_device_of_vulkan_1_2_draws_the_same() {
+    let size = extent(64, 48);
+    let options = whitewater::headless::DeviceOptions { vulkan_1_2: true, ..Default::default() };
+    let mut old = Gpu::own_with(&options);
+    old.leaks = false;
+    assert!(!old.enabled.synchronization2);
+    let plain = config(size).with(|it| it.sheets = 2);
+    for config in [
+        plain,
+        plain.with(|it| {
+            it.smoothing = Some(Smoothing::Fused);
+            it.foam = true;
+            it.spray = true;
+            it.motion = true;
+            it.noise = Some(1);
+        }),
+        plain.with(|it| {
+            it.cast = Some(64);
+            it.shadow = convolved(8, 8);
+            it.composite = Some(Shading::Compute);
+            it.depth_splat = Some(whitewater::water::Splat::Raster);
+        }),
+        plain.with(|it| it.smoothing = Some(Smoothing::Query(Gate::VertexCull))),
+    ] {
+        let [expected, found] = [&Gpu::shared(), &old].map(|gpu| {
+            let mut rig = Rig::new(gpu, &config);
+            let mut shot = water(size, Lens::Standard);
+            let _map = sunny(&rig, &mut shot);
+            rig.draw(&shot)
+        });
+        compare::same_color("vulkan-1.2", &found.output, &expected.output);
+    }
+}
+
+/// Below Vulkan 1.3 what stores without a format says that it needs the feature; water without it does not.
+#[test]
+fn an_old_device_says_what_it_lacks() {
+    let options =
+        whitewater::headless::DeviceOptions { vulkan_1_2: true, bare: true, ..Default::default() };
+    let gpu = Gpu::own_with(&options);
+    let host = gpu.host(1).with(|it| it.enabled = Enabled::default());
+    // SAFETY: live handles; the device goes last.
+    let context = unsafe { Context::new(&host) }.expect("a context");
+    let config = config(extent(16, 16));
+    let lacks = |config: Config| match Renderer::new(&context, &config) {
+        Err(Error::Missing { what, .. }) => what,
+        other => panic!("{:?}", other.map(|_| ())),
+    };
+    assert!(lacks(config.with(|it| it.foam = true)).contains("storage"));
+    assert!(lacks(config.with(|it| it.motion = true)).contains("storage"));
+    assert!(lacks(config.with(|it| it.composite = Some(Shading::Compute))).contains("storage"));
+    let renderer = Renderer::new(&context, &config).expect("water");
+    // SAFETY: nothing was submitted.
+    unsafe { renderer.destroy() };
+}
+
 /// A mocked offer: what this device has may not be there elsewhere.
 #[test]
 fn what_a_device_lacks_is_named() {
@@ -35,34 +106,28 @@ fn what_a_device_lacks_is_named() {
     let config = config(extent(32, 16));
     let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
     offer.check(&config).expect("this device will do");
-    let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
-    let foam = Config { foam: true, ..config };
-    let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
-    let motion = Config { motion: true, ..config };
-    let noise = Config { noise: Some(1), ..config };
-    let unsummed = whitewater::Offer { blend_floats: false, foam_floats: false, ..offer };
-    let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
-    let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
-    let drawn = Config { composite: Some(Shading::Raster), ..config };
-    let stored = Config { composite: Some(Shading::Compute), ..config };
+    let raster = config.with(|it| it.depth_splat = Some(whitewater::water::Splat::Raster));
+    let foam = config.with(|it| it.foam = true);
+    let convolving = |bits| config.with(|it| it.shadow = convolved(8, bits));
+    let motion = config.with(|it| it.motion = true);
+    let noise = config.with(|it| it.noise = Some(1));
+    let unsummed = offer.with(|it| {
+        it.blend_floats = false;
+        it.foam_floats = false;
+    });
+    let bare = offer.with(|it| it.optional = Enabled::default());
+    let gate = |gate| config.with(|it| it.smoothing = Some(Smoothing::Query(gate)));
+    let drawn = config.with(|it| it.composite = Some(Shading::Raster));
+    let stored = config.with(|it| it.composite = Some(Shading::Compute));
     let lacking = [
-        (whitewater::Offer { api_version: vk::API_VERSION_1_2, ..offer }, config, "Vulkan 1.3"),
-        (whitewater::Offer { synchronization2: false, ..offer }, config, "synchronization2"),
-        (
-            whitewater::Offer { output_attachment: false, ..offer },
-            drawn,
-            "attachment use of the output",
-        ),
-        (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
-        (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
-        (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
-        (whitewater::Offer { basis: [false, true], ..offer }, convolving(8), "R8G8B8A8_SNORM"),
-        (
-            whitewater::Offer { basis: [true, false], ..offer },
-            convolving(16),
-            "R16G16B16A16_SFLOAT",
-        ),
-        (whitewater::Offer { motion_floats: false, ..offer }, motion, "R32G32_SFLOAT"),
+        (offer.with(|it| it.api_version = vk::API_VERSION_1_1), config, "Vulkan 1.2"),
+        (offer.with(|it| it.output_attachment = false), drawn, "attachment use of the output"),
+        (offer.with(|it| it.output_storage = false), stored, "storage use of the output"),
+        (offer.with(|it| it.blend_floats = false), raster, "R32_SFLOAT"),
+        (offer.with(|it| it.foam_floats = false), foam, "R32G32_SFLOAT"),
+        (offer.with(|it| it.basis = [false, true]), convolving(8), "R8G8B8A8_SNORM"),
+        (offer.with(|it| it.basis = [true, false]), convolving(16), "R16G16B16A16_SFLOAT"),
+        (offer.with(|it| it.motion_floats = false), motion, "R32G32_SFLOAT"),
         (unsummed, noise, "R32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
@@ -75,26 +140,31 @@ fn what_a_device_lacks_is_named() {
             other => panic!("{needle}: {other:?}"),
         }
     }
-    let unblended = whitewater::Offer { blend_floats: false, ..offer };
+    let unblended = offer.with(|it| it.blend_floats = false);
     unblended.check(&config).expect("the compute paths need no blending");
-    let unfoamed = whitewater::Offer { foam_floats: false, ..offer };
+    let unfoamed = offer.with(|it| it.foam_floats = false);
     unfoamed.check(&raster).expect("water needs nothing of foam's");
-    let other = whitewater::Offer { basis: [true, false], ..offer };
+    let other = offer.with(|it| it.basis = [true, false]);
     other.check(&convolving(8)).expect("eight bits are there");
     let mut small = offer;
     small.limits.max_image_dimension2_d = 99;
-    let shown = Config { extent: extent(32, 16), ..convolving(8) };
+    let shown = convolving(8).with(|it| it.extent = extent(32, 16));
     assert!(matches!(small.check(&shown), Err(Error::BadInput { field: "Config.shadow", .. })));
     unfoamed.check(&noise).expect("what the raster splats blend is enough for noise");
     // Foam's chunks are 64 particles at least.
     let mut narrow = offer;
     narrow.limits.max_storage_buffer_range = (1 << 20) + 256;
-    let wide = |foam| Config { foam, max_stride: 1 << 16, ..config };
+    let wide = |foam| {
+        config.with(|it| {
+            it.foam = foam;
+            it.max_stride = 1 << 16;
+        })
+    };
     narrow.check(&wide(false)).expect("sixteen particles are bound at once");
     assert!(matches!(narrow.check(&wide(true)), Err(Error::BadInput { .. })));
-    let unattached = whitewater::Offer { output_attachment: false, ..offer };
+    let unattached = offer.with(|it| it.output_attachment = false);
     unattached.check(&stored).expect("nothing is drawn into the output");
-    let unstored = whitewater::Offer { output_storage: false, ..offer };
+    let unstored = offer.with(|it| it.output_storage = false);
     unstored.check(&drawn).expect("nothing is stored to the output");
 }
 
@@ -107,6 +177,7 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
         let entry = ash::Entry::load().expect("a loader");
         let of_1_3 = Gpu::shared();
         for version in [vk::API_VERSION_1_0, vk::API_VERSION_1_1, vk::API_VERSION_1_2] {
+            let enough = version == vk::API_VERSION_1_2;
             let application = vk::ApplicationInfo::default().api_version(version);
             let info = vk::InstanceCreateInfo::default().application_info(&application);
             let instance = entry.create_instance(&info, None).expect("an instance");
@@ -124,20 +195,22 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
             let device = instance.create_device(physical, &info, None).expect("a device");
             // Where what it enabled says too much, too.
             for enabled in [Enabled::default(), of_1_3.enabled] {
-                let host = Host {
-                    instance: &instance,
-                    physical_device: physical,
-                    device: &device,
-                    enabled,
-                    ..of_1_3.host(1)
-                };
+                let host = of_1_3.host(1).with(|it| {
+                    it.instance = &instance;
+                    it.physical_device = physical;
+                    it.device = &device;
+                    it.enabled = enabled;
+                });
                 // Some drivers have the functions of their own version whatever the instance's is.
-                let name = c"vkCmdPipelineBarrier2";
-                let all = instance.get_device_proc_addr(device.handle(), name.as_ptr()).is_some();
+                let has = |name: &std::ffi::CStr| {
+                    instance.get_device_proc_addr(device.handle(), name.as_ptr()).is_some()
+                };
+                let second = has(c"vkCmdPipelineBarrier2") || !enabled.synchronization2;
+                let all = second && (enough || has(c"vkResetQueryPool"));
                 match Context::new(&host) {
                     Ok(_) if all => {}
-                    Err(Error::Missing { what, why }) => {
-                        assert!(what.contains("vk") && why.contains("1.3"), "{what}: {why}");
+                    Err(Error::Missing { what, why }) if !(enough && second) => {
+                        assert!(what.contains("vk") && why.contains("1.2"), "{what}: {why}");
                     }
                     other => panic!("{version:x}: {:?}", other.map(|_| ())),
                 }
@@ -161,7 +234,8 @@ fn functions_that_are_not_loaded_are_named() {
         ash::Device::from_parts_1_3(device.handle(), v1_0, v1_1, v1_2, v1_3)
     };
     let (barrier, stamp) = (none_1_3.cmd_pipeline_barrier2, none_1_3.cmd_write_timestamp2);
-    let counted = Enabled { draw_indirect_count: true, ..gpu.enabled };
+    let count = none_1_2.cmd_draw_indirect_count;
+    let counted = gpu.enabled.with(|it| it.draw_indirect_count = true);
     for (functions, enabled, name) in [
         (
             of(v1_2.clone(), ash::DeviceFnV1_3 { cmd_pipeline_barrier2: barrier, ..v1_3.clone() }),
@@ -173,9 +247,17 @@ fn functions_that_are_not_loaded_are_named() {
             gpu.enabled,
             "vkCmdWriteTimestamp2",
         ),
-        (of(none_1_2, v1_3.clone()), counted, "vkCmdDrawIndirectCount"),
+        (
+            of(ash::DeviceFnV1_2 { cmd_draw_indirect_count: count, ..v1_2.clone() }, v1_3.clone()),
+            counted,
+            "vkCmdDrawIndirectCount",
+        ),
+        (of(none_1_2, v1_3.clone()), gpu.enabled, "vkResetQueryPool"),
     ] {
-        let host = Host { device: &functions, enabled, ..gpu.host(1) };
+        let host = gpu.host(1).with(|it| {
+            it.device = &functions;
+            it.enabled = enabled;
+        });
         // SAFETY: live handles; nothing is made.
         match unsafe { Context::new(&host) } {
             Err(Error::Missing { what, .. }) => assert!(what.contains(name), "{name}: {what}"),
@@ -189,8 +271,8 @@ fn functions_that_are_not_loaded_are_named() {
 fn ten_million_particles_have_room() {
     let gpu = Gpu::shared();
     let count = 10_000_000;
-    let config = Config { max_particles: count, ..config(extent(64, 48)) };
-    let foam = Config { foam: true, ..config };
+    let config = config(extent(64, 48)).with(|it| it.max_particles = count);
+    let foam = config.with(|it| it.foam = true);
     // SAFETY: live handles; nothing is recorded.
     let state = unsafe {
         Renderer::new(&gpu.context(1), &foam).expect("room for foam").destroy();
@@ -218,7 +300,12 @@ fn memory_is_as_documented() {
     let needed = |width: u32, height: u32, count: u32, (sheets, coarsening, foam, spray)| {
         let format = vk::Format::R16G16B16A16_SFLOAT;
         let size = extent(width, height);
-        let config = Config { sheets, coarsening, foam, spray, ..Config::new(size, format, count) };
+        let config = Config::new(size, format, count).with(|it| {
+            it.sheets = sheets;
+            it.coarsening = coarsening;
+            it.foam = foam;
+            it.spray = spray;
+        });
         let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
         let memory = renderer.memory();
         // SAFETY: nothing was recorded.
@@ -238,7 +325,10 @@ fn memory_is_as_documented() {
         let ways = [(None, false), (Some(256), false), (Some(256), true), (Some(1024), false)];
         for (cast, foam) in ways.into_iter().step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
-            let config = Config { cast, foam, ..Config::new(extent(width, height), format, count) };
+            let config = Config::new(extent(width, height), format, count).with(|it| {
+                it.cast = cast;
+                it.foam = foam;
+            });
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
@@ -259,7 +349,10 @@ fn memory_is_as_documented() {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let of = |motion| {
                 let size = extent(width, height);
-                let config = Config { motion, thickness_level, ..Config::new(size, format, count) };
+                let config = Config::new(size, format, count).with(|it| {
+                    it.motion = motion;
+                    it.thickness_level = thickness_level;
+                });
                 let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
                 let memory = renderer.memory();
                 // SAFETY: nothing was recorded.
@@ -282,10 +375,17 @@ fn memory_is_as_documented() {
         .filter(|_| whole)
         {
             let format = vk::Format::R16G16B16A16_SFLOAT;
-            let templates =
-                BubbleConfig { templates: 1, bubbles: 8, map: 8, ..BubbleConfig::new(count) };
-            let bubbles = Some(BubbleConfig { sort, layers, ..templates });
-            let config = Config { bubbles, ..Config::new(extent(width, height), format, count) };
+            let templates = BubbleConfig::new(count).with(|it| {
+                it.templates = 1;
+                it.bubbles = 8;
+                it.map = 8;
+            });
+            let bubbles = Some(templates.with(|it| {
+                it.sort = sort;
+                it.layers = layers;
+            }));
+            let config =
+                Config::new(extent(width, height), format, count).with(|it| it.bubbles = bubbles);
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
@@ -302,7 +402,7 @@ fn memory_is_as_documented() {
         for level in (0..4).step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config =
-                Config { noise: Some(level), ..Config::new(extent(width, height), format, count) };
+                Config::new(extent(width, height), format, count).with(|it| it.noise = Some(level));
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
@@ -353,8 +453,13 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let config =
-        Config { sheets: 2, foam: true, spray: true, motion: true, noise: Some(1), ..config(size) };
+    let config = config(size).with(|it| {
+        it.sheets = 2;
+        it.foam = true;
+        it.spray = true;
+        it.motion = true;
+        it.noise = Some(1);
+    });
     let mut rig = Rig::with_slots(&gpu, &config, 2);
     let mut shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
@@ -390,7 +495,7 @@ fn timings_name_every_pass() {
         assert!(!falls, "{timings:?}");
     }
     assert!(rig.renderer().timings(Slot(1)).is_empty(), "a slot without a frame");
-    let mut rig = Rig::new(&gpu, &Config { cast: Some(16), ..config });
+    let mut rig = Rig::new(&gpu, &config.with(|it| it.cast = Some(16)));
     sunny(&rig, &mut shot);
     rig.draw(&shot);
     let names: Vec<&str> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();

@@ -1,7 +1,7 @@
 //! Frames in flight: slots, records between read-backs, two renderers on a device.
 
 use whitewater::water::{Convolution, Shading, Shadows};
-use whitewater::{Config, Frame, Recorded, Slot};
+use whitewater::{Frame, Recorded, Slot};
 
 use crate::reference::Image;
 use crate::support::compare;
@@ -25,10 +25,9 @@ pub struct Flight {
 pub fn launch(rig: &mut Rig<'_>, slot: u32, shot: &Shot, expected: Drawn) -> Flight {
     let (color, depth) = rig.scene(shot);
     let cloud = rig.particles(shot);
-    let frame = Frame {
-        slot: Slot(slot),
-        ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
-    };
+    let frame = shot
+        .frame(color.host_image(), depth.host_image(), cloud.particles())
+        .with(|it| it.slot = Slot(slot));
     let cmd = rig.stub.begin(slot);
     // SAFETY: cmd is recording, the slot was waited for, the handles live in the flight.
     let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
@@ -52,7 +51,12 @@ fn three_slots_in_flight_with_a_resize() {
 fn in_flight(composite: Shading) {
     let gpu = Gpu::shared();
     let noise = (composite == Shading::Compute).then_some(1);
-    let config = |size| Config { composite: Some(composite), noise, ..config(size) };
+    let config = |size| {
+        config(size).with(|it| {
+            it.composite = Some(composite);
+            it.noise = noise;
+        })
+    };
     let sizes = [extent(96, 64), extent(61, 97), extent(128, 32), extent(33, 17)];
     let expected: Vec<Vec<Drawn>> = sizes
         .iter()
@@ -99,7 +103,10 @@ fn filtered_shadows_of_two_slots_in_flight() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let shadow = Shadows::Convolution(Convolution { terms: 8, texels: 48, bits: 16 });
-    let config = Config { foam: true, shadow: Some(shadow), ..config(size) };
+    let config = config(size).with(|it| {
+        it.foam = true;
+        it.shadow = Some(shadow);
+    });
     let mut rig = Rig::lit(&gpu, &config, 2);
     let mut shots = [Lens::Standard, Lens::OffAxis].map(|lens| {
         let mut shot = water(size, lens);
@@ -162,20 +169,14 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
     let clouds = [first.particles(&shots[0]), second.particles(&shots[1])];
     let cmd = first.stub.begin(0);
     for (i, rig) in [&mut first, &mut second].into_iter().enumerate() {
-        let frame = Frame {
-            slot: Slot(0),
-            output: scenes[i].0.host_image(),
-            scene_color: scenes[i].0.host_image(),
-            scene_depth: scenes[i].1.host_image(),
-            particles: clouds[i].particles(),
-            camera: shots[i].camera,
-            diffuse: None,
-            bubbles: None,
-            shore: None,
-            sun: Default::default(),
-            previous: None,
-            settings: &shots[i].settings,
-        };
+        let frame = Frame::new(
+            Slot(0),
+            scenes[i].0.host_image(),
+            scenes[i].1.host_image(),
+            clouds[i].particles(),
+            shots[i].camera,
+            &shots[i].settings,
+        );
         // SAFETY: cmd is recording; both renderers' slot 0 was waited for.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
     }

@@ -3,7 +3,7 @@
 use ash::vk;
 use whitewater::foam::{DiffuseConfig, Splat};
 use whitewater::water::{Kernels, Shading};
-use whitewater::{Access, Config, Count, DiffuseParticles, HostImage, Particles, Recorded};
+use whitewater::{Access, Count, DiffuseParticles, Particles, Recorded};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -63,7 +63,13 @@ fn in_place_and_apart_give_the_same_picture() {
     ] {
         let shot = water(size, Lens::Reversed);
         let composite = Some(composite);
-        let make = |in_place| Config { in_place, output_format, composite, ..config(size) };
+        let make = |in_place| {
+            config(size).with(|it| {
+                it.in_place = in_place;
+                it.output_format = output_format;
+                it.composite = composite;
+            })
+        };
         let inside = Rig::lit(&gpu, &make(true), 1).draw(&shot);
         let apart = Rig::lit(&gpu, &make(false), 1).draw(&shot);
         compare::same_color("in-place", &inside.output, &apart.output);
@@ -85,7 +91,7 @@ fn images_are_taken_from_and_left_in_any_state() {
 fn in_any_state(composite: Shading) {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let config = Config { composite: Some(composite), ..config(size) };
+    let config = config(size).with(|it| it.composite = Some(composite));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let shot = water(size, Lens::Standard);
     let expected = rig.draw(&shot);
@@ -110,8 +116,8 @@ fn in_any_state(composite: Shading) {
         });
         color.state = before;
         let cloud = rig.particles(&shot);
-        let output = HostImage { after, ..color.host_image() };
-        let scene_depth = HostImage { after: general, ..depth.host_image() };
+        let output = color.host_image().with(|it| it.after = after);
+        let scene_depth = depth.host_image().with(|it| it.after = general);
         let frame = shot.frame(output, scene_depth, cloud.particles());
         let cmd = rig.stub.begin(0);
         // SAFETY: cmd is recording; the handles live to the end of this.
@@ -135,15 +141,15 @@ fn particles_that_the_device_writes_are_waited_for() {
     let gpu = Gpu::shared();
     let size = extent(64, 48);
     let plain = config(size);
-    let light = Config { cast: Some(64), ..plain };
-    let diffuse = |splat| Config {
-        diffuse: Some(DiffuseConfig { splat: Some(splat), ..DiffuseConfig::new(500) }),
-        ..light
+    let light = plain.with(|it| it.cast = Some(64));
+    let diffuse = |splat| {
+        light
+            .with(|it| it.diffuse = Some(DiffuseConfig::new(500).with(|it| it.splat = Some(splat))))
     };
     for config in [
         plain,
         light,
-        Config { kernels: Kernels::Ellipsoids, ..light },
+        light.with(|it| it.kernels = Kernels::Ellipsoids),
         diffuse(Splat::Compute),
         diffuse(Splat::Raster),
     ] {
@@ -162,10 +168,11 @@ fn particles_that_the_device_writes_are_waited_for() {
         ];
         let buffers = all.map(|bytes| rig.stub.data(bytes, usage));
         let [positions, dense, places] = &buffers;
-        let diffuse = config.diffuse.map(|_| DiffuseParticles {
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..DiffuseParticles::new(stream(places, 0, 12), count)
+        let diffuse = config.diffuse.map(|_| {
+            DiffuseParticles::new(stream(places, 0, 12), count).with(|it| {
+                it.before = HOST_WRITE;
+                it.after = HOST_WRITE;
+            })
         });
         let expected = {
             let cloud = rig.particles(&shot);
@@ -179,17 +186,26 @@ fn particles_that_the_device_writes_are_waited_for() {
                 }
             }
         };
-        let particles = Particles {
-            densities: Some(stream(dense, 0, 4)),
-            before: COPIED,
-            after: COPIED,
-            ..Particles::new(stream(positions, 0, 12), Count::Cpu(densities.len() as u32))
-        };
+        let particles =
+            Particles::new(stream(positions, 0, 12), Count::Cpu(densities.len() as u32)).with(
+                |it| {
+                    it.densities = Some(stream(dense, 0, 4));
+                    it.before = COPIED;
+                    it.after = COPIED;
+                },
+            );
         let (color, depth) = rig.scene(&shot);
-        let output = HostImage { before: COLOR, after: COLOR, ..color.host_image() };
+        let output = color.host_image().with(|it| {
+            it.before = COLOR;
+            it.after = COLOR;
+        });
         let mut frame = shot.frame(output, depth.host_image(), particles);
-        frame.diffuse =
-            diffuse.map(|host| DiffuseParticles { before: COPIED, after: COPIED, ..host });
+        frame.diffuse = diffuse.map(|host| {
+            host.with(|it| {
+                it.before = COPIED;
+                it.after = COPIED;
+            })
+        });
         let cmd = rig.stub.begin(0);
         written(&rig, cmd);
         // SAFETY: cmd is recording, the slot's work is done, all of the frame outlives it.

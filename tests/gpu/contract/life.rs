@@ -2,7 +2,7 @@
 
 use ash::vk;
 use whitewater::water::{Convolution, Rule, Shading, Shadows, Smoothing, Splat};
-use whitewater::{Config, Error, Frame, Slot};
+use whitewater::{Error, Slot};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, config, extent};
@@ -25,12 +25,13 @@ fn resize_gives_what_a_new_renderer_gives() {
         let name = format!("resize-{}", size.width);
         compare::same_color(&name, &rig.draw(&shot).output, &expected.output);
     }
-    let config = |size| Config {
-        cast: Some(32),
-        shadow: Some(Shadows::Map),
-        foam: true,
-        noise: Some(1),
-        ..config(size)
+    let config = |size| {
+        config(size).with(|it| {
+            it.cast = Some(32);
+            it.shadow = Some(Shadows::Map);
+            it.foam = true;
+            it.noise = Some(1);
+        })
     };
     let mut rig = Rig::lit(&gpu, &config(extent(96, 64)), 1);
     for size in [extent(33, 17), extent(1, 1), extent(96, 64)] {
@@ -55,30 +56,92 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
     let base = config(size);
     let configs = [
         base,
-        Config { smoothing_level: 0, thickness_level: 0, ..base },
-        Config { depth_splat: Some(Splat::Raster), ..base },
-        Config { in_place: true, extent: extent(33, 17), max_particles: 1000, ..base },
-        Config { environment_size: 32, rule: Rule::Fixed(12), ..base },
-        Config { output_format: vk::Format::R16G16B16A16_SFLOAT, ..base },
-        Config { composite: Some(Shading::Compute), ..base },
-        Config { smoothing: Some(Smoothing::Fused), max_iterations: 9, ..base },
-        Config { sheets: 2, ..base },
-        Config { sheets: 2, smoothing_level: 0, depth_splat: Some(Splat::Raster), ..base },
-        Config { foam: true, sheets: 2, extent: extent(50, 40), ..base },
-        Config { foam: true, depth_splat: Some(Splat::Raster), ..base },
-        Config { spray: true, ..base },
-        Config { spray: true, foam: true, composite: Some(Shading::Compute), ..base },
-        Config { noise: Some(1), sheets: 2, ..base },
-        Config { noise: Some(0), composite: Some(Shading::Compute), spray: true, ..base },
-        Config { cast: Some(32), ..base },
-        Config { cast: Some(64), shadow: Some(Shadows::Map), foam: true, spray: true, ..base },
-        Config { cast: Some(64), composite: Some(Shading::Compute), sheets: 2, ..base },
-        Config { shadow: Some(Shadows::Mask), extent: extent(50, 40), ..base },
-        Config { shadow: convolved(4, 8), spray: true, foam: true, ..base },
-        Config { shadow: convolved(16, 16), cast: Some(32), ..base },
-        Config { shadow: convolved(8, 8), composite: Some(Shading::Compute), ..base },
-        Config { motion: true, ..base },
-        Config { motion: true, foam: true, thickness_level: 0, extent: extent(50, 40), ..base },
+        base.with(|it| {
+            it.smoothing_level = 0;
+            it.thickness_level = 0;
+        }),
+        base.with(|it| it.depth_splat = Some(Splat::Raster)),
+        base.with(|it| {
+            it.in_place = true;
+            it.extent = extent(33, 17);
+            it.max_particles = 1000;
+        }),
+        base.with(|it| {
+            it.environment_size = 32;
+            it.rule = Rule::Fixed(12);
+        }),
+        base.with(|it| it.output_format = vk::Format::R16G16B16A16_SFLOAT),
+        base.with(|it| it.composite = Some(Shading::Compute)),
+        base.with(|it| {
+            it.smoothing = Some(Smoothing::Fused);
+            it.max_iterations = 9;
+        }),
+        base.with(|it| it.sheets = 2),
+        base.with(|it| {
+            it.sheets = 2;
+            it.smoothing_level = 0;
+            it.depth_splat = Some(Splat::Raster);
+        }),
+        base.with(|it| {
+            it.foam = true;
+            it.sheets = 2;
+            it.extent = extent(50, 40);
+        }),
+        base.with(|it| {
+            it.foam = true;
+            it.depth_splat = Some(Splat::Raster);
+        }),
+        base.with(|it| it.spray = true),
+        base.with(|it| {
+            it.spray = true;
+            it.foam = true;
+            it.composite = Some(Shading::Compute);
+        }),
+        base.with(|it| {
+            it.noise = Some(1);
+            it.sheets = 2;
+        }),
+        base.with(|it| {
+            it.noise = Some(0);
+            it.composite = Some(Shading::Compute);
+            it.spray = true;
+        }),
+        base.with(|it| it.cast = Some(32)),
+        base.with(|it| {
+            it.cast = Some(64);
+            it.shadow = Some(Shadows::Map);
+            it.foam = true;
+            it.spray = true;
+        }),
+        base.with(|it| {
+            it.cast = Some(64);
+            it.composite = Some(Shading::Compute);
+            it.sheets = 2;
+        }),
+        base.with(|it| {
+            it.shadow = Some(Shadows::Mask);
+            it.extent = extent(50, 40);
+        }),
+        base.with(|it| {
+            it.shadow = convolved(4, 8);
+            it.spray = true;
+            it.foam = true;
+        }),
+        base.with(|it| {
+            it.shadow = convolved(16, 16);
+            it.cast = Some(32);
+        }),
+        base.with(|it| {
+            it.shadow = convolved(8, 8);
+            it.composite = Some(Shading::Compute);
+        }),
+        base.with(|it| it.motion = true),
+        base.with(|it| {
+            it.motion = true;
+            it.foam = true;
+            it.thickness_level = 0;
+            it.extent = extent(50, 40);
+        }),
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -107,7 +170,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
     rig.collect(Slot(0));
     rig.collect(Slot(1));
     assert_eq!(rig.renderer().retired(), 0);
-    let bad = Config { max_particles: 0, ..base };
+    let bad = base.with(|it| it.max_particles = 0);
     assert!(matches!(rig.renderer().reconfigure(&bad), Err(Error::BadInput { .. })));
     assert_eq!(*rig.renderer().config(), base, "as it was");
 }
@@ -122,10 +185,9 @@ fn an_abandoned_frame_does_no_harm() {
     for slot in [1, 0, 1] {
         let (color, depth) = rig.scene(&shot);
         let cloud = rig.particles(&shot);
-        let frame = Frame {
-            slot: Slot(slot),
-            ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
-        };
+        let frame = shot
+            .frame(color.host_image(), depth.host_image(), cloud.particles())
+            .with(|it| it.slot = Slot(slot));
         let cmd = rig.stub.begin(slot);
         // SAFETY: cmd is recording; the slot's work is done.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
@@ -157,7 +219,7 @@ fn destroy_leaves_nothing() {
     let gpu = Gpu::own();
     for in_place in [true, false] {
         let size = extent(32, 16);
-        let mut rig = Rig::with_slots(&gpu, &Config { in_place, ..config(size) }, 3);
+        let mut rig = Rig::with_slots(&gpu, &config(size).with(|it| it.in_place = in_place), 3);
         rig.draw(&water(size, Lens::Standard));
         rig.resize(extent(16, 8));
         rig.draw(&water(extent(16, 8), Lens::Standard));

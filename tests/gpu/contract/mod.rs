@@ -31,7 +31,10 @@ pub fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
         Shadows::Mask => color,
         Shadows::Map | Shadows::Convolution(_) => depth,
     };
-    let view_projection = shot.camera.projection * shot.camera.view;
-    shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.1 });
+    let view_projection = shot.camera.projection_matrix() * shot.camera.view_matrix();
+    shot.sun.shadow = Some(
+        Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+            .with(|it| it.bias = 0.1),
+    );
     Some(image)
 }

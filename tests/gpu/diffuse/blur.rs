@@ -1,7 +1,6 @@
 //! Pass `blur` where it is wide.
 
 use glam::DVec2;
-use whitewater::Config;
 use whitewater::foam::{DiffuseConfig, Occlusion as Occluding};
 
 use super::{Diffuse, channel, diffusing, doubles, seen};
@@ -73,9 +72,9 @@ fn sheet(radius: f32) -> Diffuse {
 #[test]
 fn a_wide_blur_is_nearly_the_gaussian() {
     let gpu = Gpu::shared();
-    let diffuse = DiffuseConfig { occlusion: Occluding::Reference, ..DiffuseConfig::new(10_000) };
+    let diffuse = DiffuseConfig::new(10_000).with(|it| it.occlusion = Occluding::Reference);
     let size = extent(192, 128);
-    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(size) }, 1);
+    let mut rig = Rig::lit(&gpu, &diffusing(size).with(|it| it.diffuse = Some(diffuse)), 1);
     // 12 radii: within what is read pixel by pixel, and beyond it, up to more than the picture.
     for radius in [2.0_f32, 4.0, 9.0, 30.0] {
         let mut cloud = sheet(radius);

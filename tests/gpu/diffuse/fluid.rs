@@ -1,6 +1,5 @@
 //! The fluid that diffuse particles are before or behind, and that shades them.
 
-use whitewater::Config;
 use whitewater::foam::Submerged;
 
 use super::{Diffuse, SIZE, channel, diffusing, doubles};
@@ -18,7 +17,10 @@ use crate::support::scenes::{self, LENSES, Lens};
 fn the_fluid_round_foam_is_smooth() {
     let gpu = Gpu::shared();
     for (lens, smoothing_level) in [(Lens::Standard, 1), (Lens::OffAxis, 0), (Lens::Reversed, 2)] {
-        let config = Config { smoothing_level, max_particles: 20_000, ..diffusing(SIZE) };
+        let config = diffusing(SIZE).with(|it| {
+            it.smoothing_level = smoothing_level;
+            it.max_particles = 20_000;
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut cloud = Diffuse::new(lens);
         let block = scenes::block(3, 0.2, [30, 20, 4], [-3.0, -2.0, 4.0]);

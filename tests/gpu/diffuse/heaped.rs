@@ -1,6 +1,5 @@
 //! Particles heaped on one spot, dead ones parked at the origin say: their sums fill up, end, and lose nothing else.
 
-use whitewater::Config;
 use whitewater::foam::{DiffuseConfig, Splat};
 
 use super::{Diffuse, SIZE, diffusing, ways};
@@ -13,7 +12,7 @@ use crate::support::scenes::{self, Lens};
 fn many_on_one_spot_are_as_many_as_there_is_room_for() {
     let gpu = Gpu::shared();
     let diffuse = DiffuseConfig::new(200_000);
-    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
     let mut cloud = Diffuse::new(Lens::Standard);
     let count = 200_000;
     cloud.positions = scenes::world(&cloud.shot.camera, &vec![[0.0, 0.0, 4.0]; count]);
@@ -49,8 +48,8 @@ fn a_heap_before_the_water_hides_nothing_under_it() {
         shot: shot.clone(),
     };
     for way in ways(&gpu).into_iter().filter(|way| *way != Splat::Raster) {
-        let diffuse = DiffuseConfig { splat: Some(way), ..DiffuseConfig::new(count as u32) };
-        let config = Config { diffuse: Some(diffuse), ..diffusing(SIZE) };
+        let diffuse = DiffuseConfig::new(count as u32).with(|it| it.splat = Some(way));
+        let config = diffusing(SIZE).with(|it| it.diffuse = Some(diffuse));
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut thickness = |points| cloud(points).draw(&mut rig).diffuse.expect("foam").thickness;
         let (first, last) = (thickness([&under, &heap]), thickness([&heap, &under]));

@@ -1,8 +1,8 @@
 //! Foam that is alone, a pixel or a few: no neighbour's points help its light to be right and steady.
 
 use glam::{DVec2, DVec3};
+use whitewater::Settings;
 use whitewater::foam::{DiffuseConfig, Irradiance, Reach};
-use whitewater::{Config, Settings};
 
 use super::{Diffuse, SIZE, channel, diffusing, doubles, even, seen};
 use crate::reference::diffuse::{self, Layers, Occlusion};
@@ -69,8 +69,8 @@ impl Lone {
 }
 
 fn rig<'a>(gpu: &'a Gpu, irradiance: Irradiance) -> Rig<'a> {
-    let diffuse = DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) };
-    Rig::lit(gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1)
+    let diffuse = DiffuseConfig::new(4096).with(|it| it.irradiance = irradiance);
+    Rig::lit(gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(diffuse)), 1)
 }
 
 /// Radii in pixels, slopes of the wall, and where in a pixel: over a whole one on a slant. On a sloped wall only where it covers

@@ -16,7 +16,7 @@ use whitewater::foam::{
 };
 use whitewater::headless;
 use whitewater::water::{Shading, Shadows};
-use whitewater::{Config, Count, DiffuseParticles, HostImage, Region, Renderer, Settings};
+use whitewater::{Config, Count, DiffuseParticles, Region, Renderer, Settings};
 
 use crate::light::even as mask;
 use crate::reference::diffuse::{self, Layers, Occlusion, Particle, Seen, foam_bounds};
@@ -36,15 +36,15 @@ const TURNED: f64 = SQRT_3 * std::f64::consts::SQRT_2 * 0.5 / 127.0 + 2.0 * HALF
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
 fn diffusing(size: vk::Extent2D) -> Config {
-    let diffuse = DiffuseConfig { occlusion: Occluding::Reference, ..DiffuseConfig::new(4096) };
-    Config { diffuse: Some(diffuse), ..config(size) }
+    let diffuse = DiffuseConfig::new(4096).with(|it| it.occlusion = Occluding::Reference);
+    config(size).with(|it| it.diffuse = Some(diffuse))
 }
 
 /// The same by a way to draw them.
 fn by(way: Splat, size: vk::Extent2D) -> Config {
     let config = diffusing(size);
-    let diffuse = config.diffuse.map(|diffuse| DiffuseConfig { splat: Some(way), ..diffuse });
-    Config { diffuse, ..config }
+    let diffuse = config.diffuse.map(|diffuse| diffuse.with(|it| it.splat = Some(way)));
+    config.with(|it| it.diffuse = diffuse)
 }
 
 /// Those that there are.
@@ -110,13 +110,11 @@ impl Diffuse {
     fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
         let (water, cloud) = (rig.particles(&self.shot), rig.diffuse(&self.input()));
         let fluid = self.fluid.as_ref().map(|shot| (rig.scene(shot).1, shot));
-        let particles = DiffuseParticles {
-            fluid_depth: fluid.as_ref().map(|(texture, shot)| HostImage {
-                rect: shot.with_margin(shot.depth_extent).1,
-                ..texture.host_image()
-            }),
-            ..cloud.particles()
-        };
+        let particles = cloud.particles().with(|it| {
+            it.fluid_depth = fluid.as_ref().map(|(texture, shot)| {
+                texture.host_image().with(|it| it.rect = shot.with_margin(shot.depth_extent).1)
+            })
+        });
         rig.draw_diffuse(&self.shot, &water.particles(), Some(particles))
     }
 
@@ -249,8 +247,9 @@ fn pixels_may_be_far_from_square() {
         let mut rig = Rig::lit(&gpu, &by(way, SIZE), 1);
         for stretch in [vec3(0.15, 1.0, 1.0), vec3(1.0, 0.15, 1.0)] {
             let mut cloud = Diffuse::new(Lens::Standard);
-            let projection = &mut cloud.shot.camera.projection;
-            *projection = Mat4::from_scale(stretch) * *projection;
+            let camera = &mut cloud.shot.camera;
+            camera.projection =
+                (Mat4::from_scale(stretch) * camera.projection_matrix()).to_cols_array_2d();
             foam_is_the_twins_of(&mut rig, &cloud, &format!("{stretch}"), 0);
         }
     }
@@ -320,8 +319,8 @@ fn shadow_is_the_twins() {
         (Lens::Standard, Reach::Radii(2.0), Occluding::Fast),
         (Lens::OffAxis, Reach::Metres(5.0), Occluding::Fast),
     ] {
-        let diffuse = DiffuseConfig { occlusion, ..DiffuseConfig::new(4096) };
-        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let diffuse = DiffuseConfig::new(4096).with(|it| it.occlusion = occlusion);
+        let mut rig = Rig::lit(&gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
         let mut cloud = Diffuse::new(lens);
         let look = &mut cloud.shot.settings.diffuse;
         look.reach = reach;
@@ -395,7 +394,7 @@ fn facings_are_the_twins(
 fn fast_shadow_does_not_change_with_the_distance() {
     let gpu = Gpu::shared();
     let mut rig =
-        Rig::lit(&gpu, &Config { diffuse: Some(DiffuseConfig::new(8000)), ..diffusing(SIZE) }, 1);
+        Rig::lit(&gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(DiffuseConfig::new(8000))), 1);
     // Larger ones have spheres that leave the picture.
     for pixels in [0.02_f32, 0.1, 0.5, 1.5] {
         let mut cloud = Diffuse::new(Lens::Standard);
@@ -411,7 +410,7 @@ fn fast_shadow_does_not_change_with_the_distance() {
         // Of foam itself nothing hides.
         look.half = 1.0e6;
         // One in the middle of each pixel, its front at the wall.
-        let (depth, scale) = (depth + 0.95 * radius, cloud.shot.camera.projection);
+        let (depth, scale) = (depth + 0.95 * radius, cloud.shot.camera.projection_matrix());
         let middle = |i: u32, n: u32, scale: f32| ((2 * i + 1) as f32 / n as f32 - 1.0) / scale;
         let points: Vec<_> = (0..SIZE.width * SIZE.height)
             .map(|i| (i % SIZE.width, i / SIZE.width))
@@ -445,7 +444,7 @@ fn fast_shadow_does_not_change_with_the_distance() {
 fn the_foam_of_a_single_pixel_has_light() {
     let gpu = Gpu::shared();
     let diffuse = DiffuseConfig::new(4096);
-    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
     let mut cloud = Diffuse::new(Lens::Standard);
     even(&mut rig, &mut cloud.shot, [1.0; 4]);
     cloud.shot.positions.clear();
@@ -494,8 +493,11 @@ fn light_of_an_even_environment_is_half_of_it() {
     let gpu = Gpu::shared();
     for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
         let occlusion = Occluding::Reference;
-        let diffuse = DiffuseConfig { irradiance, occlusion, ..DiffuseConfig::new(4096) };
-        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let diffuse = DiffuseConfig::new(4096).with(|it| {
+            it.irradiance = irradiance;
+            it.occlusion = occlusion;
+        });
+        let mut rig = Rig::lit(&gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
         let mut cloud = Diffuse::new(Lens::Standard);
         even(&mut rig, &mut cloud.shot, [1.0, 2.0, 0.25, 1.0]);
         let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
@@ -524,8 +526,11 @@ fn both_ways_to_gather_light_agree() {
     let gpu = Gpu::shared();
     let draw = |irradiance| {
         let occlusion = Occluding::Reference;
-        let diffuse = DiffuseConfig { irradiance, occlusion, ..DiffuseConfig::new(4096) };
-        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let diffuse = DiffuseConfig::new(4096).with(|it| {
+            it.irradiance = irradiance;
+            it.occlusion = occlusion;
+        });
+        let mut rig = Rig::lit(&gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
         let mut cloud = Diffuse::new(Lens::Standard);
         // Bright above, dark below.
         let texels: Vec<_> =
@@ -551,7 +556,7 @@ fn foam_lies_over_the_scene() {
     let gpu = Gpu::shared();
     for (shading, mixing) in [(Shading::Raster, Mixing::Scaled), (Shading::Compute, Mixing::Source)]
     {
-        let config = Config { composite: Some(shading), ..diffusing(SIZE) };
+        let config = diffusing(SIZE).with(|it| it.composite = Some(shading));
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut cloud = Diffuse::new(Lens::Standard);
         cloud.shot.positions.clear();
@@ -591,7 +596,7 @@ fn foam_lies_over_the_scene() {
 #[test]
 fn bubbles_lie_under_the_water() {
     let gpu = Gpu::shared();
-    let config = Config { max_particles: 20_000, ..diffusing(SIZE) };
+    let config = diffusing(SIZE).with(|it| it.max_particles = 20_000);
     let mut rig = Rig::lit(&gpu, &config, 1);
     let draw = |rig: &mut Rig<'_>, depth: Option<f32>| {
         // A wall of water from 4 to 7, and a cloud of bubbles before, in and behind it.
@@ -705,28 +710,28 @@ fn mistakes_are_named() {
     let good = DiffuseParticles::new(stream(&data, 0, 12), Count::Cpu(80));
     let short = Some(stream(&data, 1000, 4));
     for (field, particles) in [
-        ("Frame.diffuse.positions", DiffuseParticles { count: Count::Cpu(86), ..good }),
-        ("Frame.diffuse.count", DiffuseParticles { count: Count::Cpu(4097), ..good }),
-        ("Frame.diffuse.kinds", DiffuseParticles { kinds: short, ..good }),
-        ("Frame.diffuse.radii", DiffuseParticles { radii: short, ..good }),
-        ("Frame.diffuse.ages", DiffuseParticles { ages: short, ..good }),
-        ("Frame.diffuse.ids", DiffuseParticles { ids: Some(stream(&data, 2, 4)), ..good }),
+        ("Frame.diffuse.positions", good.with(|it| it.count = Count::Cpu(86))),
+        ("Frame.diffuse.count", good.with(|it| it.count = Count::Cpu(4097))),
+        ("Frame.diffuse.kinds", good.with(|it| it.kinds = short)),
+        ("Frame.diffuse.radii", good.with(|it| it.radii = short)),
+        ("Frame.diffuse.ages", good.with(|it| it.ages = short)),
+        ("Frame.diffuse.ids", good.with(|it| it.ids = Some(stream(&data, 2, 4)))),
     ] {
         let error = rig.refused(&cloud.shot, Some(particles));
         assert!(error.contains(field), "{field}: {error}");
     }
     let (_, depth) = rig.scene(&cloud.shot);
-    let lost = HostImage { before: whitewater::access::NOTHING, ..depth.host_image() };
-    let lost = DiffuseParticles { fluid_depth: Some(lost), ..good };
+    let lost = depth.host_image().with(|it| it.before = whitewater::access::NOTHING);
+    let lost = good.with(|it| it.fluid_depth = Some(lost));
     let error = rig.refused(&cloud.shot, Some(lost));
     assert!(error.contains("Frame.diffuse.fluid_depth"), "{error}");
     let error = Rig::new(&gpu, &config(SIZE)).refused(&cloud.shot, Some(good));
     assert!(error.contains("Frame.diffuse"), "{error}");
     for (field, diffuse) in [
         ("Config.diffuse.max_particles", DiffuseConfig::new(0)),
-        ("Config.diffuse.max_stride", DiffuseConfig { max_stride: 8, ..DiffuseConfig::new(1) }),
+        ("Config.diffuse.max_stride", DiffuseConfig::new(1).with(|it| it.max_stride = 8)),
     ] {
-        let config = Config { diffuse: Some(diffuse), ..config(SIZE) };
+        let config = config(SIZE).with(|it| it.diffuse = Some(diffuse));
         let error = Renderer::new(&gpu.context(1), &config).err().expect("refused");
         assert!(error.to_string().contains(field), "{field}: {error}");
     }
@@ -735,7 +740,7 @@ fn mistakes_are_named() {
 #[test]
 fn the_sun_shines_as_far_as_it_comes() {
     let gpu = Gpu::shared();
-    let config = Config { shadow: Some(Shadows::Mask), ..diffusing(SIZE) };
+    let config = diffusing(SIZE).with(|it| it.shadow = Some(Shadows::Mask));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut cloud = Diffuse::new(Lens::Reversed);
     let mut draw = |part: f32| {
@@ -756,7 +761,7 @@ fn the_sun_shines_as_far_as_it_comes() {
 fn water_takes_the_sun_from_foam() {
     let gpu = Gpu::shared();
     let of = |cast: Option<u32>| {
-        let mut rig = Rig::lit(&gpu, &Config { cast, ..diffusing(SIZE) }, 1);
+        let mut rig = Rig::lit(&gpu, &diffusing(SIZE).with(|it| it.cast = cast), 1);
         // A slab of water between the sun and foam, both before the eye.
         let mut shot = Shot::new(SIZE, Lens::Standard, 0.0656, &[]);
         shot.settings.light.direction = [0.0, 1.0, 0.0];

@@ -1,8 +1,8 @@
 //! The host's packets of diffuse particles: what they pass over does not show, what is in none is not there.
 
 use ash::vk;
-use whitewater::foam::{DiffuseConfig, Splat};
-use whitewater::{Config, DiffuseParticles, Packets};
+use whitewater::foam::Splat;
+use whitewater::{Config, Packets};
 
 use super::{Diffuse, SIZE, by, ways};
 use crate::invariants::packet_bytes;
@@ -15,9 +15,13 @@ const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
 
 fn with_packets(way: Splat, max_stride: u32) -> Config {
     let config = by(way, SIZE);
-    let diffuse =
-        config.diffuse.map(|diffuse| DiffuseConfig { packets: true, max_stride, ..diffuse });
-    Config { diffuse, ..config }
+    let diffuse = config.diffuse.map(|diffuse| {
+        diffuse.with(|it| {
+            it.packets = true;
+            it.max_stride = max_stride;
+        })
+    });
+    config.with(|it| it.diffuse = diffuse)
 }
 
 /// Packets of some of the particles, with boxes that hold them whole.
@@ -43,7 +47,7 @@ fn draw(rig: &mut Rig<'_>, cloud: &Diffuse, packets: &[u8]) -> Drawn {
     let data = rig.stub.data(packets, STORAGE);
     let count = packets.len() as u32 / 32;
     let packets = Some(Packets { buffer: data.buffer, offset: 0, count });
-    let particles = DiffuseParticles { packets, ..particles.particles() };
+    let particles = particles.particles().with(|it| it.packets = packets);
     rig.draw_diffuse(&cloud.shot, &water.particles(), Some(particles))
 }
 
@@ -51,7 +55,7 @@ fn draw(rig: &mut Rig<'_>, cloud: &Diffuse, packets: &[u8]) -> Drawn {
 fn around(lens: Lens) -> Diffuse {
     let mut cloud = Diffuse::new(lens);
     let n = cloud.positions.len();
-    let camera = cloud.shot.camera.view.inverse();
+    let camera = cloud.shot.camera.view_matrix().inverse();
     let side = |v: [f32; 3], offset: [f32; 3]| {
         let moved = camera.transform_vector3(glam::Vec3::from(offset));
         (glam::Vec3::from(v) + moved).to_array()
@@ -137,7 +141,7 @@ fn particles_are_where_their_packets_are() {
         let found = draw(&mut rig, &cloud, &half);
         compare::same_color("diffuse-packets-half", &found.output, &expected.output);
         for offset in [[0.0, 0.0, 60.0], [200.0, 0.0, 0.0], [0.0, -200.0, 0.0], [f32::NAN; 3]] {
-            let moved = cloud.shot.camera.view.inverse().transform_vector3(offset.into());
+            let moved = cloud.shot.camera.view_matrix().inverse().transform_vector3(offset.into());
             let beside: Vec<_> =
                 cloud.positions.iter().map(|p| (glam::Vec3::from(*p) + moved).to_array()).collect();
             let beside = boxes(&beside, radii, &[(n / 2, n - n / 2)]);
@@ -162,7 +166,7 @@ fn bad_packets_are_errors() {
     let particles = rig.diffuse(&cloud.input());
     let data = rig.stub.data(&[0; 64], STORAGE);
     let good = Packets { buffer: data.buffer, offset: 0, count: 1 };
-    let given = |packets| DiffuseParticles { packets: Some(packets), ..particles.particles() };
+    let given = |packets| particles.particles().with(|it| it.packets = Some(packets));
     for (field, packets) in [
         ("Frame.diffuse.packets.offset", Packets { offset: 2, ..good }),
         ("Frame.diffuse.packets.count", Packets { count: 65_536, ..good }),

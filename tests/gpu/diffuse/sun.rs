@@ -1,6 +1,6 @@
 //! The sun of a map, which the light tells of as well.
 
-use whitewater::{EnvironmentSource, Equirectangular, Frame, Recorded, Slot};
+use whitewater::{EnvironmentSource, Equirectangular, Recorded, Slot};
 
 use super::*;
 
@@ -9,8 +9,8 @@ use super::*;
 fn the_sun_of_a_map_is_not_gathered() {
     let gpu = Gpu::shared();
     for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
-        let diffuse = Some(DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) });
-        let mut rig = Rig::new(&gpu, &Config { diffuse, ..diffusing(SIZE) });
+        let diffuse = Some(DiffuseConfig::new(4096).with(|it| it.irradiance = irradiance));
+        let mut rig = Rig::new(&gpu, &diffusing(SIZE).with(|it| it.diffuse = diffuse));
         let mut cloud = Diffuse::new(Lens::Standard);
         // The light's own sun apart.
         cloud.shot.settings.light.shade = cloud.shot.settings.light.irradiance;
@@ -37,8 +37,8 @@ fn the_sun_of_a_map_is_not_gathered() {
 fn to_sample_the_environment_makes_it_anew() {
     let gpu = Gpu::shared();
     let of = |irradiance| {
-        let diffuse = Some(DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) });
-        Config { diffuse, ..diffusing(SIZE) }
+        let diffuse = Some(DiffuseConfig::new(4096).with(|it| it.irradiance = irradiance));
+        diffusing(SIZE).with(|it| it.diffuse = diffuse)
     };
     let mut rig = Rig::new(&gpu, &of(Irradiance::Prefiltered));
     let before = rig.renderer().memory().images;
@@ -65,8 +65,8 @@ fn the_environment_changes_between_frames_in_flight() {
     let size = extent(16, 8);
     let maps = [[0.7, 0.6, 0.5, 1.0], [0.1, 0.9, 0.3, 1.0]].map(|color| [color; 128]);
     for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
-        let diffuse = Some(DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) });
-        let config = Config { diffuse, ..diffusing(SIZE) };
+        let diffuse = Some(DiffuseConfig::new(4096).with(|it| it.irradiance = irradiance));
+        let config = diffusing(SIZE).with(|it| it.diffuse = diffuse);
         let mut cloud = Diffuse::new(Lens::Standard);
         cloud.shot.settings.light.shade = cloud.shot.settings.light.irradiance;
         let alone = maps.each_ref().map(|map| {
@@ -81,18 +81,16 @@ fn the_environment_changes_between_frames_in_flight() {
             let flights = [0, 1].map(|slot| {
                 let (color, depth) = rig.scene(&cloud.shot);
                 let (water, foam) = (rig.particles(&cloud.shot), rig.diffuse(&cloud.input()));
-                let frame = Frame {
-                    slot: Slot(slot),
-                    diffuse: Some(foam.particles()),
-                    ..cloud.shot.frame(color.host_image(), depth.host_image(), water.particles())
-                };
-                let source = EnvironmentSource::Equirectangular(Equirectangular {
-                    image: maps[slot as usize].host_image(),
-                    without_sun: None,
-                    scale: 1.0,
-                    turn: 0.0,
-                    up: [0.0, 1.0, 0.0],
-                });
+                let frame = cloud
+                    .shot
+                    .frame(color.host_image(), depth.host_image(), water.particles())
+                    .with(|it| {
+                        it.slot = Slot(slot);
+                        it.diffuse = Some(foam.particles());
+                    });
+                let source = EnvironmentSource::Equirectangular(Equirectangular::new(
+                    maps[slot as usize].host_image(),
+                ));
                 let cmd = rig.stub.begin(slot);
                 let renderer = rig.renderer();
                 // SAFETY: cmd is recording, the slot was waited for, the handles live to the end of the round.

@@ -2,7 +2,7 @@
 
 use ash::vk;
 use whitewater::foam::{DiffuseConfig, Occlusion as Occluding, Splat};
-use whitewater::{Config, Count, DiffuseParticles, Renderer};
+use whitewater::{Count, DiffuseParticles, Renderer};
 
 use super::{Diffuse, SIZE, by, diffusing, ways};
 use crate::support::compare;
@@ -48,7 +48,7 @@ fn the_frontmost_of_equals_is_the_same() {
     let gpu = Gpu::shared();
     let mut cloud = Diffuse::new(Lens::Standard);
     cloud.shot = Shot::new(SIZE, Lens::Standard, 0.2, &[]);
-    let (depth, scale) = (6.0_f32, cloud.shot.camera.projection);
+    let (depth, scale) = (6.0_f32, cloud.shot.camera.projection_matrix());
     let middle = |i: u32, n: u32, scale: f32| ((2 * i + 1) as f32 / n as f32 - 1.0) / scale;
     let radius = 1.5 * depth / (0.5 * SIZE.height as f32) / scale.y_axis.y.abs();
     let grid = || {
@@ -100,7 +100,7 @@ fn more_large_ones_than_there_is_room_for() {
     let n = points.len();
     cloud.positions = scenes::world(&cloud.shot.camera, &points);
     // At the depth of the farthest 18 pixels wide and more.
-    let scale = cloud.shot.camera.projection.y_axis.y.abs() * 0.5 * SIZE.height as f32;
+    let scale = cloud.shot.camera.projection_matrix().y_axis.y.abs() * 0.5 * SIZE.height as f32;
     cloud.radii = Some(vec![5.0 * 9.0 * 6.0 / scale; n]);
     (cloud.kinds, cloud.ages, cloud.ids) = (vec![0; n], vec![0.0; n], Some(vec![4; n]));
     let range = u64::from(gpu.limits().max_storage_buffer_range);
@@ -109,9 +109,13 @@ fn more_large_ones_than_there_is_room_for() {
         let [found, expected] = [12, range as u32 / 5000 / 4 * 4].map(|max_stride| {
             let config = by(way, SIZE);
             let max_particles = n as u32;
-            let diffuse =
-                config.diffuse.map(|own| DiffuseConfig { max_particles, max_stride, ..own });
-            cloud.draw(&mut Rig::lit(&gpu, &Config { diffuse, ..config }, 1))
+            let diffuse = config.diffuse.map(|own| {
+                own.with(|it| {
+                    it.max_particles = max_particles;
+                    it.max_stride = max_stride;
+                })
+            });
+            cloud.draw(&mut Rig::lit(&gpu, &config.with(|it| it.diffuse = diffuse), 1))
         });
         same(way, &found, &expected);
     }
@@ -140,9 +144,12 @@ fn streams_of_any_shape_by(gpu: &Gpu, way: Splat) {
     {
         let occlusion = Occluding::Reference;
         let splat = Some(way);
-        let diffuse =
-            DiffuseConfig { max_stride: stride, splat, occlusion, ..DiffuseConfig::new(500) };
-        let mut rig = Rig::lit(gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let diffuse = DiffuseConfig::new(500).with(|it| {
+            it.max_stride = stride;
+            it.splat = splat;
+            it.occlusion = occlusion;
+        });
+        let mut rig = Rig::lit(gpu, &diffusing(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
         let count = cloud.positions.len();
         let mut bytes = vec![0xa5_u8; 20 + stride as usize * count];
         for (i, record) in bytes[20..].chunks_exact_mut(stride as usize).enumerate() {
@@ -162,15 +169,14 @@ fn streams_of_any_shape_by(gpu: &Gpu, way: Splat) {
         } else {
             Count::Cpu(count as u32)
         };
-        let particles = DiffuseParticles {
-            kinds: Some(at(12)),
-            radii: Some(at(16)),
-            ages: Some(at(20)),
-            ids: named.then(|| at(24)),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..DiffuseParticles::new(at(0), count)
-        };
+        let particles = DiffuseParticles::new(at(0), count).with(|it| {
+            it.kinds = Some(at(12));
+            it.radii = Some(at(16));
+            it.ages = Some(at(20));
+            it.ids = named.then(|| at(24));
+            it.before = HOST_WRITE;
+            it.after = HOST_WRITE;
+        });
         let water = rig.particles(&cloud.shot);
         let drawn = rig.draw_diffuse(&cloud.shot, &water.particles(), Some(particles));
         let name = format!("diffuse-stride-{way:?}-{stride}-{counted}");
@@ -207,9 +213,10 @@ fn memory_is_by_the_pixel() {
     let gpu = Gpu::shared();
     let of = |most, way| {
         let size = extent(1280, 720);
-        let diffuse = DiffuseConfig { splat: Some(way), ..DiffuseConfig::new(most) };
+        let diffuse = DiffuseConfig::new(most).with(|it| it.splat = Some(way));
         let diffuse = (most > 1).then_some(diffuse);
-        let renderer = Renderer::new(&gpu.context(1), &Config { diffuse, ..config(size) });
+        let renderer =
+            Renderer::new(&gpu.context(1), &config(size).with(|it| it.diffuse = diffuse));
         let renderer = renderer.expect("a renderer");
         let memory = renderer.memory();
         // SAFETY: nothing was recorded.

@@ -20,7 +20,7 @@ use crate::support::tolerance::{self, Between, Sum, U};
 const STORAGE: ash::vk::BufferUsageFlags = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
 
 fn foaming(size: ash::vk::Extent2D) -> Config {
-    Config { foam: true, ..config(size) }
+    config(size).with(|it| it.foam = true)
 }
 
 /// A shot with foam.
@@ -44,12 +44,11 @@ pub struct Streams {
 
 impl Streams {
     pub fn particles(&self) -> Particles {
-        Particles {
-            foam: Some(stream(&self.amounts, 0, 8)),
-            velocities: Some(stream(&self.velocities, 0, 12)),
-            ids: self.ids.as_ref().map(|ids| stream(ids, 0, 4)),
-            ..self.cloud.particles()
-        }
+        self.cloud.particles().with(|it| {
+            it.foam = Some(stream(&self.amounts, 0, 8));
+            it.velocities = Some(stream(&self.velocities, 0, 12));
+            it.ids = self.ids.as_ref().map(|ids| stream(ids, 0, 4));
+        })
     }
 }
 
@@ -162,7 +161,10 @@ fn foam_is_the_twins() {
     let both = [Splat::Compute, Splat::Raster];
     for (level, splat) in [1, 0, 2].into_iter().flat_map(|level| both.map(|splat| (level, splat))) {
         let thickness_splat = Some(splat);
-        let config = Config { thickness_level: level, thickness_splat, ..foaming(size) };
+        let config = foaming(size).with(|it| {
+            it.thickness_level = level;
+            it.thickness_splat = thickness_splat;
+        });
         let mut rig = Rig::new(&gpu, &config);
         let lenses = if level == 1 { &LENSES[..] } else { &[Lens::OffAxis] };
         for lens in lenses {
@@ -189,7 +191,7 @@ fn foam_is_the_twins() {
 fn near_sprites_of_all_sizes_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config { thickness_level: 0, ..foaming(size) };
+    let config = foaming(size).with(|it| it.thickness_level = 0);
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = Foamy::new(size, Lens::Standard, 0.0);
     // One after the other a little smaller, and anywhere between the texels.
@@ -211,13 +213,12 @@ fn what_is_foam_is_no_water() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for splat in [Splat::Raster, Splat::Compute] {
-        let config = Config {
-            thickness_splat: Some(splat),
-            depth_splat: Some(splat),
-            sheets: 1,
-            thickness_level: 1,
-            ..foaming(size)
-        };
+        let config = foaming(size).with(|it| {
+            it.thickness_splat = Some(splat);
+            it.depth_splat = Some(splat);
+            it.sheets = 1;
+            it.thickness_level = 1;
+        });
         let mut rig = Rig::new(&gpu, &config);
         let mut case = Foamy::new(size, Lens::Reversed, 10.0);
         case.shot.settings.water.smoothing_width = 0.0;
@@ -321,11 +322,11 @@ fn motion_and_ids_show() {
 fn the_order_of_particles_does_not_show_in_foam() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config { spray: true, ..foaming(size) };
-    let blended = Config { depth_splat: Some(Splat::Raster), ..config };
+    let config = foaming(size).with(|it| it.spray = true);
+    let blended = config.with(|it| it.depth_splat = Some(Splat::Raster));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut blending =
-        Rig::lit(&gpu, &Config { thickness_splat: Some(Splat::Raster), ..blended }, 1);
+        Rig::lit(&gpu, &blended.with(|it| it.thickness_splat = Some(Splat::Raster)), 1);
     let mut case = Foamy::new(size, Lens::Reversed, 30.0);
     let n = case.shot.positions.len();
     case.shot.densities = Some((0..n).map(|i| 1000.0 * (i % 7) as f32 / 6.0).collect());
@@ -361,8 +362,13 @@ fn the_order_of_particles_does_not_show_in_foam() {
 fn chunks_of_foam_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig =
-        Rig::new(&gpu, &Config { max_stride: 1 << 20, thickness_level: 1, ..foaming(size) });
+    let mut rig = Rig::new(
+        &gpu,
+        &foaming(size).with(|it| {
+            it.max_stride = 1 << 20;
+            it.thickness_level = 1;
+        }),
+    );
     let mut case = Foamy::new(size, Lens::OffAxis, 20.0);
     for _ in 0..2 {
         let drawn = case.draw(&mut rig);
@@ -376,7 +382,10 @@ fn chunks_of_foam_are_the_twins() {
 fn sums_of_foam_end_where_they_are_full() {
     let gpu = Gpu::shared();
     let size = extent(41, 31);
-    let config = Config { thickness_level: 1, max_particles: 1 << 14, ..foaming(size) };
+    let config = foaming(size).with(|it| {
+        it.thickness_level = 1;
+        it.max_particles = 1 << 14;
+    });
     let mut rig = Rig::new(&gpu, &config);
     let mut case = Foamy::new(size, Lens::Standard, 0.0);
     (case.shot.settings.foam.noise, case.shot.settings.foam.pattern) = (0.0, 0.0);
@@ -403,7 +412,7 @@ fn the_scenes_outline_in_foam_is_sharp() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for shading in [Shading::Raster, Shading::Compute] {
-        let mut rig = Rig::lit(&gpu, &Config { composite: Some(shading), ..foaming(size) }, 1);
+        let mut rig = Rig::lit(&gpu, &foaming(size).with(|it| it.composite = Some(shading)), 1);
         let mut wall = Foamy::new(size, Lens::Standard, 0.0);
         let block = scenes::block(3, 0.1, [44, 30, 3], [-2.2, -1.5, 2.0]);
         wall.shot.positions = scenes::world(&wall.shot.camera, &block);
@@ -431,7 +440,7 @@ fn foam_of_any_size() {
     for (width, height) in [(1, 1), (1, 7), (3, 5), (17, 33), (130, 9)] {
         let size = extent(width, height);
         // At full resolution: the middle of a wider texel may be out of the view, which is culled.
-        let config = Config { thickness_level: 0, ..foaming(size) };
+        let config = foaming(size).with(|it| it.thickness_level = 0);
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = Foamy::new(size, Lens::Reversed, 20.0);
         case.shot.margin = [3, 1, 2, 4];

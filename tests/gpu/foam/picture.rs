@@ -14,14 +14,13 @@ use crate::support::tolerance::U;
 
 /// All at full resolution, and a picture of floats.
 pub(super) fn whole(size: ash::vk::Extent2D, shading: Shading) -> Config {
-    Config {
-        composite: Some(shading),
-        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
-        thickness_level: 0,
-        smoothing_level: 0,
-        coarsening: 0,
-        ..foaming(size)
-    }
+    foaming(size).with(|it| {
+        it.composite = Some(shading);
+        it.output_format = ash::vk::Format::R32G32B32A32_SFLOAT;
+        it.thickness_level = 0;
+        it.smoothing_level = 0;
+        it.coarsening = 0;
+    })
 }
 
 /// Opaque foam before all water has its own colour, whatever is behind it; foam alone lies over the
@@ -238,7 +237,10 @@ fn foam_under_a_veil_lies_under_water() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for shading in [Shading::Raster, Shading::Compute] {
-        let config = Config { sheets: 1, max_particles: 6000, ..whole(size, shading) };
+        let config = whole(size, shading).with(|it| {
+            it.sheets = 1;
+            it.max_particles = 6000;
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let case = veiled(size);
         let drawn = case.draw(&mut rig);
@@ -333,11 +335,10 @@ fn the_last_of_foam_shows_in_every_tile() {
 fn the_relief_of_foam_follows_the_sun() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config {
-        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
-        thickness_level: 0,
-        ..foaming(size)
-    };
+    let config = foaming(size).with(|it| {
+        it.output_format = ash::vk::Format::R32G32B32A32_SFLOAT;
+        it.thickness_level = 0;
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
         let mut case = Foamy::new(size, lens, 0.0);
@@ -396,12 +397,11 @@ fn the_shape_of_a_splash_lights_its_foam() {
     const AROUND: f64 = 6.0;
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config {
-        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
-        thickness_level: 0,
-        max_particles: 600,
-        ..foaming(size)
-    };
+    let config = foaming(size).with(|it| {
+        it.output_format = ash::vk::Format::R32G32B32A32_SFLOAT;
+        it.thickness_level = 0;
+        it.max_particles = 600;
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
         let mut case = Foamy::new(size, lens, 0.0);
@@ -479,13 +479,12 @@ fn the_shape_of_a_splash_lights_its_foam() {
 fn the_ladder_adds_a_layer_a_rung() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let config = Config {
-        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
-        thickness_level: 0,
-        smoothing_level: 0,
-        sheets: 1,
-        ..foaming(size)
-    };
+    let config = foaming(size).with(|it| {
+        it.output_format = ash::vk::Format::R32G32B32A32_SFLOAT;
+        it.thickness_level = 0;
+        it.smoothing_level = 0;
+        it.sheets = 1;
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = Foamy::new(size, Lens::OffAxis, 10.0);
     case.shot.settings.water.refraction = 0.0;

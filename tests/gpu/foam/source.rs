@@ -1,7 +1,6 @@
 //! The picture as the source composes it, against its twin, on the layers read back.
 
 use glam::DVec3;
-use whitewater::Config;
 use whitewater::water::{Compositing, Fresnel, Medium, Shading};
 
 use super::Foamy;
@@ -24,7 +23,10 @@ fn the_sources_picture_is_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for shading in [Shading::Raster, Shading::Compute] {
-        let config = Config { sheets: 1, max_particles: 6000, ..whole(size, shading) };
+        let config = whole(size, shading).with(|it| {
+            it.sheets = 1;
+            it.max_particles = 6000;
+        });
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         let mut case = veiled(size);
@@ -36,7 +38,7 @@ fn the_sources_picture_is_the_twins() {
         let [open, veiled, under] = check(&case, &case.draw(&mut rig));
         assert!(open > 100 && veiled > 50 && under > 100, "{open} {veiled} {under}");
 
-        let mut rig = Rig::new(&gpu, &Config { foam: false, ..config });
+        let mut rig = Rig::new(&gpu, &config.with(|it| it.foam = false));
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         let [open, ..] = check(&case, &rig.draw(&case.shot));
         assert!(open > 100, "{open}");

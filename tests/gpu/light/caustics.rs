@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec3};
 use whitewater::water::Shadows;
-use whitewater::{Config, Region, Shadow};
+use whitewater::{Region, Shadow};
 
 use crate::reference::light::{Light, Maps, ShadowMap};
 use crate::reference::{Image, is_surface};
@@ -69,7 +69,7 @@ fn the_caustics_are_the_twins() {
 #[test]
 fn water_in_the_scenes_shade_bends_no_light() {
     let gpu = Gpu::shared();
-    let config = Config { shadow: Some(Shadows::Map), ..casting(64) };
+    let config = casting(64).with(|it| it.shadow = Some(Shadows::Map));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let sun = toward(-0.6, 0.7, 0.3);
     let mut case = pool(sun, 0.1, 0);
@@ -85,7 +85,9 @@ fn water_in_the_scenes_shade_bends_no_light() {
             });
             let image = shadows(&rig, Shadows::Map, &texels);
             let host = image.host_image();
-            case.shot.sun.shadow = Some(Shadow { image: host, view_projection, bias: 0.05 });
+            case.shot.sun.shadow = Some(
+                Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = 0.05),
+            );
             let map = ShadowMap {
                 depth: &texels,
                 view_projection: view_projection.as_dmat4(),

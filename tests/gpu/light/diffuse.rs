@@ -26,8 +26,8 @@ use super::{SIZE, casting, everything, maps, toward, twin, water, wide};
 
 /// With room for so many diffuse particles.
 fn diffusing(config: Config, most: u32) -> Config {
-    let diffuse = DiffuseConfig { occlusion: Occlusion::Reference, ..DiffuseConfig::new(most) };
-    Config { diffuse: Some(diffuse), ..config }
+    let diffuse = DiffuseConfig::new(most).with(|it| it.occlusion = Occlusion::Reference);
+    config.with(|it| it.diffuse = Some(diffuse))
 }
 
 /// A shot with diffuse particles.
@@ -85,10 +85,7 @@ impl Cloud {
             .data(bytemuck::cast_slice(&self.case.amounts), vk::BufferUsageFlags::STORAGE_BUFFER);
         let fluid = rig.particles(&self.case.shot);
         let foam = self.case.amounts.iter().any(|amount| amount[0] > 0.0);
-        let fluid = whitewater::Particles {
-            foam: foam.then(|| stream(&amounts, 0, 8)),
-            ..fluid.particles()
-        };
+        let fluid = fluid.particles().with(|it| it.foam = foam.then(|| stream(&amounts, 0, 8)));
         rig.draw_diffuse(&self.case.shot, &fluid, particles)
     }
 
@@ -162,7 +159,7 @@ fn the_map_of_diffuse_particles_is_the_twins() {
 fn the_scene_is_in_the_shade_of_diffuse_particles() {
     let gpu = Gpu::shared();
     for (lens, wet) in [(Lens::Standard, false), (Lens::Reversed, true), (Lens::LeftHanded, true)] {
-        let config = diffusing(Config { thickness_level: 0, ..casting(64) }, 4096);
+        let config = diffusing(casting(64).with(|it| it.thickness_level = 0), 4096);
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = grounded(lens, 0.4);
         case.shot.settings.light.shade = [0.0, 0.875, 1.5];
@@ -248,7 +245,7 @@ fn sun_on_foam(gpu: &Gpu, cloud: &Cloud, config: &Config) -> (Vec<Option<f32>>, 
     let mut dark = open.clone();
     let light = &mut dark.case.shot.settings.light;
     light.shade = light.irradiance;
-    let none = Config { cast: None, ..*config };
+    let none = config.with(|it| it.cast = None);
     let of = |cloud: &Cloud, config: &Config| {
         let drawn = cloud.draw(&mut Rig::lit(gpu, config, 1)).diffuse.expect("foam");
         (drawn.light.map(|light| light[0]).data, drawn.occluders.map(|texel| texel[0]).data)
@@ -299,7 +296,7 @@ fn a_particle_does_not_shade_itself() {
     let gpu = Gpu::shared();
     let config = diffusing(casting(64), 16);
     let mut rig = Rig::lit(&gpu, &config, 1);
-    let none = Config { cast: None, ..config };
+    let none = config.with(|it| it.cast = None);
     let mut open_rig = Rig::lit(&gpu, &none, 1);
     let suns =
         [[0.0, 1.0, 0.0], toward(0.9, 0.1, 0.1), toward(-0.5, 0.3, -0.8), toward(0.1, 0.2, 1.0)];
@@ -398,7 +395,11 @@ fn all_kinds(cast: u32) -> (Cloud, Config) {
 
 fn all_kinds_of(size: vk::Extent2D, cast: u32) -> (Cloud, Config) {
     let mut case = Foamy::new(size, Lens::Reversed, 30.0);
-    let config = Config { extent: size, shadow: None, cast: Some(cast), ..everything(&mut case) };
+    let config = everything(&mut case).with(|it| {
+        it.extent = size;
+        it.shadow = None;
+        it.cast = Some(cast);
+    });
     case.shot.settings.diffuse.half = 0.1;
     let positions = scenes::world(&case.shot.camera, &scenes::cloud(17, 700, 1.0, 8.0));
     (Cloud::mixed(case, positions, 0.1), diffusing(config, 700))
@@ -439,8 +440,8 @@ fn packets_cast_as_single_particles() {
     let middle =
         cloud.positions.iter().map(|p| Vec3::from(*p)).sum::<Vec3>() / cloud.positions.len() as f32;
     cloud.case.shot.sun.region = Some(Region { center: middle.to_array(), radius: 1.5 });
-    let diffuse = config.diffuse.map(|diffuse| DiffuseConfig { packets: true, ..diffuse });
-    let mut rig = Rig::lit(&gpu, &Config { diffuse, ..config }, 1);
+    let diffuse = config.diffuse.map(|diffuse| diffuse.with(|it| it.packets = true));
+    let mut rig = Rig::lit(&gpu, &config.with(|it| it.diffuse = diffuse), 1);
     let expected = cloud.draw(&mut rig);
     let n = cloud.positions.len() as u32;
     let draw = |rig: &mut Rig<'_>, positions: &[[f32; 3]], size: u32| {
@@ -450,7 +451,7 @@ fn packets_cast_as_single_particles() {
         let count = ranges.len() as u32;
         let packets = Some(Packets { buffer: data.buffer, offset: 0, count });
         let particles = rig.diffuse(&cloud.input());
-        cloud.draw_with(rig, Some(DiffuseParticles { packets, ..particles.particles() }))
+        cloud.draw_with(rig, Some(particles.particles().with(|it| it.packets = packets)))
     };
     for size in [1, 2, 50] {
         let drawn = draw(&mut rig, &cloud.positions, size);
@@ -489,24 +490,24 @@ fn pieces_do_not_show() {
             record[20..24].copy_from_slice(&cloud.ages[i].to_ne_bytes());
             record[24..28].copy_from_slice(&cloud.ids[i].to_ne_bytes());
         }
-        let diffuse = config.diffuse.map(|diffuse| DiffuseConfig { max_stride: 28, ..diffuse });
-        let mut rig = Rig::lit(&gpu, &Config { diffuse, ..config }, 1);
+        let diffuse = config.diffuse.map(|diffuse| diffuse.with(|it| it.max_stride = 28));
+        let mut rig = Rig::lit(&gpu, &config.with(|it| it.diffuse = diffuse), 1);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let (data, number) = (rig.stub.data(&bytes, usage), (count as u32).to_ne_bytes());
         let number = rig.stub.data(&number, usage);
         let at = |offset: u64| -> Option<Stream> { Some(stream(&data, 20 + offset, 28)) };
-        let particles = DiffuseParticles {
-            kinds: at(12),
-            radii: at(16),
-            ages: at(20),
-            ids: at(24),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..DiffuseParticles::new(
-                stream(&data, 20, 28),
-                Count::Gpu { buffer: number.buffer, offset: 0 },
-            )
-        };
+        let particles = DiffuseParticles::new(
+            stream(&data, 20, 28),
+            Count::Gpu { buffer: number.buffer, offset: 0 },
+        )
+        .with(|it| {
+            it.kinds = at(12);
+            it.radii = at(16);
+            it.ages = at(20);
+            it.ids = at(24);
+            it.before = HOST_WRITE;
+            it.after = HOST_WRITE;
+        });
         drop(spy::take_bound());
         let drawn = cloud.draw_with(&mut rig, Some(particles));
         let bound = spy::take_bound();
@@ -523,7 +524,7 @@ fn no_diffuse_particles_take_no_light() {
     let gpu = Gpu::shared();
     let (cloud, config) = all_kinds(64);
     let mut rig = Rig::lit(&gpu, &config, 1);
-    let plain = cloud.draw_with(&mut Rig::lit(&gpu, &Config { diffuse: None, ..config }, 1), None);
+    let plain = cloud.draw_with(&mut Rig::lit(&gpu, &config.with(|it| it.diffuse = None), 1), None);
     let first = cloud.draw_with(&mut rig, None);
     let some = cloud.draw(&mut rig);
     let lost = some.output.data.iter().zip(&first.output.data);
@@ -584,7 +585,13 @@ fn water_is_in_the_shade_of_foam() {
             .map(|_| [random.between(-1.0, 1.0), random.between(-1.0, 1.0), -0.6])
             .collect();
         let points = scenes::world(&case.shot.camera, &points);
-        let config = diffusing(Config { foam: foamy, thickness_level: 0, ..casting(64) }, 4096);
+        let config = diffusing(
+            casting(64).with(|it| {
+                it.foam = foamy;
+                it.thickness_level = 0;
+            }),
+            4096,
+        );
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut light = |case: &Foamy, some: bool| {
             let mut case = case.clone();
@@ -645,7 +652,7 @@ fn many_on_one_spot_take_all_the_sun() {
 fn memory_is_by_the_texel() {
     let gpu = Gpu::shared();
     let of = |cast: Option<u32>, most: u32| {
-        let plain = Config { cast, ..config(SIZE) };
+        let plain = config(SIZE).with(|it| it.cast = cast);
         let config = if most > 0 { diffusing(plain, most) } else { plain };
         let renderer = whitewater::Renderer::new(&gpu.context(1), &config);
         let renderer = renderer.expect("a renderer");

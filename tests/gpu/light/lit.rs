@@ -129,8 +129,11 @@ fn the_lit_scene_is_what_the_maps_say() {
     for shading in [Shading::Raster, Shading::Compute] {
         for in_place in [true, false] {
             // No foam is seen beside its sprites.
-            let config =
-                Config { composite: Some(shading), in_place, thickness_level: 0, ..casting(64) };
+            let config = casting(64).with(|it| {
+                it.composite = Some(shading);
+                it.in_place = in_place;
+                it.thickness_level = 0;
+            });
             let mut rig = Rig::lit(&gpu, &config, 1);
             for (lens, height) in [
                 (Lens::Standard, 0.4),
@@ -167,7 +170,7 @@ fn the_lit_scene_is_what_the_maps_say() {
 fn the_lit_scene_is_past_the_scene() {
     let gpu = Gpu::shared();
     for kind in [Shadows::Mask, Shadows::Map] {
-        let config = Config { shadow: Some(kind), ..casting(64) };
+        let config = casting(64).with(|it| it.shadow = Some(kind));
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = grounded(Lens::Reversed, 0.4);
         case.shot.settings.light.shade = [0.0, 0.875, 5.0];
@@ -176,7 +179,10 @@ fn the_lit_scene_is_past_the_scene() {
         let texels = Image::from_fn(8, 8, |x, y| ((x * 5 + y * 3) % 7) as f32 / 6.0);
         let image = shadows(&rig, kind, &texels);
         let bias = 0.05;
-        case.shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias });
+        case.shot.sun.shadow = Some(
+            Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+                .with(|it| it.bias = bias),
+        );
         let drawn = case.draw(&mut rig);
         let map = ShadowMap {
             depth: &texels,
@@ -199,7 +205,11 @@ fn the_lit_scene_is_past_the_scene() {
 #[test]
 fn highlights_and_relief_are_the_suns() {
     let gpu = Gpu::shared();
-    let config = Config { shadow: Some(Shadows::Mask), foam: true, sheets: 2, ..config(SIZE) };
+    let config = config(SIZE).with(|it| {
+        it.shadow = Some(Shadows::Mask);
+        it.foam = true;
+        it.sheets = 2;
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = Foamy::new(SIZE, Lens::Standard, 0.0);
     // A pane behind them all: the farther sheet shines too.

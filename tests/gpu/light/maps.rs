@@ -38,7 +38,7 @@ fn the_maps_are_the_twins() {
         [0.0, -1.0, 0.0],
     ];
     for (spray, texels) in [(false, 64), (true, 64), (true, 16), (false, 112)] {
-        let config = Config { spray, ..casting(texels) };
+        let config = casting(texels).with(|it| it.spray = spray);
         let mut rig = Rig::new(&gpu, &config);
         for (i, sun) in suns.into_iter().enumerate() {
             let mut case = Foamy::new(SIZE, Lens::Standard, 10.0);

@@ -24,7 +24,10 @@ pub use shade::{check_foam, even, light_views, middle, shadows, wall};
 pub const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 
 pub fn casting(texels: u32) -> Config {
-    Config { cast: Some(texels), foam: true, ..config(SIZE) }
+    config(SIZE).with(|it| {
+        it.cast = Some(texels);
+        it.foam = true;
+    })
 }
 
 fn wide(v: [f32; 3]) -> DVec3 {
@@ -134,5 +137,9 @@ pub fn everything(case: &mut Foamy) -> Config {
     case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
     let center = scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0];
     case.shot.sun.region = Some(Region { center, radius: 6.0 });
-    Config { spray: true, shadow: Some(Shadows::Mask), sheets: 2, ..casting(64) }
+    casting(64).with(|it| {
+        it.spray = true;
+        it.shadow = Some(Shadows::Mask);
+        it.sheets = 2;
+    })
 }

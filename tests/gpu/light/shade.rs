@@ -3,7 +3,7 @@
 use ash::vk;
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};
-use whitewater::{Access, Config, Region, Shadow};
+use whitewater::{Access, Region, Shadow};
 
 use crate::foam::Foamy;
 use crate::reference::Image;
@@ -40,7 +40,7 @@ pub fn shadows(rig: &Rig<'_>, kind: Shadows, texels: &Image<f32>) -> Texture {
 /// A mask that is the same all over.
 pub fn even(rig: &Rig<'_>, sun: f32) -> (Texture, Shadow) {
     let image = shadows(rig, Shadows::Mask, &Image::new(3, 2, sun));
-    let shadow = Shadow { image: image.host_image(), view_projection: Mat4::ZERO, bias: 0.0 };
+    let shadow = Shadow::new(image.host_image(), Mat4::ZERO.to_cols_array_2d());
     (image, shadow)
 }
 
@@ -130,13 +130,12 @@ pub fn check_foam(
 fn foam_is_in_the_shade_of_a_mask() {
     let gpu = Gpu::shared();
     for composite in [Shading::Raster, Shading::Compute] {
-        let config = Config {
-            cast: None,
-            shadow: Some(Shadows::Mask),
-            thickness_level: 0,
-            composite: Some(composite),
-            ..casting(16)
-        };
+        let config = casting(16).with(|it| {
+            it.cast = None;
+            it.shadow = Some(Shadows::Mask);
+            it.thickness_level = 0;
+            it.composite = Some(composite);
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut random = Random(2);
         for (width, height) in [(97, 61), (13, 7), (200, 99)] {
@@ -149,7 +148,7 @@ fn foam_is_in_the_shade_of_a_mask() {
             host.rect.offset = vk::Offset2D { x: 2, y: 1 };
             host.rect.extent = extent(width as u32, height as u32);
             case.shot.sun.shadow =
-                Some(Shadow { image: host, view_projection: Mat4::NAN, bias: f32::NAN });
+                Some(Shadow::new(host, Mat4::NAN.to_cols_array_2d()).with(|it| it.bias = f32::NAN));
             let drawn = case.draw(&mut rig);
             check_foam(&format!("mask-{composite:?}-{width}"), &case, &drawn, None, |(x, y)| {
                 let part = |i: usize, texels: usize, pixels: u32| {
@@ -177,8 +176,11 @@ pub fn light_views(sun: Vec3, at: Vec3) -> [(&'static str, Mat4, bool); 4] {
 #[test]
 fn foam_is_in_the_shade_of_a_map() {
     let gpu = Gpu::shared();
-    let config =
-        Config { cast: None, shadow: Some(Shadows::Map), thickness_level: 0, ..casting(16) };
+    let config = casting(16).with(|it| {
+        it.cast = None;
+        it.shadow = Some(Shadows::Map);
+        it.thickness_level = 0;
+    });
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = wall(Lens::Standard);
     let at = Vec3::from(scenes::world(&case.shot.camera, &[[0.1, 0.1, 2.0]])[0]);
@@ -205,7 +207,9 @@ fn foam_is_in_the_shade_of_a_map() {
             let mut host = image.host_image();
             host.rect.offset = vk::Offset2D { x: 1, y: 2 };
             host.rect.extent = extent(21, 14);
-            case.shot.sun.shadow = Some(Shadow { image: host, view_projection, bias });
+            case.shot.sun.shadow = Some(
+                Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = bias),
+            );
             let part = Image::from_fn(21, 14, |x, y| texels.at(x + 1, y + 2));
             let map = ShadowMap {
                 depth: &part,
@@ -232,12 +236,16 @@ fn foam_is_in_its_own_shade() {
     ];
     let cases = [(None, media[0]), (Some(Shadows::Mask), media[0]), (None, media[1])];
     for (i, (shadow, medium)) in cases.into_iter().enumerate() {
-        let config = Config { shadow, thickness_level: 0, sheets: 2, ..casting(64) };
+        let config = casting(64).with(|it| {
+            it.shadow = shadow;
+            it.thickness_level = 0;
+            it.sheets = 2;
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = wall(Lens::Standard);
         let texels = Image::from_vec(2, 1, vec![0.25, 1.0]).expect("two");
         let image = shadows(&rig, Shadows::Mask, &texels);
-        let none = Shadow { image: image.host_image(), view_projection: Mat4::ZERO, bias: 0.0 };
+        let none = Shadow::new(image.host_image(), Mat4::ZERO.to_cols_array_2d());
         case.shot.sun.shadow = shadow.map(|_| none);
         // A lump between the wall and the sun, which is to the left of the view.
         let (at, from) = ([0.2, 0.0, 2.0], [-1.8, 0.6, 1.2]);

@@ -1,7 +1,5 @@
 //! Spray in the sun and in the shade.
 
-use whitewater::Config;
-
 use crate::foam::Foamy;
 use crate::reference::spray::Sums;
 use crate::support::compare;
@@ -19,7 +17,7 @@ const STEP: f32 = Sums::SINGLE.step as f32;
 fn spray_is_lit_by_the_sun_that_comes() {
     let gpu = Gpu::shared();
     let mut case = Foamy::new(SIZE, Lens::Standard, 10.0);
-    let config = Config { cast: None, ..everything(&mut case) };
+    let config = everything(&mut case).with(|it| it.cast = None);
     case.shot.sun.region = None;
     // So few that no two droplets share a pixel often.
     case.shot.settings.spray.droplets = 1;

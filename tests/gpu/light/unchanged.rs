@@ -1,7 +1,7 @@
 //! What must not change the light: the particles' order, the frame's size.
 
+use whitewater::Region;
 use whitewater::water::Shading;
-use whitewater::{Config, Region};
 
 use crate::foam::Foamy;
 use crate::support::compare;
@@ -87,8 +87,10 @@ fn light_on_frames_of_any_size() {
             let size = extent(width, height);
             let mut case = Foamy::new(size, Lens::Reversed, 20.0);
             case.shot.margin = [3, 1, 2, 4];
-            let config =
-                Config { extent: size, composite: Some(composite), ..everything(&mut case) };
+            let config = everything(&mut case).with(|it| {
+                it.extent = size;
+                it.composite = Some(composite);
+            });
             let mut rig = Rig::lit(&gpu, &config, 1);
             let (_image, shadow) = even(&rig, 0.5);
             case.shot.sun.shadow = Some(shadow);

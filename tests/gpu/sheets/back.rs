@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::water::Rule;
-use whitewater::{Config, SmoothingLevel, SmoothingLevels};
+use whitewater::{SmoothingLevel, SmoothingLevels};
 
 use crate::composite::{Sky, twin_settings};
 use crate::harness::fails;
@@ -99,7 +99,11 @@ fn the_back_sheets_depth_is_the_twins() {
     for (width, height) in [(97, 61), (192, 120)].into_iter().take(some(1)) {
         let size = extent(width, height);
         for (smoothing_level, thickness_level) in [(0, 2), (0, 0), (1, 2), (1, 3), (2, 1)] {
-            let config = Config { smoothing_level, thickness_level, coarsening: 0, ..two(size) };
+            let config = two(size).with(|it| {
+                it.smoothing_level = smoothing_level;
+                it.thickness_level = thickness_level;
+                it.coarsening = 0;
+            });
             let mut rig = Rig::new(&gpu, &config);
             let lenses = match (smoothing_level, thickness_level) {
                 (0, 2) => &LENSES[..],
@@ -135,7 +139,11 @@ fn tiles_are_made_near_gaps() {
     let mut points = drop_at(&mut Random(3), [-0.9, -0.45, 2.6]);
     points.extend(scenes::block(5, SPACING, [40, 24, 2], [-5.0, -3.0, 5.0]));
     for (smoothing_level, thickness_level) in [(0, 0), (0, 2), (1, 3)] {
-        let config = Config { smoothing_level, thickness_level, coarsening: 0, ..two(size) };
+        let config = two(size).with(|it| {
+            it.smoothing_level = smoothing_level;
+            it.thickness_level = thickness_level;
+            it.coarsening = 0;
+        });
         let mut rig = Rig::new(&gpu, &config);
         for lens in [Lens::Standard, Lens::OffAxis] {
             let shot = unsmoothed(&shot_of(size, lens, &points));
@@ -274,16 +282,15 @@ fn the_back_surface_is_the_twins() {
     let size = extent(193, 121);
     for smoothing_level in 0..3 {
         // The same depth unsmoothed: only this rule has a width.
-        let config = Config {
-            smoothing_level,
-            rule: Rule::ConstantWidth,
-            coarsening: 0,
-            thickness_level: 0,
-            ..two(size)
-        };
+        let config = two(size).with(|it| {
+            it.smoothing_level = smoothing_level;
+            it.rule = Rule::ConstantWidth;
+            it.coarsening = 0;
+            it.thickness_level = 0;
+        });
         let mut flat_rig = Rig::new(&gpu, &config);
         for (rule, twin) in rules() {
-            let mut rig = Rig::new(&gpu, &Config { rule, ..config });
+            let mut rig = Rig::new(&gpu, &config.with(|it| it.rule = rule));
             let lenses: &[Lens] = match (smoothing_level, rule) {
                 (0, Rule::ConstantWidth) => &LENSES,
                 _ => &[Lens::OffAxis],
@@ -332,14 +339,13 @@ fn all_forms_give_the_same_back_surface() {
         for (rule, _) in rules() {
             let mut first: Option<Drawn> = None;
             for form in &forms {
-                let config = Config {
-                    smoothing_level: 0,
-                    smoothing: Some(*form),
-                    max_iterations: cap,
-                    coarsening: 0,
-                    rule,
-                    ..two(size)
-                };
+                let config = two(size).with(|it| {
+                    it.smoothing_level = 0;
+                    it.smoothing = Some(*form);
+                    it.max_iterations = cap;
+                    it.coarsening = 0;
+                    it.rule = rule;
+                });
                 let mut rig = Rig::lit(&gpu, &config, 1);
                 let shot = shot(size, Lens::OffAxis);
                 // The second frame starts from the state that the first one left.
@@ -367,12 +373,11 @@ fn coarser_back_sheets_are_the_twins() {
     shot.settings.water.smoothing_width = 1.0;
     let mut wanted_of = [0; 3];
     for cap in [4, 9, 30] {
-        let config = Config {
-            smoothing_level: 0,
-            thickness_level: 0,
-            max_iterations: cap,
-            ..coarsening(two(size))
-        };
+        let config = coarsening(two(size)).with(|it| {
+            it.smoothing_level = 0;
+            it.thickness_level = 0;
+            it.max_iterations = cap;
+        });
         let flat = Rig::new(&gpu, &config).draw(&unsmoothed(&shot));
         let mut rig = Rig::new(&gpu, &config);
         // The second frame starts from what the first one left.

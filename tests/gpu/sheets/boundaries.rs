@@ -82,11 +82,11 @@ fn single_precision(shot: &Shot) -> Image<f32> {
     let view = shot.view(shot.size);
     let (width, height) = (view.width as f32, view.height as f32);
     let s = shot.settings.water.spacing;
-    let p = shot.camera.projection;
+    let p = shot.camera.projection_matrix();
     let (radius, columns) = (shot.settings.water.radius(), view.width.div_ceil(CELL));
     let mut touching = vec![Vec::new(); columns * view.height.div_ceil(CELL)];
     for position in &shot.positions {
-        let c = shot.camera.view.transform_point3(Vec3::from(*position));
+        let c = shot.camera.view_matrix().transform_point3(Vec3::from(*position));
         let z = -c.z;
         if z <= 1.01 * radius {
             continue;

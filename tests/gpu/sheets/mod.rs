@@ -85,12 +85,15 @@ fn unsmoothed(shot: &Shot) -> Shot {
 
 /// A configuration with two sheets.
 fn two(size: vk::Extent2D) -> Config {
-    Config { sheets: 2, ..config(size) }
+    config(size).with(|it| it.sheets = 2)
 }
 
 /// One that leaves the boundaries as they were found.
 fn unpruned(size: vk::Extent2D, thickness_level: u32) -> Config {
-    Config { thickness_splat: Some(Splat::Raster), thickness_level, ..two(size) }
+    two(size).with(|it| {
+        it.thickness_splat = Some(Splat::Raster);
+        it.thickness_level = thickness_level;
+    })
 }
 
 fn of(drawn: &Drawn) -> &Sheets {

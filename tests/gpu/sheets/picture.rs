@@ -31,7 +31,7 @@ fn slabs(size: vk::Extent2D) -> Shot {
     points.extend(slanted.into_iter().map(|[x, y, z]| [x, y, z + 0.3 * x]));
     let mut shot = shot_of(size, Lens::Standard, &points);
     let view = Mat4::look_to_rh(Vec3::new(1.0, 9.0, 2.0), Vec3::NEG_Y, Vec3::NEG_Z);
-    shot.camera = Camera { view, ..shot.camera };
+    shot.camera = Camera { view: view.to_cols_array_2d(), ..shot.camera };
     shot.positions = scenes::world(&shot.camera, &points);
     shot.settings.water.specular = 0.0;
     shot
@@ -256,15 +256,14 @@ fn the_picture_of_two_sheets_is_the_twins() {
     let levels = [(0, 0), (1, 2), (2, 3), (1, 1), (0, 1), (2, 1)];
     for (smoothing_level, thickness_level) in levels.into_iter().take(some(3)) {
         for (way, splat) in [(Shading::Raster, Splat::Compute), (Shading::Compute, Splat::Raster)] {
-            let config = Config {
-                smoothing_level,
-                thickness_level,
-                coarsening: 0,
-                composite: Some(way),
-                thickness_splat: Some(splat),
-                noise: (way == Shading::Compute).then_some(1),
-                ..two(size)
-            };
+            let config = two(size).with(|it| {
+                it.smoothing_level = smoothing_level;
+                it.thickness_level = thickness_level;
+                it.coarsening = 0;
+                it.composite = Some(way);
+                it.thickness_splat = Some(splat);
+                it.noise = (way == Shading::Compute).then_some(1);
+            });
             let mut rig = even(&gpu, config);
             for (scene, lens) in
                 [("torn", Lens::Standard), ("torn", Lens::OffAxis), ("slabs", Lens::Standard)]
@@ -292,7 +291,13 @@ fn the_front_sheet_lies_over_the_back_one() {
     let bits = gpu.limits().sub_texel_precision_bits;
     let size = extent(96, 64);
     for way in [Shading::Raster, Shading::Compute].into_iter().take(some(1)) {
-        let mut rig = even(&gpu, Config { coarsening: 0, composite: Some(way), ..two(size) });
+        let mut rig = even(
+            &gpu,
+            two(size).with(|it| {
+                it.coarsening = 0;
+                it.composite = Some(way);
+            }),
+        );
         for (medium_name, medium) in MEDIA.into_iter().chain([("source", Medium::source(0.3))]) {
             for bias in [0.0, 0.3] {
                 for flat in [true, false] {
@@ -316,7 +321,11 @@ fn the_scene_stands_among_the_sheets() {
     let size = extent(160, 100);
     let mut kinds = Kinds::default();
     for (smoothing_level, thickness_level) in [(0, 0), (1, 2)] {
-        let config = Config { smoothing_level, thickness_level, coarsening: 0, ..two(size) };
+        let config = two(size).with(|it| {
+            it.smoothing_level = smoothing_level;
+            it.thickness_level = thickness_level;
+            it.coarsening = 0;
+        });
         let mut rig = even(&gpu, config);
         for lens in [Lens::Standard, Lens::OffAxis] {
             let mut shot = look(shot(size, lens), false);
@@ -339,12 +348,11 @@ fn near_sheets_are_the_twins() {
     for (way, lens, thickness_level) in
         [(Shading::Raster, Lens::Standard, 0), (Shading::Compute, Lens::OffAxis, 3)]
     {
-        let config = Config {
-            smoothing_level: 0,
-            thickness_level,
-            composite: Some(way),
-            ..coarsening(two(size))
-        };
+        let config = coarsening(two(size)).with(|it| {
+            it.smoothing_level = 0;
+            it.thickness_level = thickness_level;
+            it.composite = Some(way);
+        });
         let mut rig = even(&gpu, config);
         for (torn, width) in [(true, 2.8), (true, 5.7), (false, 4.2), (false, 7.8), (false, 15.6)] {
             let shot = if torn { shot(size, lens) } else { slabs(size) };
@@ -416,7 +424,11 @@ fn the_back_sheets_levels_pass_without_a_step() {
     let gpu = Gpu::shared();
     let size = extent(160, 100);
     // So few iterations that the levels are as rough as they are different.
-    let config = Config { smoothing_level: 0, thickness_level: 0, max_iterations: 6, ..two(size) };
+    let config = two(size).with(|it| {
+        it.smoothing_level = 0;
+        it.thickness_level = 0;
+        it.max_iterations = 6;
+    });
     let mut rig = even(&gpu, config);
     let (mut crossing, mut others) = ([0.0; 2], [0.0; 2]);
     let mut before: Option<(Drawn, Vec<usize>)> = None;

@@ -1,6 +1,5 @@
 //! The thickness of each sheet against the twin, and boundaries where there is nothing to tell apart.
 
-use whitewater::Config;
 use whitewater::water::Splat;
 
 use crate::harness::fails;
@@ -105,7 +104,10 @@ fn each_sheets_thickness_is_the_twins() {
     for (splat, sum) in [(Splat::Raster, Sum::Float), (Splat::Compute, Sum::Fixed)] {
         for level in 0..4 {
             let (thickness_splat, thickness_level) = (Some(splat), level);
-            let config = Config { thickness_splat, thickness_level, ..two(size) };
+            let config = two(size).with(|it| {
+                it.thickness_splat = thickness_splat;
+                it.thickness_level = thickness_level;
+            });
             let mut rig = Rig::new(&gpu, &config);
             let lenses = if level == 1 { &LENSES[..] } else { &[Lens::Reversed, Lens::OffAxis] };
             for lens in lenses {
@@ -166,7 +168,7 @@ fn where_nothing_is_to_be_told_apart_there_is_one_sheet() {
     for level in 0..4 {
         let config = unpruned(size, level);
         let mut found = Rig::new(&gpu, &config);
-        let compute = Config { thickness_splat: Some(Splat::Compute), ..config };
+        let compute = config.with(|it| it.thickness_splat = Some(Splat::Compute));
         let mut pruned = Rig::new(&gpu, &compute);
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
             let shot = shot(size, lens);

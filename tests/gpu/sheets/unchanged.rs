@@ -29,9 +29,13 @@ fn one_sheet_is_the_default_where_there_is_no_gap() {
     let levels = [(1, 2), (0, 0), (2, 1), (1, 1), (0, 3)];
     for (smoothing_level, thickness_level) in levels.into_iter().take(some(2)) {
         for way in [Shading::Raster, Shading::Compute] {
-            let base =
-                Config { smoothing_level, thickness_level, composite: Some(way), ..config(size) };
-            let mut rigs = [1, 2].map(|sheets| Rig::lit(&gpu, &Config { sheets, ..base }, 1));
+            let base = config(size).with(|it| {
+                it.smoothing_level = smoothing_level;
+                it.thickness_level = thickness_level;
+                it.composite = Some(way);
+            });
+            let mut rigs =
+                [1, 2].map(|sheets| Rig::lit(&gpu, &base.with(|it| it.sheets = sheets), 1));
             for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
                 let shot = Shot::new(size, lens, 0.2, &points);
                 let [one, two] = rigs.each_mut().map(|rig| {
@@ -87,13 +91,12 @@ fn a_drop_before_a_pool_leaves_the_rest_as_it_is() {
     let (mut drop, pool) = (drop_at(&mut Random(3), [-0.9, -0.45, 2.6]), pool(0.0));
     drop.extend(&pool);
     for way in [Shading::Raster, Shading::Compute] {
-        let config = Config {
+        let config = two(size).with(|it| {
             // Sums of integers: blending rounds in the order of the particles.
-            thickness_splat: Some(Splat::Compute),
-            composite: Some(way),
-            coarsening: 0,
-            ..two(size)
-        };
+            it.thickness_splat = Some(Splat::Compute);
+            it.composite = Some(way);
+            it.coarsening = 0;
+        });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let [without, with] = [&pool, &drop].map(|points| {
             let mut shot = shot_of(size, Lens::Standard, points);
@@ -132,7 +135,7 @@ fn the_order_of_the_particles_is_no_matter() {
     let order = Random(99).order(shot.positions.len());
     let positions = order.iter().map(|i| shot.positions[*i]).collect();
     let mixed = Shot { positions, ..shot.clone() };
-    let mut rig = Rig::lit(&gpu, &Config { sheets: 2, ..exact(size) }, 1);
+    let mut rig = Rig::lit(&gpu, &exact(size).with(|it| it.sheets = 2), 1);
     let (first, second) = (rig.draw(&shot), rig.draw(&mixed));
     same_drawn("sheets-permutation", &second, &first);
 }
@@ -146,12 +149,16 @@ fn chunks_do_not_show() {
     let mut few = shot.clone();
     few.positions.truncate(100);
     for splat in [Splat::Compute, Splat::Raster] {
-        let config = Config { depth_splat: Some(splat), sheets: 2, ..exact(size) };
+        let config = exact(size).with(|it| {
+            it.depth_splat = Some(splat);
+            it.sheets = 2;
+        });
         for max_stride in [1 << 17, 1 << 19] {
-            let [whole, chunks] = [config, Config { max_stride, ..config }].map(|config| {
-                let mut rig = Rig::lit(&gpu, &config, 1);
-                [rig.draw(&shot), rig.draw(&few), rig.draw(&shot)]
-            });
+            let [whole, chunks] =
+                [config, config.with(|it| it.max_stride = max_stride)].map(|config| {
+                    let mut rig = Rig::lit(&gpu, &config, 1);
+                    [rig.draw(&shot), rig.draw(&few), rig.draw(&shot)]
+                });
             for (i, (found, expected)) in chunks.iter().zip(&whole).enumerate() {
                 let name = format!("sheets-chunks-{splat:?}-{max_stride}-{i}");
                 same_drawn(&name, found, expected);
@@ -168,7 +175,7 @@ fn no_particles_are_no_sheet() {
     for (width, height) in TINY {
         let size = extent(width, height);
         for way in [Shading::Raster, Shading::Compute] {
-            let mut rig = Rig::lit(&gpu, &Config { composite: Some(way), ..two(size) }, 1);
+            let mut rig = Rig::lit(&gpu, &two(size).with(|it| it.composite = Some(way)), 1);
             let mut none = shot(size, Lens::Standard);
             none.positions.clear();
             // Another frame's water must not come back.
@@ -191,7 +198,8 @@ fn small_images_have_sheets_too() {
         let size = extent(width, height);
         let levels = [(1, 2), (0, 0), (2, 3)];
         for (smoothing_level, thickness_level) in levels.into_iter().take(some(1)) {
-            let config = Config { smoothing_level, ..unpruned(size, thickness_level) };
+            let config =
+                unpruned(size, thickness_level).with(|it| it.smoothing_level = smoothing_level);
             let mut rig = Rig::lit(&gpu, &config, 1);
             // A drop before a wall.
             let mut points = scenes::block(5, SPACING, [24, 16, 2], [-3.0, -2.0, 5.0]);
@@ -230,8 +238,11 @@ fn what_an_earlier_frame_left_is_not_seen() {
         (Smoothing::Fused, 2.0),
         (Smoothing::Query(Gate::VertexCull), 2.0),
     ] {
-        let config =
-            Config { smoothing: Some(smoothing), smoothing_level: 0, coarsening: 0, ..two(size) };
+        let config = two(size).with(|it| {
+            it.smoothing = Some(smoothing);
+            it.smoothing_level = 0;
+            it.coarsening = 0;
+        });
         let mut shot = shot_of(size, Lens::Standard, &points);
         shot.settings.water.smoothing_width = smoothing_width;
         let fresh = Rig::lit(&gpu, &config, 1).draw(&shot);
@@ -251,7 +262,7 @@ fn what_an_earlier_frame_left_is_not_seen() {
 fn the_unit_of_length_does_not_show() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig = Rig::lit(&gpu, &Config { sheets: 2, ..exact(size) }, 1);
+    let mut rig = Rig::lit(&gpu, &exact(size).with(|it| it.sheets = 2), 1);
     let shot = shot(size, Lens::Standard);
     let expected = rig.draw(&shot);
     assert!(gaps(&expected) > 10);
@@ -271,8 +282,11 @@ fn both_ways_of_shading_give_the_same_picture() {
     let levels = [(0, 2), (1, 1), (0, 0), (2, 3)];
     for (smoothing_level, thickness_level) in levels.into_iter().take(some(2)) {
         let mut rigs = [Shading::Raster, Shading::Compute].map(|way| {
-            let levels = Config { smoothing_level, thickness_level, ..two(size) };
-            Rig::lit(&gpu, &Config { composite: Some(way), ..levels }, 1)
+            let levels = two(size).with(|it| {
+                it.smoothing_level = smoothing_level;
+                it.thickness_level = thickness_level;
+            });
+            Rig::lit(&gpu, &levels.with(|it| it.composite = Some(way)), 1)
         });
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
             let shot = shot(size, lens);

@@ -4,7 +4,7 @@ use ash::vk;
 use glam::{DVec2, DVec3};
 use whitewater::shore::{Edge, ShoreLook};
 use whitewater::water::{Shading, Shadows};
-use whitewater::{Config, Shadow, Shore, Shoreline};
+use whitewater::{Shadow, Shore, Shoreline};
 
 use super::shoreline::{AREA, heights, plain};
 use super::{Mapped, U, water, with_shore};
@@ -57,7 +57,7 @@ fn over_bottom(
     shot.settings.light.irradiance = [2.0, 3.0, 4.0];
     shot.settings.light.shade = [0.5, 1.0, 0.25];
     let shoreline = Some(Shoreline::Map(coasts.coast()));
-    shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+    shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
     shot
 }
 
@@ -118,7 +118,7 @@ fn the_coat_lies_on_the_scene() {
     let shot = shot(&coasts, &[]);
     let mut pictures = Vec::new();
     for way in WAYS {
-        let config = Config { composite: Some(way), ..with_shore(shot.size, Edge::Smooth) };
+        let config = with_shore(shot.size, Edge::Smooth).with(|it| it.composite = Some(way));
         let mut rig = Rig::lit(&gpu, &config, 1);
         let name = format!("{way:?}");
         let drawn = rig.draw(&shot);
@@ -151,7 +151,7 @@ fn rows_of_any_length_are_drawn() {
     for width in [128, 137, 300] {
         let shot = over_bottom(&coasts, &[], extent(width, 40), |_| 0.1);
         for way in WAYS {
-            let config = Config { composite: Some(way), ..with_shore(shot.size, Edge::Smooth) };
+            let config = with_shore(shot.size, Edge::Smooth).with(|it| it.composite = Some(way));
             let drawn = Rig::lit(&gpu, &config, 1).draw(&shot);
             let seen = check(&format!("{width}, {way:?}"), &shot, &drawn);
             assert!(seen > 40 * width / 2, "{width}, {way:?}: {seen} pixels");
@@ -168,8 +168,8 @@ fn no_foam_is_no_change() {
     let shot = shot(&coasts, &points);
     let none = Shot { shore: None, ..shot.clone() };
     for way in WAYS {
-        let plain = Config { composite: Some(way), ..config(shot.size) };
-        let with = Config { shore: with_shore(shot.size, Edge::Smooth).shore, ..plain };
+        let plain = config(shot.size).with(|it| it.composite = Some(way));
+        let with = plain.with(|it| it.shore = with_shore(shot.size, Edge::Smooth).shore);
         let expected = Rig::lit(&gpu, &plain, 1).draw(&none);
         let mut rig = Rig::lit(&gpu, &with, 1);
         compare::same_color("shore-none", &rig.draw(&none).output, &expected.output);
@@ -200,8 +200,8 @@ fn foam_is_seen_through_water() {
     shot.settings.shore.contact.opacity = 0.0;
     shot.settings.water.refraction = 0.3;
     for way in WAYS {
-        let plain = Config { composite: Some(way), ..config(shot.size) };
-        let with = Config { shore: with_shore(shot.size, Edge::Smooth).shore, ..plain };
+        let plain = config(shot.size).with(|it| it.composite = Some(way));
+        let with = plain.with(|it| it.shore = with_shore(shot.size, Edge::Smooth).shore);
         let found = Rig::lit(&gpu, &with, 1).draw(&shot);
         let shore = found.shore.as_ref().expect("foam");
         let mut other = Shot { shore: None, ..shot.clone() };
@@ -238,10 +238,10 @@ fn contacts_lie_on_the_water() {
     let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
     let mut shot = shot(&coasts, &points);
     shot.scene_depth(|x, _| Some(3.6 + 0.02 * f64::from(x)));
-    shot.shore = Some(Shore { surface: None, ..Shore::new(0.0) });
+    shot.shore = Some(Shore::new(0.0).with(|it| it.surface = None));
     shot.settings.shore.contact.particle_opacity = 0.9;
     for way in WAYS {
-        let config = Config { composite: Some(way), ..with_shore(shot.size, Edge::Smooth) };
+        let config = with_shore(shot.size, Edge::Smooth).with(|it| it.composite = Some(way));
         let mut rig = Rig::lit(&gpu, &config, 1);
         let found = rig.draw(&shot);
         let bare = rig.draw(&Shot { shore: None, ..shot.clone() });
@@ -271,15 +271,18 @@ fn foam_in_the_shade_is_darker() {
     let gpu = Gpu::shared();
     let coasts = coasts(&gpu);
     let mut shot = shot(&coasts, &[]);
-    let config = Config { shadow: Some(Shadows::Mask), ..with_shore(shot.size, Edge::Smooth) };
+    let config = with_shore(shot.size, Edge::Smooth).with(|it| it.shadow = Some(Shadows::Mask));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut shade = shot.clone();
     for (i, color) in shade.color.iter_mut().enumerate() {
         *color = [if i % 96 < 48 { 0.0 } else { (i % 96) as f32 / 96.0 }, 0.0, 0.0, 0.0];
     }
     let (image, _depth) = rig.scene(&shade);
-    let view_projection = shot.camera.projection * shot.camera.view;
-    shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.1 });
+    let view_projection = shot.camera.projection_matrix() * shot.camera.view_matrix();
+    shot.sun.shadow = Some(
+        Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
+            .with(|it| it.bias = 0.1),
+    );
     let drawn = rig.draw(&shot);
     let shore = drawn.shore.as_ref().expect("foam");
     let mut seen = 0;
@@ -316,8 +319,10 @@ fn a_bias_lets_the_surface_be_in_the_depth() {
         let shore = drawn.shore.expect("foam");
         shore.data.iter().filter(|c| c[0] > 0).count()
     };
-    let near =
-        |bias| Shot { shore: shot.shore.map(|shore| Shore { bias, ..shore }), ..shot.clone() };
+    let near = |bias| Shot {
+        shore: shot.shore.map(|shore| shore.with(|it| it.bias = bias)),
+        ..shot.clone()
+    };
     let hidden = count(rig.draw(&near(0.0)));
     let seen = count(rig.draw(&near(0.2)));
     // Only beyond what the scene's depth has.
@@ -349,7 +354,10 @@ fn the_coat_is_the_same_in_every_format() {
             let roundings = if blended { 4.0 } else { 1.0 };
             let name = format!("{way:?}, {format:?}");
             let base = with_shore(shot.size, Edge::Smooth);
-            let config = Config { composite: Some(way), output_format: format, ..base };
+            let config = base.with(|it| {
+                it.composite = Some(way);
+                it.output_format = format;
+            });
             let mut rig = Rig::lit(&gpu, &config, 1);
             let bare = rig.draw(&Shot { shore: None, ..shot.clone() }).output;
             let drawn = rig.draw(&shot);

@@ -27,7 +27,10 @@ pub fn twins(look: &ShoreLook, spacing: f32) -> [Contact; 2] {
 }
 
 fn look(contact: ContactLook) -> ShoreLook {
-    ShoreLook { time: 3.25, contact, ..ShoreLook::default() }
+    ShoreLook::default().with(|it| {
+        it.time = 3.25;
+        it.contact = contact;
+    })
 }
 
 /// A web of more layers than most have, which are drawn another way.
@@ -59,19 +62,33 @@ fn a_level_s_contacts_are_the_twin_s() {
     let size = extent(96, 64);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let (texture, pattern) = mask(&rig);
-    let base = ContactLook { depth: 0.8, mask_scale: 0.3, ..ContactLook::default() };
+    let base = ContactLook::default().with(|it| {
+        it.depth = 0.8;
+        it.mask_scale = 0.3;
+    });
     for (name, lens, contact, own) in [
         ("distance", Lens::Standard, base, false),
-        ("view", Lens::Reversed, ContactLook { measure: Measure::View, ..base }, false),
+        ("view", Lens::Reversed, base.with(|it| it.measure = Measure::View), false),
+        ("vertical", Lens::ReversedInfinite, base.with(|it| it.measure = Measure::Vertical), false),
+        ("alone", Lens::Standard, base, false),
         (
-            "vertical",
-            Lens::ReversedInfinite,
-            ContactLook { measure: Measure::Vertical, ..base },
+            "no mask",
+            Lens::LeftHanded,
+            base.with(|it| {
+                it.mask = 0.0;
+                it.opacity = 0.6;
+            }),
             false,
         ),
-        ("alone", Lens::Standard, base, false),
-        ("no mask", Lens::LeftHanded, ContactLook { mask: 0.0, opacity: 0.6, ..base }, false),
-        ("host's", Lens::OffAxis, ContactLook { mask: 1.0, depth: 2.0, ..base }, true),
+        (
+            "host's",
+            Lens::OffAxis,
+            base.with(|it| {
+                it.mask = 1.0;
+                it.depth = 2.0;
+            }),
+            true,
+        ),
     ] {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         let level = water(&shot, DVec3::Y, 0.25);
@@ -84,7 +101,10 @@ fn a_level_s_contacts_are_the_twin_s() {
         });
         let mask = own.then(|| texture.host_image());
         // What is before the surface by less than the bias counts as behind it: there is no foam all the same.
-        shot.shore = Some(Shore { mask, bias: 0.05, ..Shore::new(0.25) });
+        shot.shore = Some(Shore::new(0.25).with(|it| {
+            it.mask = mask;
+            it.bias = 0.05;
+        }));
         shot.settings.shore = look(contact);
         if name == "alone" {
             more_layers(&mut shot);
@@ -160,14 +180,20 @@ fn contacts_on_particles_are_the_twin_s() {
         ("posts", Lens::Reversed, ContactLook::default()),
         ("posts, alone", Lens::OffAxis, ContactLook::default()),
         ("distance", Lens::Standard, ContactLook::default()),
-        ("view", Lens::Reversed, ContactLook { measure: Measure::View, ..ContactLook::default() }),
+        ("view", Lens::Reversed, ContactLook::default().with(|it| it.measure = Measure::View)),
         (
             "vertical",
             Lens::LeftHanded,
-            ContactLook { measure: Measure::Vertical, mask: 0.3, ..ContactLook::default() },
+            ContactLook::default().with(|it| {
+                it.measure = Measure::Vertical;
+                it.mask = 0.3;
+            }),
         ),
     ] {
-        let contact = ContactLook { particle_opacity: 0.9, mask_scale: 0.3, ..contact };
+        let contact = contact.with(|it| {
+            it.particle_opacity = 0.9;
+            it.mask_scale = 0.3;
+        });
         let mut shot = Shot::new(size, lens, 0.2, &points);
         shot.settings.shore = look(contact);
         let posts = name.starts_with("posts");
@@ -178,7 +204,7 @@ fn contacts_on_particles_are_the_twin_s() {
         if name == "posts, alone" {
             more_layers(&mut shot);
         }
-        shot.shore = Some(Shore { surface: None, ..Shore::new(0.0) });
+        shot.shore = Some(Shore::new(0.0).with(|it| it.surface = None));
         let drawn = rig.draw(&shot);
         let found = drawn.shore.as_ref().expect("contact foam");
         let level = water(&shot, DVec3::Y, 0.0);
@@ -228,13 +254,15 @@ fn nothing_is_not_at_the_far_plane() {
     let far = f64::from(scenes::FAR);
     for lens in [Lens::Standard, Lens::Reversed, Lens::Mirrored, Lens::LeftHanded] {
         let mut shot = Shot::new(size, lens, 2.0, &points);
-        let contact = ContactLook { depth: 90.0, measure: Measure::View, ..ContactLook::default() };
-        let particles = (Some(90.0), 0.9);
-        shot.settings.shore = look(ContactLook {
-            particle_depth: particles.0,
-            particle_opacity: particles.1,
-            ..contact
+        let contact = ContactLook::default().with(|it| {
+            it.depth = 90.0;
+            it.measure = Measure::View;
         });
+        let particles = (Some(90.0), 0.9);
+        shot.settings.shore = look(contact.with(|it| {
+            it.particle_depth = particles.0;
+            it.particle_opacity = particles.1;
+        }));
         let level = water(&shot, DVec3::Y, 0.0);
         let before = (0..96 * 64)
             .map(|i| level.at([(i % 96) as f64 + 0.5, (i / 96) as f64 + 0.5]).depth.value)
@@ -246,7 +274,7 @@ fn nothing_is_not_at_the_far_plane() {
             ("by the depth alone", Some(Shoreline::Screen), 2),
         ] {
             let name = format!("{lens:?}, {name}");
-            shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+            shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
             for (i, layer) in shot.settings.shore.shoreline.layers.iter_mut().enumerate() {
                 (layer.weight, layer.scale) = (if i < layers { 0.25 } else { 0.0 }, 0.2);
             }

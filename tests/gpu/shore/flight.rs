@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Mat4};
 use whitewater::shore::{Area, Edge, Heights, ShoreMapStep};
-use whitewater::{Frame, Recorded, Shore, Shoreline, Slot};
+use whitewater::{Recorded, Shore, Shoreline, Slot};
 
 use super::map::Mesh;
 use super::shoreline::{AREA, heights, plain};
@@ -82,18 +82,21 @@ fn drawn(gpu: &Gpu, steps: u32, wait: bool) -> Vec<Image<[f32; 4]>> {
         };
         if let Some(heights) = heights.filter(|_| frame < steps) {
             let (area, before, after) = (area(frame), HOST_WRITE, HOST_WRITE);
-            let step = ShoreMapStep { slot: Slot(slot), area, heights, changed, before, after };
+            let step = ShoreMapStep::new(Slot(slot), area, heights).with(|it| {
+                it.changed = changed;
+                it.before = before;
+                it.after = after;
+            });
             let map = coasts.map.as_mut().expect("only drop takes it");
             // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
             unsafe { map.record_step(cmd, &step) }.expect("a step");
         }
         let shoreline = Some(Shoreline::Map(coasts.coast()));
-        shot.shore = Some(Shore { shoreline, ..Shore::new(AREA.level) });
+        shot.shore = Some(Shore::new(AREA.level).with(|it| it.shoreline = shoreline));
         let (color, depth) = &scenes[frame as usize];
-        let frame = Frame {
-            slot: Slot(slot),
-            ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
-        };
+        let frame = shot
+            .frame(color.host_image(), depth.host_image(), cloud.particles())
+            .with(|it| it.slot = Slot(slot));
         // SAFETY: as above.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
         rig.stub.end(slot);

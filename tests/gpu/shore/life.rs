@@ -3,7 +3,7 @@
 use ash::vk;
 use glam::DVec2;
 use whitewater::shore::{ContactLook, Edge, ShoreConfig, ShoreLook, WebLayer};
-use whitewater::{Config, Error, HostImage, Shore, Shoreline, Slot, Strip, Surface, Triangles};
+use whitewater::{Error, Shore, Shoreline, Slot, Strip, Surface, Triangles};
 
 use super::shoreline::{AREA, heights, plain, web_alone};
 use super::{Mapped, SAMPLED, Tally, shore_config, water, with_shore};
@@ -26,7 +26,7 @@ fn shot(coasts: &Mapped<'_>, width: u32, height: u32) -> Shot {
     shot.settings.shore.contact.particle_opacity = 1.0;
     shot.scene_depth(|x, _| Some(4.0 + 0.1 * f64::from(x)));
     let shoreline = Some(Shoreline::Map(coasts.coast()));
-    shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+    shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
     shot
 }
 
@@ -43,7 +43,7 @@ fn a_resize_and_a_reconfiguration_give_what_a_new_renderer_gives() {
     let gpu = Gpu::shared();
     let mut coasts = Mapped::new(&gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
-    let with = |size, shore| Config { shore, ..config(size) };
+    let with = |size, shore| config(size).with(|it| it.shore = shore);
     let base = shore_config(Edge::Smooth);
     let mut rig = Rig::lit(&gpu, &with(extent(96, 64), Some(base)), 1);
     for (width, height) in [(33, 17), (120, 90)] {
@@ -54,10 +54,10 @@ fn a_resize_and_a_reconfiguration_give_what_a_new_renderer_gives() {
     }
     let shot = shot(&coasts, 120, 90);
     for (name, anew, shore) in [
-        ("edge", false, Some(ShoreConfig { edge: Edge::Clip, ..base })),
-        ("web", true, Some(ShoreConfig { web_size: 64, ..base })),
+        ("edge", false, Some(base.with(|it| it.edge = Edge::Clip))),
+        ("web", true, Some(base.with(|it| it.web_size = 64))),
         ("none", false, None),
-        ("again", true, Some(ShoreConfig { seed: 9, ..base })),
+        ("again", true, Some(base.with(|it| it.seed = 9))),
     ] {
         let config = with(shot.size, shore);
         assert_eq!(rig.renderer().reconfigure(&config).expect("reconfigure"), anew, "{name}");
@@ -78,14 +78,14 @@ fn a_resize_and_a_reconfiguration_give_what_a_new_renderer_gives() {
 fn memory_is_what_it_says() {
     let gpu = Gpu::shared();
     let of = |size, shore| {
-        let mut rig = Rig::new(&gpu, &Config { shore, ..config(size) });
+        let mut rig = Rig::new(&gpu, &config(size).with(|it| it.shore = shore));
         let memory = rig.renderer().memory();
         (memory.images + memory.buffers) as f64
     };
     let size = extent(512, 512);
     let without = of(size, None);
     let [small, large] = [256, 1024].map(|web_size| {
-        of(size, Some(ShoreConfig { web_size, ..ShoreConfig::default() })) - without
+        of(size, Some(ShoreConfig::default().with(|it| it.web_size = web_size))) - without
     });
     println!("of 256 texels {small}, of 1024 {large} bytes");
     // Halves of four channels twice, as an image and packed, and the floats they were: of all levels a third more.
@@ -131,7 +131,7 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     let image = rig.stub.uploaded(format, size, vk::ImageUsageFlags::SAMPLED, bytes, SAMPLED);
     let rect =
         vk::Rect2D { offset: vk::Offset2D { x: 4, y: 3 }, extent: extent(super::WEB, super::WEB) };
-    let image = HostImage { rect, ..image.host_image() };
+    let image = image.host_image().with(|it| it.rect = rect);
     let cmd = rig.stub.begin(0);
     // SAFETY: cmd is recording; the slot's work is done; the image outlives it.
     unsafe { rig.renderer().record_web(cmd, Slot(0), &image) }.expect("record_web");
@@ -171,8 +171,8 @@ fn bad_looks_shores_and_configurations_name_their_field() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
     for web_size in [0, 8, 100, 4096] {
-        let shore = Some(ShoreConfig { web_size, ..ShoreConfig::default() });
-        match Rig::try_new(&gpu, &Config { shore, ..config(size) }, 1) {
+        let shore = Some(ShoreConfig::default().with(|it| it.web_size = web_size));
+        match Rig::try_new(&gpu, &config(size).with(|it| it.shore = shore), 1) {
             Err(Error::BadInput { field, .. }) => assert_eq!(field, "Config.shore.web_size"),
             _ => panic!("no error for a web of {web_size}"),
         }
@@ -211,7 +211,10 @@ fn bad_looks_shores_and_configurations_name_their_field() {
         assert!(why.contains(field), "{field}: {why}");
     }
     // Light of its own may be any.
-    let glowing = ContactLook { lit: 0.0, color: [40.0, 9.0, 1.0], ..ContactLook::default() };
+    let glowing = ContactLook::default().with(|it| {
+        it.lit = 0.0;
+        it.color = [40.0, 9.0, 1.0];
+    });
     let mut good = shot.clone();
     good.settings.shore.contact = glowing;
     rig.draw(&good);
@@ -228,25 +231,28 @@ fn bad_looks_shores_and_configurations_name_their_field() {
         Some(Shoreline::Strip(strip))
     };
     let (_color, depth) = rig.scene(&shot);
-    let nowhere = HostImage { rect: extent(33, 16).into(), ..depth.host_image() };
+    let nowhere = depth.host_image().with(|it| it.rect = extent(33, 16).into());
     let base = Shore::new(0.0);
     for (field, shore) in [
-        ("Frame.shore.bias", Shore { bias: -1.0, ..base }),
-        ("Frame.shore.surface", Shore { surface: Some(Surface::Level(f32::NAN)), ..base }),
+        ("Frame.shore.bias", base.with(|it| it.bias = -1.0)),
+        ("Frame.shore.surface", base.with(|it| it.surface = Some(Surface::Level(f32::NAN)))),
         (
             "Frame.shore.surface",
-            Shore { surface: None, shoreline: Some(Shoreline::Screen), ..base },
+            base.with(|it| {
+                it.surface = None;
+                it.shoreline = Some(Shoreline::Screen);
+            }),
         ),
-        ("HostImage.rect", Shore { surface: Some(Surface::Depth(nowhere)), ..base }),
+        ("HostImage.rect", base.with(|it| it.surface = Some(Surface::Depth(nowhere)))),
         (
             "Frame.shore.shoreline.triangles",
-            Shore { shoreline: of(|s| s.triangles.vertices = 5), ..base },
+            base.with(|it| it.shoreline = of(|s| s.triangles.vertices = 5)),
         ),
         (
             "Frame.shore.shoreline.triangles.positions",
-            Shore { shoreline: of(|s| s.triangles.positions.stride = 4), ..base },
+            base.with(|it| it.shoreline = of(|s| s.triangles.positions.stride = 4)),
         ),
-        ("Frame.shore.shoreline.v", Shore { shoreline: of(|s| s.v.offset = 250), ..base }),
+        ("Frame.shore.shoreline.v", base.with(|it| it.shoreline = of(|s| s.v.offset = 250))),
     ] {
         let bad = Shot { shore: Some(shore), ..shot.clone() };
         let why = rig.refused(&bad, None);

@@ -3,7 +3,7 @@
 use ash::vk;
 use glam::{DVec2, Mat4, Vec3};
 use whitewater::shore::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
-use whitewater::{Error, HostImage, Slot, Triangles};
+use whitewater::{Error, Slot, Triangles};
 
 use super::Mapped;
 use super::shoreline::heights;
@@ -165,7 +165,7 @@ impl Mesh {
             vertices,
             indices: Some((stream(&self.indices, 0, 4), indices)),
         };
-        MapMesh { triangles, transform }
+        MapMesh { triangles, transform: transform.to_cols_array_2d() }
     }
 }
 
@@ -380,7 +380,7 @@ fn an_image_of_any_size_is_taken_in_between() {
     let image = coasts.image(&around);
     let offset = vk::Offset2D { x: 5, y: 3 };
     let rect = vk::Rect2D { offset, extent: extent(32, 32) };
-    let image = HostImage { rect, ..image.host_image() };
+    let image = image.host_image().with(|it| it.rect = rect);
     coasts.image_step(&area, &coarse, None);
     let whole = coasts.distances();
     coasts.step(&area, Heights::Image(image), None);
@@ -403,8 +403,10 @@ fn steps_of_two_slots_in_flight() {
         for slot in 0..2_u32 {
             let heights = Heights::Image(images[slot as usize].host_image());
             let (before, after) = (HOST_WRITE, HOST_WRITE);
-            let step =
-                ShoreMapStep { slot: Slot(slot), area, heights, changed: None, before, after };
+            let step = ShoreMapStep::new(Slot(slot), area, heights).with(|it| {
+                it.before = before;
+                it.after = after;
+            });
             let cmd = coasts.stub.begin(slot);
             let map = coasts.map.as_mut().expect("only drop takes it");
             // SAFETY: the slot was waited for; the image lives to the end of this.
@@ -426,7 +428,11 @@ fn bad_maps_and_steps_name_their_field() {
         ("ShoreMapConfig.size", 8192, 1),
         ("ShoreMapConfig.max_meshes", 64, 65_537),
     ] {
-        let made = ShoreMap::new(&gpu.context(1), &ShoreMapConfig { size, max_meshes });
+        let config = ShoreMapConfig::default().with(|it| {
+            it.size = size;
+            it.max_meshes = max_meshes;
+        });
+        let made = ShoreMap::new(&gpu.context(1), &config);
         match made {
             Err(Error::BadInput { field: found, why }) => {
                 assert!(found == field && !why.is_empty())
@@ -452,10 +458,14 @@ fn bad_maps_and_steps_name_their_field() {
     odd.triangles.indices =
         odd.triangles.indices.map(|(stream, n)| (whitewater::Stream { offset: 2, ..stream }, n));
     let bent = mesh.mesh(Mat4::from_cols_array(&[f32::NAN; 16]));
-    let nowhere = HostImage { rect: extent(65, 64).into(), ..image };
+    let nowhere = image.with(|it| it.rect = extent(65, 64).into());
     let mut refused = |field: &str, slot, area: &Area, heights: Heights<'_>, changed| {
         let (before, after) = (HOST_WRITE, HOST_WRITE);
-        let step = ShoreMapStep { slot: Slot(slot), area: *area, heights, changed, before, after };
+        let step = ShoreMapStep::new(Slot(slot), *area, heights).with(|it| {
+            it.changed = changed;
+            it.before = before;
+            it.after = after;
+        });
         let map = coasts.map.as_mut().expect("only drop takes it");
         // SAFETY: nothing of a bad step may be used.
         let result = coasts.stub.run(|cmd| unsafe { map.record_step(cmd, &step) });

@@ -49,11 +49,15 @@ const WEB: u32 = 128;
 const SEED: u32 = 3;
 
 fn shore_config(edge: Edge) -> ShoreConfig {
-    ShoreConfig { edge, web_size: WEB, seed: SEED }
+    ShoreConfig::default().with(|it| {
+        it.edge = edge;
+        it.web_size = WEB;
+        it.seed = SEED;
+    })
 }
 
 fn with_shore(size: vk::Extent2D, edge: Edge) -> Config {
-    Config { shore: Some(shore_config(edge)), ..config(size) }
+    config(size).with(|it| it.shore = Some(shore_config(edge)))
 }
 
 /// A map of distances, and its host.
@@ -70,7 +74,10 @@ impl<'g> Mapped<'g> {
     }
 
     fn with_slots(gpu: &'g Gpu, size: u32, slots: u32) -> Self {
-        let config = ShoreMapConfig { size, max_meshes: 4 };
+        let config = ShoreMapConfig::default().with(|it| {
+            it.size = size;
+            it.max_meshes = 4;
+        });
         let map = ShoreMap::new(&gpu.context(slots), &config);
         let map = Some(map.unwrap_or_else(|error| panic!("{error}")));
         Self { gpu, stub: Stub::new(gpu, slots), map, size }
@@ -91,7 +98,11 @@ impl<'g> Mapped<'g> {
         changed: Option<[[f32; 2]; 2]>,
     ) -> Result<(), Error> {
         let (before, after) = (HOST_WRITE, HOST_WRITE);
-        let step = ShoreMapStep { slot: Slot(0), area: *area, heights, changed, before, after };
+        let step = ShoreMapStep::new(Slot(0), *area, heights).with(|it| {
+            it.changed = changed;
+            it.before = before;
+            it.after = after;
+        });
         let map = self.map.as_mut().expect("only drop takes it");
         // SAFETY: submitted at once and waited for; the handles outlive it.
         self.stub.run(|cmd| unsafe { map.record_step(cmd, &step) })

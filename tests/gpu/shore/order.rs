@@ -4,7 +4,7 @@
 use ash::vk;
 use whitewater::shore::Edge;
 use whitewater::water::Shading;
-use whitewater::{Config, Frame, Shore, Shoreline, Slot, Strip, Triangles};
+use whitewater::{Shore, Shoreline, Slot, Strip, Triangles};
 
 use super::composite::look;
 use super::shoreline::{AREA, heights};
@@ -165,7 +165,7 @@ fn recorded(rig: &mut Rig<'_>, shot: &Shot) -> Vec<Event> {
     spy::watch();
     for slot in [0, 1].map(Slot) {
         // SAFETY: cmd is recording and never submitted.
-        unsafe { rig.renderer().record(cmd, &Frame { slot, ..frame }) }.expect("record");
+        unsafe { rig.renderer().record(cmd, &frame.with(|it| it.slot = slot)) }.expect("record");
     }
     let events = spy::take_events();
     rig.stub.throw_away(0);
@@ -186,7 +186,7 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
     let size = extent(200, 170);
     let mut coasts = Mapped::new(&gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, |at| 0.4 * (at.x - 7.0)), None);
-    let config = Config { composite: Some(Shading::Raster), ..with_shore(size, Edge::Smooth) };
+    let config = with_shore(size, Edge::Smooth).with(|it| it.composite = Some(Shading::Raster));
     let mut rig = Rig::with_slots(&gpu, &config, 2);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     shot.settings.shore = look();
@@ -205,7 +205,7 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
     {
         let has = Has { strip, contacts };
         shot.settings.shore.contact.particle_opacity = contacts as f32;
-        shot.shore = Some(Shore { shoreline: Some(shoreline), ..Shore::new(AREA.level) });
+        shot.shore = Some(Shore::new(AREA.level).with(|it| it.shoreline = Some(shoreline)));
         let good = recorded(&mut rig, &shot);
         let one = |bytes| match spy::buffers_of_size(bytes)[..] {
             [buffer] => buffer,

@@ -89,7 +89,7 @@ fn every_setting_of_contacts_on_the_particles_water_shows() {
     let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
     let mut shot = shot(&coasts, &points);
     shot.scene_depth(|x, _| Some(3.6 + 0.02 * f64::from(x)));
-    shot.shore = Some(Shore { surface: None, ..Shore::new(0.0) });
+    shot.shore = Some(Shore::new(0.0).with(|it| it.surface = None));
     shot.settings.shore.contact.particle_opacity = 0.9;
     let mut rig = Rig::lit(&gpu, &with_shore(shot.size, Edge::Smooth), 1);
     let base = shot.settings.clone();

@@ -4,7 +4,7 @@ use ash::vk;
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::shore::Edge;
 use whitewater::water::Shadows;
-use whitewater::{Config, Shadow, Shore, Shoreline, Strip, Triangles};
+use whitewater::{Shadow, Shore, Shoreline, Strip, Triangles};
 
 use super::composite::{OFF, WAYS, check, coasts, coated, shot};
 use super::{STEP, U, exact, water, with_shore};
@@ -57,7 +57,7 @@ fn foam_is_in_the_shade_of_a_map() {
     let gpu = Gpu::shared();
     let coasts = coasts(&gpu);
     let base = shot(&coasts, &[]);
-    let config = Config { shadow: Some(Shadows::Map), ..with_shore(base.size, Edge::Smooth) };
+    let config = with_shore(base.size, Edge::Smooth).with(|it| it.shadow = Some(Shadows::Map));
     let mut rig = Rig::lit(&gpu, &config, 1);
     let corners =
         [[3.0_f32, -9.0], [11.0, -9.0], [3.0, -1.0], [11.0, -9.0], [3.0, -1.0], [11.0, -1.0]];
@@ -86,11 +86,15 @@ fn foam_is_in_the_shade_of_a_map() {
         let mut shot = base.clone();
         shot.settings.light.direction = sun.to_array();
         let host = image.host_image();
-        shot.sun.shadow = Some(Shadow { image: host, view_projection: light, bias: 0.1 });
+        shot.sun.shadow =
+            Some(Shadow::new(host, light.to_cols_array_2d()).with(|it| it.bias = 0.1));
         // With a strip nothing but that: of a texel that has both one of them says what the light is.
         let is_strip = name == "strip";
         let surface = base.shore.and_then(|shore| shore.surface).filter(|_| !is_strip);
-        shot.shore = Some(Shore { surface, shoreline, ..Shore::new(0.0) });
+        shot.shore = Some(Shore::new(0.0).with(|it| {
+            it.surface = surface;
+            it.shoreline = shoreline;
+        }));
         let drawn = rig.draw(&shot);
         let level = water(&shot, DVec3::Y, 0.0);
         let (mut seen, mut edge, mut dark) = ([0; 2], 0, 0);
@@ -131,16 +135,15 @@ fn foam_on_particles_and_behind_them_has_its_own_light() {
     let mut shot = shot(&coasts, &points);
     let contact = &mut shot.settings.shore.contact;
     (contact.particle_depth, contact.particle_opacity) = (Some(80.0), 0.9);
-    let eye = shot.camera.view;
+    let eye = shot.camera.view_matrix();
     let along = eye.inverse().transform_vector3(Vec3::NEG_Z);
     let lens = Mat4::orthographic_rh(-90.0, 90.0, -90.0, 90.0, 0.0, 100.0);
     let back = Mat4::look_to_rh(Vec3::new(0.0, 0.0, -100.0), Vec3::Z, Vec3::Y);
     for way in WAYS {
-        let map = Config {
-            composite: Some(way),
-            shadow: Some(Shadows::Map),
-            ..with_shore(shot.size, Edge::Smooth)
-        };
+        let map = with_shore(shot.size, Edge::Smooth).with(|it| {
+            it.composite = Some(way);
+            it.shadow = Some(Shadows::Map);
+        });
         let mut rig = Rig::lit(&gpu, &map, 1);
         for (name, view_projection, sun, depth, lost) in [
             ("along", lens * eye, -along, 0.036, [0, 255]),
@@ -150,7 +153,7 @@ fn foam_on_particles_and_behind_them_has_its_own_light() {
             let image = shadows(&rig, Shadows::Map, &Image::new(2, 2, depth));
             shot.settings.light.direction = sun.to_array();
             shot.sun.shadow =
-                Some(Shadow { image: image.host_image(), view_projection, bias: 0.0 });
+                Some(Shadow::new(image.host_image(), view_projection.to_cols_array_2d()));
             let found = rig.draw(&shot);
             let mut none = shot.clone();
             none.settings.shore.contact.particle_opacity = 0.0;

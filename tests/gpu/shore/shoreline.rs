@@ -44,20 +44,19 @@ fn coast(gpu: &Gpu) -> Mapped<'_> {
 
 /// The web alone: no noise, and no waves.
 pub fn web_alone(reach: [f32; 2], layers: [WebLayer; 4]) -> ShorelineLook {
-    ShorelineLook {
-        reach,
-        wave_ratio: 0.0,
-        web_ratio: 1.0,
-        web_rise: [0.0; 2],
-        threshold: 0.5,
-        threshold_noise: Noise::NONE,
-        rise_noise: Noise::NONE,
-        frequency_noise: Noise::NONE,
-        speed_noise: Noise::NONE,
-        web_warp: Noise::NONE,
-        layers,
-        ..ShorelineLook::default()
-    }
+    ShorelineLook::default().with(|it| {
+        it.reach = reach;
+        it.wave_ratio = 0.0;
+        it.web_ratio = 1.0;
+        it.web_rise = [0.0; 2];
+        it.threshold = 0.5;
+        it.threshold_noise = Noise::NONE;
+        it.rise_noise = Noise::NONE;
+        it.frequency_noise = Noise::NONE;
+        it.speed_noise = Noise::NONE;
+        it.web_warp = Noise::NONE;
+        it.layers = layers;
+    })
 }
 
 pub const AREA: Area =
@@ -67,23 +66,25 @@ pub const AREA: Area =
 pub fn plain() -> ShoreLook {
     let noise = |amplitude, scale| Noise { amplitude, scale };
     let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
-    let shoreline = ShorelineLook {
-        reach: [3.0, 1.5],
-        frequency: 9.0,
-        frequency_noise: noise(2.0, 1.0 / 30.0),
-        speed_noise: noise(0.35, 1.0 / 30.0),
-        threshold_noise: noise(0.14, 1.0 / 30.0),
-        rise_noise: noise(0.2, 1.0 / 30.0),
-        web_warp: noise(0.4, 1.0 / 17.0),
-        layers: [
+    let shoreline = ShorelineLook::default().with(|it| {
+        it.reach = [3.0, 1.5];
+        it.frequency = 9.0;
+        it.frequency_noise = noise(2.0, 1.0 / 30.0);
+        it.speed_noise = noise(0.35, 1.0 / 30.0);
+        it.threshold_noise = noise(0.14, 1.0 / 30.0);
+        it.rise_noise = noise(0.2, 1.0 / 30.0);
+        it.web_warp = noise(0.4, 1.0 / 17.0);
+        it.layers = [
             layer(0.62, 1.0 / 6.0, 0.0, [0.12, 0.07]),
             layer(0.38, 1.0 / 3.7, 37.0, [-0.1, 0.13]),
             WebLayer::NONE,
             WebLayer::NONE,
-        ],
-        ..ShorelineLook::default()
-    };
-    ShoreLook { time: 12.75, shoreline, ..ShoreLook::default() }
+        ];
+    });
+    ShoreLook::default().with(|it| {
+        it.time = 12.75;
+        it.shoreline = shoreline;
+    })
 }
 
 /// All there is.
@@ -166,7 +167,7 @@ pub fn amount(look: &ShoreLook, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Op
 /// A shot of the level with the map.
 fn with_map(coasts: &Mapped<'_>, shot: &mut Shot, look: &ShoreLook) {
     let line = Some(Shoreline::Map(coasts.coast()));
-    shot.shore = Some(Shore { shoreline: line, ..Shore::new(AREA.level) });
+    shot.shore = Some(Shore::new(AREA.level).with(|it| it.shoreline = line));
     shot.settings.shore = *look;
 }
 
@@ -246,7 +247,8 @@ fn both_pipelines_draw_the_same() {
     coasts.image_step(&AREA, &heights(&AREA, 64, |at| 0.4 * (at.x - 7.0)), None);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
-    shot.camera.view = Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z);
+    shot.camera.view =
+        Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z).to_cols_array_2d();
     let mut look = plain();
     let s = &mut look.shoreline;
     for noise in [
@@ -363,7 +365,14 @@ fn time_goes_round_and_nothing_grows() {
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     let mut at = |time: f64, period: Option<f32>| {
-        with_map(&coasts, &mut shot, &ShoreLook { time, period, ..plain() });
+        with_map(
+            &coasts,
+            &mut shot,
+            &plain().with(|it| {
+                it.time = time;
+                it.period = period;
+            }),
+        );
         compared(&format!("at {time}"), &mut rig, &shot, &map, Edge::Smooth)
             .check("time", 100, 0.05);
         rig.draw(&shot).shore.expect("shoreline foam")
@@ -379,7 +388,7 @@ fn time_goes_round_and_nothing_grows() {
     assert!(differ(&first, &half) > 0.01, "half a period on it is another");
     // What a sixtieth of a second changes, in the mean over some of a swing's times: early and late.
     let mut drawn = |time: f64| {
-        with_map(&coasts, &mut shot, &ShoreLook { time, ..plain() });
+        with_map(&coasts, &mut shot, &plain().with(|it| it.time = time));
         rig.draw(&shot).shore.expect("shoreline foam")
     };
     let [early, late, latest] = [0.0, 1.0e3, 1.0e7].map(|from| {
@@ -416,7 +425,10 @@ fn a_shaped_surface_s_foam_is_the_twin_s() {
         let (_color, depth) = rig.scene(&other);
         let line = Some(Shoreline::Map(coasts.coast()));
         let surface = Some(Surface::Depth(depth.host_image()));
-        shot.shore = Some(Shore { surface, shoreline: line, ..Shore::new(0.0) });
+        shot.shore = Some(Shore::new(0.0).with(|it| {
+            it.surface = surface;
+            it.shoreline = line;
+        }));
         shot.settings.shore = plain();
         let found = rig.draw(&shot).shore.expect("shoreline foam");
         let mut tally = Tally::default();
@@ -449,8 +461,8 @@ fn a_shaped_surface_s_foam_is_the_twin_s() {
 fn turned(shot: &Shot, up: DVec3) -> (Shot, glam::DQuat) {
     let turn = glam::DQuat::from_rotation_arc(DVec3::Y, up);
     let mut other = shot.clone();
-    let view = shot.camera.view.as_dmat4() * glam::DMat4::from_quat(turn.inverse());
-    other.camera.view = view.as_mat4();
+    let view = shot.camera.view_matrix().as_dmat4() * glam::DMat4::from_quat(turn.inverse());
+    other.camera.view = view.as_mat4().to_cols_array_2d();
     (other, turn)
 }
 
@@ -473,7 +485,7 @@ fn up_may_be_any_axis() {
         let map = twin_map(&coasts);
         let line = Some(Shoreline::Map(coasts.coast()));
         shot.settings.up = area.up;
-        shot.shore = Some(Shore { shoreline: line, ..Shore::new(0.0) });
+        shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = line));
         shot.settings.shore = plain();
         let found = rig.draw(&shot).shore.expect("shoreline foam");
         let look = &shot.settings.shore;

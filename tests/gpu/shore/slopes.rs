@@ -25,7 +25,10 @@ fn look(layers: usize) -> ShoreLook {
     });
     let layers = std::array::from_fn(|i| if i < layers { all[i] } else { WebLayer::NONE });
     let shoreline = web_alone([50.0; 2], layers);
-    ShoreLook { time: 12.75, shoreline, ..ShoreLook::default() }
+    ShoreLook::default().with(|it| {
+        it.time = 12.75;
+        it.shoreline = shoreline;
+    })
 }
 
 /// A way that is turned back by twice the web's angle: of a twin that turns it by the angle what a transposed turn makes.
@@ -49,9 +52,9 @@ fn slopes_are_turned_with_the_web() {
     for layers in [1, 3] {
         let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
         let (eye, along) = (Vec3::new(4.0, 0.7, 9.0), Vec3::new(0.3, -0.3, -1.0));
-        shot.camera.view = Mat4::look_to_rh(eye, along, Vec3::Y);
+        shot.camera.view = Mat4::look_to_rh(eye, along, Vec3::Y).to_cols_array_2d();
         let shoreline = Some(Shoreline::Map(coasts.coast()));
-        shot.shore = Some(Shore { shoreline, ..Shore::new(area.level) });
+        shot.shore = Some(Shore::new(area.level).with(|it| it.shoreline = shoreline));
         shot.settings.shore = look(layers);
         let found = rig.draw(&shot).shore.expect("foam");
         let level = water(&shot, Vec3::Y.as_dvec3(), 0.0);

@@ -59,7 +59,10 @@ fn a_strip_s_foam_is_the_twin_s() {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.settings.shore = plain();
         let shoreline = Some(Shoreline::Strip(strip));
-        shot.shore = Some(Shore { surface: None, shoreline, ..Shore::new(0.0) });
+        shot.shore = Some(Shore::new(0.0).with(|it| {
+            it.surface = None;
+            it.shoreline = shoreline;
+        }));
         let found = rig.draw(&shot).shore.expect("shoreline foam");
         let water = water(&shot, DVec3::Y, 0.0);
         let point = |x: usize, y: usize| water.at([x as f64 + 0.5, y as f64 + 0.5]);
@@ -116,7 +119,7 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.settings.shore = plain();
         let shoreline = Some(Shoreline::Screen);
-        shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+        shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
         let water = water(&shot, DVec3::Y, 0.0);
         let view = shot.view(size);
         let back = view.view.inverse();
@@ -177,7 +180,7 @@ fn by_the_depth_alone_nothing_above_the_level_is_a_shore() {
     let eye = shot.view(shot.size).view.inverse().w_axis.y as f32;
     // Seen from above there is foam, so the look has some.
     for (level, seen) in [(eye - 0.5, true), (eye + 0.5, false)] {
-        let mut shore = Shore { shoreline: Some(Shoreline::Screen), ..Shore::new(level) };
+        let mut shore = Shore::new(level).with(|it| it.shoreline = Some(Shoreline::Screen));
         shore.bias = 0.0;
         shot.shore = Some(shore);
         shot.settings.shore.shoreline.reach = [100.0, 1.0];

@@ -82,9 +82,10 @@ fn smooth_foam_neither_crawls_nor_sparkles() {
             for frame in 0..6_u8 {
                 let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
                 let moved = f32::from(frame) * step - Vec3::new(0.0, low, 0.0);
-                shot.camera.view *= Mat4::from_translation(-moved);
+                shot.camera.view =
+                    (shot.camera.view_matrix() * Mat4::from_translation(-moved)).to_cols_array_2d();
                 let shoreline = Some(Shoreline::Map(coasts.coast()));
-                shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+                shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
                 shot.settings.shore = plain();
                 let found = amounts(&rig.draw(&shot).shore.expect("shoreline foam"));
                 covers += found.data.iter().sum::<f64>() / found.data.len() as f64 / 6.0;
@@ -118,9 +119,10 @@ fn far_foam_covers_what_near_foam_does() {
         let size = extent(width, width);
         let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
         // From above, 20 m.
-        shot.camera.view = Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z);
+        shot.camera.view =
+            Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z).to_cols_array_2d();
         let shoreline = Some(Shoreline::Map(coasts.coast()));
-        shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+        shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
         shot.settings.shore = plain();
         let mut rig = Rig::new(&gpu, &with_shore(size, edge));
         amounts(&rig.draw(&shot).shore.expect("shoreline foam"))

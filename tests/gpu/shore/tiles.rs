@@ -1,7 +1,7 @@
 //! Which tiles are shaded: all that have foam, from wherever the surface is seen and whatever stands in it.
 
 use glam::{DVec3, Mat4, Vec3};
-use whitewater::shore::{ContactLook, Edge, Measure, WebLayer};
+use whitewater::shore::{Edge, Measure, WebLayer};
 use whitewater::{Shore, Shoreline};
 
 use super::contact::{scene_of, twins};
@@ -53,19 +53,24 @@ fn no_tile_with_foam_is_left_out() {
             let measure = if view == "from below" { Measure::View } else { measure };
             let name = format!("{view}, {lens:?}, {measure:?}");
             let mut shot = Shot::new(size, lens, 0.1, &[]);
-            shot.camera.view = match lens {
+            shot.camera.view = (match lens {
                 Lens::LeftHanded => Mat4::look_to_lh(eye, along, up),
                 _ => Mat4::look_to_rh(eye, along, up),
-            };
+            })
+            .to_cols_array_2d();
             let mut look = plain();
-            look.contact = ContactLook { depth: 0.4, measure, mask: 0.0, ..look.contact };
+            look.contact = look.contact.with(|it| {
+                it.depth = 0.4;
+                it.measure = measure;
+                it.mask = 0.0;
+            });
             if k == 1 {
                 // More layers than most have.
                 look.shoreline.layers[2] = WebLayer { weight: 0.05, ..look.shoreline.layers[0] };
             }
             shot.settings.shore = look;
             let line = Some(Shoreline::Map(coasts.coast()));
-            shot.shore = Some(Shore { shoreline: line, ..Shore::new(0.0) });
+            shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = line));
             let level = water(&shot, DVec3::Y, 0.0);
             let up_row = [level.up[0], level.up[1], level.up[2]];
             let point = |x: u32, y: u32| level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]);

@@ -5,7 +5,7 @@ use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::headless::{Background, Headless};
 use whitewater::shore::Edge;
 use whitewater::water::Shadows;
-use whitewater::{Camera, Config, Settings, Shore, Shoreline};
+use whitewater::{Camera, Config, Shore, Shoreline};
 
 use super::composite::{WAYS, look};
 use super::shoreline::{AREA, heights};
@@ -36,11 +36,11 @@ fn without_a_sea_nothing_is_another() {
     let mut coasts = Mapped::new(&gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, |_: DVec2| -1.0), None);
     let sea = Some(Shoreline::Map(coasts.coast()));
-    let (bare, level) = (Shore { surface: None, ..Shore::new(0.0) }, Shore::new(0.0));
+    let (bare, level) = (Shore::new(0.0).with(|it| it.surface = None), Shore::new(0.0));
     for way in WAYS {
         let mut case = Foamy::new(SIZE, Lens::ReversedInfinite, 30.0);
-        let plain = Config { composite: Some(way), ..everything(&mut case) };
-        let with = Config { shore: Some(shore_config(Edge::Smooth)), ..plain };
+        let plain = everything(&mut case).with(|it| it.composite = Some(way));
+        let with = plain.with(|it| it.shore = Some(shore_config(Edge::Smooth)));
         case.shot.settings.shore = look();
         let contact = &mut case.shot.settings.shore.contact;
         (contact.particle_opacity, contact.particle_depth) = (1.0, Some(9.0));
@@ -50,7 +50,7 @@ fn without_a_sea_nothing_is_another() {
         let expected = case.draw(&mut expected);
         let mut foamy = case.clone();
         foamy.shot.scene_depth(|_, _| Some(9.0));
-        foamy.shot.shore = Some(Shore { shoreline: Some(Shoreline::Screen), ..level });
+        foamy.shot.shore = Some(level.with(|it| it.shoreline = Some(Shoreline::Screen)));
         let foam = foamy.draw(&mut rig).shore.expect("foam");
         for channel in 0..4 {
             let count = foam.data.iter().filter(|texel| texel[channel] > 0).count();
@@ -60,7 +60,7 @@ fn without_a_sea_nothing_is_another() {
             ("none", None),
             ("of nothing", Some(bare)),
             ("far below", Some(Shore::new(-1000.0))),
-            ("no shore", Some(Shore { shoreline: sea, ..level })),
+            ("no shore", Some(level.with(|it| it.shoreline = sea))),
         ] {
             case.shot.shore = shore;
             same(&format!("shore-{way:?}-{name}"), &case.draw(&mut rig), &expected);
@@ -79,9 +79,8 @@ fn headless(config: &Config) -> Vec<[f32; 4]> {
     let points = scenes::block(3, 0.2, [12, 4, 12], [-1.2, -1.0, -1.2]);
     headless.particles(&points, None).expect("particles");
     let eye = Mat4::look_at_rh([2.0, 3.0, 4.0].into(), [0.0; 3].into(), [0.0, 1.0, 0.0].into());
-    let camera =
-        Camera { view: eye, projection: projection(Lens::ReversedInfinite, config.extent) };
-    let mut settings = Settings { shore: look(), ..scenes::settings(0.13) };
+    let camera = Camera::of(eye, projection(Lens::ReversedInfinite, config.extent));
+    let mut settings = scenes::settings(0.13).with(|it| it.shore = look());
     settings.shore.contact.particle_opacity = 1.0;
     headless.render(&camera, &settings, &Background::Scene).expect("a frame");
     let color = headless.color().expect("read back").data;
@@ -93,8 +92,11 @@ fn headless(config: &Config) -> Vec<[f32; 4]> {
 /// The tool's renderer may draw shores of any scene that has some.
 #[test]
 fn a_scene_without_a_sea_is_the_same() {
-    let plain = Config { shadow: Some(Shadows::Map), sheets: 2, ..config(SIZE) };
-    let with = Config { shore: Some(shore_config(Edge::Smooth)), ..plain };
+    let plain = config(SIZE).with(|it| {
+        it.shadow = Some(Shadows::Map);
+        it.sheets = 2;
+    });
+    let with = plain.with(|it| it.shore = Some(shore_config(Edge::Smooth)));
     let [expected, found] = [plain, with].map(|config| headless(&config));
     let differ = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
     assert_eq!(differ, 0, "of {} pixels", expected.len());

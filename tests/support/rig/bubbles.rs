@@ -58,12 +58,11 @@ impl Foamed {
     pub fn streams(&self) -> Blobs {
         let stride = size_of::<Bubble>() as u32;
         let at = |offset| -> Stream { stream(&self.0, offset, stride) };
-        Blobs {
-            turns: Some(at(16)),
-            ids: Some(at(32)),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..Blobs::new(at(0), Count::Cpu(self.1))
-        }
+        Blobs::new(at(0), Count::Cpu(self.1)).with(|it| {
+            it.turns = Some(at(16));
+            it.ids = Some(at(32));
+            it.before = HOST_WRITE;
+            it.after = HOST_WRITE;
+        })
     }
 }

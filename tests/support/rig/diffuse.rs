@@ -41,15 +41,14 @@ impl DiffuseCloud {
         let [kinds, radii, ages, ids] =
             self.words.each_ref().map(|data| data.as_ref().map(|data| stream(data, 0, 4)));
         let positions = stream(&self.positions, 0, 12);
-        DiffuseParticles {
-            kinds,
-            radii,
-            ages,
-            ids,
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..DiffuseParticles::new(positions, Count::Cpu(self.count))
-        }
+        DiffuseParticles::new(positions, Count::Cpu(self.count)).with(|it| {
+            it.kinds = kinds;
+            it.radii = radii;
+            it.ages = ages;
+            it.ids = ids;
+            it.before = HOST_WRITE;
+            it.after = HOST_WRITE;
+        })
     }
 }
 

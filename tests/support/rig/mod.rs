@@ -9,8 +9,8 @@ use ash::vk;
 use whitewater::headless::Headless;
 use whitewater::water::{Exit, Kernels, Shading, Splat};
 use whitewater::{
-    Access, Config, Count, DiffuseParticles, EnvironmentSource, Equirectangular, Error, Frame,
-    HostImage, Particles, Renderer, Slot, Stream,
+    Access, Config, Count, DiffuseParticles, EnvironmentSource, Equirectangular, Error, Particles,
+    Renderer, Slot, Stream,
 };
 
 use super::device::Gpu;
@@ -35,24 +35,23 @@ pub fn extent(width: u32, height: u32) -> vk::Extent2D {
 /// water in one sheet, as most twins have it. Smoothing at one level but in the long tests: half of what a renderer takes
 /// to make is the composite of tiles with several, which few tests have.
 pub fn config(size: vk::Extent2D) -> Config {
-    Config {
-        environment_size: 16,
-        keep_layers: true,
-        depth_splat: Some(Splat::Compute),
-        thickness_splat: Some(Splat::Compute),
-        sheets: 1,
+    Config::new(size, OUTPUT, 4096).with(|it| {
+        it.environment_size = 16;
+        it.keep_layers = true;
+        it.depth_splat = Some(Splat::Compute);
+        it.thickness_splat = Some(Splat::Compute);
+        it.sheets = 1;
         // Most twins see no more of the scene than what is behind.
-        mirror_steps: 0,
-        exit: Exit::Straight,
-        kernels: Kernels::Spheres,
-        coarsening: if slow() { Config::new(size, OUTPUT, 1).coarsening } else { 0 },
-        ..Config::new(size, OUTPUT, 4096)
-    }
+        it.mirror_steps = 0;
+        it.exit = Exit::Straight;
+        it.kernels = Kernels::Spheres;
+        it.coarsening = if slow() { Config::new(size, OUTPUT, 1).coarsening } else { 0 };
+    })
 }
 
 /// The same, smoothed at several levels where water is near.
 pub fn coarsening(config: Config) -> Config {
-    Config { coarsening: Config::new(config.extent, OUTPUT, 1).coarsening, ..config }
+    config.with(|it| it.coarsening = Config::new(config.extent, OUTPUT, 1).coarsening)
 }
 
 /// The stand-in scene on a device of its own.
@@ -140,7 +139,12 @@ impl<'g> Rig<'g> {
         let image = self.map(size, texels);
         let (image, without_sun) = (image.host_image(), None);
         let up = [0.0, 1.0, 0.0];
-        let source = Equirectangular { image, without_sun, scale, turn, up };
+        let source = Equirectangular::new(image).with(|it| {
+            it.without_sun = without_sun;
+            it.scale = scale;
+            it.turn = turn;
+            it.up = up;
+        });
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
@@ -153,7 +157,10 @@ impl<'g> Rig<'g> {
         let [image, without_sun] = [texels, without_sun].map(|texels| self.map(size, texels));
         let (image, without_sun) = (image.host_image(), Some(without_sun.host_image()));
         let up = [0.0, 1.0, 0.0];
-        let source = Equirectangular { image, without_sun, scale: 1.0, turn: 0.0, up };
+        let source = Equirectangular::new(image).with(|it| {
+            it.without_sun = without_sun;
+            it.up = up;
+        });
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
@@ -282,19 +289,17 @@ impl<'g> Rig<'g> {
             let extent = shot.with_margin(shot.size).0;
             self.stub.uploaded(format, extent, self.output_usage(), &bytes, COLOR)
         });
-        let placed = |texture: &Texture, size| HostImage {
-            rect: shot.with_margin(size).1,
-            ..texture.host_image()
+        let placed = |texture: &Texture, size| {
+            texture.host_image().with(|it| it.rect = shot.with_margin(size).1)
         };
         let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
         let theirs = self.config.bubbles.filter(|bubbles| !bubbles.hand_over);
         let blobs = theirs.map(|_| self.blobs(shot));
-        let frame = Frame {
-            scene_color: placed(&color, shot.size),
-            bubbles: blobs.as_ref().map(Foamed::streams),
-            diffuse,
-            ..shot.frame(output, placed(&depth, shot.depth_extent), *particles)
-        };
+        let frame = shot.frame(output, placed(&depth, shot.depth_extent), *particles).with(|it| {
+            it.scene_color = placed(&color, shot.size);
+            it.bubbles = blobs.as_ref().map(Foamed::streams);
+            it.diffuse = diffuse;
+        });
         let cmd = self.stub.begin(0);
         let renderer = self.renderer.as_mut().expect("only drop takes it");
         // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
@@ -328,12 +333,11 @@ pub struct Cloud {
 
 impl Cloud {
     pub fn particles(&self) -> Particles {
-        Particles {
-            densities: self.densities.as_ref().map(|d| stream(d, 0, 4)),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..Particles::new(stream(&self.positions, 0, 12), Count::Cpu(self.count))
-        }
+        Particles::new(stream(&self.positions, 0, 12), Count::Cpu(self.count)).with(|it| {
+            it.densities = self.densities.as_ref().map(|d| stream(d, 0, 4));
+            it.before = HOST_WRITE;
+            it.after = HOST_WRITE;
+        })
     }
 }
 

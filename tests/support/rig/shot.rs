@@ -75,20 +75,11 @@ impl Shot {
 
     /// A frame of it over its own scene, with slot 0.
     pub fn frame(&self, output: HostImage, depth: HostImage, particles: Particles) -> Frame<'_> {
-        Frame {
-            slot: Slot(0),
-            output,
-            scene_color: output,
-            scene_depth: depth,
-            particles,
-            camera: self.camera,
-            diffuse: None,
-            bubbles: None,
-            shore: self.shore,
-            sun: self.sun,
-            previous: self.previous,
-            settings: &self.settings,
-        }
+        Frame::new(Slot(0), output, depth, particles, self.camera, &self.settings).with(|it| {
+            it.shore = self.shore;
+            it.sun = self.sun;
+            it.previous = self.previous;
+        })
     }
 
     /// Size of an image round a view of a size, and where the view lies in it.

@@ -18,8 +18,8 @@ use vulkan::{CLEAR, COPY, Gpu};
 use whitewater::ash::vk;
 use whitewater::gpu_allocator::MemoryLocation;
 use whitewater::{
-    Access, Camera, Config, Context, Count, Enabled, EnvironmentSource, Frame, Host, Particles,
-    Renderer, Settings, Sky, Slot, Stream, Sun, Timing,
+    Camera, Config, Context, Count, EnvironmentSource, Frame, Host, Particles, Renderer, Settings,
+    Sky, Slot, Stream, Timing,
 };
 
 /// Size of the picture.
@@ -36,11 +36,6 @@ struct Particle {
     position: [f32; 3],
     density: f32,
 }
-
-/// The CPU and the GPU hand a buffer over without barriers: a submission makes the CPU's writes
-/// visible, and the fence waited for before the next ones ends the GPU's reads.
-const CPU: Access =
-    Access::new(vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE, vk::ImageLayout::UNDEFINED);
 
 /// Pixels in RGBA16F, the top row first: linear light, neither exposed nor tone mapped.
 pub type Picture = Vec<[u16; 4]>;
@@ -95,16 +90,10 @@ pub fn draw(
     let (picture, picture_memory) =
         gpu.buffer(picture_size, vk::BufferUsageFlags::TRANSFER_DST, MemoryLocation::GpuToCpu)?;
 
-    let host = Host {
-        instance: &gpu.instance,
-        physical_device: gpu.physical_device,
-        device,
-        allocator: gpu.allocator.clone(),
-        queue_family: gpu.queue_family,
-        frames_in_flight: FRAMES_IN_FLIGHT,
-        enabled: Enabled { debug_utils: validate, ..Enabled::default() },
-        pipeline_cache: vk::PipelineCache::null(),
-    };
+    let host =
+        Host::new(&gpu.instance, gpu.physical_device, device, gpu.queue_family, FRAMES_IN_FLIGHT)
+            .with_allocator(gpu.allocator.clone())
+            .with_enabled(gpu.enabled);
     // SAFETY: the handles belong together and outlive context and renderer; `enabled` is the truth.
     let context = unsafe { Context::new(&host)? };
     let mut water = Renderer::new(&context, &config)?;
@@ -147,34 +136,19 @@ pub fn draw(
             let stride = size_of::<Particle>() as u32;
             Stream { buffer, size, offset: offset + field as u64, stride }
         };
-        let particles = Particles {
-            densities: Some(stream(std::mem::offset_of!(Particle, density))),
-            before: CPU,
-            after: CPU,
-            ..Particles::new(
-                stream(std::mem::offset_of!(Particle, position)),
-                Count::Cpu(wave.len() as u32),
-            )
-        };
+        // No barrier for what the CPU wrote before the submit: before and after stay `access::NOTHING`.
+        let particles = Particles::new(
+            stream(std::mem::offset_of!(Particle, position)),
+            Count::Cpu(wave.len() as u32),
+        )
+        .with_densities(stream(std::mem::offset_of!(Particle, density)));
         // Reversed depth without a far plane; row 0 is up in glam and down in Vulkan.
         let aspect = EXTENT.width as f32 / EXTENT.height as f32;
         let projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0))
             * Mat4::perspective_infinite_reverse_rh(0.6, aspect, 0.1);
         let view = Mat4::look_at_rh(vec3(1.2 - 2.0 * time, 1.9, 1.8), vec3(0.0, 0.1, 0.0), Vec3::Y);
-        let frame = Frame {
-            slot,
-            output: color,
-            scene_color: color,
-            scene_depth: depth,
-            particles,
-            camera: Camera { view, projection },
-            diffuse: None,
-            bubbles: None,
-            shore: None,
-            sun: Sun::default(),
-            previous: None,
-            settings: &settings,
-        };
+        let camera = Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d());
+        let frame = Frame::new(slot, color, depth, particles, camera, &settings);
 
         // SAFETY: cmd is recording outside a render pass; what it uses lives until the fence.
         unsafe {

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use whitewater::ash::{Device, Entry, Instance, ext::debug_utils, vk};
 use whitewater::gpu_allocator::{AllocationSizes, MemoryLocation, vulkan as memory};
-use whitewater::{Access, Config, HostImage, Offer};
+use whitewater::{Access, Config, Enabled, HostImage, Offer};
 
 /// How this host writes its images.
 pub const CLEAR: Access = Access::new(
@@ -36,6 +36,7 @@ pub struct Gpu {
     pub device: Device,
     pub queue_family: u32,
     pub queue: vk::Queue,
+    pub enabled: Enabled,
     pub allocator: Arc<Mutex<memory::Allocator>>,
     messenger: Option<(debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     _entry: Entry, // holds the loader
@@ -46,7 +47,7 @@ impl Gpu {
     pub fn new(validate: bool, config: &Config) -> Result<Self, Box<dyn Error>> {
         let application = vk::ApplicationInfo::default()
             .application_name(c"whitewater-embed")
-            .api_version(whitewater::requirements().api_version);
+            .api_version(vk::API_VERSION_1_3);
         let layers = [c"VK_LAYER_KHRONOS_validation".as_ptr()];
         let extensions = [debug_utils::NAME.as_ptr()];
         let synchronization = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
@@ -79,13 +80,21 @@ impl Gpu {
             None
         };
         let (physical_device, queue_family) = choose(&instance, config)?;
-        // All that whitewater needs; what is enabled beyond it, `Host.enabled` tells it.
-        let mut v13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(true);
+        // All that whitewater can use of the device, and no more: `Host::with_enabled` tells it. It needs none of it; this
+        // host itself needs synchronization2.
+        let offer = Offer::of(&instance, physical_device, config.output_format);
+        let enabled = offer.optional.with(|it| it.debug_utils = validate);
+        let mut features = enabled.device_features();
+        let names = enabled.device_extensions(offer.api_version);
+        let names: Vec<_> = names.into_iter().map(CStr::as_ptr).collect();
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(queue_family)
             .queue_priorities(&[1.0])];
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut v13);
-        // SAFETY: whitewater's check found the feature; the queue is one that is asked for.
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queues)
+            .enabled_extension_names(&names);
+        let info = features.chain(info);
+        // SAFETY: the features are those that the device offers; the queue is one that is asked for.
         let (device, queue) = unsafe {
             let device = instance.create_device(physical_device, &info, None)?;
             let queue = device.get_device_queue(queue_family, 0);
@@ -106,6 +115,7 @@ impl Gpu {
             device,
             queue_family,
             queue,
+            enabled,
             allocator,
             messenger,
             _entry: entry,
@@ -144,8 +154,7 @@ impl Gpu {
             .subresource_range(range(aspect));
         // SAFETY: the image is bound.
         let view = unsafe { self.device.create_image_view(&info, None)? };
-        let rect = extent.into();
-        Ok((HostImage { image, view, format, aspect, extent, rect, before: CLEAR, after }, memory))
+        Ok((HostImage::new(image, view, format, extent, CLEAR).with_after(after), memory))
     }
 
     pub fn buffer(
@@ -290,7 +299,10 @@ fn choose(
         // SAFETY: a live instance, and a device of it.
         let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
         let family = families.iter().position(|family| family.queue_flags.contains(both));
-        match (Offer::of(instance, physical, config.output_format).check(config), family) {
+        let offer = Offer::of(instance, physical, config.output_format);
+        let own = offer.api_version >= vk::API_VERSION_1_3 && offer.optional.synchronization2;
+        match (offer.check(config), family) {
+            (Ok(()), Some(_)) if !own => refused = "no synchronization2".into(),
             (Ok(()), Some(family)) => return Ok((physical, family as u32)),
             (Err(error), _) => refused = error.into(),
             (_, None) => refused = "no queue family with graphics and compute".into(),

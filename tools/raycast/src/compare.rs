@@ -202,9 +202,9 @@ fn row(name: &str, cast: Option<&Cast>, times: &[(&'static str, f64)], ours: [f6
 
 fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)> {
     let count = shot.foam.positions.len() as u32;
-    let diffuse = DiffuseConfig { occlusion: Occlusion::Fast, ..DiffuseConfig::new(count.max(1)) };
+    let diffuse = DiffuseConfig::new(count.max(1)).with(|it| it.occlusion = Occlusion::Fast);
     let config =
-        Config { diffuse: Some(diffuse), ..Config::new(shot.extent(), COLOR_FORMAT, 1024) };
+        Config::new(shot.extent(), COLOR_FORMAT, 1024).with(|it| it.diffuse = Some(diffuse));
     let mut headless = Headless::new(device, &config).map_err(line)?;
     let mut draw = || {
         headless.particles(&[], None)?;

@@ -272,8 +272,8 @@ struct Lens {
 impl Lens {
     fn new(camera: &Camera) -> Result<Self, Error> {
         let field = "Input.camera";
-        let m = camera.projection.to_cols_array_2d();
-        if !camera.view.is_finite() || !camera.projection.is_finite() {
+        let m = camera.projection_matrix().to_cols_array_2d();
+        if !camera.view_matrix().is_finite() || !camera.projection_matrix().is_finite() {
             return Err(bad(field, "not finite".into()));
         }
         // m[column][row]; w = m[2][3] z + m[3][3].
@@ -292,7 +292,7 @@ impl Lens {
             if depth.is_finite() && depth > 0.0 { depth } else { f32::INFINITY }
         };
         let near = at(0.0).min(at(1.0));
-        let view = Mat4::from_diagonal(Vec4::new(1.0, 1.0, mirror, 1.0)) * camera.view;
+        let view = Mat4::from_diagonal(Vec4::new(1.0, 1.0, mirror, 1.0)) * camera.view_matrix();
         Ok(Self { view, p, linear, near })
     }
 

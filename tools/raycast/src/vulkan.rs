@@ -90,7 +90,7 @@ impl<'d> Buffer<'d> {
                 linear: true,
                 allocation_scheme: AllocationScheme::GpuAllocatorManaged,
             })
-            .map_err(|source| Error::Allocation { name: name.into(), source })?;
+            .map_err(|source| Error::Allocation { name: name.into(), source: Box::new(source) })?;
         let (memory, offset) =
             // SAFETY: the memory is bound once, below.
             unsafe { (allocation.memory(), allocation.offset()) };

@@ -457,7 +457,7 @@ fn converged_thickness_is_whitewaters() {
     let twin = twin_of(Method::Kernel, &foam, &SceneDepth::Nothing, &settings);
     let extent = vk::Extent2D { width: SIZE[0], height: SIZE[1] };
     let diffuse = Some(DiffuseConfig::new(300));
-    let config = Config { diffuse, ..Config::new(extent, COLOR_FORMAT, 1024) };
+    let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.diffuse = diffuse);
     let mut headless = Headless::new(gpu.0.take().expect("a device"), &config).expect("renderer");
     headless.particles(&[], None).expect("no particles");
     headless
@@ -500,7 +500,7 @@ fn bad_input_is_an_error() {
     let input = Input { foam: &foam, radius: 0.1, camera: &camera, size: [8, 8], scene: &scene };
     let settings = Settings::default();
     let short = Foam { ages: vec![0.0; 9], ..foam.clone() };
-    let flat = whitewater::Camera { projection: glam::Mat4::IDENTITY, ..camera };
+    let flat = whitewater::Camera { projection: glam::Mat4::IDENTITY.to_cols_array_2d(), ..camera };
     let depths = SceneDepth::Depths(vec![EMPTY; 63]);
     for (name, input, settings) in [
         ("Settings.step", input, Settings { step: f32::NAN, ..settings }),

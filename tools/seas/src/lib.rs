@@ -181,10 +181,10 @@ impl Sea {
         let eye = plan.target + distance * (plan.eye - plan.target).normalize();
         let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));
         let angle = plan.fov.to_radians();
-        Camera {
-            view: Mat4::look_at_rh(eye, plan.target, Vec3::Y),
-            projection: flip * Mat4::perspective_infinite_reverse_rh(angle, aspect, 0.5),
-        }
+        Camera::of(
+            Mat4::look_at_rh(eye, plan.target, Vec3::Y),
+            flip * Mat4::perspective_infinite_reverse_rh(angle, aspect, 0.5),
+        )
     }
 }
 

@@ -97,7 +97,7 @@ fn scenes_are_whole_and_far_enough_away() {
         let away = plan.eye.distance(plan.target);
         assert!((20.0..=200.0).contains(&away), "{sea:?}: {away} m");
         let camera = sea.camera(4.0 / 3.0);
-        let clip = camera.projection * camera.view;
+        let clip = camera.projection_matrix() * camera.view_matrix();
         let foam = sea.foam(0..COUNT, COUNT);
         let seen = foam.positions.iter().filter(|p| {
             let q = clip * Vec3::from(**p).extend(1.0);
@@ -107,7 +107,7 @@ fn scenes_are_whole_and_far_enough_away() {
         assert!(share > 0.5, "{sea:?}: {share} of the particles in the picture");
         assert_eq!(Sea::from_name(sea.name()), Some(sea));
         let near = sea.camera_from(5.0, 4.0 / 3.0);
-        let target = near.view.transform_point3(plan.target);
+        let target = near.view_matrix().transform_point3(plan.target);
         assert!(target.distance(Vec3::new(0.0, 0.0, -5.0)) < 1e-4, "{sea:?}: {target}");
     }
     assert_eq!(Sea::from_name("pool"), None);

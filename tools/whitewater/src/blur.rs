@@ -97,13 +97,17 @@ pub fn through(
     size: (u32, u32),
 ) -> Camera {
     let mut camera = *camera;
-    camera.view.w_axis -= lens.extend(0.0).extend(0.0);
+    let mut view = camera.view_matrix();
+    view.w_axis -= lens.extend(0.0).extend(0.0);
+    camera.view = view.to_cols_array_2d();
     // 1 or -1: whether depth grows along z.
-    let along = camera.projection.z_axis.w;
+    let along = camera.projection_matrix().z_axis.w;
     let pixel = 2.0 * pixel / Vec2::new(size.0 as f32, size.1 as f32);
-    let scale = Vec2::new(camera.projection.x_axis.x, camera.projection.y_axis.y);
+    let scale = Vec2::new(camera.projection_matrix().x_axis.x, camera.projection_matrix().y_axis.y);
     let shear = (scale * lens / focus + pixel) * along;
-    camera.projection.z_axis += shear.extend(0.0).extend(0.0);
+    let mut projection = camera.projection_matrix();
+    projection.z_axis += shear.extend(0.0).extend(0.0);
+    camera.projection = projection.to_cols_array_2d();
     camera
 }
 
@@ -180,9 +184,9 @@ mod tests {
         let lens = Vec2::new(0.04, -0.03);
         for (projection, along) in [(right, -1.0), (left, 1.0)] {
             let view = Mat4::look_at_rh(Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO, Vec3::Y);
-            let camera = Camera { view, projection };
+            let camera = Camera::of(view, projection);
             let seen = |camera: &Camera, p: Vec4| {
-                let clip = camera.projection * camera.view * p;
+                let clip = camera.projection_matrix() * camera.view_matrix() * p;
                 Vec2::new(clip.x, clip.y) / clip.w
             };
             let sample = Sample { time: 0.0, lens, pixel: Vec2::new(0.3, -0.4) };

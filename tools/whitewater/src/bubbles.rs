@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use serde::Deserialize;
-use whitewater::bubbles::{BubbleConfig, DistanceField, HeapSettings, Solid};
+use whitewater::bubbles::{DistanceField, HeapSettings, Solid};
 use whitewater::headless::Bubble;
 use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::io::particles::sequence;
@@ -323,7 +323,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     });
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
     let solids = solids.chain([floor]).collect();
-    let settings = HeapSettings { friction: 0.25, ..HeapSettings::default() };
+    let settings = HeapSettings::default().with(|it| it.friction = 0.25);
     let low = Bounds { min: Vec3::new(-1.5, 0.0, -0.6), max: Vec3::new(2.2, 1.6, 0.6) };
     let mut scene = stage::paving_under(&low);
     scene.meshes.extend(meshes);
@@ -397,11 +397,11 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         }
     }
     scene.sun = environment.sun_light();
-    let mut settings = Settings { light: environment.light(), ..Settings::default() };
+    let mut settings = Settings::default().with(|it| it.light = environment.light());
     file.apply(&mut settings);
     let Region { center, radius } = lit.region();
     let count = blobs.blobs.len();
-    let bubbles = BubbleConfig { hand_over: false, ..file.bubbles.config() };
+    let bubbles = file.bubbles.config().with(|it| it.hand_over = false);
     let look = Look {
         camera,
         settings,

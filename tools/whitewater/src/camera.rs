@@ -217,10 +217,8 @@ impl CameraFile {
                     "expected either eye and target or view and projection, found both; leave one out",
                 );
             }
-            let camera = Camera {
-                view: Mat4::from_cols_array(&view),
-                projection: Mat4::from_cols_array(&projection),
-            };
+            let camera =
+                Camera::of(Mat4::from_cols_array(&view), Mat4::from_cols_array(&projection));
             return Ok(camera);
         }
         let (Some(eye), Some(target)) = (self.eye, self.target) else {
@@ -250,7 +248,7 @@ impl CameraFile {
             None => Mat4::perspective_infinite_reverse_rh(fov.to_radians(), aspect, near),
         };
         projection.y_axis *= -1.0; // Vulkan: row 0 on top
-        Ok(Camera { view: Mat4::look_at_rh(eye, target, up), projection })
+        Ok(Camera::of(Mat4::look_at_rh(eye, target, up), projection))
     }
 
     /// A three-quarter view: the horizon a seventh below the picture's upper edge, the water in the lower part, as near as
@@ -477,8 +475,11 @@ pub struct Lens {
 impl Lens {
     /// Of a camera that the renderer accepts.
     pub fn new(camera: &Camera) -> Outcome<Self> {
-        let m = camera.projection.to_cols_array_2d();
-        if !camera.projection.is_finite() || !camera.view.is_finite() || m[2][3].abs() < 0.5 {
+        let m = camera.projection_matrix().to_cols_array_2d();
+        if !camera.projection_matrix().is_finite()
+            || !camera.view_matrix().is_finite()
+            || m[2][3].abs() < 0.5
+        {
             return Err(Failure::input(
                 "camera: expected a finite perspective projection, found another; orthographic \
                  cameras cannot be drawn",
@@ -522,7 +523,7 @@ mod tests {
     /// Place in the picture, -1 to 1 from the left and from above, of what is before the eye.
     fn shown(file: &CameraFile, size: (u32, u32), p: Vec3) -> Vec2 {
         let camera = file.camera(size).unwrap();
-        let clip = camera.projection * camera.view * p.extend(1.0);
+        let clip = camera.projection_matrix() * camera.view_matrix() * p.extend(1.0);
         assert!(clip.w > 0.0, "{p} is behind the eye");
         Vec2::new(clip.x, clip.y) / clip.w
     }
@@ -628,8 +629,9 @@ mod tests {
             let camera = file.camera((300, 200)).unwrap();
             let lens = Lens::new(&camera).unwrap();
             assert_eq!(lens.far, 0.0, "reversed");
-            let clip = camera.projection * camera.view * Vec4::new(0.1, 0.2, 0.3, 1.0);
-            let eye = -(camera.view * Vec4::new(0.1, 0.2, 0.3, 1.0)).z;
+            let clip =
+                camera.projection_matrix() * camera.view_matrix() * Vec4::new(0.1, 0.2, 0.3, 1.0);
+            let eye = -(camera.view_matrix() * Vec4::new(0.1, 0.2, 0.3, 1.0)).z;
             assert!((lens.eye_depth(clip.z / clip.w) - eye).abs() < 1e-4 * eye);
             assert_eq!(lens.eye_depth(0.0), whitewater::io::picture::EMPTY);
         }

@@ -50,7 +50,7 @@ impl Environment {
     pub fn sky(sun: Option<[f32; 3]>) -> Outcome<Self> {
         // Behind the water for the views found here: there it glitters.
         let sun = unit(sun.unwrap_or(SUN))?;
-        let sky = Sky { sun: sun.to_array(), ..Sky::default() };
+        let sky = Sky::default().with(|it| it.sun = sun.to_array());
         let sun_irradiance = Vec3::from(SunLight::of(&sky).color);
         let above = Panorama::build(64, 32, |d| match d.y > 0.0 {
             true => sky.intensity * sky_radiance(d, sun),
@@ -123,21 +123,22 @@ impl Environment {
     pub fn light(&self) -> Light {
         let default = Light::default();
         let reference = Sky::default().intensity;
-        Light {
-            direction: self.sun.to_array(),
+        default.with(|it| {
+            it.direction = self.sun.to_array();
             // The highlight of a sun that is in the picture comes with its reflection.
-            color: match self.source {
+            it.color = match self.source {
                 Source::Sky(_) => (Vec3::from(default.color) * self.sun_irradiance.max_element()
                     / reference)
                     .to_array(),
                 Source::Picture { .. } => [0.0; 3],
-            },
+            };
             // The mean over all directions, half of the sun's taken off by the water above.
-            ambient: ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array(),
-            irradiance: (self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0))
-                .to_array(),
-            shade: self.shade().to_array(),
-        }
+            it.ambient =
+                ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array();
+            it.irradiance =
+                (self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0)).to_array();
+            it.shade = self.shade().to_array();
+        })
     }
 
     /// Irradiance without the sun: of the sky, of what sunlit ground throws back, and of what the foam round
@@ -364,7 +365,7 @@ mod tests {
         let options = DeviceOptions { validation, ..DeviceOptions::default() };
         let device = Device::new(&options).unwrap();
         let extent = vk::Extent2D { width: 16, height: 16 };
-        let config = Config { environment_size: 64, ..Config::new(extent, COLOR_FORMAT, 1024) };
+        let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = 64);
         let mut headless = Headless::new(device, &config).unwrap();
         match &environment.source {
             Source::Sky(sky) => headless.sky(sky).unwrap(),
@@ -387,7 +388,7 @@ mod tests {
         let projection = Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
             * Mat4::perspective_rh(0.2, 1.0, 1.0, 100.0);
         let view = Mat4::look_to_rh(Vec3::new(0.0, 10.0, 0.0), Vec3::NEG_Y, Vec3::Z);
-        let camera = Camera { view, projection };
+        let camera = Camera::of(view, projection);
         headless.render(&camera, &Settings::default(), &Background::Scene).unwrap();
         let drawn = headless.color().unwrap();
         let sum: Vec3 = drawn.data.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).sum();
@@ -493,7 +494,7 @@ mod tests {
         let options = DeviceOptions { validation, ..DeviceOptions::default() };
         let device = Device::new(&options).unwrap();
         let extent = vk::Extent2D { width: SIZE, height: SIZE };
-        let config = Config { environment_size: SIZE, ..Config::new(extent, COLOR_FORMAT, 1024) };
+        let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = SIZE);
         let mut headless = Headless::new(device, &config).unwrap();
         // A sun without light has neither disc nor glow.
         let dark = SunLight { color: [0.0; 3], ..SunLight::default() };
@@ -503,7 +504,7 @@ mod tests {
             * Mat4::perspective_rh(PI / 2.0, 1.0, 1.0, 10.0);
         for sun in [SUN, [0.0, 1.0, 0.0], [0.9, 0.1, 0.3]] {
             let sun = Vec3::from(sun).normalize();
-            let sky = Sky { sun: sun.to_array(), ..Sky::default() };
+            let sky = Sky::default().with(|it| it.sun = sun.to_array());
             headless.sky(&sky).unwrap();
             let precision = precision(sun);
             assert!(precision < 0.03, "{sun}: {precision}");
@@ -518,7 +519,7 @@ mod tests {
             ] {
                 // The one particle, at the origin, is behind.
                 let view = Mat4::look_to_rh(100.0 * (axis + Vec3::Y), axis, up);
-                let camera = Camera { view, projection };
+                let camera = Camera::of(view, projection);
                 headless.render(&camera, &Settings::default(), &Background::Scene).unwrap();
                 let drawn = headless.color().unwrap();
                 for (i, &[r, g, b, _]) in drawn.data.iter().enumerate() {

@@ -187,7 +187,7 @@ mod tests {
     fn an_environment_too_large_for_the_device_is_named() {
         let device = Device::new(&DeviceOptions::default()).unwrap();
         let extent = vk::Extent2D { width: 16, height: 16 };
-        let config = Config { environment_size: 16, ..Config::new(extent, COLOR_FORMAT, 1024) };
+        let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = 16);
         let mut headless = Headless::new(device, &config).unwrap();
         // No device's images are so wide.
         let wide = vk::Extent2D { width: 100_000, height: 1 };

@@ -86,7 +86,7 @@ pub fn settings(
         }
     };
     // Water at rest does not foam.
-    (threshold > 0.0).then_some(FoamSettings { threshold, ..foam })
+    (threshold > 0.0).then_some(foam.with(|it| it.threshold = threshold))
 }
 
 /// How the water of a frame moves.

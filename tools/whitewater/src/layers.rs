@@ -246,7 +246,11 @@ pub fn ladder(
     layers: &mut Layers,
 ) -> Outcome<()> {
     for (name, ladder) in RUNGS {
-        headless.render(camera, &Settings { ladder, ..*settings }, &Background::Scene)?;
+        headless.render(
+            camera,
+            &settings.clone().with(|it| it.ladder = ladder),
+            &Background::Scene,
+        )?;
         let color = headless.color()?;
         for (c, axis) in ["R", "G", "B"].into_iter().enumerate() {
             let picture = merged(&color.map(|v| v[c]), layers.width, Merge::Mean);

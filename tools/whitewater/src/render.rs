@@ -473,35 +473,33 @@ const SPRAY_DENSITIES: [f32; 3] = [0.28, 0.62, 0.7];
 /// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
 /// of the time of a fall through a spacing.
 pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32) {
-    *spray = SprayLook {
-        densities: SPRAY_DENSITIES,
-        opacity: 0.85,
-        droplets: 64,
-        size: 0.25,
-        spread: 4.5,
-        stretch: (0.4 * (spacing / 9.81).sqrt()).min(1.0),
-        mist: 0.06,
-        mist_size: 1.6,
-        ..*spray
-    };
+    *spray = spray.with(|it| {
+        it.densities = SPRAY_DENSITIES;
+        it.opacity = 0.85;
+        it.droplets = 64;
+        it.size = 0.25;
+        it.spread = 4.5;
+        it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
+        it.mist = 0.045;
+        it.mist_size = 1.6;
+    });
 }
 
 /// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
 /// it is lit by the shape of the splash. (Of the library's whole relief, which is as large as a particle, it is gravel; of its
 /// veil, a cloud.)
 pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
-    *foam = FoamLook {
-        extinction: 0.35 / spacing,
-        front_extinction: 0.1 / spacing,
-        veil: 0.2 * spacing,
-        relief: 0.35,
-        lace: 1.0,
-        lace_size: 0.8,
-        shape: 0.8,
-        back_color: [0.62, 0.68, 0.73],
-        front_color: [0.97; 3],
-        ..*foam
-    };
+    *foam = foam.with(|it| {
+        it.extinction = 0.35 / spacing;
+        it.front_extinction = 0.1 / spacing;
+        it.veil = 0.1 * spacing;
+        it.relief = 0.35;
+        it.lace = 1.0;
+        it.lace_size = 0.8;
+        it.shape = 0.8;
+        it.back_color = [0.62, 0.68, 0.73];
+        it.front_color = [0.97; 3];
+    });
 }
 
 /// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
@@ -739,7 +737,7 @@ fn look(
     });
     let mut environment = environment;
     let set = args.set.unwrap_or_default();
-    let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
+    let view = camera.at_frame(probes.first).camera(args.draw.size)?.view_matrix();
     let eye = view.inverse().transform_point3(Vec3::ZERO);
     // A sun that the walls of a basin don't keep out, and that shines through what flies.
     let own_sky = args.scene.is_none() && args.draw.environment == "sky";

@@ -311,13 +311,17 @@ impl<'a> Session<'a> {
             };
             let table = &self.look.file.diffuse;
             let (occlusion, splat) = (table.occlusion(), table.splat());
-            DiffuseConfig { max_stride, occlusion, splat, ..DiffuseConfig::new(most) }
+            DiffuseConfig::new(most).with(|it| {
+                it.max_stride = max_stride;
+                it.occlusion = occlusion;
+                it.splat = splat;
+            })
         });
         config.bubbles = self.look.bubbles.as_ref().map(|(blobs, bubbles)| {
             let halvings = blobs.motion.as_ref().map_or(0, |motion| motion.halvings);
             let own = (blobs.blobs.len() as u32).max(1) << halvings;
             let max_blobs = if bubbles.hand_over { bubbles.max_blobs } else { own };
-            BubbleConfig { max_blobs, ..*bubbles }
+            bubbles.with(|it| it.max_blobs = max_blobs)
         });
         config.shore = self.look.shores.as_ref().map(|shores| shores.config);
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
@@ -333,7 +337,7 @@ impl<'a> Session<'a> {
         if config.kernels == Kernels::Ellipsoids && !self.look.file.water.says_kernels() {
             // A device may not bind so many.
             let offer = Offer::of(&device.instance, device.physical, COLOR_FORMAT);
-            let spheres = Config { kernels: Kernels::Spheres, ..config };
+            let spheres = config.with(|it| it.kernels = Kernels::Spheres);
             if offer.check(&config).is_err() && offer.check(&spheres).is_ok() {
                 times.say(&format!(
                     "{room} particles are drawn as spheres: the device binds the shapes of fewer"

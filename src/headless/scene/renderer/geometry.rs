@@ -1,7 +1,7 @@
 //! The baked vertices and indices on the device: uploaded once, drawn by every pass.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::super::Scene;
 use super::super::bake::{Baked, Part, Vertex};

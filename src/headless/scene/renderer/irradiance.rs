@@ -1,8 +1,8 @@
 //! The environment's irradiance as spherical harmonics, each frame: the environment may be new.
 //! Reads: environment, uniforms. Writes: nine coefficients.
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::textures::Textures;

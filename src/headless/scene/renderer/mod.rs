@@ -22,8 +22,8 @@ mod uniforms;
 
 use std::sync::Arc;
 
+use crate::gpu::memory::MemoryLocation;
 use ash::vk;
-use gpu_allocator::MemoryLocation;
 
 use super::Scene;
 use super::bake::{self, Baked};
@@ -243,7 +243,7 @@ impl SceneRenderer {
             descriptors: frame.descriptors,
             geometry: &self.geometry,
             textures: &self.textures,
-            view: View { clip: frame.camera.projection * frame.camera.view, far },
+            view: View { clip: frame.camera.projection() * frame.camera.view(), far },
             area: frame.color.extent.into(),
             resources: [
                 (0, Resource::buffer(&slot.uniforms)),

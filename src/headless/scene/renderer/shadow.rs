@@ -100,7 +100,7 @@ impl Shadow {
             after: FRAGMENT_SAMPLED,
         };
         let (view_projection, bias) = (self.sun.clip, bias + self.sun.texel);
-        crate::contract::Shadow { image, view_projection, bias }
+        crate::contract::Shadow { image, view_projection: view_projection.to_cols_array_2d(), bias }
     }
 
     pub fn resource(&self) -> Resource {

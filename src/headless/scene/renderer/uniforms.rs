@@ -132,7 +132,7 @@ impl Uniforms {
         let texel = 1.0 / shadow::SIZE as f32;
         let shows = if ground.is_some() || backdrop { 1.0 } else { 0.0 };
         Self {
-            clip: (camera.projection * camera.view).to_cols_array_2d(),
+            clip: (camera.projection() * camera.view()).to_cols_array_2d(),
             shadow: (to_uv * sun.clip).to_cols_array_2d(),
             eye: world.transform_point3(Vec3::ZERO).extend(far).to_array(),
             ray_x: turn(Vec3::X / p.x, 2.0 / extent.width.max(1) as f32),

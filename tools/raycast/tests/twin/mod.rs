@@ -47,7 +47,7 @@ pub struct Bound {
 pub fn camera(aspect: f32) -> Camera {
     let flip = Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0));
     let lens = Mat4::perspective_infinite_reverse_rh(60_f32.to_radians(), aspect, 0.1);
-    Camera { view: Mat4::IDENTITY, projection: flip * lens }
+    Camera::of(Mat4::IDENTITY, flip * lens)
 }
 
 impl Twin {
@@ -60,8 +60,8 @@ impl Twin {
         samples: u32,
     ) -> Self {
         let camera = camera(size[0] as f32 / size[1] as f32);
-        let view = DMat4::from_cols_array(&camera.view.to_cols_array().map(f64::from));
-        let m = camera.projection.to_cols_array_2d();
+        let view = DMat4::from_cols_array(&camera.view_matrix().to_cols_array().map(f64::from));
+        let m = camera.projection_matrix().to_cols_array_2d();
         let p = DVec2::new(m[0][0].into(), m[1][1].into());
         let full = DVec2::new(size[0].into(), size[1].into());
         let slope = [2.0 / (full * p), -1.0 / p];

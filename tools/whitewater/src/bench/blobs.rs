@@ -65,9 +65,12 @@ fn measure(
 ) -> Outcome<Vec<Row>> {
     let set = set(which)?;
     let max_blobs = set.blobs.blobs.len().max(1) as u32;
-    let bubbles = BubbleConfig { max_blobs, hand_over: false, ..file.bubbles.config() };
+    let bubbles = file.bubbles.config().with(|it| {
+        it.max_blobs = max_blobs;
+        it.hand_over = false;
+    });
     // There is no water, and room for it is not zero.
-    let config = Config { bubbles: Some(bubbles), ..Config::new(extent, COLOR_FORMAT, 64) };
+    let config = Config::new(extent, COLOR_FORMAT, 64).with(|it| it.bubbles = Some(bubbles));
     let mut headless = Headless::new(Device::new(options)?, &config)?;
     let rows = sample(&mut headless, args, file, (which, set), config, bubbles);
     headless.finish()?;
@@ -91,15 +94,15 @@ fn sample(
     headless.scene(&Scene { sun: environment.sun_light(), ..scene }, true)?;
     headless.particles(&[], None)?;
     headless.bubbles(&blobs.blobs)?;
-    let mut settings = Settings { light: environment.light(), ..Settings::default() };
+    let mut settings = Settings::default().with(|it| it.light = environment.light());
     file.apply(&mut settings);
     let aspect = extent.width as f32 / extent.height as f32;
     let fov = 36.0_f32.to_radians();
     let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));
-    let camera = Camera {
-        view: Mat4::look_at_rh(eye.into(), target.into(), Vec3::Y),
-        projection: flip * Mat4::perspective_infinite_reverse_rh(fov, aspect, 0.05),
-    };
+    let camera = Camera::of(
+        Mat4::look_at_rh(eye.into(), target.into(), Vec3::Y),
+        flip * Mat4::perspective_infinite_reverse_rh(fov, aspect, 0.05),
+    );
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
     let count = blobs.blobs.len() as u32;

@@ -79,9 +79,9 @@ pub struct Rays {
 
 impl Rays {
     pub fn new(camera: &Camera) -> Self {
-        let eye = camera.view.inverse().transform_point3(Vec3::ZERO);
-        let inverse = (camera.projection * camera.view).inverse();
-        Self { eye, inverse, view: camera.view }
+        let eye = camera.view_matrix().inverse().transform_point3(Vec3::ZERO);
+        let inverse = (camera.projection_matrix() * camera.view_matrix()).inverse();
+        Self { eye, inverse, view: camera.view_matrix() }
     }
 
     pub fn eye(&self) -> Vec3 {

@@ -256,8 +256,11 @@ mod tests {
         let blobs = set(&Which::Slope(200)).unwrap().blobs;
         let Motion { settings, solids, .. } = blobs.motion.unwrap();
         let extent = vk::Extent2D { width: 16, height: 16 };
-        let own = BubbleConfig { templates: 1, bubbles: 8, ..BubbleConfig::new(200) };
-        let config = Config { bubbles: Some(own), ..Config::new(extent, COLOR_FORMAT, 64) };
+        let own = BubbleConfig::new(200).with(|it| {
+            it.templates = 1;
+            it.bubbles = 8;
+        });
+        let config = Config::new(extent, COLOR_FORMAT, 64).with(|it| it.bubbles = Some(own));
         let mut headless = Headless::new(Device::new(&DeviceOptions::default())?, &config)?;
         headless.heap(&blobs.blobs, None, 0)?;
         let mut heap = CpuHeap::new(&blobs.blobs, &settings, &solids);

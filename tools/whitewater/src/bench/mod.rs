@@ -624,7 +624,7 @@ fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let settings = FoamSettings::reduced(pool.spacing, 1.0);
     let threshold = settings.scale * settings.rest_density * (20.0 * high).powi(2);
     headless.motion(&velocities, None)?;
-    headless.step(None, &FoamSettings { threshold, ..settings })?;
+    headless.step(None, &settings.with(|it| it.threshold = threshold))?;
     // The ramp begins at half the Weber number.
     Ok(heights.iter().filter(|y| **y > high * 0.5_f32.sqrt()).count() as u64)
 }
@@ -661,10 +661,10 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
 fn camera(extent: vk::Extent2D) -> Camera {
     let aspect = extent.width as f32 / extent.height as f32;
     let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));
-    Camera {
-        view: Mat4::look_at_rh(vec3(1.7, 1.15, 2.15), vec3(0.0, 0.12, 0.0), Vec3::Y),
-        projection: flip * Mat4::perspective_infinite_reverse_rh(45f32.to_radians(), aspect, 0.05),
-    }
+    Camera::of(
+        Mat4::look_at_rh(vec3(1.7, 1.15, 2.15), vec3(0.0, 0.12, 0.0), Vec3::Y),
+        flip * Mat4::perspective_infinite_reverse_rh(45f32.to_radians(), aspect, 0.05),
+    )
 }
 
 fn parse_count(text: &str) -> Result<u32, String> {

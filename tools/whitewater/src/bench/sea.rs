@@ -155,11 +155,10 @@ fn measure(args: &BenchArgs, options: &DeviceOptions, case: Case) -> Outcome<Vec
     let device = Device::new(options)?;
     // There are none, and it is not zero.
     let mut config = Config::new(case.extent, COLOR_FORMAT, 64);
-    config.diffuse = Some(DiffuseConfig {
-        occlusion: case.occlusion.into(),
-        packets: args.packets,
-        ..DiffuseConfig::new(case.count)
-    });
+    config.diffuse = Some(DiffuseConfig::new(case.count).with(|it| {
+        it.occlusion = case.occlusion.into();
+        it.packets = args.packets;
+    }));
     config.shadow = Some(Shadows::Map);
     let mut headless = Headless::new(device, &config)?;
     let rows = sample(&mut headless, args, case, config);
@@ -182,23 +181,22 @@ fn sample(
     headless.scene(&Scene { sun: environment.sun_light(), ..scene }, true)?;
     headless.particles(&[], None)?;
     upload(headless, sea, count, args.packets)?;
-    let mut settings = Settings {
+    let mut settings = Settings::default().with(|it| {
         // Of a scene of the source's size the source's reach.
-        diffuse: DiffuseLook {
-            radius: sea.radius(count),
-            reach: Reach::Metres(5.0),
-            ..DiffuseLook::default()
-        },
-        light: environment.light(),
-        ..Settings::default()
-    };
+        it.diffuse = DiffuseLook::default().with(|it| {
+            it.radius = sea.radius(count);
+            it.reach = Reach::Metres(5.0);
+        });
+        it.light = environment.light();
+    });
     if let Some(path) = &args.settings {
         SettingsFile::read(path)?.diffuse.put(&mut settings.diffuse);
     }
     let aspect = extent.width as f32 / extent.height as f32;
     let from = |distance| sea.camera_from(distance, aspect);
     let mut camera = args.away.map_or_else(|| sea.camera(aspect), from);
-    camera.view = Mat4::from_rotation_y(-args.turned.to_radians()) * camera.view;
+    camera.view = (Mat4::from_rotation_y(-args.turned.to_radians()) * camera.view_matrix())
+        .to_cols_array_2d();
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
     let depth = headless.layer("foam")?;

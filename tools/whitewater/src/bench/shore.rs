@@ -316,7 +316,10 @@ fn measure(
     // Without water there is room for some: none is not to be had.
     let max_particles = if setting.water { count } else { 64 };
     let shadow = (case.path == Path::Pcf).then_some(Shadows::Map);
-    let without = Config { max_particles, shadow, ..water };
+    let without = water.with(|it| {
+        it.max_particles = max_particles;
+        it.shadow = shadow;
+    });
     let mut shore = setting.shores.config;
     match case.path {
         Path::Clip => shore.edge = Edge::Clip,
@@ -324,7 +327,7 @@ fn measure(
         Path::Coverage => shore.edge = Edge::Coverage,
         _ => {}
     }
-    let with = Config { shore: Some(shore), ..without };
+    let with = without.with(|it| it.shore = Some(shore));
     let mut made = Vec::new();
     let mut result = Ok(());
     for config in [with, without, water] {

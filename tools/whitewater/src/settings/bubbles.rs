@@ -65,23 +65,23 @@ impl BubbleTable {
             (standard.max_blobs, standard.templates, standard.bubbles) = HANDED_OVER;
         }
         let impostor = self.impostor.map_or(standard.impostor, Into::into);
-        BubbleConfig {
-            templates: self.templates.unwrap_or(standard.templates),
-            bubbles: self.bubbles.unwrap_or(standard.bubbles),
-            seed: self.seed.unwrap_or(standard.seed),
-            impostor,
-            map: self.map.unwrap_or(impostor.map()),
-            steps: self.steps.unwrap_or(impostor.steps()),
-            layers: self.layers.unwrap_or(standard.layers),
-            sort: self.sort.map_or(standard.sort, Into::into),
-            film: Film {
+        standard.with(|it| {
+            it.templates = self.templates.unwrap_or(standard.templates);
+            it.bubbles = self.bubbles.unwrap_or(standard.bubbles);
+            it.seed = self.seed.unwrap_or(standard.seed);
+            it.impostor = impostor;
+            it.map = self.map.unwrap_or(impostor.map());
+            it.steps = self.steps.unwrap_or(impostor.steps());
+            it.layers = self.layers.unwrap_or(standard.layers);
+            it.sort = self.sort.map_or(standard.sort, Into::into);
+            it.film = Film {
                 index: self.index.unwrap_or(standard.film.index),
                 fresnel: self.fresnel.map_or(standard.film.fresnel, Into::into),
                 spectrum: self.spectrum.map_or(standard.film.spectrum, Into::into),
-            },
-            hand_over: self.hand_over.is_some(),
-            max_blobs: self.hand_over_blobs.unwrap_or(standard.max_blobs),
-        }
+            };
+            it.hand_over = self.hand_over.is_some();
+            it.max_blobs = self.hand_over_blobs.unwrap_or(standard.max_blobs);
+        })
     }
 
     /// Puts what the table says over a look.
@@ -109,6 +109,7 @@ impl BubbleTable {
             sort,
             film: Film { index, fresnel, spectrum },
             hand_over,
+            ..
         } = self.config();
         Self {
             hand_over: hand_over.then_some([near, far]),

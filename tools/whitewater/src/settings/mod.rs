@@ -99,9 +99,9 @@ impl SettingsFile {
     pub fn look(&self, spacing: f32, light: Light) -> Settings {
         let light = self.in_light(light);
         if self.is_thesis() {
-            return Settings { light, ..Settings::thesis(spacing) };
+            return Settings::thesis(spacing).with(|it| it.light = light);
         }
-        let mut settings = Settings { light, ..Settings::default() };
+        let mut settings = Settings::default().with(|it| it.light = light);
         settings.water.spacing = spacing;
         settings.foam = FoamLook::of_spacing(spacing);
         settings.diffuse = DiffuseLook::of_spacing(spacing);
@@ -140,19 +140,8 @@ impl SettingsFile {
     /// The file that says all: of settings, of what was found, and of what chooses passes as this file does.
     pub fn all(&self, settings: &Settings, found: Found<'_>) -> Self {
         // The tool's worlds have y up; the ladder is of the layers that are written.
-        let Settings {
-            up: _,
-            water,
-            foam,
-            spray,
-            diffuse,
-            bubbles,
-            shore,
-            shadow,
-            noise,
-            light,
-            ladder: _,
-        } = settings;
+        let Settings { water, foam, spray, diffuse, bubbles, shore, shadow, noise, light, .. } =
+            settings;
         Self {
             look: self.look,
             water: self.water.all(water, self.is_thesis()),

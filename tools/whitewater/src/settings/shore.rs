@@ -59,16 +59,16 @@ impl ShoreTable {
     /// What of it chooses passes.
     pub fn config(&self) -> ShoreConfig {
         let standard = ShoreConfig::default();
-        ShoreConfig {
-            edge: self.edge.map_or(standard.edge, Into::into),
-            web_size: self.web_size.unwrap_or(standard.web_size),
-            seed: self.seed.unwrap_or(standard.seed),
-        }
+        standard.with(|it| {
+            it.edge = self.edge.map_or(standard.edge, Into::into);
+            it.web_size = self.web_size.unwrap_or(standard.web_size);
+            it.seed = self.seed.unwrap_or(standard.seed);
+        })
     }
 
     /// The table that says all of a look, and of the passes and of what they read as this table does.
     pub fn all(&self, look: &ShoreLook) -> Self {
-        let ShoreConfig { edge, web_size, seed } = self.config();
+        let ShoreConfig { edge, web_size, seed, .. } = self.config();
         Self {
             edge: Some(edge.into()),
             web_size: Some(web_size),

@@ -1,8 +1,8 @@
 //! What makes a table of TOML keys of a part of the settings.
 
 /// A table whose keys are fields of a part of the settings, each of which may be left out: `put` lays what it says over
-/// such a part, `of` says all of one. A field that is neither a key nor named among those that are none does not
-/// compile: no key is forgotten.
+/// such a part, `of` says all of one. Each field is a key or named among those that are none: the test
+/// `no_field_is_forgotten` compares `FIELDS` with those of the part.
 ///
 /// `keys`: fields, and as what they are written. `optional`: fields that are `Option`s themselves. `not`: fields that
 /// are no keys. `beside`: keys that are no fields, which `of` leaves out.
@@ -24,6 +24,11 @@ macro_rules! table {
         }
 
         impl $table {
+            /// Every field of a part.
+            #[cfg(test)]
+            pub const FIELDS: &[&str] =
+                &[$(stringify!($key),)* $(stringify!($optional),)* $(stringify!($not),)*];
+
             /// Puts what the table says over a part.
             pub fn put(&self, part: &mut $part) {
                 $(if let Some(value) = self.$key.clone() {
@@ -34,7 +39,7 @@ macro_rules! table {
 
             /// The table that says all of a part.
             pub fn of(part: &$part) -> Self {
-                let $part { $($key,)* $($optional,)* $($not: _,)* } = *part;
+                let $part { $($key,)* $($optional,)* $($not: _,)* .. } = *part;
                 Self {
                     $($key: Some($key.into()),)*
                     $($optional,)*

@@ -1,5 +1,5 @@
 use whitewater::foam::{DiffuseLook, Limits, Mixing, Reach, Submerged};
-use whitewater::water::settings::{Amplitude, Convolution, Fresnel, Medium, WaterSettings};
+use whitewater::water::settings::{Amplitude, Convolution, Fresnel, Medium};
 use whitewater::water::{NoiseLook, SprayLook};
 
 use super::*;
@@ -35,9 +35,8 @@ fn media_are_read_by_name_and_by_numbers() {
     let turbid =
         Medium::Turbid { absorption: [1.0; 3], scattering: [2.0; 3], emission: [0.0, 0.5, 0.0] };
     assert_eq!(of("{absorption=[1,1,1], reduced_scattering=[2,2,2], emission=[0,0.5,0]}"), turbid);
-    let settings = Settings::default();
-    let mut settings =
-        Settings { water: WaterSettings { medium: turbid, ..settings.water }, ..settings };
+    let mut settings = Settings::default();
+    settings.water.medium = turbid;
     settings.water.fresnel = Fresnel::Schlick { f0: 0.25 };
     assert_eq!(applied(&written(&settings)), settings);
     // What the tables say goes before what the name brings.
@@ -64,7 +63,7 @@ fn water_foams_as_asked() {
         file.foam.formation(&settings.water)
     };
     let text = "[water]\nspacing = 0.02\nrest_density = 998.0\n[foam]\n";
-    let standard = FoamSettings { rest_density: 998.0, ..FoamSettings::reduced(0.02, 1.0) };
+    let standard = FoamSettings::reduced(0.02, 1.0).with(|it| it.rest_density = 998.0);
     assert_eq!(of(text), standard);
     // Section 3.2 of the thesis: ρ v² l / σ, of a particle's width l and a surface tension of 0.0728 N/m.
     let full = of(&format!("{text}weber = 'full'\nthreshold = 30.0"));
@@ -73,7 +72,11 @@ fn water_foams_as_asked() {
     let said = of(&format!("{text}lifetime = 2.5\nair = [1.0, 0.0, -3.0]\nseed = 7"));
     assert_eq!(
         said,
-        FoamSettings { foam_lifetime: 2.5, air: [1.0, 0.0, -3.0], seed: 7, ..standard }
+        standard.with(|it| {
+            it.foam_lifetime = 2.5;
+            it.air = [1.0, 0.0, -3.0];
+            it.seed = 7;
+        })
     );
 }
 
@@ -85,21 +88,20 @@ fn settings_go_out_and_come_back() {
     settings.water.amplitude = Amplitude::Source;
     settings.foam.veil = 0.25;
     settings.foam.front_color = [0.1, 0.2, 0.3];
-    settings.spray = SprayLook { size: 1.5, ..SprayLook::SOURCE };
-    settings.diffuse = DiffuseLook {
-        submerged: Submerged::Falloff { most: 0.3, n: 2.0, m: 4.0 },
-        reach: Reach::Metres(5.0),
-        mixing: Mixing::Source,
-        samples: [8, 64],
-        ..DiffuseLook::of_spacing(0.1)
-    };
+    settings.spray = SprayLook::SOURCE.with(|it| it.size = 1.5);
+    settings.diffuse = DiffuseLook::of_spacing(0.1).with(|it| {
+        it.submerged = Submerged::Falloff { most: 0.3, n: 2.0, m: 4.0 };
+        it.reach = Reach::Metres(5.0);
+        it.mixing = Mixing::Source;
+        it.samples = [8, 64];
+    });
     settings.bubbles.film = 450.0;
     settings.shore.period = Some(7.0);
     settings.shore.shoreline.floor = Some(-0.2);
     settings.shore.shoreline.layers[2] = settings.shore.shoreline.layers[0];
     settings.shore.contact.particle_depth = Some(0.3);
     settings.shadow.width = 7.5;
-    settings.noise = NoiseLook { cells: 0.7, ..NoiseLook::SOURCE };
+    settings.noise = NoiseLook::SOURCE.with(|it| it.cells = 0.7);
     settings.light.irradiance = [1.0, 2.0, 3.0];
     assert_eq!(applied(&written(&settings)), settings);
 }
@@ -252,4 +254,48 @@ fn mistakes_are_named() {
         let message = SettingsFile::parse(text).unwrap_err();
         assert!(message.contains(part) && !message.contains('\n'), "{message}");
     }
+}
+
+/// Names of the fields of a struct, by its derived `Debug`.
+fn fields(of: &impl std::fmt::Debug) -> Vec<String> {
+    let text = format!("{of:#?}");
+    let own = text.lines().filter_map(|line| line.strip_prefix("    "));
+    let named = own.filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()));
+    named.filter_map(|line| Some(line.split_once(':')?.0.to_owned())).collect()
+}
+
+/// The library's structs may grow: each field of them has a key, or is named as one that has none.
+#[test]
+fn no_field_is_forgotten() {
+    fn same(of: &impl std::fmt::Debug, known: &[&str]) {
+        let (mut found, mut known) = (fields(of), known.to_vec());
+        found.sort();
+        known.sort_unstable();
+        assert_eq!(found, known, "{of:?}");
+    }
+    let all = Settings::default();
+    same(&all.water, water::WaterTable::FIELDS);
+    same(&all.water.ellipsoids, water::EllipsoidTable::FIELDS);
+    same(&all.foam, water::FoamTable::FIELDS);
+    same(&all.spray, water::SprayTable::FIELDS);
+    same(&all.diffuse, diffuse::DiffuseTable::FIELDS);
+    same(&all.bubbles, bubbles::BubbleTable::FIELDS);
+    same(&all.shore, shore::ShoreTable::FIELDS);
+    same(&all.shore.shoreline, shore::ShorelineTable::FIELDS);
+    same(&all.shore.contact, shore::ContactTable::FIELDS);
+    same(&all.shadow, water::ShadowTable::FIELDS);
+    same(&all.noise, water::NoiseTable::FIELDS);
+    same(&all.light, water::LightTable::FIELDS);
+    let limits = Limits { least: 0.0, most: 1.0 };
+    let generated = whitewater::foam::GenerateSettings::new(1.0, [limits; 3], 1.0);
+    same(&generated, generate::GenerateTable::FIELDS);
+    // Those that are taken apart by hand.
+    let parts = "up water foam spray diffuse bubbles shore shadow noise light ladder";
+    let words = |names: &'static str| names.split(' ').collect::<Vec<_>>();
+    same(&all, &words(parts));
+    let foams = "scale threshold foam_lifetime air rest_density seed";
+    same(&FoamSettings::weber(1.0, 1.0), &words(foams));
+    let bubbles = "max_blobs templates bubbles seed impostor map steps layers sort film hand_over";
+    same(&whitewater::bubbles::BubbleConfig::new(1), &words(bubbles));
+    same(&whitewater::shore::ShoreConfig::default(), &words("edge web_size seed"));
 }

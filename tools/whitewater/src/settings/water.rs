@@ -293,20 +293,19 @@ impl FoamTable {
             Some(Weber::Full) => FoamSettings::weber(water.spacing, threshold),
             Some(Weber::Reduced) | None => FoamSettings::reduced(water.spacing, threshold),
         };
-        FoamSettings {
-            foam_lifetime: self.lifetime.unwrap_or(standard.foam_lifetime),
-            air: self.air.unwrap_or(standard.air),
-            seed: self.seed.unwrap_or(standard.seed),
-            rest_density: water.rest_density,
-            ..standard
-        }
+        standard.with(|it| {
+            it.foam_lifetime = self.lifetime.unwrap_or(standard.foam_lifetime);
+            it.air = self.air.unwrap_or(standard.air);
+            it.seed = self.seed.unwrap_or(standard.seed);
+            it.rest_density = water.rest_density;
+        })
     }
 
     /// The table that says all of a look, and by what water foams, as this table and `found` say.
     pub fn all(&self, look: &FoamLook, found: Option<&FoamSettings>) -> Self {
         let said = self.formation(&WaterSettings::default());
-        let FoamSettings { scale: _, threshold: _, foam_lifetime, air, rest_density: _, seed } =
-            *found.unwrap_or(&said);
+        // The rest is found, or goes by the spacing.
+        let FoamSettings { foam_lifetime, air, seed, .. } = *found.unwrap_or(&said);
         Self {
             by: Some(self.by.unwrap_or(FoamBy::Speed)),
             weber: Some(self.weber.unwrap_or(Weber::Reduced)),

@@ -76,7 +76,7 @@ impl Shores {
 
     /// The same, asked for or not.
     pub fn on_particles(file: &SettingsFile) -> Outcome<Self> {
-        let shore = Shore { surface: None, ..Shore::new(0.0) };
+        let shore = Shore::new(0.0).with(|it| it.surface = None);
         let config = file.shore.config();
         Ok(Self { config, shore, land: Land::None, web: web(file)?, mask: mask(file)? })
     }

@@ -1,0 +1,125 @@
+//! What a host enables, as the structures that make a device.
+
+use std::ffi::CStr;
+
+use ash::vk;
+
+use crate::contract::Enabled;
+
+/// The structures for [`Enabled`], to chain into `VkDeviceCreateInfo` ([`Enabled::device_features`]).
+pub struct DeviceFeatures {
+    core: vk::PhysicalDeviceFeatures,
+    vulkan12: vk::PhysicalDeviceVulkan12Features<'static>,
+    synchronization2: vk::PhysicalDeviceSynchronization2Features<'static>,
+    conditional_rendering: vk::PhysicalDeviceConditionalRenderingFeaturesEXT<'static>,
+}
+
+// SAFETY: nothing is chained before `chain`, which borrows them for good: no pointer is in any of them that another thread
+// could see.
+unsafe impl Send for DeviceFeatures {}
+// SAFETY: as above.
+unsafe impl Sync for DeviceFeatures {}
+
+impl DeviceFeatures {
+    /// The create info with all that is enabled: `pEnabledFeatures`, and behind `pNext` VkPhysicalDeviceVulkan12Features
+    /// and what extensions need. A host that has one of these structures itself, or single ones in the place of
+    /// VkPhysicalDeviceVulkan12Features, sets its own by [`Enabled::set_core`] and its siblings.
+    pub fn chain<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
+        let mut info = info.enabled_features(&self.core).push_next(&mut self.vulkan12);
+        if self.synchronization2.synchronization2 == vk::TRUE {
+            info = info.push_next(&mut self.synchronization2);
+        }
+        if self.conditional_rendering.conditional_rendering == vk::TRUE {
+            info = info.push_next(&mut self.conditional_rendering);
+        }
+        info
+    }
+}
+
+impl Enabled {
+    /// Structures that enable this, such as an [`Offer::optional`](crate::Offer), on a device.
+    ///
+    /// ```
+    /// use ash::vk;
+    /// let enabled = whitewater::Enabled::default().with(|it| it.synchronization2 = true);
+    /// let mut features = enabled.device_features();
+    /// let names: Vec<_> =
+    ///     enabled.device_extensions(vk::API_VERSION_1_3).iter().map(|name| name.as_ptr()).collect();
+    /// let info = vk::DeviceCreateInfo::default().enabled_extension_names(&names);
+    /// let info = features.chain(info); // and vkCreateDevice
+    /// assert!(!info.p_next.is_null());
+    /// ```
+    pub fn device_features(&self) -> DeviceFeatures {
+        let mut features = DeviceFeatures {
+            core: vk::PhysicalDeviceFeatures::default(),
+            vulkan12: vk::PhysicalDeviceVulkan12Features::default(),
+            synchronization2: vk::PhysicalDeviceSynchronization2Features::default(),
+            conditional_rendering: vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default(),
+        };
+        self.set_core(&mut features.core);
+        self.set_vulkan12(&mut features.vulkan12);
+        self.set_synchronization2(&mut features.synchronization2);
+        self.set_conditional_rendering(&mut features.conditional_rendering);
+        features
+    }
+
+    /// Device extensions that go with it, for a device of a Vulkan version.
+    pub fn device_extensions(&self, api_version: u32) -> Vec<&'static CStr> {
+        let mut names = Vec::new();
+        if self.conditional_rendering {
+            names.push(ash::ext::conditional_rendering::NAME);
+        }
+        if self.synchronization2 && api_version < vk::API_VERSION_1_3 {
+            names.push(ash::khr::synchronization2::NAME);
+        }
+        names
+    }
+
+    /// Turns on what is in a host's own structure; nothing off.
+    pub fn set_core(&self, features: &mut vk::PhysicalDeviceFeatures) {
+        for (wanted, feature) in [
+            (self.large_points, &mut features.large_points),
+            (self.precise_occlusion_queries, &mut features.occlusion_query_precise),
+            (self.buffer_int64_atomics, &mut features.shader_int64),
+            (
+                self.storage_image_write_without_format,
+                &mut features.shader_storage_image_write_without_format,
+            ),
+        ] {
+            turn_on(wanted, feature);
+        }
+    }
+
+    /// The same.
+    pub fn set_vulkan12(&self, features: &mut vk::PhysicalDeviceVulkan12Features<'_>) {
+        turn_on(self.draw_indirect_count, &mut features.draw_indirect_count);
+        turn_on(self.buffer_int64_atomics, &mut features.shader_buffer_int64_atomics);
+    }
+
+    /// The same, for hosts that have VkPhysicalDeviceVulkan13Features in the place of single structures.
+    pub fn set_vulkan13(&self, features: &mut vk::PhysicalDeviceVulkan13Features<'_>) {
+        turn_on(self.synchronization2, &mut features.synchronization2);
+    }
+
+    /// The same.
+    pub fn set_synchronization2(
+        &self,
+        features: &mut vk::PhysicalDeviceSynchronization2Features<'_>,
+    ) {
+        turn_on(self.synchronization2, &mut features.synchronization2);
+    }
+
+    /// The same.
+    pub fn set_conditional_rendering(
+        &self,
+        features: &mut vk::PhysicalDeviceConditionalRenderingFeaturesEXT<'_>,
+    ) {
+        turn_on(self.conditional_rendering, &mut features.conditional_rendering);
+    }
+}
+
+fn turn_on(wanted: bool, feature: &mut vk::Bool32) {
+    if wanted {
+        *feature = vk::TRUE;
+    }
+}
