@@ -28,6 +28,11 @@ pub enum Error {
         /// What it is needed for, and what to do.
         why: String,
     },
+    /// A frame was handed in before something that it reads was recorded.
+    NotRecorded {
+        /// The call that comes first, as in `Renderer::record_setup`.
+        call: &'static str,
+    },
     /// A field of what the host handed in is out of its range.
     BadInput {
         /// The field, as in `Frame.camera.projection`.
@@ -54,6 +59,9 @@ impl std::fmt::Display for Error {
             Self::Vulkan { call, result } => write!(f, "{call}: {result}"),
             Self::Allocation { name, source } => write!(f, "no device memory for {name}: {source}"),
             Self::Missing { what, why } => write!(f, "{what} is missing: {why}"),
+            Self::NotRecorded { call } => {
+                write!(f, "{call} was not recorded yet: record it before the first frame")
+            }
             Self::BadInput { field, why } => write!(f, "{field}: {why}"),
         }
     }

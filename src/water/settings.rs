@@ -493,6 +493,13 @@ impl FoamSettings {
         Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
     }
 
+    /// The same number of particles of a spacing in scene units, with speeds in these, in a world of so many units a metre.
+    pub fn weber_in(spacing: f32, units_per_metre: f32, threshold: f32) -> Self {
+        let scale =
+            spacing / (units_per_metre * units_per_metre * units_per_metre * SURFACE_TENSION);
+        Self { scale, ..Self::reduced(1.0, threshold) }
+    }
+
     /// The reduced form of the source's demo, `1e-5·ρ·v²` with v in 1/1.43 spacings per second; its
     /// thresholds are 50 to 110, default 80.
     pub fn reduced(spacing: f32, threshold: f32) -> Self {

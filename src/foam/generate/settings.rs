@@ -84,6 +84,12 @@ pub struct GenerateSettings {
 }
 
 impl GenerateSettings {
+    /// With the earth's gravity in a world of so many units a metre with a direction up, of unit length.
+    #[must_use]
+    pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
+        Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
+    }
+
     /// The defaults for limits of trapped air, wave crests and energy, and a rate of both.
     pub fn new(spacing: f32, limits: [Limits; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;
