@@ -11,6 +11,14 @@ use crate::frame::{Lens, check_settings, check_up};
 use crate::water::MOST_COARSENING;
 use crate::water::settings::{Shadows, range};
 
+/// The field names of a host image's states and rect, for [`image`].
+macro_rules! fields {
+    ($image:literal) => {
+        [concat!($image, ".before"), concat!($image, ".after"), concat!($image, ".rect")]
+    };
+}
+pub(crate) use fields;
+
 /// Validates a frame for a renderer's configuration; returns its decomposed camera.
 pub fn frame(
     frame: &Frame<'_>,
@@ -42,21 +50,21 @@ pub fn frame(
             format!("{:?} is not Config.output_format", frame.output.format),
         ));
     }
-    let shadow = frame.sun.shadow.as_ref().map(|s| ("Frame.sun.shadow.image.before", &s.image));
+    let shadow = frame.sun.shadow.as_ref().map(|s| (fields!("Frame.sun.shadow.image"), &s.image));
     let images = [
-        ("Frame.output.before", &frame.output),
-        ("Frame.scene_color.before", &frame.scene_color),
-        ("Frame.scene_depth.before", &frame.scene_depth),
+        (fields!("Frame.output"), &frame.output),
+        (fields!("Frame.scene_color"), &frame.scene_color),
+        (fields!("Frame.scene_depth"), &frame.scene_depth),
     ];
     let fluid = frame.diffuse.as_ref().and_then(|diffuse| diffuse.fluid_depth.as_ref());
-    let fluid = fluid.map(|image| ("Frame.diffuse.fluid_depth.before", image));
+    let fluid = fluid.map(|image| (fields!("Frame.diffuse.fluid_depth"), image));
     let own = frame.shore.as_ref();
     let surface = own.and_then(crate::shore::surface_of);
     let mask = own.and_then(|shore| shore.mask.as_ref());
-    let shore = [("Frame.shore.surface.before", surface), ("Frame.shore.mask.before", mask)];
-    let shore = shore.into_iter().filter_map(|(field, image)| Some((field, image?)));
-    for (field, image) in images.into_iter().chain(shadow).chain(fluid).chain(shore) {
-        self::image(field, image)?;
+    let shore = [(fields!("Frame.shore.surface"), surface), (fields!("Frame.shore.mask"), mask)];
+    let shore = shore.into_iter().filter_map(|(fields, image)| Some((fields, image?)));
+    for (fields, image) in images.into_iter().chain(shadow).chain(fluid).chain(shore) {
+        self::image(fields, image)?;
     }
     if frame.in_place() && !config.in_place {
         return Err(Error::bad(
@@ -79,13 +87,13 @@ pub fn frame(
     Lens::new(&frame.camera)
 }
 
-/// Validates a host image. `field`: name of its `before`.
-pub fn image(field: &'static str, image: &HostImage) -> Result<(), Error> {
+/// Validates a host image; the names are those of its `before`, `after` and `rect`.
+pub fn image([before, after, rect]: [&'static str; 3], image: &HostImage) -> Result<(), Error> {
     if image.before.layout == vk::ImageLayout::UNDEFINED {
-        return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
+        return Err(Error::bad(before, "UNDEFINED: its contents would be lost"));
     }
     if matches!(image.after.layout, vk::ImageLayout::UNDEFINED | vk::ImageLayout::PREINITIALIZED) {
-        return Err(Error::bad("HostImage.after", "no image can be left UNDEFINED"));
+        return Err(Error::bad(after, "no image can be left UNDEFINED"));
     }
     let vk::Rect2D { offset, extent } = image.rect;
     let fits = |at: i32, size: u32, whole: u32| {
@@ -97,7 +105,7 @@ pub fn image(field: &'static str, image: &HostImage) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::bad(
-        "HostImage.rect",
+        rect,
         format!(
             "{}x{} at ({}, {}) is no part of an image of {}x{}",
             extent.width,

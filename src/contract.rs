@@ -1199,6 +1199,7 @@ pub struct Settings {
     pub ladder: Ladder,
 }
 
+/// For particles of a spacing of 0.05 metres in a world in metres, under the default [`Sky`](crate::Sky).
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -1218,6 +1219,37 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The defaults for a particle spacing in scene units (twice the solver's particle radius, (0, ∞)) and a number of
+    /// scene units per metre (1 for metres, 100 for centimetres, (0, ∞)), under the default [`Sky`](crate::Sky) with +y
+    /// up. All lengths, speeds and optical densities of all looks follow from these two numbers. For another sky see
+    /// [`with_light`](Self::with_light).
+    ///
+    /// The host sets what belongs to a frame or step: radii of diffuse particles, [`Shore::bias`], gravity of
+    /// [`HeapSettings`](crate::bubbles::HeapSettings) and [`GenerateSettings`], and [`FoamSettings::weber_in`].
+    pub fn new(spacing: f32, units_per_metre: f32) -> Self {
+        let mut settings = Self::default();
+        settings.water.spacing = spacing;
+        settings.water.medium = settings.water.medium.thinned(1.0 / units_per_metre);
+        settings.foam = FoamLook::of_spacing(spacing);
+        settings.diffuse = DiffuseLook::of_spacing(spacing);
+        settings.bubbles.hand_over.near *= units_per_metre;
+        settings.bubbles.hand_over.far *= units_per_metre;
+        settings.shore = settings.shore.in_units(units_per_metre);
+        settings
+    }
+
+    /// Replaces the light: by [`Light::of`] the sky, or by the host's own.
+    #[must_use]
+    pub fn with_light(self, light: Light) -> Self {
+        Self { light, ..self }
+    }
+
+    /// Replaces the up direction, of any length but 0. The environment has to have the same.
+    #[must_use]
+    pub fn with_up(self, up: [f32; 3]) -> Self {
+        Self { up, ..self }
+    }
+
     /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of
     /// thickness, foam, spray and light on foam. It belongs with [`Rule::Source`](crate::water::Rule) as
     /// [`Config::rule`], [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
@@ -1263,14 +1295,15 @@ pub struct Light {
     pub shade: [f32; 3],
 }
 
+/// That of the default [`Sky`](crate::Sky), as [`Light::of`] reckons it.
 impl Default for Light {
     fn default() -> Self {
         Self {
             direction: [0.408_248_3, 0.816_496_6, 0.408_248_3],
-            color: [4.0, 3.8, 3.4],
-            ambient: [0.35, 0.45, 0.6],
-            irradiance: [3.6, 3.5, 3.4],
-            shade: [0.6, 0.8, 1.1],
+            color: [3.340_192, 3.173_182_4, 2.839_163_2],
+            ambient: [0.822_677_5, 0.823_987_4, 0.802_816],
+            irradiance: [15.623_868, 15.215_034, 13.950_685],
+            shade: [4.351_36, 4.530_953, 4.800_174],
         }
     }
 }

@@ -24,6 +24,8 @@ crate::contract::with!(Sky, Equirectangular);
 /// Source of the environment.
 #[derive(Clone, Copy, Debug)]
 pub enum EnvironmentSource {
+    /// None: water mirrors black.
+    Black,
     /// The built-in clear sky.
     Sky(Sky),
     /// An image of the host, only sampled.
@@ -119,7 +121,7 @@ shader::assert_layout!(
 );
 
 /// East, up and north.
-fn axes(up: [f32; 3]) -> [Vec3; 3] {
+pub(crate) fn axes(up: [f32; 3]) -> [Vec3; 3] {
     let up = Vec3::from(up).normalize_or(Vec3::Y);
     let [east, north] = level_axes(up);
     [east, up, north]
@@ -129,6 +131,7 @@ impl EnvironmentSource {
     /// Validates the source.
     pub(crate) fn check(&self) -> Result<(), Error> {
         match self {
+            Self::Black => Ok(()),
             Self::Sky(sky) => check_up("Sky.up", sky.up),
             Self::Equirectangular(own) => check_up("Equirectangular.up", own.up),
         }
@@ -220,12 +223,16 @@ impl Environment {
 
     /// Records a black environment, so that frames can sample it.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        self.record_black(gpu, cmd, access::NOTHING);
+    }
+
+    fn record_black(&self, gpu: &Gpu, cmd: vk::CommandBuffer, before: Access) {
         let change = |from, to| {
             let barriers: Vec<_> =
                 self.images().map(|image| access::image(image, from, to)).collect();
             gpu.barriers(cmd, &barriers, &[]);
         };
-        change(access::NOTHING, access::CLEAR);
+        change(before, access::CLEAR);
         for image in self.images() {
             gpu.clear_color(cmd, image, [0.0, 0.0, 0.0, 1.0]);
         }
@@ -261,6 +268,10 @@ impl Environment {
         self.apart =
             matches!(source, EnvironmentSource::Equirectangular(map) if map.without_sun.is_some());
         let recorded = match source {
+            EnvironmentSource::Black => {
+                self.record_black(gpu, cmd, SAMPLED.discarded());
+                Ok(())
+            }
             EnvironmentSource::Sky(sky) => self
                 .record_sky(gpu, cmd, descriptors, sky)
                 .and_then(|()| self.record_irradiance(gpu, cmd, descriptors)),

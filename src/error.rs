@@ -29,6 +29,11 @@ pub enum Error {
         /// What it is needed for, and what to do.
         why: String,
     },
+    /// A frame was recorded before something that it reads.
+    NotRecorded {
+        /// The call that has to come first, for example `Renderer::record_setup`.
+        call: &'static str,
+    },
     /// An input field is out of its range.
     BadInput {
         /// The field, as in `Frame.camera.projection`.
@@ -55,6 +60,9 @@ impl std::fmt::Display for Error {
             Self::Vulkan { call, result } => write!(f, "{call}: {result}"),
             Self::Allocation { name, source } => write!(f, "no device memory for {name}: {source}"),
             Self::Missing { what, why } => write!(f, "{what} is missing: {why}"),
+            Self::NotRecorded { call } => {
+                write!(f, "{call} was not recorded yet: record it before the first frame")
+            }
             Self::BadInput { field, why } => write!(f, "{field}: {why}"),
         }
     }

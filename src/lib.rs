@@ -183,6 +183,7 @@ mod light;
 mod random;
 mod renderer;
 pub mod shore;
+mod sky;
 mod state;
 pub mod water;
 

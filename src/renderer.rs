@@ -59,6 +59,10 @@ pub struct Renderer {
     retired: RetireList,
     /// False after a resize has failed half-way.
     whole: bool,
+    /// What is read before it is written was recorded.
+    set_up: bool,
+    /// An environment was recorded since.
+    surrounded: bool,
     water: Water,
     composite: Composite,
     light: Option<Light>,
@@ -99,6 +103,8 @@ impl Renderer {
             slots,
             retired: RetireList::default(),
             whole: true,
+            set_up: false,
+            surrounded: false,
             water: parts.water,
             composite: parts.composite,
             light: parts.light,
@@ -112,13 +118,15 @@ impl Renderer {
     }
 
     /// Records the initial contents of resources that are read before they are written, and the precomputed
-    /// data of bubble foam. Once, before the first `record`; again if `reconfigure` returns true.
+    /// data of bubble foam. Once, before the first `record`; again if `reconfigure` returns true. It leaves no environment:
+    /// call [`record_environment`](Self::record_environment) after it.
     ///
     /// # Safety
     /// `cmd` is recording outside a render pass and is submitted before any `record`. It belongs to no slot:
     /// before `resize` and `reconfigure` its work has to be complete, which a frame recorded after it and come
     /// back proves.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
+        (self.set_up, self.surrounded) = (true, false);
         self.environment.record_setup(&self.gpu, cmd);
         if let Some(bubbles) = &self.bubbles {
             bubbles.record_setup(&self.gpu, cmd);
@@ -146,7 +154,7 @@ impl Renderer {
         image: &HostImage,
     ) -> Result<(), Error> {
         let index = self.slot_index(slot)?;
-        check::image("web.before", image)?;
+        check::image(check::fields!("web"), image)?;
         let Some(shore) = &self.shore else {
             return Err(Error::bad("Config.shore", "None, but a web is given"));
         };
@@ -155,10 +163,12 @@ impl Renderer {
         shore.record_web(&self.gpu, cmd, &self.slots[index].descriptors, image)
     }
 
-    /// Records the environment that the water reflects, once per environment.
+    /// Records the environment that the water reflects, once per environment, after
+    /// [`record_setup`](Self::record_setup). Without one [`record`](Self::record) refuses frames:
+    /// [`EnvironmentSource::Black`] is none.
     ///
     /// # Errors
-    /// Vulkan errors; a bad slot, or no direction up.
+    /// [`Error::NotRecorded`] before the set-up; a bad slot, or no up direction; Vulkan errors.
     ///
     /// # Safety
     /// As [`record`](Self::record), with which it may share a slot and a command buffer if it
@@ -171,9 +181,14 @@ impl Renderer {
     ) -> Result<(), Error> {
         let index = self.slot_index(slot)?;
         source.check()?;
+        if !self.set_up {
+            return Err(Error::NotRecorded { call: "Renderer::record_setup" });
+        }
         self.retired.recorded(slot.0);
         self.slots[index].begin_environment(&self.gpu)?;
-        self.environment.record(&self.gpu, cmd, &self.slots[index].descriptors, source)
+        self.environment.record(&self.gpu, cmd, &self.slots[index].descriptors, source)?;
+        self.surrounded = true;
+        Ok(())
     }
 
     /// Records one frame: water over the scene, into the output.
@@ -182,7 +197,8 @@ impl Renderer {
     /// release barrier per host image. Every [`Error::BadInput`] is found before the first command.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field; after any other error discard the command buffer.
+    /// [`Error::BadInput`] with the field, and [`Error::NotRecorded`] before the set-up or an environment, before any
+    /// command; after any other error discard the command buffer.
     ///
     /// # Safety
     /// `cmd` is a primary command buffer of the host's queue family, recording, outside a render
@@ -482,6 +498,9 @@ impl Renderer {
         let shore = parts.shore.as_ref();
         let same_shore = shore.is_none_or(|own| own.is_set_up_as(self.shore.as_ref()));
         let due = environment.is_some() || !same_bubbles || !same_shore;
+        if due {
+            (self.set_up, self.surrounded) = (false, false);
+        }
         self.config = *config;
         self.whole = true;
         let retired = &mut self.retired;
@@ -581,7 +600,16 @@ impl Renderer {
         if !self.whole {
             return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
         }
-        check::frame(frame, &self.config, &self.gpu.limits)
+        let lens = check::frame(frame, &self.config, &self.gpu.limits)?;
+        for (recorded, call) in [
+            (self.set_up, "Renderer::record_setup"),
+            (self.surrounded, "Renderer::record_environment"),
+        ] {
+            if !recorded {
+                return Err(Error::NotRecorded { call });
+            }
+        }
+        Ok(lens)
     }
 }
 

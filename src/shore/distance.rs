@@ -496,7 +496,7 @@ impl ShoreMap {
             return Err(Error::bad("ShoreMapStep.changed", why));
         }
         match &step.heights {
-            Heights::Image(image) => check::image("ShoreMapStep.heights.before", image),
+            Heights::Image(image) => check::image(check::fields!("ShoreMapStep.heights"), image),
             Heights::Meshes(meshes) => {
                 if meshes.len() > self.config.max_meshes as usize {
                     let most = self.config.max_meshes;

@@ -70,6 +70,39 @@ pub struct ShoreLook {
     pub contact: ContactLook,
 }
 
+impl ShoreLook {
+    /// The same look, in metres, in a world of so many units a metre.
+    #[must_use]
+    pub fn in_units(mut self, units_per_metre: f32) -> Self {
+        let longer = |length: &mut f32| *length *= units_per_metre;
+        let wider = |scale: &mut f32| *scale /= units_per_metre;
+        let shore = &mut self.shoreline;
+        shore.reach.iter_mut().chain(&mut shore.web_warp_speed).for_each(longer);
+        for layer in &mut shore.layers {
+            wider(&mut layer.scale);
+            layer.speed.iter_mut().for_each(longer);
+        }
+        for noise in [
+            &mut shore.frequency_noise,
+            &mut shore.speed_noise,
+            &mut shore.threshold_noise,
+            &mut shore.rise_noise,
+        ] {
+            wider(&mut noise.scale);
+        }
+        // Of these the amplitude is a length too.
+        for warp in [&mut shore.web_warp, &mut shore.warp] {
+            wider(&mut warp.scale);
+            longer(&mut warp.amplitude);
+        }
+        longer(&mut self.contact.depth);
+        self.contact.particle_depth.iter_mut().for_each(longer);
+        wider(&mut self.contact.mask_scale);
+        self.contact.mask_speed.iter_mut().for_each(longer);
+        self
+    }
+}
+
 /// Zero-mean seamless noise over the water's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {

@@ -503,6 +503,13 @@ impl FoamSettings {
         Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
     }
 
+    /// The Weber number for a particle spacing and speeds in scene units, for a number of scene units per metre.
+    pub fn weber_in(spacing: f32, units_per_metre: f32, threshold: f32) -> Self {
+        let scale =
+            spacing / (units_per_metre * units_per_metre * units_per_metre * SURFACE_TENSION);
+        Self { scale, ..Self::reduced(1.0, threshold) }
+    }
+
     /// The reduced form of the thesis' demo, `1e-5·ρ·v²` with v in 1/1.43 spacings per second. Its thresholds
     /// are 50 to 110, default 80.
     pub fn reduced(spacing: f32, threshold: f32) -> Self {

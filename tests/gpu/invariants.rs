@@ -597,3 +597,34 @@ fn the_last_interleaved_particle_is_drawn() {
     let found = rig.draw_particles(&shot, &particles);
     compare::same("interleaved-last", &found.depth, &expected.depth);
 }
+
+/// One look in metres and in centimetres: all of `Settings::new` follows from the spacing and the unit.
+#[test]
+fn settings_follow_from_spacing_and_unit() {
+    let (metres, others) =
+        (whitewater::Settings::new(0.05, 1.0), whitewater::Settings::new(5.0, 100.0));
+    let near = |a: f32, b: f32| assert!((a - b).abs() <= 1.0e-5 * a.abs(), "{a} {b}");
+    near(100.0 * metres.water.radius(), others.water.radius());
+    near(metres.foam.extinction, 100.0 * others.foam.extinction);
+    near(100.0 * metres.foam.veil, others.foam.veil);
+    near(100.0 * metres.diffuse.radius, others.diffuse.radius);
+    near(100.0 * metres.bubbles.hand_over.near, others.bubbles.hand_over.near);
+    near(100.0 * metres.shore.shoreline.reach[0], others.shore.shoreline.reach[0]);
+    near(metres.shore.shoreline.layers[1].scale, 100.0 * others.shore.shoreline.layers[1].scale);
+    near(100.0 * metres.shore.contact.depth, others.shore.contact.depth);
+    let whitewater::water::Medium::Physical { absorption: [a, ..], .. } = metres.water.medium
+    else {
+        panic!("a pool")
+    };
+    let whitewater::water::Medium::Physical { absorption: [b, ..], .. } = others.water.medium
+    else {
+        panic!("a pool")
+    };
+    near(a, 100.0 * b);
+    // The same number of particles as fast.
+    let [a, b] = [(0.05, 1.0), (5.0, 100.0)].map(|(spacing, unit)| {
+        whitewater::water::FoamSettings::weber_in(spacing, unit, 1.0).scale * unit * unit
+    });
+    near(a, b);
+    assert_eq!(metres, whitewater::Settings::default());
+}

@@ -154,9 +154,13 @@ pub fn block(seed: u64, spacing: f32, size: [usize; 3], corner: [f32; 3]) -> Vec
     points
 }
 
-/// Settings for a drawn radius.
+/// Settings for a drawn radius, in a light under which nothing is far from 1.
 pub fn settings(radius: f32) -> Settings {
     let mut settings = Settings::default();
     settings.water.spacing = radius / 0.656;
+    settings.light.color = [4.0, 3.8, 3.4];
+    settings.light.ambient = [0.35, 0.45, 0.6];
+    settings.light.irradiance = [3.6, 3.5, 3.4];
+    settings.light.shade = [0.6, 0.8, 1.1];
     settings
 }

@@ -81,6 +81,12 @@ impl Default for HeapSettings {
 }
 
 impl HeapSettings {
+    /// With the earth's gravity in a world of so many units a metre with a direction up, of unit length.
+    #[must_use]
+    pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
+        Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
+    }
+
     pub(super) fn check(&self) -> Result<(), Error> {
         for part in self.gravity {
             range("HeapSettings.gravity", part, -1.0e4, 1.0e4)?;

@@ -90,6 +90,12 @@ pub struct GenerateSettings {
 }
 
 impl GenerateSettings {
+    /// Replaces gravity by the earth's, for a number of scene units per metre and an up direction of unit length.
+    #[must_use]
+    pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
+        Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
+    }
+
     /// The defaults, with limits of trapped air, wave crests and energy (in this order), and one rate for both sources.
     pub fn new(spacing: f32, limits: [Limits; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;

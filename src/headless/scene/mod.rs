@@ -99,17 +99,8 @@ pub struct SunLight {
 impl SunLight {
     /// The sun of the built-in sky, dimmed and reddened by the same air.
     pub fn of(sky: &Sky) -> Self {
-        // Optical depth to the zenith: the coefficients and scale heights of
-        // glsl/include/atmosphere.glsl; air mass after Kasten and Young 1989.
-        const RAYLEIGH: Vec3 = Vec3::new(7.14e-3 * 8.0, 13.21e-3 * 8.0, 32.08e-3 * 8.0);
-        const MIE: Vec3 = Vec3::new(67.7e-3 * 1.332, 82.7e-3 * 1.332, 110.4e-3 * 1.332);
         let direction = Vec3::from(sky.sun).normalize_or(Vec3::Y);
-        let height = direction.y.clamp(0.0, 1.0);
-        let degrees = height.asin().to_degrees();
-        let mass = 1.0 / (height + 0.50572 * (degrees + 6.07995).powf(-1.6364));
-        let risen = (direction.y / 0.01).clamp(0.0, 1.0);
-        let color = (-(RAYLEIGH + MIE) * mass).exp() * sky.intensity * risen;
-        Self { direction: direction.to_array(), color: color.to_array() }
+        Self { direction: direction.to_array(), color: sky.sun_irradiance() }
     }
 }
 

@@ -31,9 +31,9 @@ fn spoils() -> Vec<Spoil> {
             g.frame.output.extent.width += 1;
             g.frame.output.rect.extent.width += 1;
         }),
-        ("beyond", "HostImage.rect", |g| g.frame.output.rect.offset.x = 1),
-        ("before", "HostImage.rect", |g| g.frame.scene_depth.rect.offset.y = -1),
-        ("no part", "HostImage.rect", |g| g.frame.scene_color.rect.extent.width = 0),
+        ("beyond", "Frame.output.rect", |g| g.frame.output.rect.offset.x = 1),
+        ("before", "Frame.scene_depth.rect", |g| g.frame.scene_depth.rect.offset.y = -1),
+        ("no part", "Frame.scene_color.rect", |g| g.frame.scene_color.rect.extent.width = 0),
         ("format", "Frame.output.format", |g| g.frame.output.format = vk::Format::R8G8B8A8_UNORM),
         ("lost output", "Frame.output.before", |g| {
             g.frame.output.before.layout = vk::ImageLayout::UNDEFINED;
@@ -44,14 +44,14 @@ fn spoils() -> Vec<Spoil> {
         ("lost depth", "Frame.scene_depth.before", |g| {
             g.frame.scene_depth.before.layout = vk::ImageLayout::UNDEFINED;
         }),
-        ("left undefined", "HostImage.after", |g| {
+        ("left undefined", "Frame.output.after", |g| {
             g.frame.output.after.layout = vk::ImageLayout::UNDEFINED;
         }),
-        ("left preinitialized", "HostImage.after", |g| {
+        ("left preinitialized", "Frame.scene_depth.after", |g| {
             g.frame.scene_depth.after.layout = vk::ImageLayout::PREINITIALIZED;
         }),
-        ("no extent", "HostImage.rect", |g| g.frame.scene_depth.extent.height = 0),
-        ("no width", "HostImage.rect", |g| g.frame.scene_color.extent.width = 0),
+        ("no extent", "Frame.scene_depth.rect", |g| g.frame.scene_depth.extent.height = 0),
+        ("no width", "Frame.scene_color.rect", |g| g.frame.scene_color.extent.width = 0),
         ("too many", "Frame.particles.count", |g| g.frame.particles.count = Count::Cpu(4097)),
         ("short buffer", "Frame.particles.positions", |g| {
             g.frame.particles.count = Count::Cpu(4000);
@@ -213,7 +213,7 @@ fn sunny_spoils() -> Vec<Spoil> {
         ("matrix", "Frame.sun.shadow.view_projection", |g| {
             shadow_of(g).view_projection = [[0.0; 4]; 4];
         }),
-        ("part", "HostImage.rect", |g| shadow_of(g).image.rect.offset.x = 1),
+        ("part", "Frame.sun.shadow.image.rect", |g| shadow_of(g).image.rect.offset.x = 1),
         ("lost shadow", "Frame.sun.shadow.image.before", |g| {
             shadow_of(g).image.before.layout = vk::ImageLayout::UNDEFINED;
         }),

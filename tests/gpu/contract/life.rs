@@ -227,3 +227,43 @@ fn destroy_leaves_nothing() {
         assert_eq!(gpu.allocations(), Vec::<String>::new());
     }
 }
+
+/// Frames that would read what nobody recorded are refused, by the name of the call.
+#[test]
+fn what_was_not_recorded_is_named() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 16);
+    let mut rig = Rig::new(&gpu, &config(size));
+    let shot = water(size, Lens::Standard);
+    let expected = rig.draw(&shot).output;
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    let context = gpu.context(1);
+    let mut fresh = whitewater::Renderer::new(&context, &config(size)).expect("a renderer");
+    let black = whitewater::EnvironmentSource::Black;
+    let call = |error| match error {
+        Some(Error::NotRecorded { call }) => call,
+        other => panic!("{other:?}"),
+    };
+    let cmd = rig.stub.begin(0);
+    // SAFETY: nothing of what is refused is recorded; the rest is submitted once, in this order.
+    unsafe {
+        let none = fresh.record(cmd, &frame).err();
+        assert_eq!(call(none), "Renderer::record_setup");
+        let early = fresh.record_environment(cmd, Slot(0), &black).err();
+        assert_eq!(call(early), "Renderer::record_setup");
+        fresh.record_setup(cmd);
+        let half = fresh.record(cmd, &frame).err();
+        assert_eq!(call(half), "Renderer::record_environment");
+        fresh.record_environment(cmd, Slot(0), &black).expect("black");
+        fresh.record(cmd, &frame).expect("a frame");
+    }
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    let nothing = whitewater::Recorded::default();
+    let found = rig.read(&color.host_image(), &nothing).output;
+    crate::support::compare::same_color("recorded", &found, &expected);
+    // SAFETY: the slot was waited for.
+    unsafe { fresh.destroy() };
+}

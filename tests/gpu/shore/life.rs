@@ -243,7 +243,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
                 it.shoreline = Some(Shoreline::Screen);
             }),
         ),
-        ("HostImage.rect", base.with(|it| it.surface = Some(Surface::Depth(nowhere)))),
+        ("Frame.shore.surface.rect", base.with(|it| it.surface = Some(Surface::Depth(nowhere)))),
         (
             "Frame.shore.shoreline.triangles",
             base.with(|it| it.shoreline = of(|s| s.triangles.vertices = 5)),

@@ -502,6 +502,6 @@ fn bad_maps_and_steps_name_their_field() {
     ] {
         refused(field, 0, &good, Heights::Meshes(std::slice::from_ref(mesh)), None);
     }
-    refused("HostImage.rect", 0, &good, Heights::Image(nowhere), None);
+    refused("ShoreMapStep.heights.rect", 0, &good, Heights::Image(nowhere), None);
     coasts.step(&good, heights, None);
 }

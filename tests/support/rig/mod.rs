@@ -87,6 +87,12 @@ impl<'g> Rig<'g> {
         let mut renderer = Renderer::new(&gpu.context(slots), config)?;
         // SAFETY: submitted before any record.
         stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+        // SAFETY: as above; nothing else was recorded with the slot.
+        stub.run(|cmd| unsafe {
+            renderer.record_environment(cmd, Slot(0), &EnvironmentSource::Black)
+        })?;
+        // SAFETY: it was waited for.
+        unsafe { renderer.collect(Slot(0)) };
         Ok(Self { gpu, stub, config: *config, renderer: Some(renderer) })
     }
 
@@ -111,6 +117,7 @@ impl<'g> Rig<'g> {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
         // SAFETY: submitted before any record.
         self.stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+        self.any_environment(&EnvironmentSource::Black);
     }
 
     /// Leaves the renderer to a plain drop: it leaks.

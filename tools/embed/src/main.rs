@@ -98,8 +98,7 @@ pub fn draw(
     let context = unsafe { Context::new(&host)? };
     let mut water = Renderer::new(&context, &config)?;
     drop((host, context)); // they share the allocator, which has to go before the device
-    let mut settings = Settings::default();
-    settings.water.spacing = SPACING; // the look's other lengths follow from it
+    let settings = Settings::new(SPACING, 1.0); // metres; the light is that of the sky below
 
     let family = vk::CommandPoolCreateInfo::default().queue_family_index(gpu.queue_family);
     let signaled = vk::FenceCreateInfo::default().flags(vk::FenceCreateFlags::SIGNALED);

@@ -3,7 +3,7 @@
 use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use whitewater::headless::scene::SunLight;
 use whitewater::io::picture::{self, Encoding};
 use whitewater::{Light, Sky};
@@ -51,12 +51,8 @@ impl Environment {
         // Behind the water for the views found here: there it glitters.
         let sun = unit(sun.unwrap_or(SUN))?;
         let sky = Sky::default().with(|it| it.sun = sun.to_array());
-        let sun_irradiance = Vec3::from(SunLight::of(&sky).color);
-        let above = Panorama::build(64, 32, |d| match d.y > 0.0 {
-            true => sky.intensity * sky_radiance(d, sun),
-            false => Vec3::ZERO,
-        });
-        let sky_irradiance = above.irradiance();
+        let sun_irradiance = Vec3::from(sky.sun_irradiance());
+        let sky_irradiance = Vec3::from(sky.sky_irradiance());
         Ok(Self { source: Source::Sky(sky), sun, sun_irradiance, sky_irradiance })
     }
 
@@ -121,17 +117,13 @@ impl Environment {
 
     /// The renderer's light for this environment.
     pub fn light(&self) -> Light {
-        let default = Light::default();
-        let reference = Sky::default().intensity;
-        default.with(|it| {
+        if let Source::Sky(sky) = &self.source {
+            return Light::of(sky);
+        }
+        Light::default().with(|it| {
             it.direction = self.sun.to_array();
             // The highlight of a sun that is in the picture comes with its reflection.
-            it.color = match self.source {
-                Source::Sky(_) => (Vec3::from(default.color) * self.sun_irradiance.max_element()
-                    / reference)
-                    .to_array(),
-                Source::Picture { .. } => [0.0; 3],
-            };
+            it.color = [0.0; 3];
             // The mean over all directions, half of the sun's taken off by the water above.
             it.ambient =
                 ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array();
@@ -238,67 +230,6 @@ impl Panorama {
     }
 }
 
-// The sky of glsl/include/atmosphere.glsl, whose comments say what stands here.
-const EARTH: f32 = 6360.0;
-const TOP: f32 = 6420.0;
-const RAYLEIGH: Vec3 = Vec3::new(7.14e-3, 13.21e-3, 32.08e-3);
-const MIE: Vec3 = Vec3::new(67.7e-3, 82.7e-3, 110.4e-3);
-const MIE_LOSS: f32 = 1.11;
-const SCALE_HEIGHTS: Vec2 = Vec2::new(8.0, 1.2);
-
-fn leave_sphere(height: f32, cosine: f32, radius: f32) -> f32 {
-    let b = height * cosine;
-    -b + (b * b - height * height + radius * radius).max(0.0).sqrt()
-}
-
-fn density(altitude: f32) -> Vec2 {
-    (Vec2::splat(-altitude.max(0.0)) / SCALE_HEIGHTS).exp()
-}
-
-fn optical_depth(height: f32, cosine: f32) -> Vec2 {
-    let span = leave_sphere(height, cosine, TOP) / 144.0;
-    let mut sum = Vec2::ZERO;
-    for i in 0..12 {
-        let t = ((i * i + i) as f32 + 0.5) * span;
-        let r = (height * height + t * t + 2.0 * height * t * cosine).sqrt();
-        sum += density(r - EARTH) * (2 * i + 1) as f32 * span;
-    }
-    sum
-}
-
-fn transmittance(depth: Vec2) -> Vec3 {
-    (-(RAYLEIGH * depth.x + MIE_LOSS * MIE * depth.y)).exp()
-}
-
-fn sky_radiance(direction: Vec3, sun: Vec3) -> Vec3 {
-    let eye = EARTH + 0.05;
-    let d = Vec3::new(direction.x, direction.y.max(0.003), direction.z).normalize();
-    let span = leave_sphere(eye, d.y, TOP);
-    let (mut along, mut rayleigh, mut mie) = (Vec2::ZERO, Vec3::ZERO, Vec3::ZERO);
-    let mut before = 0.0;
-    for i in 0..24 {
-        let after = span * ((i + 1) as f32 / 24.0).powi(2);
-        let (t, size) = (0.5 * (before + after), after - before);
-        before = after;
-        let r = (eye * eye + t * t + 2.0 * eye * t * d.y).sqrt();
-        let here = density(r - EARTH) * size;
-        let cosine = (eye * sun.y + t * d.dot(sun)) / r;
-        let reach = transmittance(along + 0.5 * here + optical_depth(r, cosine.max(-0.05)));
-        along += here;
-        rayleigh += here.x * reach;
-        mie += here.y * reach;
-    }
-    let mu = d.dot(sun);
-    let g = 0.76_f32;
-    let phase_r = 3.0 / (16.0 * PI) * (1.0 + mu * mu);
-    let phase_m = 3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + mu * mu)
-        / ((2.0 + g * g) * (1.0 + g * g - 2.0 * g * mu).powf(1.5));
-    let height = sun.y.max(0.0);
-    let often = 0.072 * height / (height + 0.12);
-    let thick = RAYLEIGH * along.x;
-    rayleigh * RAYLEIGH * phase_r + mie * MIE * phase_m + often * (Vec3::ONE - (-thick).exp())
-}
-
 #[cfg(test)]
 mod tests {
     use glam::Mat4;
@@ -308,6 +239,27 @@ mod tests {
     use whitewater::{Camera, Config, Settings};
 
     use super::*;
+
+    // The air of glsl/include/atmosphere.glsl.
+    const EARTH: f32 = 6360.0;
+    const TOP: f32 = 6420.0;
+    const SCALE_HEIGHTS: [f32; 2] = [8.0, 1.2];
+
+    /// The largest optical depth of the three colours from just over the ground out of the air.
+    fn depth_of_air(cosine: f32) -> f32 {
+        let height = EARTH + 0.05;
+        let b = height * cosine;
+        let span = (-b + (b * b - height * height + TOP * TOP).max(0.0).sqrt()) / 144.0;
+        let along = SCALE_HEIGHTS.map(|scale| {
+            let step = |i: u32| {
+                let t = ((i * i + i) as f32 + 0.5) * span;
+                let r = (height * height + t * t + 2.0 * height * t * cosine).sqrt();
+                (-(r - EARTH).max(0.0) / scale).exp() * (2 * i + 1) as f32 * span
+            };
+            (0..12).map(step).sum::<f32>()
+        });
+        32.08e-3 * along[0] + 1.11 * 110.4e-3 * along[1]
+    }
 
     #[test]
     fn a_white_panorama_gives_pi() {
@@ -481,8 +433,8 @@ mod tests {
     fn precision(sun: Vec3) -> f32 {
         let ulp = 2.0_f32.powi(-11);
         let altitude = 2.0 * 6.0 / (2.0 * EARTH) + (0.5 + 5.0) * ulp;
-        let depth = -transmittance(optical_depth(EARTH + 0.05, sun.y)).min_element().ln();
-        altitude / SCALE_HEIGHTS.y * (1.0 + 1.0 + 2.0 * depth)
+        let depth = depth_of_air(sun.y);
+        altitude / SCALE_HEIGHTS[1] * (1.0 + 1.0 + 2.0 * depth)
     }
 
     /// The sky here is the one that is drawn: the cube's faces, photographed texel by texel in a
@@ -508,7 +460,7 @@ mod tests {
             headless.sky(&sky).unwrap();
             let precision = precision(sun);
             assert!(precision < 0.03, "{sun}: {precision}");
-            let here = |d: Vec3| sky.intensity * sky_radiance(d.normalize(), sun);
+            let here = |d: Vec3| Vec3::from(sky.radiance(d.normalize().to_array()));
             let mut compared = 0;
             for (axis, up) in [
                 (Vec3::X, Vec3::Y),

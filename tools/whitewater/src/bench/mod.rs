@@ -475,7 +475,7 @@ fn sample(
 ) -> Result<Vec<Row>, Error> {
     let extent = config.extent;
     let camera = camera(extent);
-    let mut settings = Settings::default();
+    let mut settings = plain();
     settings.water.spacing = pool.spacing;
     if config.shadow.is_some() {
         headless.scene(&plate(pool), false)?;
@@ -688,4 +688,14 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
         Some((width, height)) if width > 0 && height > 0 => Ok((width, height)),
         _ => Err(format!("expected a size such as 1280x720, found '{text}'")),
     }
+}
+
+/// The defaults in a light that is the same in all measurements.
+fn plain() -> Settings {
+    Settings::default().with(|it| {
+        it.light.color = [4.0, 3.8, 3.4];
+        it.light.ambient = [0.35, 0.45, 0.6];
+        it.light.irradiance = [3.6, 3.5, 3.4];
+        it.light.shade = [0.6, 0.8, 1.1];
+    })
 }

@@ -174,7 +174,7 @@ struct Setting {
 fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option<Setting>> {
     let Case { scenery, cover, extent, path } = case;
     let size = (extent.width, extent.height);
-    let mut settings = Settings::default();
+    let mut settings = super::plain();
     settings.shore.time = TIME;
     if scenery == Scenery::Splash {
         return splash(file, pool, case, settings);
@@ -373,7 +373,7 @@ fn sample(
     set_up(without, setting, pool)?;
     shores.set_up(with, scene)?;
     water.particles(&pool.positions, None)?;
-    let mut plain = Settings::default();
+    let mut plain = super::plain();
     plain.water.spacing = pool.spacing;
     let seen = super::camera(case.extent);
     let background = Background::Color([0.4, 0.4, 0.4]);

@@ -11,9 +11,9 @@ mod water;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use whitewater::foam::{DiffuseLook, GenerateSettings};
+use whitewater::foam::GenerateSettings;
+use whitewater::water::FoamSettings;
 use whitewater::water::settings::Shadows;
-use whitewater::water::{FoamLook, FoamSettings};
 use whitewater::{Light, Settings};
 
 use crate::args::DrawArgs;
@@ -101,11 +101,7 @@ impl SettingsFile {
         if self.is_thesis() {
             return Settings::thesis(spacing).with(|it| it.light = light);
         }
-        let mut settings = Settings::default().with(|it| it.light = light);
-        settings.water.spacing = spacing;
-        settings.foam = FoamLook::of_spacing(spacing);
-        settings.diffuse = DiffuseLook::of_spacing(spacing);
-        settings
+        Settings::new(spacing, 1.0).with_light(light)
     }
 
     /// A light as the look has it.
