@@ -326,9 +326,7 @@ impl Frame {
                 let same = all.iter_mut().find(|(name, ..)| *name == array.name);
                 match same {
                     Some((_, before, to, parts)) if *before == components && *parts == i => {
-                        if to.append(data) {
-                            *parts += 1;
-                        }
+                        *parts += usize::from(to.append(data));
                     }
                     None if i == 0 => all.push((array.name, components, data, 1)),
                     _ => {}

@@ -274,7 +274,7 @@ pub fn basin_round(
                     // The water would show that of the far corner as a crack in it.
                     let beside = |sign: f32| {
                         let at = |s: &&Side| s.axis == across && s.sign == sign;
-                        sides.iter().find(at).is_some_and(|s| towards_eye(s))
+                        sides.iter().find(at).is_some_and(towards_eye)
                     };
                     if towards_eye(side) || beside(-1.0) {
                         push(name, from, first, material, &[]);
