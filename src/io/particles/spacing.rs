@@ -104,7 +104,8 @@ impl Grid {
         let mut filled = std::mem::take(&mut self.points);
         filled.clear();
         filled.extend(points.iter().map(|p| (self.key(self.cell_of(*p)), *p)));
-        filled.sort_unstable_by_key(|(key, _)| *key);
+        // Stable: a sum over a cell must not depend on particles elsewhere.
+        filled.sort_by_key(|(key, _)| *key);
         self.points = filled;
     }
 
