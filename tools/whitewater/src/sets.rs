@@ -346,7 +346,7 @@ fn hedge(line: &[Vec2], [thick, high]: [f32; 2], step: f32, material: Material) 
 
 /// Leaves that stand out of lumps, so that their outlines are ragged: triangles, lit as the lump is.
 fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
-    const EACH: usize = 14;
+    const EACH: usize = 40;
     for (i, lump) in lumps.iter().enumerate() {
         for k in 0..EACH {
             let n = |of: u32| number(EACH * i + k, 10 * seed + 400 + of);
@@ -355,7 +355,7 @@ fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
             let level = (1.0 - up * up).max(0.0).sqrt();
             let out = vec3(level * around.cos(), up, level * around.sin());
             let at = lump.middle + lump.half * out * (0.80 + 0.25 * n(2));
-            let size = lump.half.min_element().min(0.2) * (0.22 + 0.3 * n(3));
+            let size = lump.half.min_element().min(0.2) * (0.14 + 0.22 * n(3));
             let (a, b) = (TAU * n(4), PI * n(5));
             let along = vec3(a.cos() * b.sin(), b.cos(), a.sin() * b.sin());
             let across = along.cross(out).normalize_or(Vec3::X);
