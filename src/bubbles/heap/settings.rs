@@ -211,7 +211,7 @@ pub struct HeapStep<'a> {
 }
 
 impl<'a> HeapStep<'a> {
-    /// A step of so many seconds without solids.
+    /// A step of this many seconds, without solids.
     pub fn new(slot: Slot, dt: f32, settings: &'a HeapSettings) -> Self {
         Self { slot, dt, settings, solids: &[] }
     }
