@@ -1200,7 +1200,7 @@ pub struct Settings {
     pub ladder: Ladder,
 }
 
-/// For particles of a spacing of 0.05 metres in a world in metres, under the default [`Sky`](crate::Sky).
+/// Defaults for a particle spacing of 0.05 metres, in metres, under the default [`Sky`](crate::Sky).
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -1296,7 +1296,7 @@ pub struct Light {
     pub shade: [f32; 3],
 }
 
-/// That of the default [`Sky`](crate::Sky), as [`Light::of`] reckons it.
+/// The light of the default [`Sky`](crate::Sky), from [`Light::of`].
 impl Default for Light {
     fn default() -> Self {
         Self {

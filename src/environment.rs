@@ -24,7 +24,7 @@ crate::contract::with!(Sky, Equirectangular);
 /// Source of the environment.
 #[derive(Clone, Copy, Debug)]
 pub enum EnvironmentSource {
-    /// None: water mirrors black.
+    /// No environment: water reflects black.
     Black,
     /// The built-in clear sky.
     Sky(Sky),
