@@ -40,8 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let projection = flip * Mat4::perspective_infinite_reverse_rh(0.6, aspect, 0.1);
     let view = Mat4::look_at_rh(vec3(1.4, 1.5, 2.4), vec3(0.0, 0.1, 0.0), Vec3::Y);
     let camera = Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d());
-    let mut settings = Settings::default();
-    settings.water.spacing = SPACING;
+    let settings = Settings::new(SPACING, 1.0); // one scene unit per metre
     headless.render(&camera, &settings, &Background::Scene)?;
 
     let picture = headless.color()?;

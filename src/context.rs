@@ -61,7 +61,7 @@ impl Context {
     }
 }
 
-/// One for a host that hands none in.
+/// The allocator for a host without one.
 fn own_allocator(host: &Host<'_>) -> Result<Arc<dyn Allocate>, Error> {
     let made = Allocator::new(&AllocatorCreateDesc {
         instance: host.instance.clone(),
@@ -113,7 +113,7 @@ pub struct Shared {
     pub timestamp_bits: u32,
     /// R32G32_SFLOAT can be a blended colour attachment: most devices can, none has to.
     pub blends_pairs: bool,
-    /// Barriers and timestamps as the device takes them.
+    /// How barriers and timestamps are recorded.
     pub synchronization: Synchronization,
     /// Conditional rendering, when enabled.
     pub conditional: Option<ash::ext::conditional_rendering::Device>,
@@ -244,7 +244,7 @@ impl Shared {
         }
     }
 
-    /// Where memory comes from.
+    /// Source of memory.
     pub fn allocator(&self) -> &dyn Allocate {
         &*self.allocator
     }

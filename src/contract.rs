@@ -24,11 +24,11 @@ use crate::water::settings::{
     Smoothing, Splat, SprayLook, WaterSettings,
 };
 
-/// `value.with(|it| it.field = ..)`, for structs that grow.
+/// Adds `value.with(|it| it.field = ..)` to structs that may grow.
 macro_rules! with {
     ($($name:ty),+ $(,)?) => {$(
         impl $name {
-            /// The same value after a change: what struct-update syntax does where a struct may grow.
+            /// The value after a change. It replaces struct-update syntax for structs that may grow:
             /// `Config::new(..).with(|it| it.foam = true)`.
             #[must_use]
             pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
@@ -85,9 +85,9 @@ pub struct Host<'a> {
 }
 
 impl<'a> Host<'a> {
-    /// A host that enabled no optional feature ([`with_enabled`](Self::with_enabled)), leaves memory to the library
-    /// ([`with_allocator`](Self::with_allocator)) and has no pipeline cache
-    /// ([`with_pipeline_cache`](Self::with_pipeline_cache)).
+    /// A host without optional features (see [`with_enabled`](Self::with_enabled)), without an allocator of its
+    /// own (see [`with_allocator`](Self::with_allocator)) and without a pipeline cache (see
+    /// [`with_pipeline_cache`](Self::with_pipeline_cache)).
     pub fn new(
         instance: &'a ash::Instance,
         physical_device: vk::PhysicalDevice,
@@ -107,19 +107,19 @@ impl<'a> Host<'a> {
         }
     }
 
-    /// With what of the optional features and extensions is really enabled.
+    /// Sets the optional features and extensions that are enabled on the device.
     #[must_use]
     pub fn with_enabled(self, enabled: Enabled) -> Self {
         Self { enabled, ..self }
     }
 
-    /// With an allocator of the host's: an `Arc` of what implements [`Allocate`].
+    /// Sets the host's allocator.
     #[must_use]
     pub fn with_allocator(self, allocator: Arc<dyn Allocate>) -> Self {
         Self { allocator: Some(allocator), ..self }
     }
 
-    /// With a pipeline cache of the device.
+    /// Sets a pipeline cache of the device.
     #[must_use]
     pub fn with_pipeline_cache(self, pipeline_cache: vk::PipelineCache) -> Self {
         Self { pipeline_cache, ..self }
@@ -131,11 +131,12 @@ impl<'a> Host<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Enabled {
-    /// `synchronization2`, of Vulkan 1.3 or VK_KHR_synchronization2: barriers that name one stage each. Without it
-    /// those of Vulkan 1.0 are recorded, which wait for somewhat more; the picture is the same.
+    /// `synchronization2` of Vulkan 1.3 or VK_KHR_synchronization2: barriers with their own stages. Without it
+    /// barriers of Vulkan 1.0 are recorded, which wait for slightly more; the picture is the same.
     pub synchronization2: bool,
-    /// `shaderStorageImageWriteWithoutFormat`. Vulkan 1.3 allows it by format, so that only a device that was made for
-    /// 1.2 needs it, for [`Config::foam`], [`Config::motion`], [`Shadows::Convolution`] and [`Shading::Compute`].
+    /// `shaderStorageImageWriteWithoutFormat`. Needed only on a device created for Vulkan 1.2, because 1.3 allows
+    /// it per format: for [`Config::foam`], [`Config::motion`], [`Shadows::Convolution`] and
+    /// [`Shading::Compute`].
     pub storage_image_write_without_format: bool,
     /// VK_EXT_debug_utils on the instance: names and labels.
     pub debug_utils: bool,
@@ -333,7 +334,7 @@ pub struct HostImage {
 }
 
 impl HostImage {
-    /// All of an image, which is handed back in the state in which it comes. The aspects are those of the format.
+    /// A whole image that is returned in the state in which it comes. The aspects follow from the format.
     pub fn new(
         image: vk::Image,
         view: vk::ImageView,
@@ -345,20 +346,20 @@ impl HostImage {
         Self { image, view, format, aspect, extent, rect, before: state, after: state }
     }
 
-    /// A part of it as the view.
+    /// Restricts the view to a part of the image.
     #[must_use]
     pub fn with_rect(self, rect: vk::Rect2D) -> Self {
         Self { rect, ..self }
     }
 
-    /// Handed back for another use.
+    /// Sets the state in which the image is returned.
     #[must_use]
     pub fn with_after(self, after: Access) -> Self {
         Self { after, ..self }
     }
 }
 
-/// All aspects of a format.
+/// The aspects of a format.
 fn aspects_of(format: vk::Format) -> vk::ImageAspectFlags {
     match format {
         vk::Format::D16_UNORM | vk::Format::X8_D24_UNORM_PACK32 | vk::Format::D32_SFLOAT => {
@@ -504,37 +505,37 @@ impl Particles {
         }
     }
 
-    /// With densities of their own.
+    /// Adds densities.
     #[must_use]
     pub fn with_densities(self, densities: Stream) -> Self {
         Self { densities: Some(densities), ..self }
     }
 
-    /// With velocities.
+    /// Adds velocities.
     #[must_use]
     pub fn with_velocities(self, velocities: Stream) -> Self {
         Self { velocities: Some(velocities), ..self }
     }
 
-    /// With numbers that follow the particles.
+    /// Adds ids that identify particles from frame to frame.
     #[must_use]
     pub fn with_ids(self, ids: Stream) -> Self {
         Self { ids: Some(ids), ..self }
     }
 
-    /// With groups to cull by.
+    /// Adds packets for culling.
     #[must_use]
     pub fn with_packets(self, packets: Packets) -> Self {
         Self { packets: Some(packets), ..self }
     }
 
-    /// With how much of each is foam, as [`State::foam`](crate::State::foam) has it.
+    /// Adds the foam fraction of each particle, as in [`State::foam`](crate::State::foam).
     #[must_use]
     pub fn with_foam(self, foam: Stream) -> Self {
         Self { foam: Some(foam), ..self }
     }
 
-    /// Last used as `before` says, and next as `after`.
+    /// Sets the last use of the buffers before the frame, and their next use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -593,31 +594,31 @@ impl DiffuseParticles {
         }
     }
 
-    /// With what each is.
+    /// Adds the kind of each particle.
     #[must_use]
     pub fn with_kinds(self, kinds: Stream) -> Self {
         Self { kinds: Some(kinds), ..self }
     }
 
-    /// With radii of their own.
+    /// Adds radii.
     #[must_use]
     pub fn with_radii(self, radii: Stream) -> Self {
         Self { radii: Some(radii), ..self }
     }
 
-    /// With what of their lives has passed.
+    /// Adds relative ages.
     #[must_use]
     pub fn with_ages(self, ages: Stream) -> Self {
         Self { ages: Some(ages), ..self }
     }
 
-    /// With numbers that follow them.
+    /// Adds ids that identify them from frame to frame.
     #[must_use]
     pub fn with_ids(self, ids: Stream) -> Self {
         Self { ids: Some(ids), ..self }
     }
 
-    /// Last used as `before` says, and next as `after`.
+    /// Sets the last use of the buffers before the frame, and their next use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -659,19 +660,19 @@ impl Blobs {
         }
     }
 
-    /// With how each is turned.
+    /// Adds rotations.
     #[must_use]
     pub fn with_turns(self, turns: Stream) -> Self {
         Self { turns: Some(turns), ..self }
     }
 
-    /// With numbers that follow them.
+    /// Adds ids that identify them from frame to frame.
     #[must_use]
     pub fn with_ids(self, ids: Stream) -> Self {
         Self { ids: Some(ids), ..self }
     }
 
-    /// Last used as `before` says, and next as `after`.
+    /// Sets the last use of the buffers before the frame, and their next use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -705,7 +706,7 @@ impl Shore {
         Self { surface: Some(Surface::Level(level)), shoreline: None, mask: None, bias: 0.0 }
     }
 
-    /// With a shoreline.
+    /// Adds a shoreline.
     #[must_use]
     pub fn with_shoreline(self, shoreline: Shoreline) -> Self {
         Self { shoreline: Some(shoreline), ..self }
@@ -824,7 +825,7 @@ pub struct Step<'a> {
 }
 
 impl<'a> Step<'a> {
-    /// Velocities alone, in buffers that the CPU wrote before the submit.
+    /// A step with velocities only, in buffers that the CPU wrote before the submit.
     pub fn new(
         slot: Slot,
         velocities: Stream,
@@ -836,19 +837,19 @@ impl<'a> Step<'a> {
         Self { slot, velocities, densities: None, ids: None, count, dt, settings, before, after }
     }
 
-    /// With densities of their own.
+    /// Adds densities.
     #[must_use]
     pub fn with_densities(self, densities: Stream) -> Self {
         Self { densities: Some(densities), ..self }
     }
 
-    /// With ids, without which there are no phases.
+    /// Adds ids, without which there are no foam phases.
     #[must_use]
     pub fn with_ids(self, ids: Stream) -> Self {
         Self { ids: Some(ids), ..self }
     }
 
-    /// Last used as `before` says, and next as `after`.
+    /// Sets the last use of the buffers before the frame, and their next use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -883,7 +884,7 @@ pub struct GenerateStep<'a> {
 }
 
 impl<'a> GenerateStep<'a> {
-    /// The first step of particles without ids, in buffers that the CPU wrote before the submit.
+    /// The first step, for particles without ids, in buffers that the CPU wrote before the submit.
     pub fn new(
         slot: Slot,
         [positions, velocities]: [Stream; 2],
@@ -906,19 +907,19 @@ impl<'a> GenerateStep<'a> {
         }
     }
 
-    /// With numbers that follow the particles.
+    /// Adds ids that identify particles from frame to frame.
     #[must_use]
     pub fn with_ids(self, ids: Stream) -> Self {
         Self { ids: Some(ids), ..self }
     }
 
-    /// With the step's number in the sequence.
+    /// Sets the step's number in the sequence.
     #[must_use]
     pub fn with_number(self, number: u32) -> Self {
         Self { number, ..self }
     }
 
-    /// Last used as `before` says, and next as `after`.
+    /// Sets the last use of the buffers before the frame, and their next use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -937,8 +938,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Of two matrices, as four columns of four or anything that turns into them: those of cgmath, nalgebra and mint do,
-    /// and glam's by `to_cols_array_2d`.
+    /// A camera from two matrices, as four columns of four or any type that converts to them: matrices of cgmath,
+    /// nalgebra and mint do, and glam's with `to_cols_array_2d`.
     pub fn new(view: impl Into<[[f32; 4]; 4]>, projection: impl Into<[[f32; 4]; 4]>) -> Self {
         Self { view: view.into(), projection: projection.into() }
     }
@@ -952,7 +953,7 @@ impl Camera {
     }
 }
 
-/// For tools that have this crate's glam.
+/// For tools that use the same version of glam.
 #[cfg(feature = "headless")]
 impl Camera {
     /// As [`new`](Self::new).
@@ -1015,7 +1016,7 @@ pub struct Shadow {
 }
 
 impl Shadow {
-    /// A map with world to its clip space, compared without a bias; of a mask the matrix is not read.
+    /// A shadow map with its view-projection matrix and without a bias. The matrix is not read for a mask.
     pub fn new(image: HostImage, view_projection: impl Into<[[f32; 4]; 4]>) -> Self {
         Self { image, view_projection: view_projection.into(), bias: 0.0 }
     }
@@ -1093,8 +1094,8 @@ pub struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    /// Water over the scene that is in `output` (with [`Config::in_place`]; else
-    /// [`with_scene_color`](Self::with_scene_color) is needed), without anything optional.
+    /// A frame without anything optional: water over the scene in `output`. This needs [`Config::in_place`];
+    /// otherwise add [`with_scene_color`](Self::with_scene_color).
     pub fn new(
         slot: Slot,
         output: HostImage,
@@ -1119,43 +1120,43 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// With the scene's colour in an image of its own.
+    /// Sets a separate image with the scene's colour.
     #[must_use]
     pub fn with_scene_color(self, scene_color: HostImage) -> Self {
         Self { scene_color, ..self }
     }
 
-    /// With diffuse particles, as [`Config::diffuse`] asks for.
+    /// Adds whitewater particles, for [`Config::diffuse`].
     #[must_use]
     pub fn with_diffuse(self, diffuse: DiffuseParticles) -> Self {
         Self { diffuse: Some(diffuse), ..self }
     }
 
-    /// With blobs of bubble foam, as [`Config::bubbles`] asks for.
+    /// Adds blobs of bubble foam, for [`Config::bubbles`].
     #[must_use]
     pub fn with_bubbles(self, bubbles: Blobs) -> Self {
         Self { bubbles: Some(bubbles), ..self }
     }
 
-    /// With shoreline and contact foam, as [`Config::shore`] asks for.
+    /// Adds shoreline and contact foam, for [`Config::shore`].
     #[must_use]
     pub fn with_shore(self, shore: Shore) -> Self {
         Self { shore: Some(shore), ..self }
     }
 
-    /// With the host's shadows, as [`Config::shadow`] asks for.
+    /// Adds the host's shadows, for [`Config::shadow`].
     #[must_use]
     pub fn with_shadow(self, shadow: Shadow) -> Self {
         Self { sun: Sun { shadow: Some(shadow), ..self.sun }, ..self }
     }
 
-    /// With the ball in which water and foam cast, as [`Config::cast`] asks for.
+    /// Adds the sphere in which water and foam cast shadows, for [`Config::cast`].
     #[must_use]
     pub fn with_region(self, region: Region) -> Self {
         Self { sun: Sun { region: Some(region), ..self.sun }, ..self }
     }
 
-    /// With the frame before, as [`Config::motion`] asks for.
+    /// Adds the previous frame, for [`Config::motion`].
     #[must_use]
     pub fn with_previous(self, previous: Previous) -> Self {
         Self { previous: Some(previous), ..self }
@@ -1199,7 +1200,7 @@ pub struct Settings {
     pub ladder: Ladder,
 }
 
-/// For particles of a spacing of 0.05 metres in a world in metres, under the default [`Sky`](crate::Sky).
+/// Defaults for a particle spacing of 0.05 metres, in metres, under the default [`Sky`](crate::Sky).
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -1295,7 +1296,7 @@ pub struct Light {
     pub shade: [f32; 3],
 }
 
-/// That of the default [`Sky`](crate::Sky), as [`Light::of`] reckons it.
+/// The light of the default [`Sky`](crate::Sky), from [`Light::of`].
 impl Default for Light {
     fn default() -> Self {
         Self {

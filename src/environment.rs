@@ -24,7 +24,7 @@ crate::contract::with!(Sky, Equirectangular);
 /// Source of the environment.
 #[derive(Clone, Copy, Debug)]
 pub enum EnvironmentSource {
-    /// None: water mirrors black.
+    /// No environment: water reflects black.
     Black,
     /// The built-in clear sky.
     Sky(Sky),
@@ -76,7 +76,7 @@ pub struct Equirectangular {
 }
 
 impl Equirectangular {
-    /// An image as it is, with +y up.
+    /// An image without rotation, +y up.
     pub fn new(image: HostImage) -> Self {
         Self { image, without_sun: None, scale: 1.0, turn: 0.0, up: [0.0, 1.0, 0.0] }
     }

@@ -1,6 +1,6 @@
-//! The built-in sky on the CPU: the light that it gives, for [`Light::of`](crate::Light::of) and for a host's own scene.
+//! The light of the built-in sky on the CPU, for [`Light::of`](crate::Light::of) and for the host's own scene.
 //!
-//! The same integral as `glsl/include/atmosphere.glsl`, whose comments say what stands here.
+//! The same integral as in `glsl/include/atmosphere.glsl`, where comments explain it.
 
 use std::f32::consts::{PI, TAU};
 
@@ -17,21 +17,22 @@ const MIE_LOSS: f32 = 1.11;
 const SCALE_HEIGHTS: Vec2 = Vec2::new(8.0, 1.2);
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
-/// Columns and rows of directions that the sky's light is summed over.
+/// Columns and rows of the directions over which the sky's light is summed.
 const DIRECTIONS: (usize, usize) = (64, 32);
 
-/// The highlight of a sun whose brightest channel brings the irradiance of the default sky above the air.
+/// Brightness of the highlight for a sun whose brightest channel has the irradiance of the default sky's sun
+/// outside the atmosphere.
 const HIGHLIGHT: Vec3 = Vec3::new(4.0, 3.8, 3.4);
 
 impl Sky {
-    /// A sky with the sun in a direction, of any length but 0.
+    /// A sky with the sun in this direction (any length but 0).
     pub fn toward(sun: [f32; 3]) -> Self {
         let sun = Vec3::from(sun).normalize_or(Vec3::Y).to_array();
         Self { sun, ..Self::default() }
     }
 
-    /// Irradiance of the sun on a surface that faces it, linear RGB, in the unit of the output: dimmed and reddened by the
-    /// air, 0 under the horizon.
+    /// Irradiance of the sun on a surface that faces it, linear RGB, in the unit of the output: dimmed and
+    /// reddened by the atmosphere, 0 below the horizon.
     pub fn sun_irradiance(&self) -> [f32; 3] {
         // Optical depth to the zenith: the coefficients by their scale heights; air mass after Kasten and Young 1989.
         const RAYLEIGH: Vec3 = Vec3::new(7.14e-3 * 8.0, 13.21e-3 * 8.0, 32.08e-3 * 8.0);
@@ -44,8 +45,8 @@ impl Sky {
         ((-(RAYLEIGH + MIE) * mass).exp() * self.intensity * risen).to_array()
     }
 
-    /// Irradiance of level ground under the sky alone, without the sun, in the same unit. A sum over 2048 directions: some
-    /// milliseconds.
+    /// Irradiance of level ground from the sky without the sun, in the same unit. It sums over 2048 directions,
+    /// which takes some milliseconds.
     pub fn sky_irradiance(&self) -> [f32; 3] {
         let sun = self.local_sun();
         let (width, height) = DIRECTIONS;
@@ -66,14 +67,14 @@ impl Sky {
         sum.to_array()
     }
 
-    /// Radiance from a direction of unit length, above the horizon, without the sun's disc.
+    /// Radiance from a direction above the horizon (unit vector), without the sun's disc.
     pub fn radiance(&self, direction: [f32; 3]) -> [f32; 3] {
         let direction = Vec3::from(direction);
         let local = Vec3::from(axes(self.up).map(|axis| direction.dot(axis)));
         (self.intensity * radiance(local, self.local_sun())).to_array()
     }
 
-    /// The sun along east, up and north.
+    /// Direction to the sun in axes east, up, north.
     fn local_sun(&self) -> Vec3 {
         let sun = Vec3::from(self.sun);
         let unit = (sun.length_squared() - 1.0).abs() < 1.0e-5;
@@ -83,8 +84,8 @@ impl Sky {
 }
 
 impl Light {
-    /// The light of the built-in sky, as water, foam and spray see it: what goes with an environment of the same
-    /// [`Sky`]. Some milliseconds: once per sky.
+    /// The light of the built-in sky for water, foam and spray. It belongs with an environment of the same
+    /// [`Sky`]. It takes some milliseconds, once per sky.
     pub fn of(sky: &Sky) -> Self {
         let (sun, above) = (Vec3::from(sky.sun_irradiance()), Vec3::from(sky.sky_irradiance()));
         let height = sky.local_sun().y.max(0.0);
@@ -127,7 +128,7 @@ fn transmittance(depth: Vec2) -> Vec3 {
     (-(RAYLEIGH * depth.x + MIE_LOSS * MIE * depth.y)).exp()
 }
 
-/// From a direction, under a sun, both along east, up and north.
+/// Radiance from a direction for a sun direction, both in axes east, up, north.
 fn radiance(direction: Vec3, sun: Vec3) -> Vec3 {
     let eye = EARTH + 0.05;
     let d = Vec3::new(direction.x, direction.y.max(0.003), direction.z).normalize();

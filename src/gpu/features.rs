@@ -1,4 +1,4 @@
-//! What a host enables, as the structures that make a device.
+//! The features that a host enables, as structures for device creation.
 
 use std::ffi::CStr;
 
@@ -6,7 +6,7 @@ use ash::vk;
 
 use crate::contract::Enabled;
 
-/// The structures for [`Enabled`], to chain into `VkDeviceCreateInfo` ([`Enabled::device_features`]).
+/// The structures for [`Enabled`], to be chained into `VkDeviceCreateInfo`; see [`Enabled::device_features`].
 pub struct DeviceFeatures {
     core: vk::PhysicalDeviceFeatures,
     vulkan12: vk::PhysicalDeviceVulkan12Features<'static>,
@@ -21,9 +21,10 @@ unsafe impl Send for DeviceFeatures {}
 unsafe impl Sync for DeviceFeatures {}
 
 impl DeviceFeatures {
-    /// The create info with all that is enabled: `pEnabledFeatures`, and behind `pNext` VkPhysicalDeviceVulkan12Features
-    /// and what extensions need. A host that has one of these structures itself, or single ones in the place of
-    /// VkPhysicalDeviceVulkan12Features, sets its own by [`Enabled::set_core`] and its siblings.
+    /// Adds everything that is enabled to the create info: `pEnabledFeatures`, and in the `pNext` chain
+    /// VkPhysicalDeviceVulkan12Features and the structures of extensions. A host that has one of these structures
+    /// itself, or single ones instead of VkPhysicalDeviceVulkan12Features, fills its own with
+    /// [`Enabled::set_core`] and the functions beside it.
     pub fn chain<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
         let mut info = info.enabled_features(&self.core).push_next(&mut self.vulkan12);
         if self.synchronization2.synchronization2 == vk::TRUE {
@@ -37,7 +38,7 @@ impl DeviceFeatures {
 }
 
 impl Enabled {
-    /// Structures that enable this, such as an [`Offer::optional`](crate::Offer), on a device.
+    /// The structures that enable these features, for example [`Offer::optional`](crate::Offer), on a device.
     ///
     /// ```
     /// use ash::vk;
@@ -63,7 +64,7 @@ impl Enabled {
         features
     }
 
-    /// Device extensions that go with it, for a device of a Vulkan version.
+    /// Device extensions that are needed with it, on a device of this Vulkan version.
     pub fn device_extensions(&self, api_version: u32) -> Vec<&'static CStr> {
         let mut names = Vec::new();
         if self.conditional_rendering {
@@ -75,7 +76,7 @@ impl Enabled {
         names
     }
 
-    /// Turns on what is in a host's own structure; nothing off.
+    /// Turns on the needed features in the host's own structure. It turns nothing off.
     pub fn set_core(&self, features: &mut vk::PhysicalDeviceFeatures) {
         for (wanted, feature) in [
             (self.large_points, &mut features.large_points),

@@ -1,4 +1,4 @@
-//! Device memory: what the library asks an allocator for, the host's or the built-in one.
+//! Device memory: the interface to the host's allocator, and the built-in one.
 
 use std::any::Any;
 use std::ptr::NonNull;
@@ -9,33 +9,33 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme, 
 
 use crate::error::Error;
 
-/// Where memory lies and who touches it.
+/// Where memory lies, and who accesses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MemoryLocation {
     /// Device-local, never mapped.
     GpuOnly,
-    /// Written by the CPU and read by the GPU: mapped for good, host-coherent, device-local where there is such.
+    /// Written by the CPU and read by the GPU: persistently mapped, host-coherent, and device-local if possible.
     CpuToGpu,
-    /// Written by the GPU and read by the CPU: mapped for good, host-coherent, cached where there is such.
+    /// Written by the GPU and read by the CPU: persistently mapped, host-coherent, and cached if possible.
     GpuToCpu,
 }
 
-/// What an image or a buffer needs.
+/// Memory that an image or a buffer needs.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct MemoryRequest<'a> {
-    /// The object's name, as in debuggers.
+    /// Name of the object, as in debuggers.
     pub name: &'a str,
     /// Size, alignment and memory types.
     pub requirements: vk::MemoryRequirements,
-    /// Where.
+    /// Location.
     pub location: MemoryLocation,
-    /// True for buffers, false for images with optimal tiling: of the two kinds in one VkDeviceMemory the allocator keeps
-    /// the device's `bufferImageGranularity`.
+    /// True for buffers, false for images with optimal tiling. If the allocator puts both in one VkDeviceMemory
+    /// it must keep the device's `bufferImageGranularity` between them.
     pub linear: bool,
 }
 
-/// A piece of device memory for one object.
+/// A range of device memory for one object.
 #[derive(Debug)]
 pub struct Memory {
     memory: vk::DeviceMemory,
@@ -50,8 +50,9 @@ unsafe impl Send for Memory {}
 unsafe impl Sync for Memory {}
 
 impl Memory {
-    /// From `offset` bytes of `memory` on; `mapped` points at these bytes, for the locations that are mapped. `owner` is the
-    /// allocator's own handle, which it gets back in [`Allocate::free`] by [`into_owner`](Self::into_owner).
+    /// A range that begins `offset` bytes into `memory`. `mapped` points to its bytes, for locations that are
+    /// mapped. `owner` is the allocator's own handle, which [`Allocate::free`] gets back from
+    /// [`into_owner`](Self::into_owner).
     pub fn new(
         memory: vk::DeviceMemory,
         offset: u64,
@@ -61,7 +62,7 @@ impl Memory {
         Self { memory, offset, mapped, owner: Box::new(owner) }
     }
 
-    /// The allocator's own handle; `None` where it is of another type.
+    /// The allocator's own handle; `None` if it has another type.
     pub fn into_owner<T: Any>(self) -> Option<T> {
         self.owner.downcast().ok().map(|owner| *owner)
     }
@@ -71,7 +72,7 @@ impl Memory {
         self.memory
     }
 
-    /// Where in it, bytes.
+    /// Offset in bytes.
     pub fn offset(&self) -> u64 {
         self.offset
     }
@@ -82,32 +83,33 @@ impl Memory {
     }
 }
 
-/// An allocator of device memory, shared by all that is made from a [`Context`](crate::Context): the host's, in a few lines
-/// round whatever it has (VMA, its own, `gpu_allocator` of any version), by
-/// [`Host::with_allocator`](crate::Host::with_allocator).
+/// An allocator of device memory, shared by everything created from a [`Context`](crate::Context). A host
+/// implements it in a few lines around the allocator that it has (VMA, its own, any version of `gpu_allocator`)
+/// and sets it with [`Host::with_allocator`](crate::Host::with_allocator).
 ///
-/// Without one the context makes a `gpu_allocator` of its own. A `Mutex<gpu_allocator::vulkan::Allocator>` of the version
-/// that this crate has ([`crate::gpu_allocator`]) is one too: hand in an `Arc` of it.
+/// Without one, the context creates a `gpu_allocator` of its own. `Mutex<gpu_allocator::vulkan::Allocator>`, of
+/// the version re-exported as [`crate::gpu_allocator`], implements it too: hand in an `Arc` of it.
 ///
-/// Called in construction, `reconfigure`, `resize`, `collect` and `destroy` alone, from the thread that calls these.
+/// It is called only in construction, `reconfigure`, `resize`, `collect` and `destroy`, from the thread that
+/// calls these.
 ///
 /// # Safety
-/// The memory is of the device, of a type and size and at an alignment as asked for, overlaps no other, and stays until
-/// [`free`](Self::free); it is mapped for good and coherent where the location says so.
+/// The memory belongs to the device, has the requested type, size and alignment, overlaps no other memory, and
+/// stays until [`free`](Self::free). It is persistently mapped and coherent if the location says so.
 pub unsafe trait Allocate: Send + Sync {
-    /// Memory for one object.
+    /// Allocates memory for one object.
     ///
     /// # Errors
-    /// Any, [`Error::Allocation`] then brings it with the object's name.
+    /// Any error. It is returned inside [`Error::Allocation`] with the object's name.
     fn allocate(
         &self,
         request: &MemoryRequest<'_>,
     ) -> Result<Memory, Box<dyn std::error::Error + Send + Sync>>;
 
-    /// Takes it back.
+    /// Frees memory.
     ///
     /// # Safety
-    /// It came from `allocate` of this allocator; what was bound to it is destroyed.
+    /// It comes from `allocate` of this allocator, and objects bound to it have been destroyed.
     unsafe fn free(&self, memory: Memory);
 }
 
@@ -144,7 +146,7 @@ unsafe impl Allocate for Mutex<Allocator> {
     }
 }
 
-/// Memory for an object, or the error with its name.
+/// Allocates memory for an object; an error has the object's name.
 pub fn allocate(from: &dyn Allocate, request: &MemoryRequest<'_>) -> Result<Memory, Error> {
     let name = request.name;
     from.allocate(request).map_err(|source| Error::Allocation { name: name.into(), source })

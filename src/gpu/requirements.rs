@@ -211,7 +211,7 @@ impl Offer {
         }
     }
 
-    /// The same for a device of Vulkan 1.2 on which a host enabled so much.
+    /// The same for a device of Vulkan 1.2 with these features enabled.
     pub(crate) fn before_1_3(mut self, enabled: &Enabled) -> Self {
         if !enabled.storage_image_write_without_format {
             self.foam_floats = false;

@@ -20,7 +20,7 @@ pub struct DeviceOptions {
     pub validation: bool,
     /// Whether to enable no optional feature, as on a device without any. Default false.
     pub bare: bool,
-    /// Make instance and device for Vulkan 1.2, as old drivers have it, and without synchronization2.
+    /// Create instance and device for Vulkan 1.2 and without synchronization2, as with old drivers.
     pub vulkan_1_2: bool,
 }
 

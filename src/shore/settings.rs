@@ -71,7 +71,7 @@ pub struct ShoreLook {
 }
 
 impl ShoreLook {
-    /// The same look, in metres, in a world of so many units a metre.
+    /// Converts this look from metres to scene units, for a number of scene units per metre.
     #[must_use]
     pub fn in_units(mut self, units_per_metre: f32) -> Self {
         let longer = |length: &mut f32| *length *= units_per_metre;

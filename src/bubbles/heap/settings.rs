@@ -81,7 +81,7 @@ impl Default for HeapSettings {
 }
 
 impl HeapSettings {
-    /// With the earth's gravity in a world of so many units a metre with a direction up, of unit length.
+    /// Replaces gravity by the earth's, for a number of scene units per metre and an up direction of unit length.
     #[must_use]
     pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
         Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
@@ -211,7 +211,7 @@ pub struct HeapStep<'a> {
 }
 
 impl<'a> HeapStep<'a> {
-    /// A step of so many seconds without solids.
+    /// A step of this many seconds, without solids.
     pub fn new(slot: Slot, dt: f32, settings: &'a HeapSettings) -> Self {
         Self { slot, dt, settings, solids: &[] }
     }

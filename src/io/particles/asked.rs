@@ -1,4 +1,4 @@
-//! What a caller asks of a file beside what has a meaning.
+//! What a caller requests from a file besides the attributes with a meaning.
 
 use std::sync::Arc;
 
@@ -6,42 +6,42 @@ use super::columns::{Attribute, AttributeType};
 use super::names;
 use super::steps::Step;
 
-/// Attributes by their names, and a frame of a file of several. A copy costs nothing.
+/// Names of attributes, and one of several frames. Cheap to clone.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Asked {
-    /// Plain names.
+    /// Plain names, see `names::plain`.
     extras: Arc<[String]>,
     step: Option<Step>,
 }
 
 impl Asked {
-    /// Beside what has a meaning, attributes of these names.
+    /// Requests attributes by these names, besides those with a meaning.
     pub(super) fn new(extras: &[&str]) -> Self {
         Self { extras: extras.iter().map(|name| names::plain(name)).collect(), step: None }
     }
 
-    /// And a frame of the file's several.
+    /// Also requests one of the file's frames.
     pub(super) fn of_step(self, step: Option<Step>) -> Self {
         Self { step, ..self }
     }
 
-    /// The frame of several that is read; none where none was named.
+    /// The requested frame; `None` if none was named.
     pub(super) fn step(&self) -> Option<Step> {
         self.step
     }
 
-    /// Whether an attribute of this plain name is asked for.
+    /// Whether an attribute with this plain name is requested.
     pub(super) fn has(&self, plain: &str) -> bool {
         self.extras.iter().any(|name| name == plain)
     }
 
-    /// Whether an attribute of this name may be used, so that a reader need not unpack the others.
+    /// Whether an attribute with this name may be used, so that a reader need not unpack the others.
     pub(super) fn wants(&self, name: &str) -> bool {
         let name = names::plain(name);
         names::known(&name) || self.has(&name)
     }
 
-    /// Lists an attribute, and says whether its numbers are wanted.
+    /// Lists an attribute and returns whether its values are wanted.
     pub(super) fn list(
         &self,
         attributes: &mut Vec<Attribute>,

@@ -1,4 +1,4 @@
-//! From named columns of numbers to [`Particles`]: which names mean what, and checks that hold for all formats.
+//! Turns named columns of numbers into [`Particles`]: which names mean what, and the checks for all formats.
 
 use half::f16;
 
@@ -46,7 +46,7 @@ pub enum AttributeType {
 }
 
 impl AttributeType {
-    /// Bytes of one value in a binary file, where it has a fixed size.
+    /// Bytes of one value in a binary file; `None` without a fixed size.
     pub(super) fn size(self) -> Option<u64> {
         match self {
             Self::I8 | Self::U8 => Some(1),
@@ -106,7 +106,7 @@ impl std::fmt::Display for Attribute {
     }
 }
 
-/// Numbers in the narrowest form that holds them exactly.
+/// Values in the narrowest type that holds them exactly.
 #[derive(Debug, Clone)]
 pub(super) enum Data {
     F32(Vec<f32>),
@@ -145,8 +145,8 @@ impl Data {
         }
     }
 
-    /// Makes room for some more of `all` that there will be, without room for those that may never come: it grows
-    /// with what is there, and not beyond all of them.
+    /// Reserves memory for `more` values of the `all` that are expected. It grows with the values that exist,
+    /// up to `all`, so that a false count cannot allocate much.
     pub(super) fn room(&mut self, more: usize, all: usize) {
         let (length, capacity) = match self {
             Self::F32(v) => (v.len(), v.capacity()),
@@ -163,7 +163,7 @@ impl Data {
         }
     }
 
-    /// Appends all of the others; false where they are of another form.
+    /// Appends the other values; false if they have another type.
     #[cfg(feature = "hdf5")]
     pub(super) fn append(&mut self, other: Self) -> bool {
         match (self, other) {
@@ -183,12 +183,12 @@ impl Data {
         }
     }
 
-    /// Whether numbers of another type can stand among these.
+    /// Whether values of another type can be stored here.
     pub(super) fn takes(&self, ty: AttributeType) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(&Self::for_type(ty))
     }
 
-    /// All of them, without a copy where they are stored so.
+    /// All values as `f32`, without a copy if they are stored so.
     pub(super) fn into_f32(self) -> Vec<f32> {
         match self {
             Self::F32(v) => v,
@@ -197,7 +197,7 @@ impl Data {
         }
     }
 
-    /// All of them, or the index of the first that is no whole number or doesn't fit.
+    /// All values, or the index of the first that is not an integer or does not fit.
     pub(super) fn to_u32(&self) -> Result<Vec<u32>, usize> {
         let mut values = Vec::with_capacity(self.len());
         values.extend((0..self.len()).map_while(|i| self.u32(i)));
@@ -212,7 +212,7 @@ impl Data {
         }
     }
 
-    /// The value where it is a whole number that fits.
+    /// A value, if it is an integer that fits.
     fn u32(&self, i: usize) -> Option<u32> {
         match self {
             Self::Int(v) => v.get(i).and_then(|x| u32::try_from(*x).ok()),
@@ -223,7 +223,7 @@ impl Data {
         }
     }
 
-    /// Appends a number given as text; false where it is none.
+    /// Appends a number given as text; false if it is none.
     pub(super) fn push_text(&mut self, token: &[u8]) -> bool {
         if let Self::Int(v) = self {
             let whole = std::str::from_utf8(token).ok().and_then(|t| t.parse().ok());
@@ -239,7 +239,7 @@ impl Data {
         bytes::parse_number(token).is_some_and(|x| self.push_number(x))
     }
 
-    /// Appends a number; false where these are whole ones.
+    /// Appends a number; false if the values are integers.
     pub(super) fn push_number(&mut self, x: f64) -> bool {
         match self {
             Self::F64(v) => v.push(x),
@@ -249,16 +249,16 @@ impl Data {
         true
     }
 
-    /// Makes the last number, a part of a side, one of a place.
+    /// Converts the last value from a fraction of a box's side to a position.
     pub(super) fn stretch_last(&mut self, from: f64, side: f64) {
         if let Self::F64(v) = self {
             v.last_mut().into_iter().for_each(|x| *x = from + *x * side);
         }
     }
 
-    /// Appends values that lie together in memory. False for a type without a size.
+    /// Appends contiguous values; false for a type without a fixed size.
     pub(super) fn push_bytes(&mut self, ty: AttributeType, raw: &[u8], big_endian: bool) -> bool {
-        /// One arm per type: cut into chunks, convert.
+        /// One arm per type: split into chunks and convert.
         macro_rules! push {
             ($v:expr, $number:ty, $target:ty) => {{
                 let (chunks, _) = raw.as_chunks::<{ size_of::<$number>() }>();
@@ -287,7 +287,7 @@ impl Data {
             (Self::Int(v), T::U64) => {
                 let from = v.len();
                 push!(v, u64, i64);
-                // The cast wraps values over the range to negative ones.
+                // The cast wraps values beyond the range to negative ones.
                 for x in v.iter_mut().skip(from).filter(|x| **x < 0) {
                     *x = i64::MAX;
                 }
@@ -297,7 +297,7 @@ impl Data {
         true
     }
 
-    /// The first components of rows.
+    /// The first components of each row.
     pub(super) fn some(&self, components: usize, first: usize) -> Self {
         fn some<T: Copy>(v: &[T], components: usize, first: usize) -> Vec<T> {
             v.chunks(components.max(1)).flat_map(|row| row.iter().take(first).copied()).collect()
@@ -309,7 +309,7 @@ impl Data {
         }
     }
 
-    /// Some components of numbers of which all of the first component come first: those from one on.
+    /// Transposes values that are stored component after component, for rows from `from` on.
     pub(super) fn turned(&self, components: usize, from: usize, count: usize) -> Self {
         fn turn<T: Copy>(v: &[T], components: usize, from: usize, count: usize) -> Vec<T> {
             let rows = v.len() / components.max(1);
@@ -325,7 +325,7 @@ impl Data {
     }
 }
 
-/// Numbers of one attribute.
+/// The values of one attribute.
 #[derive(Debug, Clone)]
 pub(super) struct Column {
     pub(super) name: String,
@@ -333,15 +333,15 @@ pub(super) struct Column {
     pub(super) data: Data,
 }
 
-/// What a reader found.
+/// The result of a reader.
 #[derive(Debug, Default)]
 pub(super) struct Table {
-    /// Positions, where the format has a place for them; else they are looked for among the columns.
+    /// Positions, if the format stores them apart; otherwise they are searched among the columns.
     pub(super) positions: Option<(usize, Data)>,
     pub(super) columns: Vec<Column>,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
-    /// Where the file says it.
+    /// Time, if the file has it.
     pub(super) time: Option<f64>,
     pub(super) asked: Asked,
 }
@@ -351,7 +351,7 @@ impl Table {
         Self { asked: asked.clone(), ..Self::default() }
     }
 
-    /// Lists an attribute, and says whether its numbers are wanted.
+    /// Lists an attribute and returns whether its values are wanted.
     pub(super) fn list(&mut self, name: &str, components: usize, ty: AttributeType) -> bool {
         self.asked.list(&mut self.attributes, name, components, ty)
     }
@@ -360,7 +360,7 @@ impl Table {
         self.columns.push(Column { name: name.into(), components, data });
     }
 
-    /// Checks the lengths and gives the columns their meaning.
+    /// Checks the lengths and assigns meanings to the columns.
     pub(super) fn assemble(mut self, format: Format) -> Result<Particles, ReadError> {
         let placed = self.positions.take().map(|(components, data)| {
             self.push(PLACED, components, data);
@@ -388,13 +388,13 @@ impl Table {
     }
 }
 
-/// The name of positions that have none, but a place of their own.
+/// Name of positions that the format stores apart and without a name.
 pub(super) const PLACED: &str = "positions";
-/// As what formats list them.
+/// Names under which formats list such positions.
 const OWN: [&str; 3] = ["Points", "position", "array"];
 
 impl Column {
-    /// Without numbers yet.
+    /// A column without values.
     pub(super) fn new(name: &str, components: usize, ty: AttributeType) -> Self {
         Self { name: name.into(), components, data: Data::for_type(ty) }
     }
@@ -404,12 +404,12 @@ impl Column {
     }
 }
 
-/// What tells the meaning of a column: known of a file's header before there are any numbers.
+/// What determines the meaning of a column. The header of a file has it, before any values are read.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape<'a> {
     pub(super) name: &'a str,
     pub(super) components: usize,
-    /// Of all particles together.
+    /// Number of values for all particles.
     pub(super) values: u64,
 }
 
@@ -427,8 +427,8 @@ impl Shape<'_> {
     }
 }
 
-/// Where the components of a vector are stored: in one column of two or three components (its index and their number), or
-/// in a column each (their indices). Missing components are 0.
+/// Where the components of a vector are stored: in one column of two or three components (its index and the
+/// number of components), or in one column each (their indices). Missing components are 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Vector {
     Whole(usize, usize),
@@ -452,7 +452,7 @@ impl Vector {
     }
 }
 
-/// Which column is what, by its index. Of two of one name it is the first.
+/// The role of columns, by index. Of two columns with the same name, the first counts.
 #[derive(Debug)]
 pub(super) struct Roles {
     pub(super) positions: Vector,
@@ -461,18 +461,18 @@ pub(super) struct Roles {
     pub(super) lifetimes: Option<usize>,
     pub(super) ids: Option<usize>,
     pub(super) kinds: Option<usize>,
-    /// What marks copies of particles that belong to another piece.
+    /// Marks copies of particles that belong to another piece.
     pub(super) ghosts: Option<usize>,
-    /// Times or numbers of steps, where each particle has one.
+    /// Times or step numbers, one per particle.
     pub(super) steps: Option<usize>,
-    /// Indices of the columns that the caller asked for by name.
+    /// Indices of columns that the caller requested by name.
     pub(super) extras: Vec<usize>,
 }
 
-/// What is looked for among the columns of a file.
+/// Searches the columns of a file.
 struct Search<'a> {
     shapes: &'a [Shape<'a>],
-    /// Their names, as [`names::plain`] gives them.
+    /// Their plain names, see [`names::plain`].
     plain: Vec<String>,
 }
 
@@ -481,13 +481,13 @@ impl<'a> Search<'a> {
         Self { shapes, plain: shapes.iter().map(|shape| names::plain(shape.name)).collect() }
     }
 
-    /// The first column of this name that has this number of components.
+    /// The first column with this name and number of components.
     fn one(&self, name: &str, components: usize) -> Option<usize> {
         let mut all = self.shapes.iter().zip(&self.plain);
         all.position(|(shape, plain)| shape.components == components && plain == name)
     }
 
-    /// All columns that were asked for by name.
+    /// All columns that were requested by name.
     fn asked(&self, asked: &Asked) -> Vec<usize> {
         let all = self.shapes.iter().zip(&self.plain).enumerate();
         let asked = all.filter(|(_, (shape, plain))| shape.components == 1 && asked.has(plain));
@@ -498,7 +498,7 @@ impl<'a> Search<'a> {
         names.iter().find_map(|name| self.one(name, 1))
     }
 
-    /// A vector: one column of three components, or three scalar columns; or else of two dimensions.
+    /// Finds a vector: one column of three components, three scalar columns, or the same in two dimensions.
     fn vector(&self, names: Names) -> Option<Vector> {
         let whole = |components| {
             let column = names.iter().find_map(|name| self.one(name, components))?;
@@ -516,7 +516,7 @@ impl<'a> Search<'a> {
 }
 
 impl Roles {
-    /// `placed`: the positions, where the format has a place for them.
+    /// `placed`: the positions, if the format stores them apart.
     pub(super) fn find(
         shapes: &[Shape<'_>],
         placed: Option<usize>,
@@ -544,7 +544,7 @@ impl Roles {
                 },
             });
         };
-        // What has another length is no attribute: a list of times.
+        // A column with another length is no attribute, for example a list of times.
         let values = |i: usize| shapes.get(i).map(|shape| shape.values);
         let of_one = |vector: Vector| {
             vector.columns().next().and_then(|i| {
@@ -568,7 +568,7 @@ impl Roles {
         })
     }
 
-    /// What a user should know of them.
+    /// Warnings about the columns for the user.
     pub(super) fn warnings(&self) -> impl Iterator<Item = String> {
         self.positions
             .is_flat()
@@ -576,7 +576,7 @@ impl Roles {
             .into_iter()
     }
 
-    /// How many particles there are: as many as positions, and as what else there is.
+    /// Number of particles, from the positions and checked against the other columns.
     pub(super) fn rows(&self, shapes: &[Shape<'_>]) -> Result<usize, ReadError> {
         let rows = match self.positions {
             Vector::Whole(i, components) => {
@@ -602,7 +602,7 @@ impl Roles {
         })
     }
 
-    /// Which attributes became what.
+    /// The meanings assigned to attributes.
     pub(super) fn meanings(
         &self,
         shapes: &[Shape<'_>],
@@ -626,7 +626,7 @@ impl Roles {
         let all =
             all.map(|(meaning, columns)| (meaning, columns.into_iter().filter_map(name).collect()));
         let mut all: Vec<(Meaning, Vec<String>)> = all.collect();
-        // Positions that have a place of their own are listed by the name that the format gives them.
+        // Positions that are stored apart are listed under the format's name for them.
         let unlisted = |name: &String| !attributes.iter().any(|a| a.name == *name);
         if let Some((_, names)) = all.first_mut()
             && names.iter().any(unlisted)
@@ -637,7 +637,7 @@ impl Roles {
         all
     }
 
-    /// The columns that have a meaning, in the order in which they are checked.
+    /// The columns with a meaning, in the order of the checks.
     pub(super) fn used(&self) -> impl Iterator<Item = usize> {
         let vectors = [Some(self.positions), self.velocities].into_iter().flatten();
         let vectors = vectors.flat_map(Vector::columns);

@@ -1,9 +1,9 @@
-//! Comma-separated values: a line of names and a line for each particle.
+//! Reads comma-separated values: a line of names, and one line per particle.
 //!
 //! ParaView names components `Points:0` or `Points_0`, DualSPHysics `Pos.x [m]`; plain names are `x,y,z,vx,vy,vz`.
-//! Semicolons and tabs separate too, and leave the comma to decimals. Comments and other lines may stand above the names;
-//! a separator may end each line. Without a line of names the first three columns are the positions. An empty field is
-//! NaN.
+//! Semicolons and tabs are separators too; then a comma is a decimal comma. Comments and other lines may
+//! precede the names, and a separator may end each line. Without a line of names the first three columns are
+//! the positions. An empty field is NaN.
 
 use super::Format;
 use super::asked::Asked;
@@ -42,7 +42,7 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
     }
 }
 
-/// Rows whose fields a certain character separates.
+/// Reads rows with this separator.
 pub(super) fn open_at<'a>(
     content: &Content<'a>,
     heading: Heading,
@@ -88,7 +88,7 @@ pub(super) fn open_at<'a>(
     Ok(Table { columns, about, rows: Box::new(records) })
 }
 
-/// What a column is called that has no name.
+/// Name for a column without one.
 pub(super) fn unnamed(i: usize) -> String {
     match ["x", "y", "z"].get(i) {
         Some(name) => (*name).to_string(),
@@ -96,22 +96,22 @@ pub(super) fn unnamed(i: usize) -> String {
     }
 }
 
-/// What is said of lines above the table.
+/// Warning about lines above the table.
 pub(super) fn passed_over(lines: u64) -> Option<String> {
     (lines > 0).then(|| format!("{lines} lines above the names and numbers are passed over"))
 }
 
 struct Records<'a> {
     reader: csv::Reader<Source<'a>>,
-    /// Before the first that it reads.
+    /// Lines before the first row.
     lines: u64,
-    /// Whether decimals may stand behind a comma.
+    /// Whether decimal commas are allowed.
     decimal_comma: bool,
     names: Vec<String>,
-    /// For each name the column that takes its numbers.
+    /// For each name, the index of the column that takes its values.
     columns: Vec<Option<usize>>,
     record: csv::ByteRecord,
-    /// Whether the record is there and was not given yet.
+    /// Whether a record was read that was not returned yet.
     unread: bool,
 }
 

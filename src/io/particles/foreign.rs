@@ -2,12 +2,12 @@
 
 use super::error::ReadError;
 
-/// Bytes that are enough to tell.
+/// Number of bytes that suffice for the detection.
 pub(super) const START: usize = 512;
 
 const EXPORT: &str = "export the particles as classic BGEO, VTU, PLY or NPZ";
 
-/// First bytes, what they are those of, and what to do.
+/// First bytes, the name of the format, and what to do.
 const MAGIC: &[(&[u8], &str, &str)] = &[
     #[cfg(not(feature = "hdf5"))]
     (
@@ -77,7 +77,7 @@ const MAGIC: &[(&[u8], &str, &str)] = &[
     (b"<html", "a web page", "fetch the file itself (its raw form)"),
 ];
 
-/// What a file of no format that is read is.
+/// The error for a file of a known but unsupported format; `None` if it is unknown.
 pub(super) fn told(bytes: &[u8]) -> Option<ReadError> {
     let head = bytes.get(..bytes.len().min(START)).unwrap_or(bytes);
     let unsupported =
@@ -85,7 +85,7 @@ pub(super) fn told(bytes: &[u8]) -> Option<ReadError> {
     if let Some((_, what, advice)) = MAGIC.iter().find(|(magic, ..)| head.starts_with(magic)) {
         return unsupported(what, advice);
     }
-    // The first name in a zip.
+    // The name of the first entry in a zip.
     if let (true, Some(rest)) = (head.starts_with(b"PK\x03\x04"), head.get(30..)) {
         let length =
             head.get(26..28).and_then(|l| l.first_chunk::<2>()).map(|l| u16::from_le_bytes(*l));
@@ -98,7 +98,7 @@ pub(super) fn told(bytes: &[u8]) -> Option<ReadError> {
             return unsupported("a spreadsheet", "save it as CSV");
         }
     }
-    // OpenFOAM's headers may have a banner above them.
+    // OpenFOAM headers may follow a banner.
     let text = head.trim_ascii_start();
     if text.starts_with(b"FoamFile")
         || (text.starts_with(b"/*")

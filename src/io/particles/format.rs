@@ -221,7 +221,7 @@ impl WriteFormat {
     }
 }
 
-/// Which reader takes the file.
+/// The reader of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reader {
     Bgeo,
@@ -238,7 +238,7 @@ pub(super) enum Reader {
     Json,
 }
 
-/// Tells the format by the first bytes, and what they leave open by the extension.
+/// Detects the format by the first bytes, and by the extension where these are ambiguous.
 pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError> {
     if bytes.is_empty() {
         return Err(ReadError::Empty);
@@ -304,36 +304,36 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
     } else if is_readable(bytes)
         && matches!(hint, Extension::Csv | Extension::Xyz | Extension::Text)
     {
-        // Text in another encoding; among raw numbers there are control characters.
+        // Text in another encoding. Raw numbers would contain control characters.
         return Ok(if hint == Extension::Csv { Reader::Csv } else { Reader::XyzText });
     } else if hint == Extension::Xyz {
         return Ok(Reader::XyzRaw);
     }
-    // Compressed or raw data may stand so close to the start that the prefix is no text.
+    // Compressed or raw data may follow so early that the prefix is no valid text.
     if bytes.starts_with(b"<?xml") || bytes.starts_with(b"<VTKFile") {
         return Ok(Reader::VtkXml);
     }
     Err(ReadError::UnknownFormat { found: describe(bytes, hint) })
 }
 
-/// Whether the beginning could be text: UTF-8 without control characters.
+/// Whether the beginning can be text: UTF-8 without control characters.
 fn is_text(bytes: &[u8]) -> bool {
     let head = bytes.get(..bytes.len().min(4096)).unwrap_or(bytes);
     let valid = match std::str::from_utf8(head) {
         Ok(_) => true,
-        // A character cut by the end of the prefix is no fault.
+        // The end of the prefix may cut a character.
         Err(e) => e.error_len().is_none() && head.len() < bytes.len(),
     };
     valid && is_readable(bytes)
 }
 
-/// Whether the beginning has no control characters: text in whatever encoding (a unit may have a superscript).
+/// Whether the beginning has no control characters: text in any encoding. (A unit may contain a superscript.)
 fn is_readable(bytes: &[u8]) -> bool {
     let head = bytes.get(..bytes.len().min(4096)).unwrap_or(bytes);
     !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))
 }
 
-/// Text in UTF-16 that begins with its mark, as spreadsheets write it, as UTF-8.
+/// Converts UTF-16 text with a byte order mark, as spreadsheets write it, to UTF-8.
 pub(super) fn from_utf16(bytes: &[u8]) -> Option<Vec<u8>> {
     let (mark, rest) = bytes.split_first_chunk::<2>()?;
     let unit: fn([u8; 2]) -> u16 = match mark {
@@ -347,7 +347,7 @@ pub(super) fn from_utf16(bytes: &[u8]) -> Option<Vec<u8>> {
             .map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER))
             .collect::<String>()
     };
-    // Raw numbers may begin so.
+    // Raw numbers may begin with the same bytes.
     let head = decode(rest.get(..rest.len().min(4096)).unwrap_or(rest));
     let text = is_readable(head.as_bytes()) && !head.contains(char::REPLACEMENT_CHARACTER);
     (text && !head.is_empty()).then(|| decode(rest).into_bytes())

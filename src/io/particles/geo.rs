@@ -1,8 +1,8 @@
 //! Classic Houdini ASCII geometry, version 5 (`.geo` before Houdini 12).
 //!
-//! `PGEOMETRY V5`, counts as `NPoints n`, `NPointAttrib n` ..., then `PointAttrib` with a line for each
-//! attribute (name, components, type, defaults; of an index attribute the texts), then a line for each point:
-//! `x y z w (values)`, without brackets where there are no attributes. The rest is not read.
+//! The file has `PGEOMETRY V5`, counts such as `NPoints n` and `NPointAttrib n`, then `PointAttrib` with one
+//! line per attribute (name, components, type, defaults; for an index attribute also the texts), then one
+//! line per point: `x y z w (values)`, without brackets if there are no attributes. The rest is not read.
 
 use super::Format;
 use super::asked::Asked;
@@ -21,7 +21,7 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
     if first.trim_ascii() != b"PGEOMETRY V5" {
         return Err(ReadError::malformed("`PGEOMETRY V5`", show(first), Place::Line(1)));
     }
-    // The counts stand on a few lines of `name number` pairs.
+    // The counts are on a few lines of `name number` pairs.
     let mut points = None;
     let mut attributes = None;
     while points.is_none() || attributes.is_none() {
@@ -91,14 +91,14 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
 
 /// An attribute in the line of a point.
 struct Field {
-    /// Words.
+    /// Number of words.
     size: usize,
     column: Option<usize>,
 }
 
 struct Points<'a> {
     text: Text<'a>,
-    /// Of the line that was read last.
+    /// Number of the line that was read last.
     number: u64,
     left: u64,
     fields: Vec<Field>,
@@ -126,7 +126,8 @@ impl RowReader for Points<'_> {
     }
 }
 
-/// Appends the numbers of a point, the first column of which are the positions; none where these are no numbers.
+/// Appends the values of a point to the columns, of which the first holds the positions; `None` if they are
+/// no numbers.
 fn point<'l>(
     mut words: impl Iterator<Item = &'l [u8]>,
     fields: &[Field],

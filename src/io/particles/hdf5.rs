@@ -1,17 +1,17 @@
-//! HDF5: VTKHDF, the output of PySPH, H5Part and H5MD, and whatever else keeps positions in a group.
+//! Reads HDF5: VTKHDF, files of PySPH, H5Part and H5MD, and any other with positions in a group.
 //!
-//! The container is read by the crate hdf5-reader, in Rust alone; which of its arrays are what is said here.
+//! The crate hdf5-reader (pure Rust) reads the container; this module finds the arrays.
 //!
-//! - VTKHDF: group `VTKHDF`, of type PolyData or UnstructuredGrid, or of blocks of these. Points of all parts and steps lie one
-//!   after the other; group `Steps` tells where those of a step begin.
-//! - PySPH: `particles/NAME/arrays`, an array for each property; the time is attribute `t` of `solver_data`. Of several kinds of
-//!   particles those are taken that are called fluid.
-//! - H5Part: groups `Step#N`. The same of any groups that differ in a number: each is a frame.
-//! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and the same of other properties.
-//! - Others: the group that has an array of positions, or several, which are put together.
+//! - VTKHDF: group `VTKHDF` of type PolyData or UnstructuredGrid, or of blocks of these. The points of all
+//!   parts and steps are stored in sequence; group `Steps` says where a step begins.
+//! - PySPH: `particles/NAME/arrays`, one array per property; the time is attribute `t` of `solver_data`. Of
+//!   several kinds of particles those called fluid are read.
+//! - H5Part: groups `Step#N`. Any other groups that differ in a number are frames as well.
+//! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
+//! - Others: the group, or groups, with an array of positions; several are joined.
 //!
-//! Only the arrays of the frame that is asked for are read, those with a meaning alone. No more memory is asked for than the
-//! size of the file warrants.
+//! Of the requested frame, only arrays with a meaning are read. Memory use is limited by the size of the
+//! file.
 
 use std::io::Read as _;
 use std::ops::Range;
@@ -31,10 +31,10 @@ use super::names;
 use super::vtk_xml::{is_point, mesh_warning};
 use super::{Format, Particles};
 
-/// What such a file begins with.
+/// Magic bytes of HDF5.
 pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-/// Whether a path is that of such a file.
+/// Whether a file is HDF5.
 fn is_one(path: &Path) -> bool {
     let mut start = Vec::new();
     let file = std::fs::File::open(path);
@@ -42,23 +42,23 @@ fn is_one(path: &Path) -> bool {
     read.is_ok() && start == MAGIC
 }
 
-/// The times of the frames of a file; none of one of another format.
+/// Times of the frames of a file; `None` for another format.
 pub(super) fn times(path: &Path) -> Option<Result<Vec<Option<f64>>, ReadError>> {
     is_one(path).then(|| File::open(path)?.times())
 }
 
-/// The particles of a file; none of one of another format.
+/// The particles of a file; `None` for another format.
 pub(super) fn read(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
     is_one(path).then(|| File::open(path)?.read(asked))
 }
 
-/// Groups that are looked into, and how deep.
+/// Most groups that are searched, and greatest depth.
 const GROUPS: usize = 1 << 12;
 const DEEP: usize = 6;
-/// Bytes of a header, and of a chunk, that are no lie: HDF5 itself makes smaller ones.
+/// Largest plausible size in bytes of a header, and of a chunk: HDF5 itself makes smaller ones.
 const HEADER: usize = 1 << 22;
 
-/// A file that is open.
+/// An open file.
 pub(super) struct File {
     file: Hdf5File,
 }
@@ -69,9 +69,9 @@ struct Frame {
     parts: Vec<Part>,
 }
 
-/// Some of the particles of a frame: those of a group.
+/// The particles of a frame that are in one group.
 struct Part {
-    /// What it is called.
+    /// Name for messages.
     name: String,
     arrays: Vec<Array>,
     warnings: Vec<String>,
@@ -84,23 +84,23 @@ struct Array {
     rows: Rows,
 }
 
-/// Which numbers of a dataset are those of the particles.
+/// The values of a dataset that belong to the particles.
 #[derive(Clone)]
 enum Rows {
     All,
-    /// Rows of the first dimension.
+    /// A range of rows.
     Some(Range<u64>),
-    /// Of a dataset whose first dimension is frames.
+    /// One frame of a dataset whose first dimension is frames.
     Frame(u64),
 }
 
 impl File {
-    /// Of a file, of which what is needed is read.
+    /// Opens a file; parts are read as needed.
     pub(super) fn open(path: &Path) -> Result<Self, ReadError> {
         Self::of(Arc::new(FileStorage::open(path).map_err(failed)?))
     }
 
-    /// Of what lies in memory.
+    /// Opens a file in memory.
     pub(super) fn of_bytes(bytes: &[u8]) -> Result<Self, ReadError> {
         Self::of(Arc::new(BytesStorage::new(bytes.to_vec())))
     }
@@ -116,7 +116,7 @@ impl File {
         Ok(Self { file })
     }
 
-    /// A dataset by its path.
+    /// Reads a dataset by its path.
     pub(super) fn numbers(&self, path: &str) -> Result<(Vec<u64>, Data), ReadError> {
         let dataset = self.file.dataset(path).map_err(failed)?;
         let shape = dataset.shape().to_vec();
@@ -124,7 +124,7 @@ impl File {
         Ok((shape, numbers(&dataset, ty, &Rows::All)?))
     }
 
-    /// The times of the frames, where they are known.
+    /// Times of the frames, where they are known.
     pub(super) fn times(&self) -> Result<Vec<Option<f64>>, ReadError> {
         Ok(self.frames()?.iter().map(|frame| frame.time).collect())
     }
@@ -161,7 +161,7 @@ impl File {
     }
 }
 
-/// A file of several frames where one is read.
+/// Error: several frames where one is expected.
 fn several(count: usize) -> ReadError {
     ReadError::Unsupported {
         what: format!("an HDF5 file of {count} frames, of which none is named,"),
@@ -169,7 +169,7 @@ fn several(count: usize) -> ReadError {
     }
 }
 
-/// What the crate says of a file.
+/// Converts an error of the crate.
 fn failed(error: Error) -> ReadError {
     match error {
         Error::Io(reason) => ReadError::Io { path: std::path::PathBuf::new(), reason },
@@ -187,7 +187,7 @@ fn failed(error: Error) -> ReadError {
     }
 }
 
-/// How the numbers of a dataset are stored.
+/// Type of the values of a dataset.
 fn type_of(dataset: &Dataset) -> AttributeType {
     use AttributeType as T;
     match dataset.dtype() {
@@ -209,7 +209,7 @@ fn type_of(dataset: &Dataset) -> AttributeType {
     }
 }
 
-/// Some numbers of a dataset, in their order.
+/// Reads values of a dataset.
 fn numbers(dataset: &Dataset, ty: AttributeType, rows: &Rows) -> Result<Data, ReadError> {
     use AttributeType as T;
     let all = SliceInfoElem::Slice { start: 0, end: u64::MAX, step: 1 };
@@ -222,7 +222,7 @@ fn numbers(dataset: &Dataset, ty: AttributeType, rows: &Rows) -> Result<Data, Re
         };
     }
     let selection = SliceInfo { selections };
-    /// Numbers of one type, made others.
+    /// Reads values of one type and converts them.
     macro_rules! read {
         ($number:ty, $data:ident, $target:ty) => {{
             let read = dataset.read_slice::<$number>(&selection).map_err(failed)?;
@@ -247,7 +247,7 @@ fn numbers(dataset: &Dataset, ty: AttributeType, rows: &Rows) -> Result<Data, Re
     })
 }
 
-/// The whole numbers of a list.
+/// Reads a list of integers.
 fn list(group: &Group, name: &str) -> Result<Vec<u64>, ReadError> {
     let dataset = group.dataset(name).map_err(failed)?;
     let data = numbers(&dataset, type_of(&dataset), &Rows::All)?;
@@ -255,7 +255,7 @@ fn list(group: &Group, name: &str) -> Result<Vec<u64>, ReadError> {
     Ok((0..data.len()).map(value).collect())
 }
 
-/// The first number there is among attributes of these names.
+/// The first of these attributes that is a number.
 fn number(group: &Group, names: &[&str]) -> Option<f64> {
     let all = names.iter().filter_map(|name| group.attribute(name).ok());
     all.into_iter().find_map(|attribute| {
@@ -268,7 +268,7 @@ impl Array {
         Self { name: name.into(), dataset, rows }
     }
 
-    /// Particles, and numbers of each.
+    /// Number of particles, and of values per particle.
     fn shape(&self) -> (u64, usize) {
         let shape = self.dataset.shape();
         let shape = match self.rows {
@@ -351,7 +351,7 @@ impl Part {
         self.arrays.iter().any(|array| array.shape().0 > 0)
     }
 
-    /// What is there for other particles only, or for none: PySPH has an empty array of each property that is not stored.
+    /// Removes arrays of other lengths: PySPH has an empty array for each property that is not stored.
     fn without_empty(mut self) -> Self {
         let some = self.has_some();
         self.arrays.retain(|array| !some || array.shape().0 > 0);
@@ -359,7 +359,7 @@ impl Part {
     }
 }
 
-/// The frames of a file of VTK.
+/// The frames of a VTKHDF file.
 fn of_vtk(grid: &Group) -> Result<Vec<Frame>, ReadError> {
     let kind = |group: &Group| {
         let attribute = group.attribute("Type").ok();
@@ -426,13 +426,13 @@ fn of_vtk(grid: &Group) -> Result<Vec<Frame>, ReadError> {
     Ok(frames)
 }
 
-/// Where those of each step begin.
+/// Where the particles of each step begin.
 struct Steps {
     values: Vec<f64>,
     points: Vec<u64>,
     parts: Vec<u64>,
     counts: Vec<u64>,
-    /// Of arrays that have offsets of their own.
+    /// For arrays with their own offsets.
     arrays: Vec<(String, Vec<u64>)>,
 }
 
@@ -441,7 +441,7 @@ impl Steps {
         let dataset = steps.dataset("Values").map_err(failed)?;
         let data = numbers(&dataset, type_of(&dataset), &Rows::All)?;
         let values: Vec<f64> = (0..data.len()).filter_map(|i| data.f64(i)).collect();
-        // The steps of a collection are those of its blocks.
+        // In a collection the blocks have the steps.
         let own = block.group("Steps").unwrap_or_else(|_| steps.clone());
         let mut arrays = Vec::new();
         if let Ok(group) = own.group("PointDataOffsets") {
@@ -470,7 +470,7 @@ impl Steps {
     }
 }
 
-/// What is said of a mesh.
+/// Warning about the vertices of a mesh.
 fn mesh(block: &Group) -> Option<String> {
     let cells = |name: &str| {
         let group = block.group(name).ok()?;
@@ -487,19 +487,19 @@ fn mesh(block: &Group) -> Option<String> {
     (2 * more > types.len()).then(|| mesh_warning(types.len() as u64, "cells"))
 }
 
-/// The last name of a path.
+/// The last component of a path.
 fn leaf(path: &str) -> String {
     path.rsplit('/').next().unwrap_or(path).to_string()
 }
 
-/// A group that has positions.
+/// A group with positions.
 struct Found {
     path: String,
-    /// The attributes of each of its frames: one, but for H5MD.
+    /// Attributes of each frame. Only H5MD has several frames.
     frames: Vec<(Option<f64>, Vec<Array>)>,
 }
 
-/// The frames of a file without a convention that is known, and of those by their names.
+/// The frames of a file without a known convention, or by the names of its groups.
 fn of_others(root: &Group) -> Result<Vec<Frame>, ReadError> {
     let (mut found, mut looked, mut seen) = (Vec::new(), 0, Vec::new());
     search(root, "", 0, &mut looked, &mut found, &mut seen)?;
@@ -524,7 +524,7 @@ fn of_others(root: &Group) -> Result<Vec<Frame>, ReadError> {
         });
         return Ok(frames.collect());
     }
-    // Walls lie beside the fluid, in groups that are called otherwise.
+    // Walls are in groups with other names beside the fluid.
     let fluid = |found: &Found| {
         let path = found.path.to_lowercase();
         ["fluid", "water", "liquid"].iter().any(|name| path.contains(name))
@@ -567,11 +567,11 @@ fn in_name(name: &str) -> Option<f64> {
         i + head.get(i..).map_or(1, |rest| rest.chars().next().map_or(1, char::len_utf8))
     });
     let text = head.get(start..)?;
-    // What stands before a number may end in a minus.
+    // A minus may be a separator before the number.
     (0..text.len()).find_map(|from| text.get(from..)?.parse().ok())
 }
 
-/// Looks for groups with positions, in this one and below it.
+/// Searches this group and those below it for positions.
 fn search(
     group: &Group,
     path: &str,
@@ -595,7 +595,7 @@ fn search(
     if names::may_have_positions(&names) {
         found.push(Found { path: path.into(), frames: vec![(time, arrays)] });
     }
-    // H5MD: a group for each property, its values in one dataset.
+    // H5MD: one group per property, with its values in one dataset.
     let value = |group: &Group| {
         let dataset = group.dataset("value").ok()?;
         let frames = dataset.shape().first().copied().filter(|_| dataset.ndim() >= 2)?;

@@ -1,4 +1,5 @@
-//! Files that only name others: the pieces of a frame (PVTU, PVTP, VTM) and the frames of a sequence (PVD, `.series`).
+//! Reads files that only list other files: the pieces of a frame (PVTU, PVTP, VTM) or the frames of a
+//! sequence (PVD, `.series`).
 
 use std::path::{Path, PathBuf};
 
@@ -10,23 +11,23 @@ use super::plan::Plan;
 use super::source::{Content, Input};
 use super::vtk_xml;
 
-/// A list that is longer is none.
+/// Largest size of such a list in bytes.
 const LONGEST: u64 = 64 << 20;
 
 /// The pieces of one frame.
 pub(super) struct Pieces {
     files: Vec<PathBuf>,
-    /// Names of the blocks, where they are several.
+    /// Names of the blocks, if there are several.
     blocks: Vec<String>,
 }
 
-/// A file that a list names; on Windows it may have backslashes.
+/// Path of a listed file; on Windows it may contain backslashes.
 pub(super) fn beside(folder: &Path, file: &str) -> PathBuf {
     let path = folder.join(file);
     if file.contains('\\') && !path.exists() { folder.join(file.replace('\\', "/")) } else { path }
 }
 
-/// The text of a list of files; none of another file.
+/// Text of a list with one of these extensions; `None` for any other file.
 pub(super) fn text(path: &Path, extensions: &[&str]) -> Option<String> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
     let short = std::fs::metadata(path).is_ok_and(|meta| meta.len() <= LONGEST);
@@ -37,7 +38,7 @@ pub(super) fn text(path: &Path, extensions: &[&str]) -> Option<String> {
 }
 
 impl Pieces {
-    /// Those that a file lists; none of one that holds particles itself.
+    /// The pieces listed in a file; `None` for a file that holds particles itself.
     pub(super) fn of(path: &Path) -> Result<Option<Self>, ReadError> {
         const EXTENSIONS: [&str; 6] = ["pvtu", "pvtp", "vtm", "vtmb", "vtpc", "xml"];
         let Some(text) = text(path, &EXTENSIONS) else { return Ok(None) };
@@ -69,7 +70,7 @@ impl Pieces {
         Ok(Some(Self { files, blocks }))
     }
 
-    /// The particles of all pieces, one after the other.
+    /// Plans to read the particles of all pieces in sequence.
     pub(super) fn plan(&self, asked: &Asked) -> Result<Plan<'static>, ReadError> {
         let mut contents = Vec::new();
         for file in &self.files {
@@ -92,7 +93,7 @@ impl Pieces {
         vtk_xml::plan_files(&contents, warnings, asked)
     }
 
-    /// What is at fault, by the piece where that is alone at fault.
+    /// Attributes an error to a piece, if that piece alone causes it.
     pub(super) fn fault(&self, error: ReadError) -> ReadError {
         if matches!(error, ReadError::File { .. } | ReadError::Io { .. }) {
             return error;
@@ -102,7 +103,7 @@ impl Pieces {
     }
 }
 
-/// The index in its folder that lists a file as a piece of its frame, where there is one.
+/// The index in the same folder that lists this file as a piece, if there is one.
 pub(super) fn lists(file: &Path) -> Option<PathBuf> {
     let extension = file.extension()?.to_string_lossy().to_lowercase();
     if !matches!(extension.as_str(), "vtu" | "vtp") {
@@ -118,7 +119,7 @@ pub(super) fn lists(file: &Path) -> Option<PathBuf> {
         .filter(|path| path.extension().is_some_and(|e| e == "pvtu" || e == "pvtp"))
         .collect();
     indices.sort();
-    // A name in the text is enough: these are short, and nothing else stands in them.
+    // A text search suffices: the files are short and contain little else.
     let named = format!("\"{name}\"");
     indices.into_iter().find(|path| {
         text(path, &["pvtu", "pvtp"])
@@ -126,13 +127,13 @@ pub(super) fn lists(file: &Path) -> Option<PathBuf> {
     })
 }
 
-/// A file, and its time where that is said.
+/// A file, and its time if the list has it.
 pub(super) type Timed = (PathBuf, Option<f64>);
 
-/// The frames that a file lists, with their times; none of another file.
+/// The frames listed in a file, with their times; `None` for any other file.
 ///
 /// # Errors
-/// What it should be.
+/// The expected form.
 pub(super) fn frames(path: &Path) -> Result<Option<Vec<Timed>>, String> {
     let Some(text) = text(path, &["pvd", "series"]) else { return Ok(None) };
     let folder = path.parent().unwrap_or(Path::new(""));

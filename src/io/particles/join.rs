@@ -1,14 +1,14 @@
-//! Particles of several files that are one frame.
+//! Joins particles of several files that are one frame.
 
 use std::collections::HashSet;
 
 use super::columns::Extra;
 use super::{Meaning, Particles};
 
-/// Appends those of another file.
+/// Appends the particles of another file.
 pub(super) fn append(to: &mut Particles, mut other: Particles) {
     let (first, second) = (to.positions.len(), other.positions.len());
-    // An empty file of a rank says nothing of what particles have.
+    // The empty file of a process does not say which attributes particles have.
     if second == 0 || first == 0 {
         let mut warnings = std::mem::take(&mut to.warnings);
         if first == 0 {
@@ -66,7 +66,7 @@ pub(super) fn append(to: &mut Particles, mut other: Particles) {
     }
 }
 
-/// What both have; none where one has none, which is told.
+/// The attribute of both; `None` with a warning if one has none.
 fn both<T>(
     to: &mut Option<Vec<T>>,
     other: Option<Vec<T>>,

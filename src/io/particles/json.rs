@@ -1,10 +1,11 @@
-//! JSON: an array of positions `[[x, y, z], ...]` or of particles `[{"position": [x, y, z], "id": 7}, ...]`, or an object of
-//! arrays by name.
+//! Reads JSON: an array of positions `[[x, y, z], ...]`, an array of particles `[{"position": [x, y, z],
+//! "id": 7}, ...]`, or an object of arrays by name.
 //!
-//! In an object an array holds numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`; a flat list has the
-//! components of vectors one after the other. One that holds a single array of particles, `{"particles": [...]}`, is that array.
-//! Lines that are JSON each are the rows of one. `null`, and the `NaN` and `Infinity` of Python, are NaN. Houdini's geometry as JSON
-//! begins with `"fileversion"` and is refused.
+//! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density":
+//! [1000]}`. In a flat array the components of vectors follow one another. An object with a single array of
+//! particles, `{"particles": [...]}`, is read as that array. A file with one JSON value per line is read as
+//! an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Houdini's JSON geometry begins with
+//! `"fileversion"` and is refused.
 
 use serde_json::{Map, Value};
 
@@ -18,7 +19,7 @@ use super::{Format, Particles};
 pub(super) fn read(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let value = match parse(bytes) {
-        // Only where it is at fault: the numbers of Python are rare, and looking for them takes a copy.
+        // Only after an error: Python's numbers are rare, and replacing them takes a copy.
         Err(error) => match without_python(bytes) {
             Some(bytes) => parse(&bytes)?,
             None => return Err(error),
@@ -39,7 +40,7 @@ pub(super) fn read(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> 
     table.assemble(Format::Json)
 }
 
-/// One value, or a line for each of several, which become an array.
+/// Parses one value, or one value per line, which become an array.
 fn parse(bytes: &[u8]) -> Result<Value, ReadError> {
     let mut values = serde_json::Deserializer::from_slice(bytes).into_iter::<Value>();
     let bad = |e: serde_json::Error| {
@@ -57,7 +58,7 @@ fn parse(bytes: &[u8]) -> Result<Value, ReadError> {
     Ok(Value::Array(rows))
 }
 
-/// With `null` in the place of numbers that Python writes and JSON has not; none where there are none.
+/// The text with `null` instead of Python's numbers that JSON does not have; `None` if there are none.
 fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut out = Vec::with_capacity(bytes.len());
     let mut rest = bytes;
@@ -88,7 +89,7 @@ fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
     found.then_some(out)
 }
 
-/// Rows: of positions, or of particles by the names of what they have.
+/// Reads rows that are positions, or particles as objects.
 fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     // A list of one frame.
     while let [Value::Array(inner)] = rows.as_mut_slice() {
@@ -121,7 +122,8 @@ fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// As pandas writes tables: lists of names and of rows, columns by the names of their rows, or rows by theirs.
+/// Reads tables as pandas writes them: lists of names and of rows, columns keyed by row name, or rows keyed
+/// by column name.
 fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> {
     if let (Some(Value::Array(names)), Some(Value::Array(_))) =
         (map.get("columns"), map.get("data"))
@@ -148,7 +150,7 @@ fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> 
         }
         return None;
     }
-    // A row has numbers, and vectors of a few of them.
+    // A row has numbers and short vectors.
     let small = |value: &Value| {
         !value.is_object()
             && value.as_array().is_none_or(|v| v.len() <= 3 && v.iter().all(Value::is_number))
@@ -163,7 +165,7 @@ fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> 
         .then(|| std::mem::take(map).into_iter().map(|(_, row)| row).collect())
 }
 
-/// A list of vectors, as such or flat.
+/// Interprets an array as vectors, nested or flat.
 fn vectors(name: &str, components: usize, data: Data) -> Result<(usize, Data), ReadError> {
     match components {
         2 | 3 => Ok((components, data)),
@@ -176,7 +178,7 @@ fn vectors(name: &str, components: usize, data: Data) -> Result<(usize, Data), R
     }
 }
 
-/// Refuses arrays of arrays of vectors.
+/// Refuses arrays of arrays of vectors, which are several frames.
 fn several_frames(rows: &[Value], what: &str) -> Result<(), ReadError> {
     let inner = rows.first().and_then(Value::as_array).and_then(|row| row.first());
     if inner.is_some_and(|inner| inner.is_array() || inner.is_object()) {
@@ -191,7 +193,7 @@ fn several_frames(rows: &[Value], what: &str) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Objects, a particle each.
+/// Reads particles that are objects.
 fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     let mut columns: Vec<(String, Vec<Value>)> = Vec::new();
     if let Some(Value::Object(first)) = rows.first() {
@@ -232,7 +234,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// A list of objects, or of lists.
+/// Whether a value is a list of objects or of lists.
 fn is_list_of_particles(value: &Value) -> bool {
     let first = value.as_array().and_then(|list| list.first());
     first.is_some_and(|first| first.is_object() || first.is_array())
@@ -280,7 +282,7 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
         }
         several_frames(&rows, &format!("`{name}`"))?;
         let (mut components, mut data) = numbers(&name, &rows)?;
-        // `x` may be a list of vectors or of their first component.
+        // `x` may be a list of vectors, or of their first components.
         let alone = names::plain(&name) != "x" && names::plain(&name).len() > 1;
         if components == 1 && names::is_vector(&name) && alone {
             (components, data) = vectors(&name, components, data)?;
@@ -295,7 +297,7 @@ fn shape(name: &str, expected: &str, components: usize) -> ReadError {
     ReadError::json(format!("{expected} in `{name}`"), format!("{components}"))
 }
 
-/// A vector: an array, or an object of its components.
+/// The components of a vector: an array, or an object.
 fn components(value: &Value) -> Option<Vec<&Value>> {
     match value {
         Value::Array(all) => Some(all.iter().collect()),
@@ -308,7 +310,7 @@ fn components(value: &Value) -> Option<Vec<&Value>> {
     }
 }
 
-/// The numbers of an array, and how many there are in each row.
+/// The values of an array, and their number per row.
 fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
     let number = |value: &Value| match value {
         Value::Null => Ok(f64::NAN),
@@ -317,7 +319,7 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
         }),
     };
     let components = rows.first().and_then(components).map(|first| first.len());
-    // Grown, not set aside: the first row may be the only long one.
+    // Grown as needed, because the first row may be the only long one.
     let mut values = Vec::new();
     for row in rows {
         let vector = components.and_then(|_| self::components(row));

@@ -1,4 +1,5 @@
-//! Dumps of LAMMPS and LIGGGHTS in text: `ITEM:` lines with what follows them, of which `ITEM: ATOMS` names the columns.
+//! Reads text dumps of LAMMPS and LIGGGHTS: `ITEM:` lines, each followed by its data. `ITEM: ATOMS` names the
+//! columns.
 
 use super::Format;
 use super::asked::Asked;
@@ -12,13 +13,13 @@ use super::table::Table;
 use super::text::Text;
 use super::xyz;
 
-/// What such a file begins with; a unit or a time may stand above the number of the step.
+/// Beginnings of such a file. A unit or a time may precede the step number.
 pub(super) const STARTS: [&[u8]; 3] = [b"ITEM: TIMESTEP", b"ITEM: UNITS", b"ITEM: TIME"];
 
-/// Lines above the atoms: more are there in no dump.
+/// Most lines before the atoms.
 const LINES: u64 = 64;
 
-/// Where the frames of a file begin, up to one of them.
+/// Where the frames of a file begin, up to frame `upto`.
 pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<Start>, ReadError> {
     let (mut starts, mut text, mut number) = (Vec::new(), Text::of(content)?, 0_u64);
     while upto.is_none_or(|upto| starts.len() <= upto + 1) {
@@ -55,7 +56,7 @@ pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<S
     Ok(starts)
 }
 
-/// What the line behind one is.
+/// Meaning of the line after an `ITEM:` line.
 enum Item {
     Time,
     Count,
@@ -117,13 +118,13 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
         let names = String::from_utf8_lossy(names);
         let mut names: Vec<String> = names.split_whitespace().map(str::to_string).collect();
         if !have_positions(&names) {
-            // Unwrapped positions are positions; scaled ones need the box.
+            // Unwrapped positions count as positions; scaled ones need the box.
             for name in &mut names {
                 if let "xu" | "yu" | "zu" = name.as_str() {
                     name.pop();
                 }
             }
-            // Scaled ones are parts of the sides of the box.
+            // Scaled positions are fractions of the sides of the box.
             for (name, side) in names.iter_mut().flat_map(|name| {
                 let scaled = ["xs", "ys", "zs", "xsu", "ysu", "zsu"].iter().position(|n| n == name);
                 scaled.map(|side| (name, side % 3))

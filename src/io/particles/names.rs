@@ -4,7 +4,7 @@
 //! Components are `x y z`, or numbers from 0 or 1, bare or in brackets: `Points:0`, `v_1`, `velocity[2]`. A
 //! prefix `particle` or `part` is ignored: `Part id`, `particle_velocity_x`.
 
-/// Names with a meaning, as [`plain`] gives them, the surest first.
+/// Plain names with one meaning, in order of preference.
 pub(super) type Names = &'static [&'static str];
 
 pub(super) const POSITION: Names = &[
@@ -46,18 +46,18 @@ pub(super) const ID: Names = &[
 ];
 pub(super) const LIFETIME: Names = &["lifetime", "life"];
 pub(super) const KIND: Names = &["type"];
-/// What marks a copy of a particle of another piece.
+/// Names that mark copies of particles of another piece.
 pub(super) const GHOST: Names = &["vtkghosttype", "vtkghostlevels"];
-/// When a particle was there, in files of several frames.
+/// Names of the time or step of a particle, in files with several frames.
 pub(super) const STEP: Names = &["timestep", "time", "timevalue", "step", "frame"];
 
-/// What names are looked for where there are no positions.
+/// Names to suggest in the error if there are no positions.
 pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points` or `x` with 3 components, or `x` `y` `z`, `Points:0` `Points:1` `Points:2`";
 
-/// How the components of a vector are told apart.
+/// Suffixes of the components of a vector.
 const SUFFIXES: [[&str; 3]; 3] = [["x", "y", "z"], ["0", "1", "2"], ["1", "2", "3"]];
 
-/// A name without what says nothing.
+/// The name in plain form: without what does not distinguish names.
 pub(super) fn plain(name: &str) -> String {
     let mut out = String::with_capacity(name.len());
     let mut rest = name;
@@ -77,13 +77,13 @@ pub(super) fn plain(name: &str) -> String {
         };
         let (inner, behind) = behind.split_once(closing).unwrap_or((behind, ""));
         let inner = inner.trim().to_ascii_lowercase();
-        // A unit, unless it tells which component it is.
+        // A unit, unless it names a component.
         if !out.is_empty() && SUFFIXES.iter().any(|s| s.contains(&inner.as_str())) {
             out.push_str(&inner);
         }
         rest = behind;
     }
-    // Of a particle they are all.
+    // A prefix that says that it belongs to a particle means nothing.
     let of_particle = ["particles", "particle", "part"].iter();
     let stripped = of_particle.filter_map(|word| out.strip_prefix(word)).find(|rest| known(rest));
     match stripped {
@@ -92,14 +92,14 @@ pub(super) fn plain(name: &str) -> String {
     }
 }
 
-/// The plain names of three scalars that a vector may be split into.
+/// The plain names of three scalars that form a vector.
 pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
     let position = names == POSITION;
     let bare = std::iter::once("").filter(move |_| position);
     let split = bare.chain(names.iter().copied()).flat_map(move |base| {
         let suffixes = SUFFIXES.iter().filter(move |[first, ..]| match base {
             "" => *first == "x",
-            // `xx` is a component of a tensor, and `x_0 x_1 x_2` is a position.
+            // `xx` is a component of a tensor; `x_0 x_1 x_2` is a position.
             "x" | "xp" | "xyz" => *first != "x",
             _ => true,
         });
@@ -119,24 +119,25 @@ pub(super) fn known(name: &str) -> bool {
             .any(|names| triples(names).any(|t| t.iter().any(|n| n == name)))
 }
 
-/// Whether an attribute of this name is one of vectors.
+/// Whether an attribute with this name is a vector.
 pub(super) fn is_vector(name: &str) -> bool {
     let plain = plain(name);
     POSITION.contains(&plain.as_str()) || VELOCITY.contains(&plain.as_str())
 }
 
-/// Whether one of these names is that of positions, or three or two are.
+/// Whether one of these names may be a position, or three or two of them together.
 pub(super) fn may_have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     let whole = |name: &N| POSITION.contains(&plain(name.as_ref()).as_str());
     names.iter().any(whole) || have_positions(names)
 }
 
-/// Whether an attribute of this name may be a time, which may be no number.
+/// Whether an attribute with this name may be a time, which need not be a number.
 pub(super) fn is_step(name: &str) -> bool {
     STEP.contains(&plain(name).as_str())
 }
 
-/// Whether columns of these names have positions among them, of two dimensions at least: tells a line of names from others.
+/// Whether columns with these names contain positions, in two dimensions at least. This distinguishes a line
+/// of names from other lines.
 pub(super) fn have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     let plain: Vec<String> = names.iter().map(|name| plain(name.as_ref())).collect();
     triples(POSITION)

@@ -1,14 +1,17 @@
-//! NumPy arrays (NPY, versions 1 to 3) and zips of them (NPZ).
+//! Reads NumPy arrays (NPY, versions 1 to 3) and zips of them (NPZ).
 //!
 //! An NPY file is `\x93NUMPY`, two bytes of version, the length of the header (`u16`, from version 2 `u32`, both
 //! little-endian), a header that is a Python dict `{'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }`,
-//! and the numbers. The header is three known keys, read here. `descr` may be a list of fields, `[('pos', '<f4', (3,)), ...]`.
+//! and the values. Only the three known keys of the header are parsed. `descr` may be a list of fields,
+//! `[('pos', '<f4', (3,)), ...]`.
 //!
-//! A row is a particle, in an array of shape (n, 3) or in either order of (3, n); two columns are two dimensions, of six the last three
-//! are velocities. An array of more dimensions is one of frames, which is refused.
+//! A row is a particle. The array has shape (n, 3), or (3, n) in either order. Two columns are two
+//! dimensions; of six columns the last three are velocities. An array of more dimensions holds frames and is
+//! refused.
 //!
-//! Own, since the crate for it (npyz 0.9) brings a whole Python parser with big integers for these three keys,
-//! gives numbers only as the very type they are stored in, and does not hold the shape against the bytes there are.
+//! The reader is our own, because the crate npyz (0.9) brings a whole Python parser with big integers for
+//! three keys, returns values only in the type in which they are stored, and does not check the shape against
+//! the size of the file.
 
 use std::io::{Cursor as IoCursor, Read};
 
@@ -21,35 +24,35 @@ use super::rows::{Field, Layout, Rows};
 use super::source::{self, Check, Input, Packing, Piece, Source};
 use super::{Format, Particles};
 
-/// One attribute of a structured array, or all of a plain one.
+/// A field of a structured array, or the whole of a plain one.
 struct Member {
     name: String,
     ty: AttributeType,
     components: usize,
-    /// Bytes from the start of an element.
+    /// Byte offset in an element.
     offset: u64,
     big_endian: bool,
 }
 
-/// What the header of an array says.
+/// The header of an array.
 struct Header {
-    /// Of a plain array one without a name.
+    /// Fields; a plain array has one without a name.
     members: Vec<Member>,
     structured: bool,
-    /// Bytes of an element.
+    /// Bytes per element.
     size: u64,
     fortran: bool,
-    /// Without extents of 1 where there are more than two.
+    /// Without dimensions of 1 if there are more than two.
     shape: Vec<u64>,
     descr: String,
 }
 
-/// An array as rows.
+/// An array seen as rows.
 struct Rowed {
     rows: u64,
     /// Values per row.
     components: usize,
-    /// All of the first component come first, then all of the second ...
+    /// Stored component after component.
     transposed: bool,
 }
 
@@ -57,7 +60,7 @@ struct Rowed {
 const FRAMES: &str =
     "save a file for each: for i, frame in enumerate(a): np.save(f'frame_{i:04d}.npy', frame)";
 
-/// Columns from which on an array of 3 rows is taken for one of particles that stand beside each other.
+/// Least number of columns with which an array of 3 rows is taken as transposed particles.
 const WIDE: u64 = 8;
 
 impl Header {
@@ -71,7 +74,7 @@ impl Header {
         self.members.first().map_or(AttributeType::Other, |member| member.ty)
     }
 
-    /// `vector`: whether it has as many components as there are dimensions.
+    /// `vector`: whether the number of components equals that of dimensions.
     fn rowed(&self, name: &str, vector: bool) -> Result<Rowed, ReadError> {
         let count = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
         let list = |rows| Rowed { rows, components: 1, transposed: false };
@@ -100,8 +103,8 @@ impl Header {
         }
     }
 
-    /// Where its numbers are, after so many bytes of header, and what is said of them; `placed`: of positions, whatever its
-    /// name. None where particle does not follow particle.
+    /// Rows of its values, which begin after a header of this length, and the warnings about it. `placed`:
+    /// they are positions, whatever the name. `None` if the particles are not stored one after the other.
     fn rows(
         &self,
         header: u64,
@@ -179,7 +182,7 @@ impl Header {
         }
     }
 
-    /// All of its numbers, of attribute after attribute.
+    /// All its values, attribute after attribute.
     fn columns(
         &self,
         cursor: &mut Cursor<'_>,
@@ -205,7 +208,7 @@ impl Header {
         Ok(columns)
     }
 
-    /// Lists it among the attributes.
+    /// Lists its attributes.
     fn list(&self, table: &mut Table, name: &str) {
         if self.structured {
             for member in self.members.iter().filter(|member| !member.name.is_empty()) {
@@ -221,7 +224,7 @@ impl Header {
         table.list(name, components.unwrap_or_else(|_| product()), self.ty());
     }
 
-    /// Whether it may be positions, whatever its name.
+    /// Whether it may hold positions, whatever its name.
     fn may_be_positions(&self) -> bool {
         let vectors = matches!(*self.shape.as_slice(), [_, 3 | 6])
             || matches!(*self.shape.as_slice(), [3, n] if n >= WIDE);
@@ -247,8 +250,8 @@ pub(super) fn read_npy(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
     table.assemble(Format::Npy)
 }
 
-/// What the header of an NPY says and its length, of a file or the beginning of one; none where particle does not
-/// follow particle.
+/// Parses the header of an NPY file (or of its beginning), and returns its length. `None` for the layout if
+/// the particles are not stored one after the other.
 pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64), ReadError> {
     let mut cursor = Cursor::new(bytes);
     let header = of_positions(&mut cursor)?;
@@ -300,17 +303,17 @@ pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
     table.assemble(Format::Npz)
 }
 
-/// Arrays of a zip.
+/// The arrays of a zip.
 pub(super) struct Arrays {
-    /// Those that may be used, and where they lie.
+    /// The arrays that may be used, and where they are.
     pub(super) rows: Vec<(Piece, Rows)>,
-    /// The column that is the positions, whatever its name.
+    /// Index of the column that holds the positions, whatever its name.
     pub(super) placed: Option<usize>,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
 }
 
-/// What the headers of the arrays in a zip say; none where one can't be read row after row.
+/// Reads the headers of the arrays in a zip; `None` if one cannot be read row by row.
 pub(super) fn arrays(input: &Input<'_>, asked: &Asked) -> Result<Option<Arrays>, ReadError> {
     let mut archive = zip::ZipArchive::new(input.section()).map_err(bad_zip)?;
     let (mut table, mut chosen) = choose(&mut archive, asked)?;
@@ -359,17 +362,17 @@ fn bad_zip(error: zip::result::ZipError) -> ReadError {
     ReadError::malformed("a sound zip of arrays", error.to_string(), Place::Unknown)
 }
 
-/// Which arrays of a zip are used beside those whose names say it.
+/// The arrays of a zip that are used besides those with a known name.
 #[derive(Default)]
 struct Chosen {
-    /// Structured ones, for their fields.
+    /// Structured arrays, for their fields.
     structured: Vec<String>,
-    /// The one that is taken as the positions, where none is called so.
+    /// The array taken as positions, if none has such a name.
     positions: Option<String>,
     warnings: Vec<String>,
 }
 
-/// Lists the arrays of a zip by their headers alone; one that cannot be read is no reason to stop.
+/// Lists the arrays of a zip by their headers; an unreadable one is skipped.
 fn choose<R: Read + std::io::Seek>(
     archive: &mut zip::ZipArchive<R>,
     asked: &Asked,
@@ -395,7 +398,7 @@ fn choose<R: Read + std::io::Seek>(
         }
         all.push(name);
     }
-    // What savez calls arrays without names comes in their order.
+    // `savez` numbers arrays without names in their order.
     able.sort();
     let sure =
         |able: &[String]| able.len() == 1 || able.first().is_some_and(|name| name == "arr_0");
@@ -453,7 +456,7 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
     let raw = cursor.take(length, WHAT)?;
     let bad = |key: &str| ReadError::malformed(format!("`{key}` in {WHAT}"), show(raw), place);
     let text = std::str::from_utf8(raw).map_err(|_| bad("descr"))?;
-    // The value of a key runs from the colon on.
+    // The value of a key begins after the colon.
     let value = |key: &str| {
         let start = text.find(&format!("'{key}'"))? + key.len() + 2;
         Some(text.get(start..)?.trim_start().strip_prefix(':')?.trim_start())
@@ -486,7 +489,7 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
     Ok(Header { members, structured, size, fortran: fortran.starts_with("True"), shape, descr })
 }
 
-/// The attributes of an element by its `descr`, and its bytes.
+/// Fields of an element by its `descr`, and its size in bytes.
 fn members(descr: &str) -> Option<(Vec<Member>, u64)> {
     let mut words = Words { rest: descr };
     if !descr.starts_with('[') {
@@ -497,7 +500,7 @@ fn members(descr: &str) -> Option<(Vec<Member>, u64)> {
     words.sign('[')?;
     let (mut members, mut offset) = (Vec::new(), 0_u64);
     while words.sign('(').is_some() {
-        // A name may have a title before it.
+        // A name may be preceded by a title.
         let name = match words.sign('(') {
             Some(()) => {
                 words.text()?;
@@ -532,7 +535,7 @@ fn members(descr: &str) -> Option<(Vec<Member>, u64)> {
     Some((members, offset))
 }
 
-/// Words of a list as Python writes it.
+/// Splits a Python list into words.
 struct Words<'a> {
     rest: &'a str,
 }
@@ -561,7 +564,7 @@ impl<'a> Words<'a> {
     }
 }
 
-/// The type of a number, its bytes, and whether it is big-endian.
+/// Type of a number, its size in bytes, and whether it is big-endian.
 fn scalar(descr: &str) -> (AttributeType, u64, bool) {
     let name = descr.trim_start_matches(['<', '>', '=', '|']);
     let ty = dtype(name);

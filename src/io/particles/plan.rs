@@ -1,4 +1,4 @@
-//! How the particles of a file are read from the first on, as often as needed: all at once, or a part after the other.
+//! A plan to read the particles of a file from the first on, any number of times: all at once, or in parts.
 
 use super::asked::Asked;
 use super::columns::{Attribute, AttributeType, Column, Data, Roles, Shape};
@@ -7,32 +7,32 @@ use super::meaning::Meaning;
 use super::survey::{Columns, FIRST, Survey};
 use super::{Format, Particles};
 
-/// Bytes that are read at a time.
+/// Bytes read at a time.
 pub(super) const CHUNK: u64 = 1 << 18;
 
-/// Particles that are read at a time where only their faults are looked for.
+/// Particles read at a time in the check for errors.
 const CHECKED: usize = 1 << 12;
-/// And where their times are.
+/// Particles read at a time to find their times.
 const PART: usize = 1 << 16;
 
-/// Some of the columns of a file, which are read side by side with those of other tracks.
+/// Columns that are stored together; they are read in parallel with other tracks.
 pub(super) struct Track<'a> {
-    /// Without numbers.
+    /// Empty columns.
     pub(super) columns: Vec<Column>,
-    /// How many numbers all particles together have in each; none where only reading them tells.
+    /// Number of values per column for all particles; `None` if only reading tells.
     pub(super) lengths: Option<Vec<u64>>,
-    /// What it is called in errors.
+    /// Name for messages.
     pub(super) what: String,
-    /// From the first particle on, with the columns that are used.
+    /// Opens a stream at the first particle, for the columns that are used.
     pub(super) open: Box<OpenTrack<'a>>,
 }
 
 type OpenTrack<'a> = dyn Fn(&[bool]) -> Result<Box<dyn Stream + 'a>, ReadError> + Send + 'a;
 
-/// A track on the way.
+/// Reads a track.
 pub(super) trait Stream: Send {
-    /// Appends the numbers of the particles that come next, `count` at most, to the columns that are used, and says how
-    /// many particles these are: fewer only where no more come. `room`: for bytes on the way.
+    /// Appends the values of up to `count` next particles to the columns that are used, and returns their
+    /// number, which is less than `count` only at the end. `room`: scratch memory.
     fn read(
         &mut self,
         count: usize,
@@ -40,39 +40,39 @@ pub(super) trait Stream: Send {
         room: &mut Vec<u8>,
     ) -> Result<usize, ReadError>;
 
-    /// After the last particle: what comes behind it has to be sound too. Gives how many bytes were unpacked, where
-    /// that is bounded for all tracks together.
+    /// Called after the last particle: checks what follows. Returns the number of decompressed bytes, if that
+    /// is limited for all tracks together.
     fn finish(&mut self) -> Result<u64, ReadError> {
         Ok(0)
     }
 }
 
-/// Where the particles of a file are, and what they have.
+/// Where the particles of a file are, and their attributes.
 pub(super) struct Plan<'a> {
     tracks: Vec<Track<'a>>,
-    /// The columns of all tracks that are used.
+    /// For the columns of all tracks, whether they are used.
     used: Vec<bool>,
     roles: Roles,
-    /// Particles; none where only reading them tells.
+    /// Number of particles; `None` if only reading tells.
     rows: Option<usize>,
     attributes: Vec<Attribute>,
     meanings: Vec<(Meaning, Vec<String>)>,
     warnings: Vec<String>,
     time: Option<f64>,
     format: Format,
-    /// The most that all tracks together may unpack.
+    /// Limit of what all tracks together may decompress to.
     limit: u64,
-    /// The time of the particles that are asked for, where each has one.
+    /// The time of the requested particles, if each particle has one.
     only: Option<f64>,
 }
 
-/// What a header says beside where the particles are.
+/// What a header says besides the place of the particles.
 pub(super) struct About {
-    /// The positions, where the format has a place for them: the index of their column.
+    /// Index of the column with the positions, if the format stores them apart.
     pub(super) placed: Option<usize>,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
-    /// Of the frame.
+    /// Time of the frame.
     pub(super) time: Option<f64>,
     pub(super) format: Format,
     pub(super) asked: Asked,
@@ -90,20 +90,20 @@ impl About {
         }
     }
 
-    /// Lists an attribute, and says whether its numbers are wanted.
+    /// Lists an attribute and returns whether its values are wanted.
     pub(super) fn list(&mut self, name: &str, components: usize, ty: AttributeType) -> bool {
         self.asked.list(&mut self.attributes, name, components, ty)
     }
 }
 
-/// What was found when all particles were read for the first time.
+/// Result of the first pass over all particles.
 pub(super) struct Surveyed {
-    /// What all have in common, without any.
+    /// What all particles have in common, without particles.
     pub(super) about: Particles,
-    /// Particles in the file, and those that are no ghosts.
+    /// Number of particles in the file, and of those that are no ghosts.
     pub(super) rows: usize,
     pub(super) total: usize,
-    /// All particles, where they are one part.
+    /// All particles, if they fit in one part.
     pub(super) only: Option<Particles>,
 }
 
@@ -146,7 +146,8 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// What is taken off all positions: told by the first of them, so that parts have one with the whole.
+    /// The origin to subtract from all positions. The first ones determine it, so that parts have the same as
+    /// the whole.
     pub(super) fn origin(&self) -> [f64; 3] {
         let positions: Vec<usize> = self.roles.positions.columns().collect();
         let all = || self.tracks.iter().flat_map(|track| &track.columns);
@@ -164,7 +165,7 @@ impl<'a> Plan<'a> {
                 used.iter().enumerate().map(|(i, _)| positions.contains(&(first + i))).collect();
             let mut own = track.columns.clone();
             if some.contains(&true) {
-                // A fault is found when all is read.
+                // An error is found again when all is read.
                 let read = (track.open)(&some).and_then(|mut s| s.read(count, &mut own, &mut room));
                 if read.is_err() {
                     return [0.0; 3];
@@ -175,7 +176,7 @@ impl<'a> Plan<'a> {
         Columns::new(columns).origin(&self.roles)
     }
 
-    /// From the first particle on.
+    /// Starts a pass at the first particle.
     fn start(&self) -> Result<Pass<'a>, ReadError> {
         let streams = self.tracks().map(|(track, used)| (track.open)(used));
         Ok(Pass {
@@ -186,13 +187,13 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// The same, after all were seen.
+    /// The same, after the survey.
     pub(super) fn again(&self) -> Result<Pass<'a>, ReadError> {
         let Pass { streams, left, survey, room } = self.start()?;
         Ok(Pass { streams, left, survey: survey.again(), room })
     }
 
-    /// All particles, track after track.
+    /// Reads all particles, track after track.
     pub(super) fn read(self) -> Result<Particles, ReadError> {
         let mut columns = Vec::new();
         let count = self.rows.unwrap_or(usize::MAX);
@@ -215,14 +216,14 @@ impl<'a> Plan<'a> {
         Ok(Particles { attributes, meanings, warnings, time, ..particles })
     }
 
-    /// Finds all there is to find fault with, and what only all particles tell.
+    /// Finds all errors, and what only all particles tell.
     pub(super) fn survey(
         &self,
         most: usize,
         show: &mut dyn FnMut(&Particles),
     ) -> Result<Surveyed, ReadError> {
         self.survey_once(most, show).map_err(|error| {
-            // Of several faults the one that is found when all are read at once.
+            // Of several errors, report the one that reading all at once would find.
             if self.tracks.len() > 1 { self.check().err().unwrap_or(error) } else { error }
         })
     }
@@ -262,7 +263,7 @@ impl<'a> Plan<'a> {
         Ok(Surveyed { about, rows, total, only })
     }
 
-    /// The times of the frames that all particles together are, sorted; none where they are one.
+    /// The sorted times of the frames in the file; empty if there is one frame.
     pub(super) fn times(&self) -> Result<Vec<f64>, ReadError> {
         if self.roles.steps.is_none() {
             return Ok(Vec::new());
@@ -272,12 +273,12 @@ impl<'a> Plan<'a> {
         Ok(pass.survey.times())
     }
 
-    /// From now on there have to be as many.
+    /// Sets the number of particles that must be read.
     pub(super) fn expect(&mut self, rows: usize) {
         self.rows = Some(rows);
     }
 
-    /// Reads and drops all, track after track.
+    /// Reads everything, track after track, and drops it.
     fn check(&self) -> Result<(), ReadError> {
         let mut room = Vec::new();
         for (track, used) in self.tracks() {
@@ -306,23 +307,23 @@ fn shapes<'a>(track: &'a Track<'_>) -> impl Iterator<Item = Shape<'a>> {
     })
 }
 
-/// The file is not any more what it was.
+/// Error: the file has changed since the survey.
 pub(super) fn changed() -> ReadError {
     let expected = "the numbers that were there a moment ago";
     ReadError::malformed(expected, "others", Place::Unknown)
 }
 
-/// Once through a file.
+/// One pass over a file.
 pub(super) struct Pass<'a> {
     streams: Vec<Box<dyn Stream + 'a>>,
-    /// Particles that are still to come, at most.
+    /// Upper bound of the particles left.
     left: usize,
     survey: Survey,
     room: Vec<u8>,
 }
 
 impl Pass<'_> {
-    /// The next particles, `most` where there are as many; none after the last.
+    /// The next `most` particles, fewer at the end; `None` after the last.
     pub(super) fn part(
         &mut self,
         plan: &Plan<'_>,
@@ -339,7 +340,7 @@ impl Pass<'_> {
             count = count.min(stream.read(wanted, &mut own, &mut self.room)?);
             columns.append(&mut own);
         }
-        // So that all lists have as many, whatever became of the file.
+        // All columns get the same length, even if the file was changed meanwhile.
         let whole = |(column, used): (&Column, &bool)| {
             !used || column.data.len() == count.saturating_mul(column.components)
         };

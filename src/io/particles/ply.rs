@@ -1,11 +1,12 @@
-//! PLY: the properties of the element `vertex`, in ASCII, binary little-endian and binary big-endian.
+//! Reads PLY: the properties of the element `vertex`, in ASCII and in binary of either byte order.
 //!
-//! A header of lines (`ply`, `format`, `element name count`, `property type name`, `property list type type
-//! name`, `comment`, `obj_info`, `end_header`), then the elements in the order of the header, row after row.
-//! Elements before the vertices are passed over, what follows them is not read; lists are skipped.
+//! The header consists of lines (`ply`, `format`, `element name count`, `property type name`, `property list
+//! type type name`, `comment`, `obj_info`, `end_header`). The elements follow in the order of the header, row
+//! after row. Elements before the vertices are skipped, and so are lists; what follows the vertices is not
+//! read.
 //!
-//! Own, since the crate for it (ply-rs-bw 4.0) keeps a map of names for each vertex where the properties are not
-//! known when it is compiled: 870 bytes for one that has 28 in the file.
+//! The reader is our own, because the crate ply-rs-bw (4.0) keeps a map of names for each vertex if the
+//! properties are not known at compile time: 870 bytes for a vertex of 28 bytes in the file.
 
 use super::Format;
 use super::asked::Asked;
@@ -19,7 +20,7 @@ use super::table::{RowReader, Table};
 use super::text::Text;
 use super::vtk_xml::mesh_warning;
 
-/// One property: a number, or a list with the type of its length.
+/// A property: a number, or a list with the type of its length.
 #[derive(Clone)]
 struct Property {
     name: String,
@@ -38,7 +39,7 @@ impl Element {
         format!("element `{}`", self.name)
     }
 
-    /// Bytes of a row in a binary file, where all are alike.
+    /// Bytes per row in a binary file; `None` if rows differ in length.
     fn stride(&self) -> Option<u64> {
         self.properties.iter().map(|p| p.list.map_or(p.ty.size(), |_| None)).sum()
     }
@@ -51,8 +52,8 @@ enum Encoding {
     Big,
 }
 
-/// What the header says and its length, of a file or the beginning of one; none where rows differ in length: of text,
-/// and where there are lists up to the vertices.
+/// Parses the header of a file (or of its beginning), and returns its length. `None` for the layout if rows
+/// differ in length: in text, and with lists before the vertices or in them.
 pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64), ReadError> {
     let mut cursor = Cursor::new(bytes);
     let (encoding, elements) = header(&mut cursor)?;
@@ -94,14 +95,14 @@ pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64
     Ok((Some(layout), header))
 }
 
-/// What is said of a mesh.
+/// Warnings about a mesh.
 fn faces(elements: &[Element]) -> Vec<String> {
     let of_faces = |e: &&Element| e.count > 0 && matches!(e.name.as_str(), "face" | "tristrips");
     let faces = elements.iter().find(of_faces);
     faces.map(|faces| mesh_warning(faces.count, "polygons")).into_iter().collect()
 }
 
-/// The elements before the vertices, and those.
+/// Splits the elements into those before the vertices, and the vertices.
 fn split(elements: &[Element]) -> Result<(&[Element], &Element), ReadError> {
     let at = elements.iter().position(|element| element.name == "vertex");
     at.and_then(|at| Some((elements.get(..at)?, elements.get(at)?)))
@@ -167,7 +168,7 @@ fn header(cursor: &mut Cursor<'_>) -> Result<(Encoding, Vec<Element>), ReadError
     }
 }
 
-/// A line that may end with a carriage return alone, as the oldest files have it.
+/// Reads a line, which may end with a carriage return alone, as in the oldest files.
 fn header_line<'a>(cursor: &mut Cursor<'a>) -> Option<&'a [u8]> {
     let rest = cursor.rest();
     let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r'))?;
@@ -194,7 +195,7 @@ fn scalar(name: &str) -> Option<AttributeType> {
     })
 }
 
-/// Vertices of a file that is no rows of one length.
+/// Opens the vertices of a file whose rows differ in length.
 pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
     let header = |head: &[u8]| {
         let mut cursor = Cursor::new(head);
@@ -231,7 +232,7 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
 struct Vertices<'a> {
     text: Text<'a>,
     rows: ElementRows,
-    /// For each property the column that takes its numbers.
+    /// For each property, the index of the column that takes its values.
     taken: Vec<Option<usize>>,
 }
 
@@ -241,7 +242,7 @@ impl RowReader for Vertices<'_> {
     }
 }
 
-/// The rows of an element on the way.
+/// Reads the rows of an element.
 struct ElementRows {
     properties: Vec<Property>,
     encoding: Encoding,
@@ -252,10 +253,10 @@ struct ElementRows {
 impl ElementRows {
     fn new(element: &Element, encoding: Encoding, text: &Text<'_>) -> Result<Self, ReadError> {
         let (properties, what) = (element.properties.clone(), element.what());
-        // Without properties a row takes no room, and a count could be anything.
+        // A row without properties has no length, so its count could be anything.
         let left = if properties.is_empty() { 0 } else { element.count };
         if encoding == Encoding::Ascii {
-            // A number and a space each, so a count that lies ends here.
+            // Each number takes at least two bytes with its space, so a false count ends here.
             let numbers = left.saturating_mul(properties.len() as u64);
             let (least, there) = (numbers.saturating_mul(2).saturating_sub(1), text.left());
             if least > there {
@@ -265,7 +266,7 @@ impl ElementRows {
         Ok(Self { properties, encoding, what, left })
     }
 
-    /// Reads a row into the columns that take its numbers; false after the last.
+    /// Reads a row into the columns that take its values; false after the last row.
     fn next(
         &mut self,
         text: &mut Text<'_>,

@@ -1,6 +1,5 @@
-//! Particles as rows of one length, each attribute at its place in them: how BGEO, binary PLY, arrays of NumPy and of
-//! legacy VTK, and raw triples lie in a file. The header says where the rows are; whoever has some of them, all or a
-//! part, gets their numbers.
+//! Reads particles from rows of equal length with each attribute at a fixed offset, as in BGEO, binary PLY,
+//! NumPy arrays, arrays of legacy VTK and raw triples. The header says where the rows are.
 
 use std::sync::Arc;
 
@@ -12,12 +11,12 @@ use super::plan::{CHUNK, Stream, Track};
 use super::source::{Source, truncated};
 use super::{Format, Particles};
 
-/// One attribute of a row.
+/// An attribute in a row.
 pub(super) struct Field {
     pub(super) name: String,
     pub(super) components: usize,
     pub(super) ty: AttributeType,
-    /// Bytes from the start of the row.
+    /// Byte offset in the row.
     pub(super) offset: usize,
 }
 
@@ -40,34 +39,34 @@ impl Field {
     }
 }
 
-/// Where rows are, and what is in them.
+/// Where the rows are, and what they contain.
 pub(super) struct Rows {
-    /// What they are called in errors.
+    /// Name for messages.
     pub(super) what: String,
-    /// Bytes of the header.
+    /// Length of the header in bytes.
     pub(super) header: u64,
-    /// What lies between it and the rows: what it is, and its bytes.
+    /// What lies between the header and the rows: name and number of bytes.
     pub(super) between: Vec<(String, u64)>,
     pub(super) count: u64,
-    /// Bytes of a row.
+    /// Bytes per row.
     pub(super) stride: u64,
     pub(super) big_endian: bool,
     pub(super) fields: Vec<Field>,
 }
 
 impl Rows {
-    /// Bytes of all of them.
+    /// Bytes of all rows.
     pub(super) fn bytes(&self) -> u64 {
         self.count.saturating_mul(self.stride)
     }
 
-    /// A column for each field, without numbers yet.
+    /// One empty column per field.
     pub(super) fn columns(&self) -> Vec<Column> {
         self.fields.iter().map(|f| Column::new(&f.name, f.components, f.ty)).collect()
     }
 
-    /// Appends the numbers of some rows to the columns that are used; `coming`: how many there will be in them, these
-    /// included.
+    /// Appends the values of rows to the columns that are used. `coming`: expected number of rows in total,
+    /// these included.
     pub(super) fn decode(&self, raw: &[u8], coming: usize, used: &[bool], columns: &mut [Column]) {
         let stride = self.stride as usize;
         for ((field, column), used) in self.fields.iter().zip(columns).zip(used) {
@@ -91,7 +90,7 @@ impl Rows {
     }
 }
 
-/// Rows as they are read; `open` gives their source, at the first of them.
+/// A track that reads the rows; `open` opens a source at the first row.
 pub(super) fn track<'a>(
     rows: Rows,
     open: impl Fn(&Rows) -> Result<Source<'a>, ReadError> + Send + 'a,
@@ -110,12 +109,12 @@ pub(super) fn track<'a>(
     Track { columns, lengths, what, open: Box::new(open) }
 }
 
-/// Rows on the way.
+/// Reads rows.
 struct RowStream<'a> {
     rows: Arc<Rows>,
     used: Vec<bool>,
     source: Source<'a>,
-    /// Where the rows begin.
+    /// Byte offset of the first row.
     first: u64,
 }
 
@@ -131,7 +130,7 @@ impl Stream for RowStream<'_> {
             return Ok(count);
         }
         let stride = rows.stride.max(1);
-        // A header that lies about more than the file can hold gets no room for it.
+        // A header that promises more than the file can hold gets no memory for it.
         let most = usize::try_from(self.source.most_left() / stride).unwrap_or(usize::MAX);
         let mut left = count as u64;
         while left > 0 {
@@ -150,7 +149,7 @@ impl Stream for RowStream<'_> {
     }
 
     fn finish(&mut self) -> Result<u64, ReadError> {
-        // Of an array that has no meaning nothing was read yet.
+        // An array without a meaning has not been read so far.
         let read = self.source.at() - self.first;
         self.source.skip(self.rows.bytes().saturating_sub(read), &self.rows.what)?;
         self.source.finish()?;
@@ -158,10 +157,10 @@ impl Stream for RowStream<'_> {
     }
 }
 
-/// A file that is rows.
+/// A file that consists of rows.
 pub(super) struct Layout {
     pub(super) rows: Rows,
-    /// The first field is the positions, whatever its name.
+    /// The first field holds the positions, whatever its name.
     pub(super) placed: bool,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
@@ -170,10 +169,10 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// All particles of a file that lies in memory.
+    /// All particles of a file in memory.
     pub(super) fn read(self, bytes: &[u8]) -> Result<Particles, ReadError> {
         let rows = &self.rows;
-        // Without positions nothing else is of interest.
+        // Without positions nothing else matters.
         let columns = rows.columns();
         let shapes: Vec<_> = columns
             .iter()

@@ -17,9 +17,9 @@ pub struct Frame {
     pub time: Option<f64>,
     /// The file.
     pub path: PathBuf,
-    /// Other files whose particles are of the same frame.
+    /// Other files with particles of the same frame.
     pub also: Vec<PathBuf>,
-    /// The frame of the file where it holds several; [`expand`] does not look into files.
+    /// Frame in the file, if the file holds several. [`expand`] does not look into files.
     pub step: Option<Step>,
 }
 
@@ -155,10 +155,10 @@ pub fn expand<S: AsRef<str>>(
     within(expand_all(inputs, false)?, frames)
 }
 
-/// The same, where files of one number are parts of one frame: [`Frame::also`].
+/// Like [`expand`], but files with the same number are parts of one frame: [`Frame::also`].
 ///
 /// # Errors
-/// Those of [`expand`], but for two files of one number.
+/// Those of [`expand`], except for two files with the same number.
 pub fn expand_joined<S: AsRef<str>>(
     inputs: &[S],
     frames: Option<RangeInclusive<u64>>,
@@ -194,7 +194,8 @@ fn expand_all<S: AsRef<str>>(inputs: &[S], join: bool) -> Result<Vec<Frame>, Seq
         return Err(SequenceError::Piece { file: file.clone(), index });
     }
 
-    // Files that a list has at one time are those of ranks, or of blocks.
+    // Files with the same time in a list are parts of one frame, written by several processes or for several
+    // blocks.
     let listed = named.iter().all(|named| named.listed);
     let mut all = number(named);
     all.sort_by_key(|f| f.number);
@@ -218,10 +219,10 @@ fn expand_all<S: AsRef<str>>(inputs: &[S], join: bool) -> Result<Vec<Frame>, Seq
     Ok(found)
 }
 
-/// Those of the frames whose numbers are in a range.
+/// The frames whose numbers are in a range.
 ///
 /// # Errors
-/// [`SequenceError::OutsideRange`] where none is.
+/// [`SequenceError::OutsideRange`] if there is none.
 pub fn within(
     mut found: Vec<Frame>,
     frames: Option<RangeInclusive<u64>>,
@@ -244,7 +245,7 @@ pub fn within(
     Ok(found)
 }
 
-/// Files, with their number where the input says it.
+/// Expands one input to files, with their numbers if the input has them.
 fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError> {
     let path = Path::new(input);
     if path.is_dir() {
@@ -315,13 +316,13 @@ fn expand_printf(
         let entry = entry.map_err(io)?;
         let file = entry.file_name();
         let digits = file.to_str().and_then(|f| f.strip_prefix(prefix)?.strip_suffix(suffix));
-        // As printf would write the number: padded to the width, and no further.
+        // Digits as printf would write the number: padded to the width, and not further.
         let all = |d: &&str| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit());
         let Some(digits) = digits.filter(all).map(str::to_string) else { continue };
         let wide = digits.len() > width && !digits.starts_with('0');
         let fits = digits.len() == width || wide;
         if fits && entry.path().is_file() {
-            // Joined to what was given, so that messages show the user's spelling.
+            // Joined to the given path, so that messages show the user's spelling.
             paths.push((path.with_file_name(file), digits.parse().ok()));
         }
     }
@@ -331,7 +332,7 @@ fn expand_printf(
     Ok(paths)
 }
 
-/// What a folder has, for the message that nothing fits.
+/// Lists similar names in a folder, for the error that nothing matches.
 fn near(folder: Option<&Path>) -> String {
     let folder = match folder {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -351,7 +352,7 @@ fn near(folder: Option<&Path>) -> String {
     }
 }
 
-/// What to do with two files of one number.
+/// What to do with two files with the same number.
 fn advice(first: &Path, second: &Path) -> String {
     let name = |path: &Path| path.file_name().map(|n| n.to_string_lossy().into_owned());
     let (a, b) = (name(first).unwrap_or_default(), name(second).unwrap_or_default());
@@ -360,7 +361,7 @@ fn advice(first: &Path, second: &Path) -> String {
         let index = "name the file that lists them (.pvtu, .pvtp, .pvd), have them put together (--join of the tool), or narrow the pattern to one sequence";
         return format!("if these are pieces of one frame, {index}");
     }
-    // The number of a frame is mostly the last.
+    // The frame's number is usually the last in the name.
     let end = a.rfind(|c: char| c.is_ascii_digit()).map_or(0, |i| i + 1);
     let (head, tail) = a.split_at_checked(end).unwrap_or_default();
     let pattern = format!("{}*{tail}", head.trim_end_matches(|c: char| c.is_ascii_digit()));
@@ -374,34 +375,34 @@ fn advice(first: &Path, second: &Path) -> String {
 #[derive(Debug, Clone, PartialEq)]
 struct Number {
     value: f64,
-    /// Where it has neither a sign, a point nor an exponent.
+    /// Its value as an integer, if it has no sign, point or exponent.
     whole: Option<u64>,
-    /// Characters it was written with.
+    /// Number of characters.
     width: usize,
-    /// What is before and behind the point, where that is all there is, and the characters behind it.
+    /// The digits before and behind the point, if there is nothing else, and the number of those behind.
     pair: Option<(u64, u64, usize)>,
     /// Whether it has a point or an exponent.
     decimal: bool,
 }
 
-/// A run of a name.
+/// A part of a name: a number or the text between two numbers.
 #[derive(Debug, Clone, PartialEq)]
 enum Part {
     Text(String),
     Number(Number),
 }
 
-/// A file, and the runs of its name without its extension, of its folder, of the folder of that ...
+/// A file, and the parts of its name without extension, of its folder, of the folder above, and so on.
 struct Named {
     levels: Vec<Vec<Part>>,
-    /// Number and time, where they are said elsewhere.
+    /// Number and time, if given by something other than the name.
     said: Option<(u64, Option<f64>)>,
-    /// Whether a list of files says it.
+    /// Whether a list of files gives them.
     listed: bool,
     path: PathBuf,
 }
 
-/// Files that a list names, numbered from 0 by their times.
+/// Files of a list, numbered from 0 in the order of their times.
 fn listed_frames(mut files: Vec<(PathBuf, Option<f64>)>) -> Vec<Named> {
     let timed = files.iter().all(|(_, time)| time.is_some());
     if timed {
@@ -451,7 +452,7 @@ impl Named {
     }
 }
 
-/// A file's name without its extension, of which `gz` and `sc` may be a second.
+/// The name of a file without extension, and without a second one if the last is `gz` or `sc`.
 fn stem(name: &str) -> &str {
     let cut = |name: &str| {
         let (stem, extension) = name.rsplit_once('.')?;
@@ -466,19 +467,19 @@ fn stem(name: &str) -> &str {
     }
 }
 
-/// How many characters are digits.
+/// Number of digits at the start.
 fn digits(text: &str) -> usize {
     text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len())
 }
 
-/// The runs of a name.
+/// Splits a name into numbers and text.
 fn parts(name: &str) -> Vec<Part> {
     let mut parts = Vec::new();
     let mut text = String::new();
     let mut rest = name;
     while let Some(first) = rest.chars().next() {
         let sign = first == '-' && !text.ends_with(|c: char| c.is_alphanumeric()) && {
-            // The first minus of `step-1` separates, the second of `step--1` is a sign.
+            // The first minus of `step-1` is a separator, the second of `step--1` is a sign.
             !text.is_empty() || parts.is_empty()
         };
         let unsigned = rest.get(usize::from(sign)..).unwrap_or_default();
@@ -503,7 +504,7 @@ fn parts(name: &str) -> Vec<Part> {
 }
 
 impl Number {
-    /// That which a text begins with. `00008.0000` are two, and so are `1.2.3`.
+    /// Parses the number at the start of a text. `00008.0000` is two numbers, and so is `1.2.3`.
     fn parse(text: &str) -> Option<Self> {
         let integer = digits(text);
         let whole = text.get(..integer)?;
@@ -520,7 +521,7 @@ impl Number {
             let digits = text.get(integer + 1..end)?;
             pair = digits.parse().ok().map(|behind| (plain, behind, fraction));
         }
-        // `2e4` is part of a name, `2e+04` and `2.0e4` are numbers.
+        // `2e4` is part of a name; `2e+04` and `2.0e4` are numbers.
         if let Some(exponent) = behind(end).strip_prefix(['e', 'E']) {
             let signed = exponent.starts_with(['+', '-']);
             let count = exponent.get(usize::from(signed)..).map_or(0, digits);
@@ -558,7 +559,7 @@ fn compare(a: &[Part], b: &[Part]) -> Ordering {
     a.len().cmp(&b.len())
 }
 
-/// The numbers that tell files apart, one of each; none where a file has none.
+/// The number of each file that distinguishes it from others; `None` if a file has none.
 fn telling(named: &[Named]) -> Option<Vec<Number>> {
     let depth = named.iter().map(|named| named.levels.len()).min().unwrap_or(0);
     for level in 0..depth {
@@ -567,9 +568,10 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
         let same = numbers.iter().all(|n| n.len() == runs);
         let first = |run: usize| numbers.first().and_then(|first| first.get(run).copied());
         let differs = |run: &usize| numbers.iter().any(|n| n.get(*run).copied() != first(*run));
-        // The last run that differs; the last run where names are built differently.
+        // The last number that differs. If names are built differently, the last number.
         let run = (0..runs).rev().find(differs).filter(|_| same);
-        // A hash behind the number, the seconds of an hour: where the last run tells another order than all of them.
+        // A hash or the seconds of an hour may follow the number: then the last number gives another order than
+        // all numbers together.
         let values = |run: usize| numbers.iter().map(move |n| n.get(run).map(|n| n.value));
         let sorted = |run: usize| values(run).is_sorted();
         let single = |run: usize| {
@@ -592,7 +594,7 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
         if !alike || (level == 0 && named.len() == 1 && runs > 0) {
             return numbers.iter().map(own).collect();
         }
-        // Files of one name in many folders.
+        // Files with the same name in many folders.
         let names = named.iter().map(|named| named.levels.get(level));
         let text = |parts: Option<&Vec<Part>>| parts.cloned();
         let other = names.clone().any(|n| text(n) != text(names.clone().next().flatten()));
@@ -603,7 +605,7 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
     None
 }
 
-/// Gives each file its number; files without one are counted in their order.
+/// Assigns numbers to files; files without a number are counted in their order.
 fn number(mut named: Vec<Named>) -> Vec<Frame> {
     if named.iter().all(|named| named.said.is_some()) {
         let frame = |named: Named| {
@@ -621,7 +623,7 @@ fn number(mut named: Vec<Named>) -> Vec<Frame> {
         let frame = |(named, number): (Named, u64)| Frame::new(number, None, named.path);
         return named.into_iter().zip(whole).map(frame).collect();
     }
-    // Times as programs write them have all the same decimals, or none that is 0 at their end.
+    // Programs write times with the same number of decimals, or without zeros at the end.
     let pairs: Option<Vec<_>> = numbers.iter().map(|number| number.pair).collect();
     let widths = |pairs: &[(u64, u64, usize)]| {
         let first = pairs.first().map_or(0, |pair| pair.2);
@@ -643,7 +645,7 @@ fn number(mut named: Vec<Named>) -> Vec<Frame> {
     let mut frames = Vec::new();
     let mut last: Option<(usize, u64)> = None;
     for i in order {
-        // Files of one time are of one number.
+        // Files with the same time have the same number.
         let number = match last {
             Some((before, number)) if by(&before, &i) == Ordering::Equal => number,
             Some((_, number)) => number + 1,

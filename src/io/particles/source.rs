@@ -1,5 +1,6 @@
-//! Bytes of a file one after the other, as they lie there or unpacked on the way: no more of them are in memory at a
-//! time than whoever reads has room for. From the first on, or from any place where all that is packed was measured.
+//! Reads the bytes of a file in sequence, directly or decompressed. Only what the reader asked for is in
+//! memory at a time. Reading starts at the first byte, or at any byte once the length of compressed content
+//! is known.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::PathBuf;
@@ -10,7 +11,7 @@ use flate2::Crc;
 use super::bytes::unpack_limit;
 use super::error::{Place, ReadError};
 
-/// A file, or what stands for one.
+/// A file, or a substitute for one.
 pub(super) trait Bytes: Read + Seek + Send {}
 impl<T: Read + Seek + Send> Bytes for T {}
 
@@ -27,7 +28,7 @@ impl<'a> Input<'a> {
         Ok(Self { file: Arc::new(Mutex::new(Box::new(file))), length })
     }
 
-    /// All of it, as it lies there.
+    /// The whole file, not decompressed.
     pub(super) fn section(&self) -> Section<'a> {
         Section { input: self.clone(), start: 0, at: 0, end: self.length }
     }
@@ -37,24 +38,24 @@ impl<'a> Input<'a> {
         Piece { start: 0, end: self.length, packing, what: "gzip data".into(), check: None }
     }
 
-    /// The most that it may unpack to.
+    /// Limit of what it may decompress to.
     pub(super) fn unpack_limit(&self) -> u64 {
         unpack_limit(usize::try_from(self.length).unwrap_or(usize::MAX)) as u64
     }
 }
 
-/// The bytes of a file, unpacked, of which any may be read next.
+/// The decompressed content of a file, readable from any position.
 #[derive(Clone)]
 pub(super) struct Content<'a> {
     input: Input<'a>,
     piece: Piece,
     length: u64,
-    /// Lines of the file before it.
+    /// Number of lines of the file before it.
     lines: u64,
 }
 
 impl<'a> Content<'a> {
-    /// What is packed is unpacked once, which alone tells its length and whether it is sound.
+    /// Compressed content is decompressed once, which is the only way to find its length and errors.
     pub(super) fn new(input: &Input<'a>, gzip: bool) -> Result<Self, ReadError> {
         let piece = input.whole(gzip);
         let mut length = input.length;
@@ -66,7 +67,7 @@ impl<'a> Content<'a> {
         Ok(Self { input: input.clone(), piece, length, lines: 0 })
     }
 
-    /// Bytes that lie in memory.
+    /// Content in memory.
     pub(super) fn of_bytes(bytes: impl AsRef<[u8]> + Send + 'a) -> Result<Self, ReadError> {
         Self::new(&Input::new(io::Cursor::new(bytes))?, false)
     }
@@ -79,7 +80,8 @@ impl<'a> Content<'a> {
         self.lines
     }
 
-    /// A stretch of it, behind so many lines, as a content of its own. Of what is packed it is kept in memory.
+    /// A part of the content after this number of lines, as content of its own. Of compressed content a copy
+    /// is kept in memory.
     pub(super) fn part(&self, start: u64, end: u64, lines: u64) -> Result<Self, ReadError> {
         let (start, end) = (start.min(self.length), end.min(self.length));
         let part = if self.piece.packing == Packing::None {
@@ -99,23 +101,23 @@ impl<'a> Content<'a> {
         Ok(Self { lines, ..part })
     }
 
-    /// The most that numbers which are packed in it may unpack to.
+    /// Limit of what compressed values in it may decompress to.
     pub(super) fn unpack_limit(&self) -> u64 {
         unpack_limit(usize::try_from(self.length).unwrap_or(usize::MAX)) as u64
     }
 
-    /// Its bytes from one place to another. What is packed is unpacked up to there.
+    /// Opens a range of bytes. Compressed content is decompressed up to there.
     pub(super) fn open(&self, start: u64, end: u64) -> Result<Source<'a>, ReadError> {
         self.reach(None, start, end)
     }
 
-    /// A source of it that is not needed any more, where it is of use to [`reach`](Self::reach) another place: of what is
-    /// packed, which is the file.
+    /// A source of this content that is no longer needed, if it helps to [`reach`](Self::reach) another
+    /// position. This is so for compressed content.
     pub(super) fn spare(&self, source: Source<'a>) -> Option<Source<'a>> {
         Some(source).filter(|_| self.piece.packing != Packing::None)
     }
 
-    /// Opens it; `spare`: one that gets there without beginning anew where it can.
+    /// Opens a range. `spare`: a source that is read on to there if possible, instead of starting anew.
     pub(super) fn reach(
         &self,
         spare: Option<Source<'a>>,
@@ -132,17 +134,17 @@ impl<'a> Content<'a> {
     }
 }
 
-/// The name of the file is put in where it is known.
+/// An error without the file's name, which is added where it is known.
 pub(super) fn io_error(reason: io::Error) -> ReadError {
     ReadError::Io { path: PathBuf::new(), reason }
 }
 
-/// What is at fault where bytes went through a reader that knows of the system's errors alone.
+/// Restores the error of a reader that can only return system errors.
 pub(super) fn inner_error(reason: io::Error) -> ReadError {
     reason.downcast::<ReadError>().unwrap_or_else(io_error)
 }
 
-/// A stretch of a file, with a place of its own in it.
+/// A range of a file, with its own position.
 pub(super) struct Section<'a> {
     input: Input<'a>,
     start: u64,
@@ -182,19 +184,19 @@ pub(super) enum Packing {
     Deflate,
 }
 
-/// Where bytes lie in a file, and how.
+/// Where bytes are in a file, and how they are stored.
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
     pub(super) start: u64,
     pub(super) end: u64,
     pub(super) packing: Packing,
-    /// What they are called in errors.
+    /// Name for messages.
     pub(super) what: String,
-    /// What they must be when they are unpacked.
+    /// Expected checksum and length after decompression.
     pub(super) check: Option<Check>,
 }
 
-/// Checksum and number of the bytes of an entry in a zip.
+/// Checksum and length of an entry in a zip.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Check {
     pub(super) crc: u32,
@@ -206,13 +208,13 @@ enum Reader<'a> {
     Unpacked(Box<dyn Read + Send + 'a>),
 }
 
-/// The bytes of a piece, unpacked.
+/// Reads the bytes of a piece, decompressed.
 pub(super) struct Source<'a> {
     reader: Reader<'a>,
     what: String,
-    /// Bytes read until now.
+    /// Number of bytes read so far.
     at: u64,
-    /// All there are, where that is known without unpacking them.
+    /// Total number of bytes, if it is known without decompression.
     length: Option<u64>,
     limit: u64,
     check: Option<(Crc, Check)>,
@@ -241,17 +243,17 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Bytes that have been read or passed over.
+    /// Number of bytes read or skipped so far.
     pub(super) fn at(&self) -> u64 {
         self.at
     }
 
-    /// The most that can still come, whatever a header says.
+    /// Upper bound of the bytes left, independent of any header.
     pub(super) fn most_left(&self) -> u64 {
         self.length.unwrap_or(self.limit).saturating_sub(self.at)
     }
 
-    /// Appends the next `count` bytes, or all there are left where that is less.
+    /// Appends the next `count` bytes, or all if fewer are left.
     pub(super) fn fill(&mut self, count: u64, out: &mut Vec<u8>) -> Result<(), ReadError> {
         let before = out.len();
         let mut count = count;
@@ -284,13 +286,13 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Fails where it is known that fewer than so many bytes are left.
+    /// Fails if fewer than `count` bytes are known to be left.
     pub(super) fn require(&self, count: u64, what: &str) -> Result<(), ReadError> {
         let left = self.length.map_or(u64::MAX, |length| length.saturating_sub(self.at));
         if left < count { Err(truncated(what, self.at, count, left)) } else { Ok(()) }
     }
 
-    /// Passes over bytes.
+    /// Skips bytes.
     pub(super) fn skip(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         self.require(count, what)?;
         if let (Reader::Plain(section), None) = (&mut self.reader, &self.check) {
@@ -310,7 +312,7 @@ impl<'a> Source<'a> {
         Ok(())
     }
 
-    /// Reads what is left where only that tells whether all was sound.
+    /// Reads the rest if that is needed to detect errors.
     pub(super) fn finish(&mut self) -> Result<(), ReadError> {
         if let (Reader::Plain(_), None) = (&self.reader, &self.check) {
             return Ok(());
@@ -340,7 +342,7 @@ impl<'a> Source<'a> {
 }
 
 impl Read for Source<'_> {
-    /// Errors are what [`inner_error`] takes.
+    /// The errors are for [`inner_error`].
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let left = self.length.map_or(u64::MAX, |length| length.saturating_sub(self.at));
         let room = usize::try_from(left).unwrap_or(usize::MAX).min(out.len());
@@ -362,7 +364,7 @@ pub(super) fn truncated(what: &str, offset: u64, needed: u64, found: u64) -> Rea
     ReadError::Truncated { what: what.into(), offset, needed, found }
 }
 
-/// What a header says, from as much of the beginning as it takes; `parse` gives its length in bytes as well.
+/// Parses a header from as much of the beginning as is needed; `parse` also returns its length in bytes.
 pub(super) fn header<T>(
     source: &mut Source<'_>,
     mut parse: impl FnMut(&[u8]) -> Result<(T, u64), ReadError>,
@@ -374,7 +376,7 @@ pub(super) fn header<T>(
         let all = (head.len() as u64) < room;
         match parse(&head) {
             Err(ReadError::Truncated { .. }) if !all => {}
-            // A line may end with two characters, the second of which is still to come.
+            // A line may end with two characters, the second of which is not read yet.
             Ok((_, length)) if length >= room && !all => {}
             result => return result.map(|(parsed, _)| parsed),
         }

@@ -1,4 +1,4 @@
-//! Files that hold several frames: which they are, and one of them.
+//! Reads single frames of files that hold several.
 
 use std::path::Path;
 
@@ -8,29 +8,31 @@ use super::format::{self, Extension};
 use super::source::{Content, Input, Source};
 use super::{Particles, bytes, index, lammps, parts, read_asked, xyz};
 
-/// One of the frames of a file that holds several.
+/// A frame of a file that holds several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// Its place among them, from 0.
+    /// Index, from 0.
     pub index: usize,
-    /// Its time, where the file says it, in its unit. In a table with a column of times it tells which rows are its own.
+    /// Time in the file's unit, if the file has it. In a table with a column of times it selects the rows of
+    /// the frame.
     pub time: Option<f64>,
 }
 
 /// Where a frame begins in a text.
 pub(super) struct Start {
     pub(super) at: u64,
-    /// Lines before it.
+    /// Number of lines before it.
     pub(super) lines: u64,
     pub(super) time: Option<f64>,
 }
 
-/// The frames of a file, in the order of the file or, of a table with a column of times, in theirs; none of a file that
-/// holds one. Several are told in counted XYZ and dumps of LAMMPS one after the other, in tables of any format by a column of
-/// times or steps, and in HDF5 and XDMF with their steps. The file is read once for it where that is the only way.
+/// The frames of a file, in the file's order or, in a table with a column of times, in the order of time.
+/// Empty for a file with one frame. Recognized are counted XYZ and LAMMPS dumps with several frames, tables
+/// of any format with a column of times or steps, and HDF5 and XDMF with steps. If necessary, the whole file
+/// is read for this.
 ///
 /// # Errors
-/// Those of [`read`](super::read), as far as it is read.
+/// Those of [`read`](super::read), for the part that is read.
 pub fn steps(path: &Path) -> Result<Vec<Step>, ReadError> {
     if index::Pieces::of(path)?.is_some() {
         return Ok(Vec::new());
@@ -42,7 +44,7 @@ pub fn steps(path: &Path) -> Result<Vec<Step>, ReadError> {
     Ok(times.into_iter().enumerate().map(|(index, time)| Step { index, time }).collect())
 }
 
-/// Reads one frame of a file that holds several, as [`read_with`](super::read_with) does.
+/// Reads one frame of a file that holds several, like [`read_with`](super::read_with).
 ///
 /// # Errors
 /// Those of [`read`](super::read).
@@ -76,7 +78,7 @@ fn times(path: &Path) -> Result<Vec<Option<f64>>, ReadError> {
     Ok(times.into_iter().map(Some).collect())
 }
 
-/// The part of a text that is the frame of a place, which these are the beginnings of.
+/// The part of a text that holds a frame, given where the frames begin.
 pub(super) fn part<'a>(
     content: &Content<'a>,
     starts: &[Start],

@@ -1,5 +1,5 @@
-//! What is known of particles only when all were seen, whether they come at once or in parts: what a user should know,
-//! and what has to be dropped.
+//! Collects what is only known after all particles were seen, at once or in parts: warnings for the user, and
+//! attributes to be dropped.
 
 use std::collections::{HashMap, HashSet};
 
@@ -35,7 +35,8 @@ impl Columns {
         }
     }
 
-    /// What has to be taken off the positions so that 32-bit floats tell particles apart, by the first of them.
+    /// The origin to subtract from the positions so that 32-bit floats can distinguish particles, from the
+    /// first ones.
     pub(super) fn origin(&self, roles: &Roles) -> [f64; 3] {
         let exact =
             |column: usize| !matches!(self.0.get(column), Some(Column { data: Data::F32(_), .. }));
@@ -47,13 +48,13 @@ impl Columns {
         origin(&first)
     }
 
-    /// Numbers that are not needed any more are freed.
+    /// Takes the values of a column and frees the rest.
     fn take(&mut self, column: usize) -> Data {
         let taken = self.0.get_mut(column).map(|c| std::mem::replace(&mut c.data, Data::NONE));
         taken.unwrap_or(Data::NONE)
     }
 
-    /// Vectors less an origin, which is taken off before they are rounded.
+    /// Vectors minus an origin, which is subtracted before they are rounded.
     fn take_vectors(&mut self, vector: Vector, origin: [f64; 3]) -> Vec<[f32; 3]> {
         let less = |p: [f64; 3]| {
             let ([x, y, z], [a, b, c]) = (p, origin);
@@ -73,7 +74,7 @@ impl Columns {
     }
 }
 
-/// Whole numbers that are none: an attribute that is dropped.
+/// An attribute that is dropped because it should be integer and is not.
 #[derive(Debug)]
 struct Dropped {
     attribute: String,
@@ -81,29 +82,30 @@ struct Dropped {
     particle: usize,
 }
 
-/// The most positions by which their reach is judged.
+/// Most positions from which their extent is found.
 const SAMPLES: usize = 8192;
 
-/// Particles by which it is judged whether an origin is taken off.
+/// Number of particles from which the origin is found.
 pub(super) const FIRST: usize = 1024;
 
-/// So many times farther out than they span particles have an origin taken off: 32-bit floats then have steps of a
-/// four-thousandth of what they span.
+/// An origin is subtracted from positions that are this many times farther out than their extent: the steps
+/// of 32-bit floats are then 1/4000 of the extent.
 const FAR: f64 = 2000.0;
 
-/// The most values of which it is known how often they are there.
+/// Most values whose repetitions are counted.
 const COUNTED: usize = 1 << 12;
 
-/// Of more ids than this part another particle has the same: they are none.
+/// If more than this fraction of ids occurs twice, they are no ids.
 const REPEATED_IDS: f64 = 0.01;
 
-/// A larger part of the positions where another particle is already is told.
+/// If more than this fraction of positions occurs twice, there is a warning.
 pub(super) const DOUBLED: f64 = 0.05;
 
-/// The most times that are told apart.
+/// Most times that are distinguished.
 const STEPS: usize = 1 << 12;
 
-/// How often values repeat, by those of them whose hash begins with so many zeros: all, or of many a part.
+/// Counts repetitions of values, for those whose hash begins with a number of zeros: for all if there are
+/// few, for a part if there are many.
 #[derive(Debug, Default)]
 pub(super) struct Repeats {
     zeros: u32,
@@ -112,7 +114,7 @@ pub(super) struct Repeats {
 
 impl Repeats {
     fn add(&mut self, value: u64) {
-        // All bits reach the first ones (Fibonacci hashing).
+        // All bits influence the first ones (Fibonacci hashing).
         let hash = value.wrapping_mul(0x9e37_79b9_7f4a_7c15);
         if hash.leading_zeros() >= self.zeros {
             self.count(hash);
@@ -129,17 +131,17 @@ impl Repeats {
         }
     }
 
-    /// A position; none that is no place.
+    /// Adds a position; NaN and infinities do not count.
     pub(super) fn add_place(&mut self, [x, y, z]: [f32; 3]) {
         if x.is_finite() && y.is_finite() && z.is_finite() {
-            // The sign of zero is no place either.
+            // The sign of zero makes no difference.
             let bits = |c: f32| u64::from((c + 0.0).to_bits());
             let place = bits(x) | bits(y) << 32;
             self.add(place ^ bits(z).wrapping_mul(0xbf58_476d_1ce4_e5b9));
         }
     }
 
-    /// The part of the values that were there before.
+    /// Fraction of the values that had occurred before.
     pub(super) fn share(&self) -> f64 {
         let all: usize = self.counts.values().sum();
         if all == 0 { 0.0 } else { 1.0 - self.counts.len() as f64 / all as f64 }
@@ -150,13 +152,13 @@ impl Repeats {
     }
 }
 
-/// Times that particles have, in their order.
+/// The times of particles, in the order of the file.
 #[derive(Debug, Default)]
 struct Steps {
     name: String,
     first: Option<f64>,
     last: Option<f64>,
-    /// Changes from one particle to the next.
+    /// Number of changes from one particle to the next.
     changes: usize,
     different: HashSet<u64>,
 }
@@ -175,18 +177,18 @@ impl Steps {
     }
 }
 
-/// What was seen until now.
+/// What was found so far.
 #[derive(Debug)]
 pub(super) struct Survey {
-    /// Whether nothing is known yet of the whole.
+    /// Whether this is the first pass, in which nothing is known of the whole.
     asks: bool,
     origin: [f64; 3],
     seen: usize,
     ghosts: usize,
-    /// The time of the frame that is asked for, and particles of others.
+    /// The time of the requested frame, and the number of particles of other frames.
     only: Option<f64>,
     others: usize,
-    /// Positions of a few thousand, evenly through the file, the first of each `step` particles.
+    /// A few thousand positions, evenly from the whole file: the first of each `step` particles.
     samples: Vec<[f64; 3]>,
     step: usize,
     not_finite: usize,
@@ -194,13 +196,13 @@ pub(super) struct Survey {
     kinds: Option<Dropped>,
     places: Repeats,
     numbers: Repeats,
-    /// What the ids are called.
+    /// Name of the ids.
     numbered: Option<String>,
     steps: Steps,
 }
 
 impl Survey {
-    /// `origin`: what is taken off the positions.
+    /// `origin`: subtracted from the positions.
     pub(super) fn new(origin: [f64; 3]) -> Self {
         Self {
             asks: true,
@@ -221,12 +223,12 @@ impl Survey {
         }
     }
 
-    /// Of the particles of one time alone, of several that they have.
+    /// Only for particles of one time, if they have several.
     pub(super) fn of_time(self, only: Option<f64>) -> Self {
         Self { only, ..self }
     }
 
-    /// Of particles that were all seen before.
+    /// For a second pass over the particles.
     pub(super) fn again(self) -> Self {
         Self { asks: false, ..self }
     }
@@ -235,17 +237,17 @@ impl Survey {
         self.origin
     }
 
-    /// Particles in the file until now.
+    /// Number of particles in the file so far.
     pub(super) fn seen(&self) -> usize {
         self.seen
     }
 
-    /// Those of them that are no ghosts.
+    /// Number of those that are no ghosts.
     pub(super) fn kept(&self) -> usize {
         self.seen - self.ghosts - self.others
     }
 
-    /// The time of all of them, where they have one.
+    /// The time of all particles, if it is the same.
     pub(super) fn time(&self) -> Option<f64> {
         self.only.or(self.one_time())
     }
@@ -254,7 +256,7 @@ impl Survey {
         self.steps.first.filter(|time| self.steps.different.len() == 1 && time.is_finite())
     }
 
-    /// Which they are is told by their number in the file alone: nobody knows yet how many will come.
+    /// Samples are chosen by the particle's number in the file alone, because the total is not known yet.
     fn sample(&mut self, rows: usize, position: impl Fn(usize) -> [f64; 3]) {
         loop {
             let next = self.samples.len().saturating_mul(self.step);
@@ -271,7 +273,7 @@ impl Survey {
         }
     }
 
-    /// Gives the columns of the particles that come next their meaning.
+    /// Assigns meanings to the columns of the next particles.
     pub(super) fn part(
         &mut self,
         roles: &Roles,
@@ -284,7 +286,7 @@ impl Survey {
             let [x, y, z] = columns.vector(roles.positions, i);
             [x - a, y - b, z - c]
         });
-        // Of ghosts each bit says why; the older levels count from 1.
+        // For ghosts each bit is a reason; the older ghost levels count from 1.
         let kept: Option<Vec<bool>> = roles.ghosts.map(|column| {
             let bits = |i: usize| columns.f64(column, i) as i64;
             let levels = columns.0.get(column).is_some_and(|c| c.name.ends_with("Levels"));
@@ -342,7 +344,7 @@ impl Survey {
             retain(&mut particles, kept);
         }
         if let Some(own) = own.filter(|own| own.contains(&false)) {
-            // Ghosts have gone from the particles.
+            // Ghosts have already been removed from the particles.
             let own: Vec<bool> = match &ghosts {
                 Some(kept) => {
                     own.iter().zip(kept).filter(|(_, kept)| **kept).map(|(o, _)| *o).collect()
@@ -360,13 +362,13 @@ impl Survey {
         particles
     }
 
-    /// Whether ids repeat, so that they follow no particle. A copy at the same place has the same one by right; the shares are those
-    /// of some thousand samples.
+    /// Whether ids repeat, so that they do not identify particles. Copies at the same position may share an
+    /// id. The fractions are those of some thousand samples.
     fn repeated_ids(&self) -> bool {
         self.numbers.share() > REPEATED_IDS + 1.2 * self.places.share()
     }
 
-    /// Takes out of a part, or of all of them, what the particles as a whole have not.
+    /// Removes attributes from a part (or from all) that the particles as a whole do not have.
     pub(super) fn drop_from(&self, particles: &mut Particles) {
         if self.ids.is_some() || self.repeated_ids() {
             particles.ids = None;
@@ -376,10 +378,10 @@ impl Survey {
         }
     }
 
-    /// What a user should know, after the last part.
+    /// Warnings for the user, after the last part.
     ///
     /// # Errors
-    /// Where these are the particles of several frames.
+    /// The particles belong to several frames.
     pub(super) fn finish(&self) -> Result<Vec<String>, ReadError> {
         self.one_frame()?;
         let origin = (self.origin != [0.0; 3]).then(|| {
@@ -432,13 +434,13 @@ impl Survey {
         Ok(told.chain(not_finite).chain(dropped).chain(repeated).chain(doubled).collect())
     }
 
-    /// Whether these are the particles of several frames.
+    /// Whether the particles belong to several frames.
     fn several(&self) -> bool {
         let steps = &self.steps;
         let count = steps.different.len();
         let blocks = steps.changes + 1 == count && self.seen >= 2 * count;
         let several = match self.numbers.counts.is_empty() {
-            // A particle that comes again is there at another time.
+            // A particle that occurs again has another time.
             false => self.numbers.share() > REPEATED_IDS && self.numbers.most() <= count,
             true => blocks,
         };
@@ -474,7 +476,7 @@ impl Survey {
     }
 }
 
-/// Takes particles out.
+/// Removes particles.
 pub(super) fn retain(particles: &mut Particles, kept: &[bool]) {
     fn some<T>(list: &mut Vec<T>, kept: &[bool]) {
         let mut kept = kept.iter();
@@ -489,14 +491,14 @@ pub(super) fn retain(particles: &mut Particles, kept: &[bool]) {
     particles.extras.iter_mut().for_each(|extra| some(&mut extra.values, kept));
 }
 
-/// How far positions reach and span along the axis where they do so most, and their middle.
+/// Distance and extent of the positions along the axis where they are largest, and their centre.
 fn reach_of(samples: &[[f64; 3]]) -> Option<(f64, f64, [f64; 3])> {
     let (mut extent, mut reach, mut middle) = (0.0_f64, 0.0_f64, [0.0; 3]);
     for (axis, middle) in middle.iter_mut().enumerate() {
         let mut sorted: Vec<f64> =
             samples.iter().filter_map(|p| p.get(axis).copied()).filter(|c| c.is_finite()).collect();
         sorted.sort_unstable_by(f64::total_cmp);
-        // From the 5th to the 95th percentile: a few strays say nothing about the bulk.
+        // From the 5th to the 95th percentile, so that outliers do not count.
         let cut = sorted.len() / 20;
         let low = sorted.get(cut)?;
         let high = sorted.get(sorted.len() - 1 - cut)?;
@@ -507,8 +509,8 @@ fn reach_of(samples: &[[f64; 3]]) -> Option<(f64, f64, [f64; 3])> {
     Some((reach, extent, middle))
 }
 
-/// What is taken off positions that are far out; nothing of others. It is rounded to a few leading digits, so that the frames of a
-/// sequence mostly have one.
+/// Origin to subtract from distant positions; 0 for others. It is rounded to a few leading digits, so that
+/// the frames of a sequence usually have the same.
 fn origin(first: &[[f64; 3]]) -> [f64; 3] {
     let Some((reach, extent, middle)) = reach_of(first) else { return [0.0; 3] };
     if extent <= 0.0 || reach <= FAR * extent || !reach.is_finite() {
@@ -518,7 +520,7 @@ fn origin(first: &[[f64; 3]]) -> [f64; 3] {
     middle.map(|c| (c / step).round() * step)
 }
 
-/// Says where the bulk lies so far out that 32-bit floats cannot tell particles apart.
+/// Warns if the bulk is so far away that 32-bit floats cannot distinguish particles.
 fn resolution_warning(samples: &[[f64; 3]]) -> Option<String> {
     let (reach, extent, _) = reach_of(samples)?;
     let resolution = reach * f64::from(f32::EPSILON);

@@ -1,4 +1,4 @@
-//! Particles as rows that have not one length, one after the other, most of them of text: CSV, XYZ, GEO and PLY.
+//! Reads particles from rows of different lengths in sequence, mostly text: CSV, XYZ, GEO and PLY.
 
 use super::asked::Asked;
 use super::columns::Column;
@@ -6,24 +6,24 @@ use super::error::ReadError;
 use super::plan::{About, Plan, Stream, Track};
 use super::source::Content;
 
-/// Rows for which room is made at a time.
+/// Number of rows for which memory is reserved at a time.
 const BATCH: usize = 1 << 10;
 
-/// A file of rows, at the first of them.
+/// A file of rows, at the first row.
 pub(super) struct Table<'a> {
-    /// Those that may be used, without numbers.
+    /// Columns that may be used, empty.
     pub(super) columns: Vec<Column>,
     pub(super) about: About,
     pub(super) rows: Box<dyn RowReader + 'a>,
 }
 
-/// Rows on the way.
+/// Reads rows.
 pub(super) trait RowReader: Send {
-    /// Appends the numbers of the next row to the columns; false where there is none.
+    /// Appends the values of the next row to the columns; false at the end.
     fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError>;
 }
 
-/// What reads the beginning of a file, up to the first row.
+/// Reads the beginning of a file, up to the first row.
 type Open = for<'a> fn(&Content<'a>, &Asked) -> Result<Table<'a>, ReadError>;
 
 pub(super) fn plan<'a>(
@@ -64,7 +64,7 @@ impl Stream for TableStream<'_> {
             if !self.rows.next(columns)? {
                 return Ok(i);
             }
-            // They have to be numbers, even where they have no meaning.
+            // They must be numbers even if they have no meaning.
             used(columns, &self.used, false).for_each(|column| column.data.clear());
         }
         Ok(count)

@@ -1,13 +1,14 @@
-//! Legacy VTK, versions 1.0 to 5.1, ASCII and binary: the points of POLYDATA and UNSTRUCTURED_GRID.
+//! Reads legacy VTK, versions 1.0 to 5.1, ASCII and binary: the points of POLYDATA and UNSTRUCTURED_GRID.
 //!
-//! Four lines (`# vtk DataFile Version x.y`, a title, `ASCII` or `BINARY`, `DATASET type`), then sections, each
-//! a line of words and then its values: words of text, or big-endian bytes. Cells are passed over: up to 4.2
-//! one list of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`. `POINT_DATA n` begins the attributes: `SCALARS`,
-//! `VECTORS` ..., or a `FIELD` of arrays. `METADATA` may stand after any array and ends with an empty line.
-//! The length of a section that is not known cannot be known, so reading ends there, with a warning.
+//! The file has four lines (`# vtk DataFile Version x.y`, a title, `ASCII` or `BINARY`, `DATASET type`), then
+//! sections: a line of words, followed by values as text or as big-endian bytes. Cells are skipped: up to
+//! version 4.2 one list of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`. `POINT_DATA n` begins the
+//! attributes: `SCALARS`, `VECTORS` and the like, or a `FIELD` of arrays. `METADATA` may follow any array and
+//! ends with an empty line. The length of an unknown section cannot be determined, so reading ends there with
+//! a warning.
 //!
-//! Own, since the crate for it (vtkio 0.6) refuses the cells of version 5.1, as VTK 9 and meshio write them
-//! (`OFFSETS vtktypeint64`).
+//! The reader is our own, because the crate vtkio (0.6) refuses the cells of version 5.1 as VTK 9 and meshio
+//! write them (`OFFSETS vtktypeint64`).
 
 use super::Format;
 use super::arrays::{self, Array, Segment, Stored};
@@ -23,7 +24,7 @@ use super::vtk_xml::{is_point, mesh_warning};
 
 pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>, ReadError> {
     let found = Reader::read(content, false, asked).map_err(|error| {
-        // Where a number is missing, lines are taken for what they are not: that number is at fault.
+        // A missing number shifts the lines that follow: report that number.
         Reader::read(content, true, asked).err().unwrap_or(error)
     })?;
     let found_cells = (found.cells, found.cell, found.vertices);
@@ -45,13 +46,13 @@ pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>,
 /// An array that may be used.
 struct Found {
     name: String,
-    /// For errors.
+    /// Name for messages.
     what: String,
     components: usize,
     ty: AttributeType,
-    /// Particles.
+    /// Number of particles.
     rows: u64,
-    /// Where its numbers begin.
+    /// Byte offset of its values.
     start: u64,
 }
 
@@ -79,10 +80,10 @@ impl Found {
     }
 }
 
-/// Cells whose types are looked at.
+/// Number of cells whose types are examined.
 const CELLS: usize = 1 << 10;
 
-/// Bytes in which a line for the colours of numbers is looked for, behind the line of these.
+/// Bytes after an array's first line in which its `LOOKUP_TABLE` line is searched.
 const LOOKUP: usize = 1 << 12;
 
 fn version(line: &[u8]) -> Option<(u8, u8)> {
@@ -95,25 +96,25 @@ struct Reader<'a> {
     text: Text<'a>,
     binary: bool,
     version: (u8, u8),
-    /// Whether numbers that may be used are looked at, not only passed over.
+    /// Whether values that may be used are checked instead of skipped.
     check: bool,
     attributes: Vec<Attribute>,
     warnings: Vec<String>,
     found: Vec<Found>,
     points: Option<Found>,
     time: Option<f64>,
-    /// Cells that are more than points, what they are, and cells that are points.
+    /// Number of cells that are more than points, their type, and the number of cells that are points.
     cells: u64,
     cell: &'static str,
     vertices: u64,
-    /// Of the current POINT_DATA or CELL_DATA.
+    /// Number of rows of the current POINT_DATA or CELL_DATA.
     rows: Option<u64>,
-    /// Whether the current attributes are those of the points.
+    /// Whether the current attributes belong to points.
     wanted: bool,
     asked: Asked,
 }
 
-/// The words of a section's first line, its keyword among them.
+/// The words of a section's first line, including the keyword.
 struct Words<'l> {
     line: &'l [u8],
     words: Vec<&'l [u8]>,
@@ -132,7 +133,7 @@ impl<'l> Words<'l> {
         self.text(i, what)?.parse().map_err(|_| self.bad(what))
     }
 
-    /// A type, and for the ones that are no plain numbers `Other` (bits) or `Text`.
+    /// A type; `Other` (bits) or `Text` for those that are no plain numbers.
     fn ty(&self, i: usize) -> Result<AttributeType, ReadError> {
         use AttributeType as T;
         Ok(match self.text(i, "a type")?.to_ascii_lowercase().as_str() {
@@ -141,7 +142,7 @@ impl<'l> Words<'l> {
             "unsigned_char" => T::U8,
             "short" => T::I16,
             "unsigned_short" => T::U16,
-            // Ids are written as 32 bits, whatever they were in memory.
+            // Ids are written as 32 bits, whatever their type in memory.
             "int" | "vtkidtype" => T::I32,
             "unsigned_int" => T::U32,
             "long" | "long_long" | "vtktypeint64" => T::I64,
@@ -159,7 +160,7 @@ impl<'l> Words<'l> {
 }
 
 impl<'a> Reader<'a> {
-    /// Finds what there is, to the end of the file.
+    /// Finds all arrays up to the end of the file.
     fn read(content: &Content<'a>, check: bool, asked: &Asked) -> Result<Self, ReadError> {
         let mut text = Text::new(content.open(0, content.length())?);
         let first = text.line()?.unwrap_or_default();
@@ -222,7 +223,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads one section. False where it is not known.
+    /// Reads one section; false if it is unknown.
     fn section(&mut self, line: &[u8]) -> Result<bool, ReadError> {
         let w = self.words(line);
         let keyword = w.text(0, "a keyword")?.to_ascii_uppercase();
@@ -251,7 +252,7 @@ impl<'a> Reader<'a> {
             }
             "VERTICES" | "LINES" | "POLYGONS" | "TRIANGLE_STRIPS" | "CELLS" => {
                 let (first, second) = (w.count(1, "a number of cells")?, w.count(2, "a size")?);
-                // From 5.0 on the number is that of the offsets, one more.
+                // From 5.0 on the number is that of the offsets, which is one more.
                 let cells = first.saturating_sub(u64::from(self.version.0 >= 5));
                 match keyword.as_str() {
                     "VERTICES" => self.vertices = self.vertices.saturating_add(cells),
@@ -295,7 +296,7 @@ impl<'a> Reader<'a> {
                     _ => w.count(3, "a number of components")?,
                 };
                 let (name, ty) = (w.text(1, "a name")?, w.ty(2)?);
-                // Without one the numbers follow, which may begin with what looks like space.
+                // Without such a line the values follow, and may begin with what looks like white space.
                 let ahead = self.text.ahead(LOOKUP)?.trim_ascii_start();
                 if ahead.starts_with(b"LOOKUP_TABLE") {
                     self.keyword_line()?;
@@ -320,7 +321,7 @@ impl<'a> Reader<'a> {
                 let components = w.count(2, "a number of components")?;
                 self.attribute(w.text(1, "a name")?, w.ty(3)?, rows, components)?;
             }
-            // Colours are bytes in a binary file and numbers from 0 to 1 in a text.
+            // Colours are bytes in a binary file, and numbers from 0 to 1 in text.
             "COLOR_SCALARS" => {
                 let rows = rows()?;
                 let components = w.count(2, "a number of components")?;
@@ -341,7 +342,7 @@ impl<'a> Reader<'a> {
         Ok(true)
     }
 
-    /// The first of so many types of cells, without passing them.
+    /// The first of `count` cell types, without consuming them.
     fn cell_types(&mut self, count: u64) -> Result<Vec<f64>, ReadError> {
         let most = usize::try_from(count).unwrap_or(usize::MAX).min(CELLS);
         let ahead = self.text.ahead(4 * most)?;
@@ -349,7 +350,7 @@ impl<'a> Reader<'a> {
             ahead.as_chunks::<4>().0.iter().map(|ty| f64::from(i32::from_be_bytes(*ty))).collect()
         } else {
             let words = ahead.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-            // The last may be cut off.
+            // The last word may be cut off.
             let words = words.take(most.saturating_sub(1).max(1));
             words.filter_map(super::bytes::parse_number).collect()
         })
@@ -404,7 +405,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Passes over numbers; `keep`: those that may be used.
+    /// Skips values. `keep`: they may be used, so remember where they are.
     fn values(
         &mut self,
         ty: AttributeType,
@@ -428,7 +429,7 @@ impl<'a> Reader<'a> {
         self.text.skip(bytes, what)
     }
 
-    /// Texts stand one a line, or with their length before them: its two top bits tell its size.
+    /// Texts are one per line, or follow their length, whose top two bits give its size.
     fn skip_texts(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         for _ in 0..count {
             if !self.binary {
@@ -463,7 +464,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Names have their spaces and percent signs written as %20, %25.
+/// Decodes %20 and %25 (space and percent sign) in a name.
 fn percent_decoded(name: &str) -> String {
     let mut out = Vec::with_capacity(name.len());
     let mut rest = name.as_bytes();

@@ -1,11 +1,13 @@
-//! VTK XML: unstructured grids (VTU) and poly data (VTP), in every encoding that VTK and ParaView write.
+//! Reads VTK XML: unstructured grids (VTU) and poly data (VTP), in every encoding that VTK and ParaView
+//! write.
 //!
-//! An XML header lists pieces and their arrays. The numbers stand in the element as text or base64, or after
-//! `<AppendedData>` and an underscore as base64 or as bytes (which makes the file no XML: the header is cut off
-//! before it). What is said here is where they are: `head` finds long texts in elements, `encoded` reads bytes.
+//! An XML header lists pieces and their arrays. Values are text or base64 inside the element, or base64 or
+//! raw bytes after `<AppendedData>` and an underscore. Raw bytes make the file invalid XML, so the header is
+//! cut off before them. This module finds the arrays; `head` finds long texts in elements, and `encoded`
+//! reads bytes.
 //!
-//! Own, since the crate for it (vtkio 0.6) reads ASCII, but none of these: raw appended data ends its XML parser,
-//! compressed data that is appended as base64 comes out short, and inline it is not decoded.
+//! The reader is our own, because the crate vtkio (0.6) reads ASCII, but none of these: raw appended data
+//! ends its XML parser, appended compressed base64 is truncated, and inline base64 is not decoded.
 
 use std::path::Path;
 
@@ -27,7 +29,7 @@ pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>,
     plan_files(&[(Path::new(""), content.clone())], Vec::new(), asked)
 }
 
-/// Pieces in several files, those of one frame. Errors tell the file, where it has a name.
+/// Plans to read pieces in several files that form one frame. Errors name the file, if it has a name.
 pub(super) fn plan_files<'a>(
     files: &[(&Path, Content<'a>)],
     warnings: Vec<String>,
@@ -54,7 +56,7 @@ pub(super) fn plan_files<'a>(
     grid.plan(files.len() > 1)
 }
 
-/// What all pieces have, in one file or in several.
+/// What all pieces have in common, in one file or several.
 #[derive(Clone, Default)]
 struct Grid<'a> {
     attributes: Vec<Attribute>,
@@ -63,7 +65,7 @@ struct Grid<'a> {
     warnings: Vec<String>,
     time: Option<f64>,
     limit: u64,
-    /// Those of a mesh, and what they are.
+    /// Number of cells of a mesh, and their type.
     cells: u64,
     cell: &'static str,
     asked: Asked,
@@ -72,7 +74,7 @@ struct Grid<'a> {
 impl<'a> Grid<'a> {
     fn plan(self, several: bool) -> Result<Plan<'a>, ReadError> {
         let Self { mut attributes, mut found, mut warnings, time, limit, asked, .. } = self;
-        // A grid without points has no particles, which is no fault.
+        // A grid without points has no particles, which is no error.
         if found.is_empty() {
             let none = Array { name: PLACED.into(), components: 3, segments: Vec::new() };
             found.push((Column::new(PLACED, 3, AttributeType::F32), none));
@@ -103,7 +105,7 @@ impl<'a> Grid<'a> {
         Plan::new(tracks.collect(), about, limit)
     }
 
-    /// Adds the pieces of a file. False where the head lacks texts that can't be read where they are.
+    /// Adds the pieces of a file; false if the head lacks texts that cannot be read in place.
     fn read(&mut self, content: &Content<'a>, head: &Head) -> Result<bool, ReadError> {
         let document = head.parse()?;
         let root = document.root_element();
@@ -221,7 +223,7 @@ impl<'a> Grid<'a> {
                     return Ok(false);
                 };
                 let same = self.found.iter().skip(1).position(|(column, _)| column.name == name);
-                // A second array of the same name in a piece makes it too long, which is found when all are there.
+                // A second array of the same name makes the attribute too long, which is detected at the end.
                 let at = same.map_or(self.found.len(), |at| at + 1);
                 if same.is_none() {
                     let column = Column::new(&name, components, ty);
@@ -240,7 +242,7 @@ impl<'a> Grid<'a> {
     }
 }
 
-/// What is said of the vertices of a mesh.
+/// Warning about the vertices of a mesh.
 pub(super) fn mesh_warning(cells: u64, cell: &str) -> String {
     format!(
         "this is a mesh of {cells} {cell}: its vertices are taken as particles; particles fill the water, vertices only lie \
@@ -256,16 +258,16 @@ fn attribute_error(name: &str, value: &str) -> ReadError {
     ReadError::malformed(format!("a known `{name}`"), format!("\"{value}\""), Place::Unknown)
 }
 
-/// Bytes after the header.
+/// The bytes after the header.
 #[derive(Clone, Copy)]
 struct Appended {
     base64: bool,
-    /// Where they begin in the file.
+    /// Byte offset of the first one.
     start: u64,
 }
 
 impl Appended {
-    /// From its element on, which begins `at` this place.
+    /// Parses from the element on, which begins at `at`.
     fn parse(content: &Content<'_>, at: u64) -> Result<Self, ReadError> {
         let mut text = Text::new(content.open(at, content.length())?);
         let tag = text.until(b'>')?;
@@ -293,26 +295,27 @@ impl Appended {
     }
 }
 
-/// Whether a cell of this type is a point, some, or nothing.
+/// Whether a cell of this type consists of points or nothing.
 pub(super) fn is_point(cell: f64) -> bool {
     cell <= 2.0
 }
 
-/// Finds where arrays are.
+/// Finds the arrays.
 struct Reader<'h, 'a> {
     content: &'h Content<'a>,
     head: &'h Head,
     big_endian: bool,
-    /// Headers of 64 bits.
+    /// Headers have 64 bits.
     wide: bool,
     compression: Compression,
     appended: Option<Appended>,
-    /// Bytes that may still be unpacked: arrays may share data, so the whole is bounded, not each.
+    /// Bytes that may still be decompressed. Arrays may share data, so the total is limited and not each
+    /// array.
     budget: u64,
 }
 
 impl<'a> Reader<'_, 'a> {
-    /// A number among the attributes of an element.
+    /// A numeric attribute of an element.
     fn parsed(
         &self,
         node: &Node<'_, '_>,
@@ -332,7 +335,7 @@ impl<'a> Reader<'_, 'a> {
         })
     }
 
-    /// Name, components and type of an array.
+    /// Name, number of components and type of an array.
     fn described(&self, array: &Node<'_, '_>) -> Result<(String, usize, AttributeType), ReadError> {
         use AttributeType as T;
         let ty = match array.attribute("type").unwrap_or_default() {
@@ -354,7 +357,7 @@ impl<'a> Reader<'_, 'a> {
         Ok((name, usize::try_from(components).unwrap_or(usize::MAX), ty))
     }
 
-    /// The cells of a piece, where most of them are more than points, and what they are.
+    /// Number of cells in a piece and their type, if most of them are more than points.
     fn mesh(&mut self, piece: &Node<'_, '_>) -> (u64, &'static str) {
         let number = |name: &str| piece.attribute(name).and_then(|n| n.trim().parse().ok());
         let polygons =
@@ -373,7 +376,7 @@ impl<'a> Reader<'_, 'a> {
         if 2 * more > types.len() { (cells, "cells") } else { (0, "") }
     }
 
-    /// The first of so many numbers of an array; a fault in them is none of the particles.
+    /// The first of `count` values of an array. An error in them does not concern the particles.
     fn peek(&mut self, array: &Node<'_, '_>, count: u64) -> Option<Vec<f64>> {
         let budget = self.budget;
         let (name, _, ty) = self.described(array).ok()?;
@@ -403,7 +406,7 @@ impl<'a> Reader<'_, 'a> {
         }
     }
 
-    /// Where `count` numbers of an array are; none where the head lacks a text that can't be read where it is.
+    /// Where `count` values of an array are; `None` if the head lacks a text that cannot be read in place.
     fn segment(
         &mut self,
         array: &Node<'_, '_>,
@@ -439,7 +442,7 @@ impl<'a> Reader<'_, 'a> {
             _ => (Stored::Bytes(encoding(true), offset), self.head.words(array)),
         };
         let (content, start, end) = match text {
-            // Keys with information about the array may stand beside its text.
+            // The element may contain keys with information besides the text.
             Words::Here(text) => {
                 let text = text.as_bytes().to_vec();
                 let length = text.len() as u64;
@@ -451,7 +454,7 @@ impl<'a> Reader<'_, 'a> {
         Ok(Some(Segment { content, start, end, count, ty, stored }))
     }
 
-    /// Adds a segment to those of an attribute, which must be like it.
+    /// Adds a segment to an attribute, which must have the same shape.
     fn add(
         &self,
         to: Option<&mut (Column, Array<'a>)>,

@@ -1,8 +1,9 @@
-//! XDMF: a text that says which arrays of HDF5 files, or numbers in it, are points and attributes of which frame.
+//! Reads XDMF: XML that says which arrays (in HDF5 files or inline) are points and attributes of which frame.
 //!
-//! A `Grid` has a `Geometry` of points and `Attribute`s at nodes; grids of a temporal collection are frames, those of a spatial one
-//! parts of a frame. A grid without points has those of the first grid, as writers of time series leave them out. The numbers
-//! of a `DataItem` stand in it, in an array of an HDF5 file beside it (`file.h5:/path`), or in another item that it refers to.
+//! A `Grid` has a `Geometry` with points, and `Attribute`s at nodes. The grids of a temporal collection are
+//! frames, those of a spatial one are parts of a frame. A grid without points takes those of the first grid,
+//! because writers of time series omit them. A `DataItem` holds its values inline, in an array of an HDF5
+//! file beside it (`file.h5:/path`), or refers to another item.
 
 use std::path::Path;
 
@@ -15,15 +16,15 @@ use super::hdf5::File;
 use super::index;
 use super::{Format, Particles};
 
-/// The most grids of a file.
+/// Most grids in a file.
 const GRIDS: usize = 1 << 16;
 
-/// The text of a file by its name; none of another.
+/// The text of a file, by its extension; `None` for any other file.
 fn text(path: &Path) -> Option<String> {
     index::text(path, &["xdmf", "xmf", "xdmf2", "xdmf3"])
 }
 
-/// The times of the frames of a file; none of one of another format.
+/// Times of the frames of a file; `None` for another format.
 pub(super) fn times(path: &Path) -> Option<Result<Vec<Option<f64>>, ReadError>> {
     let text = text(path)?;
     Some(parse(&text).and_then(|document| {
@@ -32,7 +33,7 @@ pub(super) fn times(path: &Path) -> Option<Result<Vec<Option<f64>>, ReadError>> 
     }))
 }
 
-/// The particles of a file; none of one of another format.
+/// The particles of a file; `None` for another format.
 pub(super) fn read(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
     let text = text(path)?;
     Some(parse(&text).and_then(|document| of_document(&document, path, asked)))
@@ -58,7 +59,7 @@ fn child<'d, 'i>(node: &Node<'d, 'i>, name: &str) -> Option<Node<'d, 'i>> {
     node.children().find(|node| is(node, name))
 }
 
-/// The time that a grid says.
+/// The time of a grid.
 fn time(grid: &Node<'_, '_>) -> Option<f64> {
     child(grid, "Time")?.attribute("Value")?.trim().parse().ok()
 }
@@ -118,7 +119,7 @@ fn of_document(
     table.time = frame.time;
     let mut reader = Reader { document, path, open: None };
     let geometry = |grid: &Node<'_, '_>| child(grid, "Geometry").is_some();
-    // Those of a series are written once.
+    // A series has its geometry once.
     let shared = document.descendants().find(|node| is(node, "Geometry"));
     let mut all: Vec<(String, usize, Data, usize)> = Vec::new();
     let grids: Vec<_> = match frame.grids.iter().any(geometry) {
@@ -163,7 +164,7 @@ fn of_document(
     table.assemble(Format::Xdmf)
 }
 
-/// Adds the numbers of a grid to those of the grids before it.
+/// Appends the values of a grid to those of earlier grids.
 fn put(
     all: &mut Vec<(String, usize, Data, usize)>,
     i: usize,
@@ -180,13 +181,13 @@ fn put(
     }
 }
 
-/// Numbers of each particle.
+/// Number of values per particle.
 fn components(shape: &[u64]) -> usize {
     let rest = shape.get(1..).unwrap_or_default().iter();
     usize::try_from(rest.fold(1_u64, |n, d| n.saturating_mul(*d))).unwrap_or(usize::MAX)
 }
 
-/// The extents of an item.
+/// Dimensions of an item.
 fn dimensions(item: &Node<'_, '_>) -> Vec<u64> {
     let text = item.attribute("Dimensions").unwrap_or_default();
     text.split_whitespace().filter_map(|word| word.parse().ok()).collect()
@@ -201,7 +202,7 @@ struct Reader<'d, 'i, 'p> {
 }
 
 impl<'d> Reader<'d, '_, '_> {
-    /// The points of a geometry: of two or three components, or an array for each.
+    /// The points of a geometry: with two or three components, or one array per component.
     fn points(&mut self, geometry: &Node<'d, 'd>) -> Result<Vec<(String, usize, Data)>, ReadError> {
         let kind = geometry.attribute("GeometryType").or_else(|| geometry.attribute("Type"));
         let items = geometry.children().filter(|node| is(node, "DataItem"));
@@ -225,11 +226,11 @@ impl<'d> Reader<'d, '_, '_> {
         Ok(vec![("position".into(), components, data)])
     }
 
-    /// The item that one refers to, or itself.
+    /// The item that this one refers to, or itself.
     fn referred(&self, item: Node<'d, 'd>) -> Result<Node<'d, 'd>, ReadError> {
         let Some(path) = item.attribute("Reference") else { return Ok(item) };
         let path = if path == "XML" { item.text().unwrap_or_default() } else { path };
-        // Such as /Xdmf/Domain/DataItem[@Name="p"], of which the name is enough.
+        // A reference such as /Xdmf/Domain/DataItem[@Name="p"]; the name suffices.
         let name = path.split(['"', '\'']).nth(1).unwrap_or_default();
         let mut items = self.document.descendants().filter(|node| is(node, "DataItem"));
         items
@@ -241,7 +242,7 @@ impl<'d> Reader<'d, '_, '_> {
             })
     }
 
-    /// The extents and the numbers of an item.
+    /// Dimensions and values of an item.
     fn item(&mut self, item: Node<'d, 'd>) -> Result<(Vec<u64>, Data), ReadError> {
         let item = self.referred(item)?;
         let text = item.text().unwrap_or_default();
@@ -282,7 +283,7 @@ impl<'d> Reader<'d, '_, '_> {
         Ok((shape, data))
     }
 
-    /// An array by the name of its file and its path in it.
+    /// Reads an array by its file's name and its path.
     fn array(&mut self, name: &str) -> Result<(Vec<u64>, Data), ReadError> {
         let bad = || ReadError::malformed("file.h5:/path of an array", name, Place::Unknown);
         let (file, path) = name.rsplit_once(':').ok_or_else(bad)?;

@@ -1,12 +1,12 @@
-//! XYZ: a line of numbers for each particle, or raw little-endian `f32` triples without any header.
+//! Reads XYZ: one line of numbers per particle, or raw little-endian `f32` triples without a header.
 //!
-//! Of a line the first three numbers are the position; spaces, tabs, commas and semicolons separate. Empty lines
-//! and lines that begin with `#`, `%` or `//` are passed over. A line of names (`x y z vx vy vz`) above the numbers, `#`
-//! before it or not, names the columns.
+//! The first three numbers of a line are the position; spaces, tabs, commas and semicolons separate. Empty
+//! lines, and lines that begin with `#`, `%` or `//`, are skipped. A line of names (`x y z vx vy vz`) before
+//! the numbers, with `#` or without, names the columns.
 //!
-//! A first line of one number is the count, as chemists have it: the line behind it is a comment, which may say what the
-//! columns are (`Properties=species:S:1:pos:R:3`, extended XYZ), and else the first of four columns or more, or one of
-//! words, is the element.
+//! A first line with a single number is the count, as in chemistry. The next line is then a comment, which
+//! may name the columns (`Properties=species:S:1:pos:R:3`, extended XYZ). Otherwise the first of four or more
+//! columns, or a column of words, is the element.
 
 use super::Format;
 use super::asked::Asked;
@@ -23,7 +23,7 @@ use super::steps::{self, Start};
 use super::table::{RowReader, Table};
 use super::text::Text;
 
-/// So many bytes of raw triples.
+/// The layout of raw triples in a file of this length.
 pub(super) fn raw(length: u64, asked: &Asked) -> Result<Layout, ReadError> {
     if !length.is_multiple_of(12) {
         return Err(ReadError::malformed(
@@ -52,7 +52,7 @@ pub(super) fn raw(length: u64, asked: &Asked) -> Result<Layout, ReadError> {
     })
 }
 
-/// Where the frames of a counted file begin, up to one of them; none of another file.
+/// Where the frames of a counted file begin, up to frame `upto`; empty for any other file.
 pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<Start>, ReadError> {
     let lines = heading::lines(content)?;
     let Some(Counted { heading, .. }) = Counted::of(&lines) else { return Ok(Vec::new()) };
@@ -84,7 +84,7 @@ pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<S
     Ok(starts)
 }
 
-/// The time that a comment says: `Time=0.1`.
+/// The time in a comment: `Time=0.1`.
 fn time_in(comment: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(comment).ok()?.to_ascii_lowercase();
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '=' | ':' | '"'));
@@ -152,10 +152,10 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
     Ok(rows(text, content.lines_before() + heading.line, promised, commas, (&names, &[]), about))
 }
 
-/// A column that is parts of the side of a box, and where that begins and ends.
+/// A column with fractions of a box's side, and where the side begins and ends.
 pub(super) type Side<'a> = (&'a str, f64, f64);
 
-/// Rows of columns of these names, behind so many lines.
+/// Reads rows with columns of these names, after this number of lines.
 pub(super) fn rows<'a>(
     text: Text<'a>,
     number: u64,
@@ -183,7 +183,7 @@ pub(super) fn rows<'a>(
     Table { columns, about, rows: Box::new(rows) }
 }
 
-/// What is said of columns without names, of which so many are an element.
+/// Warning about columns without names, of which `from` are the element.
 fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
     let more = columns > from + 3;
     match from {
@@ -198,10 +198,10 @@ fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
     }
 }
 
-/// Lines by which it is judged whether the first column counts them.
+/// Number of lines from which it is decided whether the first column counts them.
 const COUNTED: usize = 8;
 
-/// Whether the first numbers of the lines count these, from 0 or 1, and others stand behind them.
+/// Whether the first numbers of the lines count them, from 0 or 1, and others follow.
 pub(super) fn counts(lines: &[Line], at: u64, first: impl Fn(&[u8]) -> Option<f64>) -> bool {
     let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
     let rows: Vec<&Line> = rows.collect();
@@ -217,7 +217,7 @@ pub(super) fn counts(lines: &[Line], at: u64, first: impl Fn(&[u8]) -> Option<f6
         && rows.iter().enumerate().all(counted)
 }
 
-/// What is said of them.
+/// Warning about such a column.
 pub(super) fn counted_warning(columns: usize) -> String {
     let rest = if columns > 4 { ", the others are not read" } else { "" };
     format!(
@@ -226,13 +226,13 @@ pub(super) fn counted_warning(columns: usize) -> String {
     )
 }
 
-/// How many columns are before the position: one of words, or in files with a count one of whole numbers.
+/// Number of columns before the position: one of words or, in files with a count, one of integers.
 fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
     let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
     let rows: Vec<Vec<_>> = rows.map(|line| words(&line.text, commas).collect()).collect();
     let numbers = |row: &Vec<&[u8]>| row.iter().filter(|w| number(w).is_some()).count();
     let first = |test: &dyn Fn(&[u8]) -> bool| {
-        // The next frame's lines may be among them.
+        // These may include lines of the next frame.
         rows.first().and_then(|row| row.first()).is_some_and(|word| test(word))
     };
     let of_word = first(&|word| number(word).is_none());
@@ -248,14 +248,14 @@ fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
     usize::from((of_word || of_number) && enough)
 }
 
-/// What a file with a count begins with.
+/// The beginning of a file with a count.
 struct Counted {
     heading: Heading,
     count: u64,
 }
 
 impl Counted {
-    /// None of a file whose first line is no count.
+    /// `None` if the first line is no count.
     fn of(lines: &[Line]) -> Option<Self> {
         let at = lines.iter().position(|line| !is_comment(&line.text))?;
         let first = lines.get(at)?;
@@ -276,7 +276,7 @@ impl Counted {
         let numbers = words(&comment.text, commas).filter(|w| number(w).is_some()).count();
         let alike = row.is_none_or(|row| fields(row) == fields(comment));
         if numbers >= 2 && numbers == fields(comment) && alike {
-            // No comment, but the first particle.
+            // This line is no comment, but the first particle.
             return Some(Self { heading, count });
         }
         heading.at = comment.next;
@@ -290,10 +290,10 @@ impl Counted {
     }
 }
 
-/// What marks the name of a column that is no numbers.
+/// Marks the name of a column that is not numeric.
 const TEXT: &str = "\0";
 
-/// Names of the columns as the comment of extended XYZ has them, a component each.
+/// Names of the columns from the comment of extended XYZ, one per component.
 fn properties(comment: &[u8]) -> Option<Vec<String>> {
     let text = std::str::from_utf8(comment).ok()?;
     let start = text.to_ascii_lowercase().find("properties=")? + "properties=".len();
@@ -318,21 +318,21 @@ fn properties(comment: &[u8]) -> Option<Vec<String>> {
 
 struct Lines<'a> {
     text: Text<'a>,
-    /// Of the line that was read last.
+    /// Number of the line that was read last.
     number: u64,
-    /// Particles until now.
+    /// Number of particles so far.
     rows: u64,
     promised: Option<u64>,
-    /// Whether commas separate.
+    /// Whether commas separate fields.
     commas: bool,
-    /// For each word of a line the column that takes it.
+    /// For each word of a line, the index of the column that takes it.
     columns: Vec<Option<usize>>,
-    /// Columns that are parts of the sides of a box: where it begins, and how long it is.
+    /// Columns with fractions of a box's sides: where the side begins, and its length.
     box_of: Vec<(usize, f64, f64)>,
 }
 
 impl Lines<'_> {
-    /// After the last line.
+    /// Called after the last line.
     fn end(&self) -> Result<(), ReadError> {
         match self.promised {
             Some(expected) if expected != self.rows => {
@@ -374,7 +374,7 @@ impl RowReader for Lines<'_> {
     }
 }
 
-/// A file that holds more than one.
+/// Error: a file with more than one frame.
 pub(super) fn several_frames(line: u64) -> ReadError {
     ReadError::Unsupported {
         what: format!("a file of several frames (the second begins in line {line})"),
@@ -382,7 +382,7 @@ pub(super) fn several_frames(line: u64) -> ReadError {
     }
 }
 
-/// Appends the numbers of a line; `taken`: for each word the column that takes it.
+/// Appends the values of a line. `taken`: for each word, the column that takes it.
 fn row(
     line: &[u8],
     number: u64,
@@ -418,7 +418,7 @@ fn number(word: &[u8]) -> Option<f64> {
     parse_number(word).or_else(|| number_with_comma(word))
 }
 
-/// `commas`: whether these separate, or are those of decimals.
+/// `commas`: whether commas separate words; otherwise they are decimal commas.
 fn words(line: &[u8], commas: bool) -> impl Iterator<Item = &[u8]> {
     line.split(move |b| b.is_ascii_whitespace() || (commas && *b == b',') || *b == b';')
         .filter(|word| !word.is_empty())
