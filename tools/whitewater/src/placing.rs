@@ -33,7 +33,7 @@ impl Placing {
 
     /// A point in the axes and the unit of the scene that is where the files have it, less what is taken off their positions;
     /// none where it is nearer to the water as it is.
-    pub fn from_far(&self, point: [f32; 3]) -> Option<[f32; 3]> {
+    pub fn moved(&self, point: [f32; 3]) -> Option<[f32; 3]> {
         let [x, y, z] = self.origin.map(|c| c * f64::from(self.scale));
         let origin = if self.up == Up::Z { [x, z, -y] } else { [x, y, z] };
         let moved: [f64; 3] = std::array::from_fn(|i| f64::from(point[i]) - origin[i]);
@@ -133,9 +133,9 @@ mod tests {
     #[test]
     fn a_point_far_out_is_moved_with_the_particles() {
         let far = Placing { up: Up::Z, scale: 0.5, origin: [4096.0, 1024.0, 64.0] };
-        assert_eq!(far.from_far([2050.0, 33.0, -512.0]), Some([2.0, 1.0, 0.0]));
-        assert_eq!(far.from_far([2.0, 1.0, 0.0]), None);
-        assert_eq!(Placing::default().from_far([9.0, 1.0, 0.0]), None);
+        assert_eq!(far.moved([2050.0, 33.0, -512.0]), Some([2.0, 1.0, 0.0]));
+        assert_eq!(far.moved([2.0, 1.0, 0.0]), None);
+        assert_eq!(Placing::default().moved([9.0, 1.0, 0.0]), None);
     }
 
     #[test]

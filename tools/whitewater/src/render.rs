@@ -193,10 +193,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         files.missing(&numbers)?.iter().for_each(|line| progress.say(line));
     }
     if let (Some(camera), true) = (&mut camera, args.camera.eye.is_some())
-        && let Some(eye) = camera.eye.and_then(|eye| placing.from_far(eye))
+        && let Some(eye) = camera.eye.and_then(|eye| placing.moved(eye))
     {
         camera.eye = Some(eye);
-        camera.target = camera.target.map(|target| placing.from_far(target).unwrap_or(target));
+        camera.target = camera.target.map(|target| placing.moved(target).unwrap_or(target));
         progress.say("--eye and --target are taken where the files have them, far from the origin");
     }
     let found = Found { camera, spacing, files, sheet };
