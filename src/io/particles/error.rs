@@ -55,7 +55,7 @@ pub enum ReadError {
     Empty,
     /// Neither the content nor the name tells the format.
     #[error(
-        "expected BGEO, GEO, VTK, VTU, VTP, PLY, NPY, NPZ, CSV, XYZ or JSON, found {found}; \
+        "expected BGEO, GEO, VTK, VTU, VTP, PLY, NPY, NPZ, HDF5, CSV, XYZ or JSON, found {found}; \
          text needs the extension .csv, .xyz or .json, raw f32 triples need .xyz"
     )]
     UnknownFormat {

@@ -388,7 +388,7 @@ impl Survey {
             let [x, y, z] = self.origin;
             format!(
                 "the particles lie far from the origin: {x} {y} {z} is taken off their positions, which 32-bit floats \
-                 would not tell apart there; cameras and scenes beside them are relative to that"
+                 would not tell apart there; scenes, and cameras in files, are relative to that"
             )
         });
         let ghosts = (self.ghosts > 0).then(|| {

@@ -213,6 +213,13 @@ pub fn text_samples(list: &mut Vec<Sample>, of: &Particles) {
             Format::Csv,
         ));
     }
+    let dump = csv(of, "vx vy vz rho id x y z", " ", "");
+    let (_, dump) = dump.split_once('\n').unwrap();
+    let dump = format!(
+        "ITEM: TIMESTEP\n8\nITEM: NUMBER OF ATOMS\n{count}\nITEM: BOX BOUNDS ff ff ff\n-9 9\n-9 9\n-9 9\n\
+         ITEM: ATOMS vx vy vz rho id x y z\n{dump}"
+    );
+    list.push(sample("lammps", Extension::Unknown, dump, All, Format::Lammps));
     let hashed = format!("# {}", csv(of, "vx vy vz rho id x y z", ",", ""));
     list.push(sample("csv with a hashed header", Extension::Csv, hashed, All, Format::Csv));
     let named_csv = csv(of, "vx vy vz rho id x y z", ",", "");

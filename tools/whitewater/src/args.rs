@@ -374,7 +374,8 @@ pub struct CameraArgs {
     /// a Catmull-Rom spline over the frame numbers, at rest at the first and last key.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub file: Option<PathBuf>,
-    /// Position of the camera [default: found from the particles]
+    /// Position of the camera; beside particles that lie far from the origin, which is then taken off them, as the files have
+    /// it or without that [default: found from the particles]
     #[arg(long, value_name = "X,Y,Z", requires = "target", value_parser = vector, allow_hyphen_values = true)]
     pub eye: Option<[f32; 3]>,
     /// Point the camera looks at

@@ -31,6 +31,16 @@ impl Placing {
         }
     }
 
+    /// A point in the axes and the unit of the scene that is where the files have it, less what is taken off their positions;
+    /// none where it is nearer to the water as it is.
+    pub fn moved(&self, point: [f32; 3]) -> Option<[f32; 3]> {
+        let [x, y, z] = self.origin.map(|c| c * f64::from(self.scale));
+        let origin = if self.up == Up::Z { [x, z, -y] } else { [x, y, z] };
+        let moved: [f64; 3] = std::array::from_fn(|i| f64::from(point[i]) - origin[i]);
+        let length = |p: [f64; 3]| p.iter().map(|c| c * c).sum::<f64>();
+        (length(moved) < length(point.map(f64::from))).then(|| moved.map(|c| c as f32))
+    }
+
     fn scale<'a>(&self, vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
         if self.scale != 1.0 {
             vectors.into_iter().flatten().for_each(|c| *c *= self.scale);
@@ -117,6 +127,15 @@ mod tests {
         all.iter_mut().for_each(|particles| placing.place(particles));
         let found = all.map(|particles| particles.positions[0]);
         assert_eq!(found, [[1.5, 2.0, -3.0], [129.5, 2.0, 61.0], [-4094.5, 2.0, 61.0]]);
+    }
+
+    /// An eye beside particles that lie far out is given where they are, or where they are moved to.
+    #[test]
+    fn a_point_far_out_is_moved_with_the_particles() {
+        let far = Placing { up: Up::Z, scale: 0.5, origin: [4096.0, 1024.0, 64.0] };
+        assert_eq!(far.moved([2050.0, 33.0, -512.0]), Some([2.0, 1.0, 0.0]));
+        assert_eq!(far.moved([2.0, 1.0, 0.0]), None);
+        assert_eq!(Placing::default().moved([9.0, 1.0, 0.0]), None);
     }
 
     #[test]

@@ -79,7 +79,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let settings = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, None)?;
-    let camera = CameraFile::from_args(&args.camera)?;
+    let mut camera = CameraFile::from_args(&args.camera)?;
     let turning = Turning::new(args, &frames);
     if let Some(camera) = &camera {
         if turning.is_some() {
@@ -191,6 +191,13 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     if let Some(files) = &files {
         let numbers: Vec<_> = all.iter().map(|f| f.number).collect();
         files.missing(&numbers)?.iter().for_each(|line| progress.say(line));
+    }
+    if let (Some(camera), true) = (&mut camera, args.camera.eye.is_some())
+        && let Some(eye) = camera.eye.and_then(|eye| placing.moved(eye))
+    {
+        camera.eye = Some(eye);
+        camera.target = camera.target.map(|target| placing.moved(target).unwrap_or(target));
+        progress.say("--eye and --target are taken where the files have them, far from the origin");
     }
     let found = Found { camera, spacing, files, sheet };
     let look = steps.during("finding camera and light", || {
