@@ -6,11 +6,15 @@
 //!
 //! # Embedding
 //!
-//! 1. Before you create the device, ask [`requirements`] and [`Offer::check`], and enable the optional features that you
-//!    want; [`Offer`] says which the device supports. Report truthfully in [`Enabled`] what you enabled.
+//! 1. Before you create the device (Vulkan 1.2 or newer; no feature is required), ask [`requirements`] and
+//!    [`Offer::check`], and enable the optional features that you want: [`Offer::optional`] is what the device supports,
+//!    [`Enabled::device_features`] makes the structures for `vkCreateDevice`. Report truthfully in [`Enabled`] what you
+//!    enabled.
 //! 2. Create one [`Context`] per device from a [`Host`], then a [`Renderer`] from the context and a [`Config`]. This
 //!    allocates all memory, and creates all pipelines that the context does not have yet.
-//! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment.
+//! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Earlier frames
+//!    are refused. [`Settings::new`] derives all looks from the spacing and the scale of your scene, [`Light::of`] the light
+//!    from a sky.
 //! 4. Each frame, after the slot's fence, call [`Renderer::collect`] and then [`Renderer::record`] with a [`Frame`].
 //!    [`Renderer::timings`] returns the time of each pass.
 //! 5. Call [`Renderer::resize`] or [`Renderer::reconfigure`] at any time between records, and [`Renderer::destroy`] when the
@@ -169,6 +173,7 @@ mod check;
 mod composite;
 mod context;
 mod contract;
+mod diagnostics;
 mod environment;
 mod error;
 pub mod foam;
@@ -189,6 +194,8 @@ pub mod water;
 
 pub use context::Context;
 pub use contract::*;
+#[cfg(feature = "diagnostics")]
+pub use diagnostics::{Diagnostics, ParticleCounts, SmoothingLevel, SmoothingLevels};
 pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;
 pub use gpu::features::DeviceFeatures;

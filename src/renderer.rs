@@ -9,9 +9,8 @@ use crate::bubbles::{self, BubbleUniforms, Bubbles, near_sets};
 use crate::check;
 use crate::composite::{Composite, Surroundings};
 use crate::context::Context;
-use crate::contract::{
-    Config, Count, Frame, HostImage, Layer, MemoryUse, Recorded, Slot, SmoothingLevels,
-};
+use crate::contract::{Config, Count, Frame, HostImage, Layer, MemoryUse, Recorded, Slot};
+use crate::diagnostics::{Diagnostics, SmoothingLevels};
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
 use crate::foam::Foam;
@@ -388,14 +387,16 @@ impl Renderer {
                 from,
                 frame.output.rect.extent,
             ),
-            active_samples: self.water.query_results(),
-            counts: Some(self.water.counts()),
-            levels: Some(levels),
-            tiles: Some(self.water.tiles()),
-            sheets: self.water.boundaries(),
-            shapes: self.water.shaped(),
-            bubbles: self.bubbles.as_ref().map(Bubbles::layers),
-            blobs: self.bubbles.as_ref().map(Bubbles::counts),
+            diagnostics: Diagnostics {
+                active_samples: self.water.query_results(),
+                counts: Some(self.water.counts()),
+                levels: Some(levels),
+                tiles: Some(self.water.tiles()),
+                sheets: self.water.boundaries(),
+                shapes: self.water.shaped(),
+                bubbles: self.bubbles.as_ref().map(Bubbles::layers),
+                blobs: self.bubbles.as_ref().map(Bubbles::counts),
+            },
         };
         Ok((recorded, cmd))
     }

@@ -4,7 +4,7 @@
 pub(crate) mod generate;
 mod quads;
 mod radiance;
-pub mod settings;
+pub(crate) mod settings;
 pub(crate) mod splat;
 pub(crate) mod streams;
 mod tiles;

@@ -174,10 +174,10 @@ impl Headless {
         self.parts = parts.spare;
         let (recorded, last) = result?;
         self.layers = recorded.layers;
-        self.counts = recorded.counts;
-        self.levels = recorded.levels;
-        self.active_samples = recorded.active_samples;
-        self.bubble_words = recorded.bubbles;
+        self.counts = recorded.diagnostics.counts;
+        self.levels = recorded.diagnostics.levels;
+        self.active_samples = recorded.diagnostics.active_samples;
+        self.bubble_words = recorded.diagnostics.bubbles;
         Ok(last)
     }
 

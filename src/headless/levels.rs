@@ -1,7 +1,7 @@
 //! The smoothing levels merged as the picture shows them, at the resolution of a layer's first level.
 
 use super::Picture;
-use crate::contract::{SmoothingLevel, SmoothingLevels};
+use crate::diagnostics::{SmoothingLevel, SmoothingLevels};
 use crate::frame::EMPTY;
 
 /// A layer of water among the levels.

@@ -39,9 +39,8 @@ use submit::{Commands, begin, submit};
 use crate::bubbles::Heap;
 use crate::composite::way;
 use crate::context::Context;
-use crate::contract::{
-    Access, Config, Layer, ParticleCounts, Previous, Region, Slot, SmoothingLevels,
-};
+use crate::contract::{Access, Config, Layer, Previous, Region, Slot};
+use crate::diagnostics::{ParticleCounts, SmoothingLevels};
 use crate::environment::{Environment, Sky};
 use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;

@@ -5,7 +5,8 @@ use ash::vk;
 
 use super::levels::{self, BACK, FRONT};
 use super::{COLOR_FORMAT, COLOR_REST, Counts, DEPTH_FORMAT, DEPTH_REST, Headless, Picture};
-use crate::contract::{Access, Layer, SmoothingLevels};
+use crate::contract::{Access, Layer};
+use crate::diagnostics::SmoothingLevels;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_READ, COPY_WRITE};

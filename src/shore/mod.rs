@@ -3,7 +3,7 @@
 
 mod contact;
 mod distance;
-pub mod settings;
+pub(crate) mod settings;
 mod shoreline;
 pub mod texture;
 mod textures;

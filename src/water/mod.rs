@@ -12,7 +12,7 @@ mod level;
 mod motion;
 mod noise;
 mod reduce;
-pub mod settings;
+pub(crate) mod settings;
 mod shape;
 mod smooth;
 mod smooth_query;
@@ -25,9 +25,8 @@ mod tiles;
 use ash::vk;
 
 use crate::bubbles::Bubbles;
-use crate::contract::{
-    Blobs, Config, DiffuseParticles, Layer, MemoryUse, ParticleCounts, Particles, SmoothingLevels,
-};
+use crate::contract::{Blobs, Config, DiffuseParticles, Layer, MemoryUse, Particles};
+use crate::diagnostics::{ParticleCounts, SmoothingLevels};
 use crate::error::Error;
 use crate::foam::Foam;
 use crate::frame::{Lens, reduced};
@@ -76,7 +75,7 @@ pub(crate) struct Recording<'a> {
     pub extent: vk::Extent2D,
     /// The frame's uniform block.
     pub uniforms: Resource,
-    /// The frame's [`SmoothingLevels`](crate::SmoothingLevels).
+    /// The frame's [`SmoothingLevels`].
     pub levels: Resource,
     /// The uniforms of bubble foam.
     pub bubbles: Resource,

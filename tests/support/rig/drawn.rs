@@ -166,12 +166,13 @@ impl Rig<'_> {
             output.extent.into(),
             output.after,
         );
-        let levels = recorded.levels.unwrap_or_else(bytemuck::Zeroable::zeroed);
+        let own = recorded.diagnostics();
+        let levels = own.levels.unwrap_or_else(bytemuck::Zeroable::zeroed);
         let whole = picture(output.format, output.extent, &bytes);
         let empty = || Image::new(0, 0, 0.0);
         let rect = crop(&whole, output.rect);
         let mut drawn = Drawn { output: rect, whole, levels, ..Drawn::empty() };
-        if let Some(counts) = &recorded.counts {
+        if let Some(counts) = &own.counts {
             let size = 256 * u64::from(counts.chunks);
             let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
             self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, counts.all, &back));
@@ -188,8 +189,8 @@ impl Rig<'_> {
             }
         }
         let count = 6 * self.config.max_particles;
-        drawn.shapes = recorded.shapes.map(|buffer| self.words_of(buffer, count));
-        if let Some(tiles) = recorded.tiles {
+        drawn.shapes = own.shapes.map(|buffer| self.words_of(buffer, count));
+        if let Some(tiles) = own.tiles {
             let back = self.stub.sized(16 * 259, vk::BufferUsageFlags::TRANSFER_DST);
             self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, tiles, &back));
             let words: Vec<u32> = words(back.bytes()).collect();
@@ -201,7 +202,7 @@ impl Rig<'_> {
         };
         let none = |_: &SmoothingLevel| (empty(), Image::new(0, 0, 0));
         drawn.coarser = of(1..4).map(none).collect();
-        let mut sheets = recorded.sheets.map(|buffer| Sheets {
+        let mut sheets = own.sheets.map(|buffer| Sheets {
             boundaries: self.boundaries(buffer, output.rect.extent),
             thickness: Image::new(0, 0, [0.0; 3]),
             surface: empty(),
@@ -221,12 +222,12 @@ impl Rig<'_> {
         let mut diffuse =
             Diffused { occluders: four(), thickness: four(), normal: four(), light: four() };
         let mut diffuses = false;
-        let mut soap = recorded.bubbles.map(|layers| Soaped {
+        let mut soap = own.bubbles.map(|layers| Soaped {
             depth: empty(),
             color: four(),
             film: four(),
             layers: self.soap_layers(layers, output.rect.extent),
-            range: recorded
+            range: own
                 .blobs
                 .map(|buffer| self.words_of(buffer, 5))
                 .and_then(|words| words.try_into().ok())

@@ -10,7 +10,7 @@ use crate::settings::{LookWord, MediumName};
 use crate::shore::Which as Shore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitewater::io::picture::Tone;
-use whitewater::water::settings::{Rule, Splat};
+use whitewater::water::{Rule, Splat};
 use whitewater_simulate::{FPS, FRAMES, Scene};
 
 const EXIT_CODES: &str = "\

@@ -5,7 +5,7 @@ use whitewater::Settings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
-use whitewater::water::settings::Medium;
+use whitewater::water::Medium;
 use whitewater::water::{FoamLook, SprayLook};
 
 use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Turntable, Unit, Up, Whitewater};

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use whitewater::Settings;
-use whitewater::water::settings::{Fresnel, Medium};
+use whitewater::water::{Fresnel, Medium};
 
 /// What a liquid is beside its medium.
 #[derive(Clone, Copy, Debug, PartialEq)]

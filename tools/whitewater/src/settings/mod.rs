@@ -13,7 +13,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use whitewater::foam::GenerateSettings;
 use whitewater::water::FoamSettings;
-use whitewater::water::settings::Shadows;
+use whitewater::water::Shadows;
 use whitewater::{Light, Settings};
 
 use crate::args::DrawArgs;

@@ -1,5 +1,5 @@
 use whitewater::foam::{DiffuseLook, Limits, Mixing, Reach, Submerged};
-use whitewater::water::settings::{Amplitude, Convolution, Fresnel, Medium};
+use whitewater::water::{Amplitude, Convolution, Fresnel, Medium};
 use whitewater::water::{NoiseLook, SprayLook};
 
 use super::*;

@@ -1,7 +1,7 @@
 //! Tables `[water]`, `[foam]`, `[spray]`, `[shadow]`, `[noise]` and `[light]`.
 
 use serde::{Deserialize, Serialize};
-use whitewater::water::settings::{
+use whitewater::water::{
     Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium,
     ShadowFilter, Shadows, WaterSettings,
 };
