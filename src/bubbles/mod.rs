@@ -28,6 +28,7 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::{Recording, WaterLayers};
+pub use blob::Blob;
 pub use heap::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
 pub(crate) use lists::buffers_of;
 pub(crate) use near::sets as near_sets;
