@@ -1346,6 +1346,7 @@ pub struct Layer {
 pub struct Recorded {
     /// The kept layers: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
     pub layers: Vec<Layer>,
+    #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))]
     pub(crate) diagnostics: Diagnostics,
 }
 
