@@ -12,6 +12,7 @@ use whitewater::headless::{Device, DeviceOptions};
 use whitewater::{Context, Error, Host};
 
 use super::watchdog::Watch;
+use crate::reference::shore::texture::filters_in_halves;
 
 const MOST_SHARED: usize = 4;
 
@@ -150,7 +151,7 @@ impl Gpu {
             Held::Shared(device, _) => (device.device.clone(), device.allocator.clone()),
             Held::Own(device) => (device.device.clone(), device.allocator.clone()),
         };
-        Self {
+        let gpu = Self {
             device: Some(device),
             functions,
             allocator,
@@ -158,7 +159,11 @@ impl Gpu {
             leaks: false,
             _lock: lock,
             _watch: Watch::begin(),
-        }
+        };
+        // SAFETY: the physical device is of the instance.
+        let properties = unsafe { gpu.instance.get_physical_device_properties(gpu.physical) };
+        filters_in_halves(properties.device_type != vk::PhysicalDeviceType::CPU);
+        gpu
     }
 
     /// One of the devices that most tests share.
