@@ -19,7 +19,7 @@ pub struct Soaped {
     pub film: Image<[f32; 4]>,
     /// Of each pixel its layers, and the most opacity.
     pub layers: Vec<Vec<u32>>,
-    /// What became of them: [`whitewater::Recorded::blobs`].
+    /// What became of them: [`whitewater::Diagnostics::blobs`].
     pub range: [u32; 5],
 }
 
