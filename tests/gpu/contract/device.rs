@@ -205,7 +205,9 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
                 let has = |name: &std::ffi::CStr| {
                     instance.get_device_proc_addr(device.handle(), name.as_ptr()).is_some()
                 };
-                let second = has(c"vkCmdPipelineBarrier2") || !enabled.synchronization2;
+                let second = (has(c"vkCmdPipelineBarrier2") || !enabled.synchronization2)
+                    && (has(c"vkCmdBeginConditionalRenderingEXT")
+                        || !enabled.conditional_rendering);
                 let all = second && (enough || has(c"vkResetQueryPool"));
                 match Context::new(&host) {
                     Ok(_) if all => {}

@@ -17,9 +17,9 @@ pub fn filters_in_halves(yes: bool) {
     HALVES.store(yes, Ordering::Relaxed);
 }
 
-/// How much of the largest texel what is filtered is off for that: half a unit in the last place of a half float.
+/// How much of the largest texel what is filtered is off for that: a unit in the last place of a half float, rounded either way.
 fn filter_rounds() -> f64 {
-    if HALVES.load(Ordering::Relaxed) { 1.0 / 4096.0 } else { 0.0 }
+    if HALVES.load(Ordering::Relaxed) { 1.0 / 2048.0 } else { 0.0 }
 }
 
 /// Half a step of the filter's weights.
