@@ -318,7 +318,7 @@ pub struct DrawArgs {
     /// Spray of particles with few or no neighbours: auto or none [default: auto; none with --whitewater]
     ///
     /// It uses densities from the files, or estimated ones. Table [spray] densities sets the limits as
-    /// fractions of the rest density [default: 0.28, 0.62, 0.7].
+    /// fractions of the rest density [default: 0.42, 0.66, 0.7].
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or

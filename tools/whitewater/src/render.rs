@@ -474,7 +474,7 @@ impl Probes {
 /// that the library's 0.85 is met by most of a splash (of the highest tenth of two solid jets by 82 %, by these 23 %). One
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
 /// Sheets of one layer (0.70) hold; what is torn to less has droplets about it and is water still.
-const SPRAY_DENSITIES: [f32; 3] = [0.28, 0.62, 0.7];
+const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
 
 /// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
 /// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
