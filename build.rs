@@ -10,8 +10,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-// `counted` is a test's.
-#[allow(dead_code)]
+#[allow(dead_code)] // `counted` is a test's
 #[path = "build/uniforms.rs"]
 mod uniforms;
 

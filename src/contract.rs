@@ -1346,7 +1346,7 @@ pub struct Layer {
 pub struct Recorded {
     /// The kept layers: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
     pub layers: Vec<Layer>,
-    #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))]
+    #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // then nobody reads it
     pub(crate) diagnostics: Diagnostics,
 }
 

@@ -1,6 +1,6 @@
 //! The renderer's own buffers after a record, for tests and tools, not for hosts.
 
-#![cfg_attr(not(feature = "diagnostics"), allow(dead_code))]
+#![cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // then nobody reads it
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};

@@ -5,8 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-// `hoisted` is the build's.
-#[allow(dead_code)]
+#[allow(dead_code)] // `hoisted` is the build's
 #[path = "../build/uniforms.rs"]
 mod uniforms;
 

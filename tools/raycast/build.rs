@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 // As in the library's build, whose passes these are timed beside.
-#[allow(dead_code)]
+#[allow(dead_code)] // `counted` is a test's
 #[path = "../../build/uniforms.rs"]
 mod uniforms;
 

@@ -771,7 +771,7 @@ fn look(
             match basin.filter(|_| sheet.is_none()) {
                 Some(basin) => {
                     progress
-                        .say("a basin round the water, which fills a box (--scene ground: none)");
+                        .say("a basin round the water, which a box holds (--scene ground: none)");
                     basin
                 }
                 None => stage::ground_under(&bounds, eye, set),

@@ -1,4 +1,4 @@
-//! The scene behind the water: from a file, a basin around water that fills a box, or a paved ground below it.
+//! The scene behind the water: from a file, a basin around water that a box holds, or a paved ground below it.
 
 use std::path::Path;
 
@@ -162,7 +162,8 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
     (held >= 2).then_some(sides.map(|(side, _)| side))
 }
 
-/// A basin round water that fills a box: low walls towards the eye, high ones behind; all low where it is seen from all sides. `None`
+/// A basin around water that a box holds: low walls towards the camera, high ones behind it; all low if the camera orbits. Panes of
+/// glass stand where water leans higher, and `spouts` where jets begin. `None`
 /// where no box holds the particles.
 pub fn basin_round(
     frames: &[&[[f32; 3]]],
@@ -422,6 +423,37 @@ mod tests {
         let pile: Vec<_> = pile.iter().map(|p| [p[0] - p[2], p[1], p[0] + p[2]]).collect();
         assert!(basin(&pile).is_none(), "a pile leans on nothing");
         assert!(basin(&[[0.0; 3]]).is_none());
+    }
+
+    #[test]
+    fn panes_hold_what_would_stand_in_the_air() {
+        let edges = |points: &[[f32; 3]]| -> Vec<f32> {
+            let bounds = Bounds::of_bulk(points).unwrap();
+            let seen_from = (Vec3::new(9.0, 5.0, 9.0), false);
+            let scene = basin_round(&[points], &bounds, 0.1, seen_from, SetArg::Pool, &[]).unwrap();
+            let panes = scene.meshes.iter().filter(|mesh| mesh.name == "pane edge");
+            let top = |mesh: &Mesh| {
+                let points = mesh.positions.iter();
+                let heights = points.map(|p| mesh.transform.transform_point3((*p).into()).y);
+                heights.fold(f32::MIN, f32::max)
+            };
+            panes.map(top).collect()
+        };
+        assert!(edges(&block(false)).is_empty(), "the walls hold it");
+        // A sheet as high as 2 on the wall towards the eye, along all of it; then one as high of a few drops.
+        let on_wall = |rows: usize| {
+            let at = |i: usize| [1.9, 2.0 - 0.1 * (i / 30) as f32, 0.1 * (i % 30) as f32];
+            let mut all = block(false);
+            all.extend((0..30 * rows).map(at));
+            all
+        };
+        let found = edges(&on_wall(14));
+        // Four upper edges, and two upright ones each but at the far corner.
+        assert_eq!(found.len(), 10);
+        // As high as all but four rows, and all alike.
+        assert!(found.iter().all(|top| (1.6..2.0).contains(top)), "{found:?}");
+        assert!(found.iter().all(|top| (top - found[0]).abs() < 1.0e-4), "{found:?}");
+        assert!(edges(&on_wall(3)).is_empty(), "drops");
     }
 
     #[test]
