@@ -56,6 +56,7 @@ pub struct FrameUniforms {
     pub spray: [f32; 4],
     pub spray_color: [f32; 4],
     pub spray_cloud: [f32; 4],
+    pub spray_mist: [f32; 4],
     pub shadow: [[f32; 4]; 4],
     pub to_light: [[f32; 4]; 4],
     pub shadow_map: [f32; 4],
@@ -131,6 +132,7 @@ shader::assert_layout!(
         spray,
         spray_color,
         spray_cloud,
+        spray_mist,
         shadow,
         to_light,
         shadow_map,
@@ -405,6 +407,7 @@ impl FrameUniforms {
             spray: spray_shape(&frame.settings.spray, water),
             spray_color: spray_color(&frame.settings.spray, light),
             spray_cloud: spray_cloud(&frame.settings.spray, water),
+            spray_mist: spray_mist(&frame.settings.spray),
             shadow: shadow
                 .map_or(Mat4::ZERO, |s| TO_PLACE * s.clip() * to_world)
                 .to_cols_array_2d(),
@@ -594,6 +597,10 @@ fn spray_shape(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
 
 fn spray_cloud(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
     [-(1.0 - spray.mist).ln(), spray.mist_size * water.spacing, spray.stretch, 0.0]
+}
+
+fn spray_mist(spray: &SprayLook) -> [f32; 4] {
+    [spray.mist_contrast, spray.shade, 0.0, 0.0]
 }
 
 fn spray_color(spray: &SprayLook, light: &Light) -> [f32; 4] {

@@ -52,8 +52,7 @@ void main() {
         float share = amounts[push.foam_word + index * push.foam_stride];
         foam = share > 0.0 ? min(share, 1.0) : 0.0;
     }
-    // Spray is thin: it counts half as much as foam.
-    vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + 0.5 * spray_share * (1.0 - bulk_share * foam));
+    vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + frame.spray_mist.y * spray_share * (1.0 - bulk_share * foam));
     // Random numbers come from the position, so they need no ids and do not depend on the order.
     uvec3 bits = floatBitsToUint(position);
     chance = chance_of(bits.x, chance_of(bits.y, bits.z));

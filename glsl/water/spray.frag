@@ -11,6 +11,7 @@
 layout(location = 4) flat in vec2 amount;
 layout(location = 5) flat in int aside;
 layout(location = 6) flat in uint chance;
+layout(location = 7) flat in vec3 grain;
 
 // 1: sums in single precision, 0: in half precision.
 layout(constant_id = 34) const uint SINGLE = 1;
@@ -21,6 +22,36 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 
 layout(location = 0) out vec2 optical_depth; // optical depth: all, and the sunlit part
+
+// Logarithm of the mean of exp(a n) over a^2, for value noise n and amplitudes a up to 2: within 0.3 %.
+const float RAISED = 0.0895;
+
+float lattice_value(ivec2 at, uint salt) {
+    return float(pcg(uint(at.x) + pcg(uint(at.y) + salt)) >> 8) * (2.0 / 16777216.0) - 1.0;
+}
+
+// Value noise, -1 to 1.
+float value_noise(vec2 p, uint salt) {
+    vec2 cell = floor(p);
+    vec2 f = p - cell;
+    f *= f * (3.0 - 2.0 * f);
+    ivec2 at = ivec2(cell);
+    float low = mix(lattice_value(at, salt), lattice_value(at + ivec2(1, 0), salt), f.x);
+    float high = mix(lattice_value(at + ivec2(0, 1), salt), lattice_value(at + ivec2(1), salt), f.x);
+    return mix(low, high, f.y);
+}
+
+// Density of mist over its mean. Drops come in clumps of all sizes: the logarithm is a sum of octaves of noise.
+float clumps(vec2 place) {
+    vec2 at = place * grain.xy + vec2(chance & 0xFFFFu, chance >> 16) / 65536.0;
+    float sum = 0.0;
+    for (uint k = 0u; float(k) < grain.z; ++k) {
+        float amplitude = frame.spray_mist.x * min(grain.z - float(k), 1.0);
+        sum += amplitude * (value_noise(at, chance + k) - RAISED * amplitude);
+        at *= 2.0;
+    }
+    return exp(sum);
+}
 
 void main() {
     vec2 place;
@@ -44,6 +75,6 @@ void main() {
     // Droplets surround particles that may also be water, so those just behind the surface are visible.
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
     // The kernel of the thickness, because the thesis' exp(-2 rho^2) alone ends with an edge.
-    float added = before * amount.x * thickness_kernel(dot(place, place));
+    float added = before * amount.x * clumps(place) * thickness_kernel(dot(place, place));
     optical_depth = floor(added * vec2(1.0, amount.y) * STEPS + rounding_up(chance, pixel)) / STEPS;
 }

@@ -19,14 +19,18 @@ layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out vec2 amount; // optical depth at its centre; visibility of the sun
 layout(location = 5) flat out int aside;   // distance in pixels to water beside it
-layout(location = 6) flat out uint chance; // for stochastic rounding
+layout(location = 6) flat out uint chance; // random bits
+layout(location = 7) flat out vec3 grain;  // cells of the mist's noise per half-axis; number of octaves
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
 // Salt of the numbers that a particle has once.
 const uint SPINDLE = 4096u;
-// Fraction of droplets and of mist of a particle that is entirely spray.
+// Fraction of the droplets of a particle that is entirely spray. Its fraction of mist is the cube.
 const float LEAST_TORN = 0.3;
+// Noise of mist: how much longer its cells are along the motion, and the maximum number of octaves.
+const float DRAWN_OUT = 1.5;
+const float OCTAVES = 5.0;
 // Distance at which water is looked up, in drawn radii.
 const float ASIDE = 1.5;
 
@@ -79,12 +83,17 @@ void main() {
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
     vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
-    float thick = mist ? frame.spray_cloud.x * torn : frame.spray.x;
+    float thick = mist ? frame.spray_cloud.x * torn * torn * torn : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
     // One value for all colours: around it there is more foam than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
+    // Cells are one drawn radius wide, and lengthened by the streak. The smallest octave is a pixel wide.
+    vec2 cell = frame.particle.x * vec2(DRAWN_OUT, 1.0);
+    cell.x += DRAWN_OUT * speed * frame.spray.w;
+    float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(cell.y / pixel), 0.0, OCTAVES) : 0.0;
+    grain = vec3(axes / cell, mist ? octaves : 0.0);
     along = e1 / axes.x;
     across = e2 / axes.y;
 

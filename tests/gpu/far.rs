@@ -88,7 +88,7 @@ fn spray_of(case: &Foamy) -> f64 {
     let look = &case.shot.settings.spray;
     let many = f64::from(look.droplets);
     // Of particles that are nothing but spray: the part of the droplets that they have, as much larger as they are fewer.
-    let torn = 0.3;
+    let torn = 0.3_f64;
     // Half-axis of one that covers as much as 0.6 of them. Of those but the first, which is mist, k is there where a half and
     // that part of a fifth to all of them, evenly, are more than k.
     let whole = f64::from(look.size) * 0.656;
@@ -96,7 +96,7 @@ fn spray_of(case: &Foamy) -> f64 {
     let drawn: f64 = (1..look.droplets).map(|k| 1.0 - part(k).clamp(0.0, 1.0)).sum();
     let droplets = drawn / (torn * 0.6 * many) * whole * whole * SQUARES / 0.513;
     let depth = |taken: f32| -(1.0 - f64::from(taken)).ln();
-    let mist = torn * depth(look.mist) * f64::from(look.mist_size).powi(2);
+    let mist = torn.powi(3) * depth(look.mist) * f64::from(look.mist_size).powi(2);
     std::f64::consts::PI * KERNEL * (depth(look.opacity) * droplets + mist)
 }
 

@@ -100,7 +100,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 56] = [
+    let changes: [Change; 58] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -144,6 +144,8 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("spray.stretch", |s| s.spray.stretch = 0.05),
         ("spray.mist", |s| s.spray.mist = 0.3),
         ("spray.mist_size", |s| s.spray.mist_size = 1.0),
+        ("spray.mist_contrast", |s| (s.spray.mist, s.spray.mist_contrast) = (0.05, 1.5)),
+        ("spray.shade", |s| s.spray.shade = 4.0),
         ("spray.shutter", |s| s.spray.shutter = 0.1),
         ("spray.color", |s| s.spray.color = [0.5; 3]),
         ("spray.additive", |s| s.spray.additive = true),

@@ -111,6 +111,7 @@ impl Sprayed {
             spread: f64::from(look.spread),
             stretch: f64::from(look.stretch),
             mist: [f64::from(look.mist), f64::from(look.mist_size)],
+            contrast: f64::from(look.mist_contrast),
             densities: [all, none],
             shutter: f64::from(look.shutter),
             sums: Sums::SINGLE,
@@ -199,7 +200,7 @@ fn spray_of_all_settings_is_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     let mut rig = Rig::new(&gpu, &spraying(size));
-    let changes: [Change; 19] = [
+    let changes: [Change; 22] = [
         ("default", |look| *look = SprayLook::default()),
         ("source", |look| *look = SprayLook::SOURCE),
         ("spread-0", |look| look.spread = 0.0),
@@ -210,6 +211,12 @@ fn spray_of_all_settings_is_the_twins() {
         ("stretch-1", |look| look.stretch = 1.0),
         ("no mist", |look| look.mist = 0.0),
         ("mist-0.9", |look| (look.mist, look.mist_size) = (0.9, 2.0)),
+        ("mist-clumps", |look| (look.mist, look.mist_contrast) = (0.5, 1.0)),
+        ("mist-clumps-2", |look| (look.mist, look.mist_size, look.mist_contrast) = (0.3, 8.0, 2.0)),
+        ("mist-streaks", |look| {
+            (look.mist, look.mist_size, look.mist_contrast) = (0.9, 3.0, 2.0);
+            look.shutter = 0.3;
+        }),
         ("shutter-0", |look| look.shutter = 0.0),
         ("shutter-1", |look| look.shutter = 1.0),
         ("opacity-99", |look| look.opacity = 0.99),

@@ -49,6 +49,8 @@ pub struct Light {
     pub spacing: f64,
     /// Below the first no water, from the second on all of it, from the third on no spray.
     pub densities: [f64; 3],
+    /// What a particle's spray takes of the light over what as much foam does.
+    pub shade: f64,
     /// Of the smoothing, in drawn radii.
     pub width: f64,
     pub falloff: f64,
@@ -161,7 +163,7 @@ impl Light {
         };
         let own = bulk * foam;
         let water = bulk * (exact(1.0) - foam);
-        let foam = own + exact(0.5) * spray * (exact(1.0) - own);
+        let foam = own + exact(self.shade) * spray * (exact(1.0) - own);
         (water.v > 0.0 || foam.v > 0.0).then_some(Share { bulk, parts: [water, foam] })
     }
 

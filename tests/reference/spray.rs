@@ -13,7 +13,7 @@
 use super::classify;
 use super::foam::{LooseEllipse, Off, pixels, ray_off, scene_depth};
 use super::thickness::kernel;
-use super::{Image, View, smoothstep};
+use super::{Image, View, smoothstep, whole_steps};
 use crate::support::rounded::{self, Rounded, exact, off};
 use crate::support::tolerance::{Between, U};
 use glam::DVec3;
@@ -45,6 +45,12 @@ const SQUARES: f64 = 0.513 * 0.6;
 const LEAST_TORN: f64 = 0.3;
 /// Of the random numbers of a particle.
 const SPINDLE: u32 = 4096;
+/// Cells of the noise in mist are a drawn radius wide, and along the motion this many times that and a streak.
+const DRAWN_OUT: f64 = 1.5;
+/// Octaves at most.
+const OCTAVES: u32 = 5;
+/// `ln mean(exp(a n)) / a²` of the noise n.
+const RAISED: f64 = 0.0895;
 
 /// How droplets are summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,6 +137,8 @@ pub struct Settings {
     pub stretch: f64,
     /// Of mist: the light that its middle takes away, and its half-axis in spacings.
     pub mist: [f64; 2],
+    /// The amplitude of an octave of the logarithm of the mist's density.
+    pub contrast: f64,
     /// Parts of the rest density: up to the first all is spray, from the second on nothing.
     pub densities: [f64; 2],
     /// Seconds of motion that a droplet streaks over.
@@ -226,8 +234,53 @@ struct Droplet {
     amount: Rounded,
     /// How many pixels beside it water is asked for: two numbers where rounding decides.
     aside: [isize; 2],
+    /// Of mist that is not smooth.
+    grain: Option<Grain>,
     /// Whether it is drawn, and surely.
     drawn: More,
+}
+
+/// What makes mist clumpy.
+#[derive(Clone, Copy, Debug)]
+struct Grain {
+    /// Cells in a half-axis.
+    cells: [Rounded; 2],
+    octaves: Rounded,
+    contrast: f64,
+    /// Random bits of the particle.
+    bits: u32,
+}
+
+impl Grain {
+    /// The density over its mean at a place in half-axes.
+    fn at(&self, place: [Rounded; 2]) -> Rounded {
+        let begin = [self.bits % 65536, self.bits / 65536].map(|n| exact(f64::from(n) / 65536.0));
+        let mut at = [0, 1].map(|i| place[i] * self.cells[i] + begin[i]);
+        let mut sum = exact(0.0);
+        for k in 0..OCTAVES {
+            let part = (self.octaves - exact(f64::from(k))).clamp(0.0, 1.0);
+            let amplitude = off(self.contrast, 1.0) * part;
+            let noise = value_noise(at, self.bits.wrapping_add(k));
+            sum = sum + amplitude * (noise - off(RAISED, 1.0) * amplitude);
+            at = at.map(|x| exact(2.0) * x);
+        }
+        sum.exp()
+    }
+}
+
+/// Numbers of -1 to 1 on a lattice, between which it is smooth: no slope is more than 1.5 times their difference of 2.
+fn value_noise(at: [Rounded; 2], salt: u32) -> Rounded {
+    let cell = at.map(|x| x.v.floor());
+    let fade = [0, 1].map(|i| smoothstep(0.0, 1.0, at[i].v - cell[i]));
+    let number = |x: i32, y: i32| {
+        let [x, y] = [cell[0] as i32 + x, cell[1] as i32 + y].map(|n| n as u32);
+        let bits = classify::pcg(x.wrapping_add(classify::pcg(y.wrapping_add(salt))));
+        f64::from(bits >> 8) / 8_388_608.0 - 1.0
+    };
+    let row = |y| number(0, y) * (1.0 - fade[0]) + number(1, y) * fade[0];
+    let v = row(0) * (1.0 - fade[1]) + row(1) * fade[1];
+    // The fraction is exact, the fade three products and two sums; each mix three.
+    Rounded { v, e: (3.0 * (at[0].e + at[1].e)).min(2.0) + 24.0 * U }
 }
 
 /// Those of a particle.
@@ -258,7 +311,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
         if many && k > 0 {
             h = h * (exact(1.0) / torn.sqrt());
         }
-        let (mut one, pixel) = droplet(p, v, (h, thick), view, settings);
+        let (mut one, pixel, speed) = droplet(p, v, (h, thick), view, settings);
         let twice = exact(2.0) * (one.ellipse.a + pixel);
         let kept = if many {
             exact(0.5) + torn * off((0.2 + 0.8 * own(3)) * f64::from(settings.droplets), 3.0)
@@ -269,7 +322,23 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             .and(more(kept, exact(f64::from(k))))
             .and(more(depth, twice))
             .and(more(depth, near));
-        one.amount = if many && k == 0 { share * torn * one.amount } else { share * one.amount };
+        if many && k == 0 {
+            one.amount = share * torn * torn * torn * one.amount;
+            let radius = off(RADIUS * settings.spacing, 3.0);
+            let (a, b) = (one.ellipse.a, one.ellipse.b);
+            let streak = speed * off(settings.shutter, 1.0);
+            let along = off(DRAWN_OUT, 1.0) * radius + off(DRAWN_OUT, 1.0) * streak;
+            let octaves = (radius / pixel).log2().clamp(0.0, f64::from(OCTAVES));
+            let bits = whole_steps::chance(particle.id, 0);
+            one.grain = (settings.contrast > 0.0).then_some(Grain {
+                cells: [a / along, b / radius],
+                octaves,
+                contrast: settings.contrast,
+                bits,
+            });
+        } else {
+            one.amount = share * one.amount;
+        }
         one
     });
     all.filter(|one| one.drawn.maybe).collect()
@@ -308,7 +377,8 @@ fn placed(
     Off { v, e: c.e + eye.e + from + U * v.length() }
 }
 
-/// A droplet at a place, at a velocity, of a size and an optical depth, all of it spray; and the world width of a pixel.
+/// A droplet at a place, at a velocity, of a size and an optical depth, all of it spray; the world width of a pixel, and the
+/// speed across the view.
 ///
 /// By the error of the motion m the axes turn in their plane, straight at the eye by any angle. Out
 /// of it they do not go, whatever is left of m there: a circle stays one.
@@ -318,7 +388,7 @@ fn droplet(
     (h, thick): (Rounded, Rounded),
     view: &View,
     settings: &Settings,
-) -> (Droplet, Rounded) {
+) -> (Droplet, Rounded, Rounded) {
     let n = p.normalize();
     let along = v.dot(n);
     let m = v.v - along.v * n.v;
@@ -328,7 +398,11 @@ fn droplet(
     let towards = off(HEAD_ON * v.v.length(), 4.0);
     let moving = more(speed, at_least(off(STILL * settings.spacing, 1.0), towards));
     let angle = m.e / (m.v.length() - m.e).max(f64::MIN_POSITIVE);
-    let turn = if moving.surely { angle } else { 1.0 };
+    let turn = match moving {
+        More { surely: true, .. } => angle,
+        More { maybe: true, .. } => 1.0,
+        _ => 0.0,
+    };
     let side = if n.v.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
     let e1 = if moving.is { m.v.normalize() } else { side.cross(n.v).normalize() };
     // A cross product over the least sine, 0.43, and a quotient.
@@ -344,7 +418,7 @@ fn droplet(
     let drawn = More { is: true, surely: true, maybe: true };
     let radii = off(ASIDE * RADIUS * settings.spacing, 4.0) / pixel + exact(0.5);
     let aside = [radii.v - radii.e, radii.v + radii.e].map(|n| (n as isize).clamp(1, 64));
-    (Droplet { ellipse, amount, aside, drawn }, pixel)
+    (Droplet { ellipse, amount, aside, grain: None, drawn }, pixel, speed)
 }
 
 /// The depth of the body of water that hides spray in a pixel: of a drop that shows what is behind it
@@ -418,7 +492,8 @@ pub fn spray_in_sun(
             });
             let apart = (before[0].v - before[1].v).abs();
             let before = Rounded { e: before[0].e.max(before[1].e) + apart, ..before[0] };
-            let (top, q) = (before * one.amount, hit.rho_squared);
+            let clumps = one.grain.map_or(exact(1.0), |grain| grain.at([hit.x, hit.y]));
+            let (top, q) = (before * one.amount * clumps, hit.rho_squared);
             if one.drawn.is && q.v <= 1.0 && hit.k.v >= near && hit.k.v < hidden {
                 *depth.at_mut(x, y) += top.v * kernel(q.v);
             }
@@ -475,6 +550,7 @@ mod tests {
             spread: 0.0,
             stretch: 0.0,
             mist: [0.1, 0.4],
+            contrast: 0.0,
             densities: [0.6, 0.85],
             shutter: 1.0 / 60.0,
             sums: Sums { step: 0.0, ..Sums::HALF },
@@ -518,12 +594,30 @@ mod tests {
         }
         // Droplets are as much together in the mean, but for the first, which is mist: in 400 particles whose numbers are
         // even from a fifth to all within 2 %, their sizes within 1 %.
-        let mist = 0.3 * (0.9_f64.ln() / 0.5_f64.ln()) * (0.4 * 0.5 / h).powi(2);
+        let mist = 0.3_f64.powi(3) * (0.9_f64.ln() / 0.5_f64.ln()) * (0.4 * 0.5 / h).powi(2);
         let many = Settings { droplets: 64, spread: 1.5, stretch: 0.02, ..settings };
         let velocity = DVec3::new(5.0, 0.0, 2.0);
         let all: Vec<_> = (0..400).map(|id| Particle { id, velocity, ..particle(at) }).collect();
         let ratio = total(&all, &view, &many) * area / (400.0 * expected * (1.0 + mist));
         assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
+    }
+
+    /// Clumps take as much light as smooth mist: to the contrast of 2 within 4 % and the chance of 40000 particles.
+    #[test]
+    fn clumps_keep_the_mean() {
+        for (contrast, octaves) in [(0.5, 5.0), (1.0, 1.0), (1.7, 2.5), (2.0, 5.0)] {
+            let all = (0..40_000_u32).map(|id| {
+                let bits = whole_steps::chance(id, 0);
+                let cells = [exact(7.0), exact(5.0)];
+                Grain { cells, octaves: exact(octaves), contrast, bits }.at([exact(0.3); 2]).v
+            });
+            let all: Vec<f64> = all.collect();
+            let mean = all.iter().sum::<f64>() / all.len() as f64;
+            let square = all.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / all.len() as f64;
+            let chance = 4.0 * (square / all.len() as f64).sqrt();
+            assert!((mean - 1.0).abs() < 0.04 + chance, "{contrast}, {octaves}: {mean}");
+            assert!(square > 0.03, "{contrast}, {octaves}: {square}");
+        }
     }
 
     #[test]
@@ -622,7 +716,7 @@ mod tests {
             let pixel = -p.z * scale.abs().max_element();
             let a = (h + 0.5 * speed * settings.shutter as f32).max(0.7 * pixel);
             let b = h.max(0.7 * pixel);
-            let misty = if mist { torn } else { 1.0 };
+            let misty = if mist { torn * torn * torn } else { 1.0 };
             let amount = share * misty * -(1.0 - taken).ln() * h * h / (a * b);
             if -p.z <= (2.0 * (a + pixel)).max(near) {
                 continue;

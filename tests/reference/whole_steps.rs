@@ -11,7 +11,7 @@ const SEED: u32 = 0x57E9;
 const PLASTIC: f64 = 1.324_717_957_244_746;
 
 /// Bits of a particle by what it is known by.
-fn chance(id: u32, number: u32) -> u32 {
+pub fn chance(id: u32, number: u32) -> u32 {
     pcg(id.wrapping_add(pcg(number.wrapping_add(pcg(SEED)))))
 }
 

@@ -55,6 +55,7 @@ fn the_maps_are_the_twins() {
                 };
                 case.shot.densities = Some((0..n).map(density).collect());
             }
+            case.shot.settings.spray.shade = [0.5, 0.125][i / 2 % 2];
             case.amounts[7][0] = f32::NAN;
             case.amounts[8][0] = 3.0;
             case.shot.positions[3][1] = f32::NAN;

@@ -69,6 +69,7 @@ fn twin(shot: &Shot, config: &Config) -> Light {
         texels: config.cast.expect("maps") as usize,
         spacing: f64::from(water.spacing),
         densities: [density(first), density(second), density(third)],
+        shade: f64::from(shot.settings.spray.shade),
         width: f64::from(water.smoothing_width),
         falloff: f64::from(water.depth_falloff),
         extinction: match water.medium {

@@ -80,8 +80,8 @@ pub struct LooseHit {
     /// The depth.
     pub k: Rounded,
     /// The place in half-axes.
-    pub(super) x: Rounded,
-    pub(super) y: Rounded,
+    pub x: Rounded,
+    pub y: Rounded,
     /// The square of its distance from the centre.
     pub rho_squared: Rounded,
     /// Whether it does meet it, before the scene.

@@ -12,7 +12,7 @@ use crate::failure::{Failure, Outcome};
 use crate::foam;
 use crate::output;
 use crate::progress::Progress;
-use crate::render::{foam_of_caches, spray_of_caches};
+use crate::render::{foam_of_caches, impact_speed, spray_of_caches};
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 use crate::stage;
@@ -60,7 +60,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
         foam_of_caches(&mut settings.foam, SPACING);
-        spray_of_caches(&mut settings.spray, SPACING);
+        let speed = impact_speed(std::slice::from_ref(&particles));
+        spray_of_caches(&mut settings.spray, SPACING, speed);
         // Its particles are so large that whole ones would be no drops.
         settings.spray.densities = DENSITIES;
     }

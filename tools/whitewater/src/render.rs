@@ -447,10 +447,6 @@ impl Probes {
     /// A word on what is no likely extent of water.
     fn unit_hint(&self) -> Option<String> {
         let extent = self.bounds()?.size().max_element();
-        let fastest = |frame: &Particles| {
-            let speeds = frame.velocities.as_ref()?.iter().map(|v| Vec3::from(*v).length());
-            foam::quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
-        };
         placing::hint(extent, self.frames.iter().filter_map(fastest).reduce(f32::max))
     }
 
@@ -470,6 +466,25 @@ impl Probes {
     }
 }
 
+/// The speed of the fastest of its particles, m/s: the 99 % quantile. None without velocities.
+fn fastest(frame: &Particles) -> Option<f32> {
+    let speeds = frame.velocities.as_ref()?.iter().map(|v| Vec3::from(*v).length());
+    foam::quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
+}
+
+/// The speed at which water of a sequence meets things, m/s: that of its fastest particles, or, where that is more or
+/// there are no velocities, of a fall from its highest particles to its lowest.
+pub fn impact_speed(frames: &[Particles]) -> f32 {
+    let fall = |frame: &Particles| {
+        let heights: Vec<f32> =
+            frame.positions.iter().map(|p| p[1]).filter(|y| y.is_finite()).collect();
+        let [low, high] = [0.02, 0.998].map(|part| foam::quantile(heights.clone(), part));
+        Some((2.0 * 9.81 * (high? - low?)).sqrt())
+    };
+    let each = frames.iter().flat_map(|frame| [fall(frame), fastest(frame)]);
+    each.flatten().fold(0.0, f32::max)
+}
+
 /// Of spray in caches: what is alone, or nearly, is. Solvers' densities read low at every surface, in a sheet and a jet, so
 /// that the library's 0.85 is met by most of a splash (of the highest tenth of two solid jets by 82 %, by these 23 %). One
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
@@ -479,16 +494,20 @@ const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
 /// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
 /// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
 /// of the time of a fall through a spacing.
-pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32) {
+/// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
+pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32, speed: f32) {
+    let mist = 0.14 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         it.densities = SPRAY_DENSITIES;
-        it.opacity = 0.85;
+        it.opacity = 0.7;
         it.droplets = 64;
-        it.size = 0.25;
+        it.size = 0.17;
         it.spread = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
-        it.mist = 0.045;
-        it.mist_size = 1.6;
+        it.mist = mist;
+        it.mist_size = 2.5;
+        it.mist_contrast = 1.7;
+        it.shade = 2.0;
     });
 }
 
@@ -684,7 +703,7 @@ fn look(
     }
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
-        spray_of_caches(&mut settings.spray, spacing);
+        spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
         foam_of_caches(&mut settings.foam, spacing);
         let wide = bounds.size().x.max(bounds.size().z);
         if wide < SMALL {

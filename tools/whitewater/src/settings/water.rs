@@ -330,6 +330,8 @@ table! {
         stretch: f32,
         mist: f32,
         mist_size: f32,
+        mist_contrast: f32,
+        shade: f32,
         shutter: f32,
         color: [f32; 3],
         additive: bool,
