@@ -530,6 +530,8 @@ pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
 
 /// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
 const SMALL: f32 = 2.0;
+/// The part of the colour of a pool's water that is the water's own, where its tiles are blue.
+const BLUE_TILES: f32 = 0.45;
 /// Metres across above which it is clearer than that, so that its ground is seen: by nature it is dark, and few solvers' units
 /// are metres.
 const LARGE: f32 = 10.0;
@@ -708,7 +710,10 @@ fn look(
         let wide = bounds.size().x.max(bounds.size().z);
         if wide < SMALL {
             settings.water.medium = Medium::CLEAR;
-        } else if wide > LARGE && file.water.medium.is_none() {
+        } else if args.scene.is_none() && args.set.unwrap_or_default() == SetArg::Pool {
+            settings.water.medium = settings.water.medium.thinned(BLUE_TILES);
+        }
+        if wide > LARGE && file.water.medium.is_none() {
             settings.water.medium = settings.water.medium.thinned(LARGE / wide);
             let wide = round(wide);
             progress.say(&format!(
