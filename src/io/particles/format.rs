@@ -31,7 +31,7 @@ pub enum Extension {
     Csv,
     /// `.xyz`, `.txt`, `.asc`, `.pts`: text or raw `f32` triples
     Xyz,
-    /// `.dat`, `.extxyz`, `.out`, `.tab`: text
+    /// `.dat`, `.extxyz`, `.out`, `.tab`, `.tec`, `.tp`: text
     Text,
     /// `.json`
     Json,
@@ -60,7 +60,7 @@ impl Extension {
             Some("npy") => Self::Npy,
             Some("npz") => Self::Npz,
             Some("csv" | "tsv") => Self::Csv,
-            Some("dat" | "extxyz" | "out" | "tab") => Self::Text,
+            Some("dat" | "extxyz" | "out" | "tab" | "tec" | "tp") => Self::Text,
             Some("xyz" | "txt" | "asc" | "pts") => Self::Xyz,
             Some("json" | "jsonl" | "ndjson") => Self::Json,
             Some("bobj") => Self::Bobj,
@@ -134,6 +134,8 @@ pub enum Format {
     Csv,
     /// Text, three numbers a line
     Xyz,
+    /// Zones of Tecplot, text
+    Tecplot,
     /// A dump of LAMMPS or LIGGGHTS, text
     Lammps,
     /// Little-endian `f32` triples without a header
@@ -181,6 +183,7 @@ impl std::fmt::Display for Format {
             Self::Npz => f.write_str("NPZ"),
             Self::Csv => f.write_str("CSV"),
             Self::Xyz => f.write_str("XYZ, text"),
+            Self::Tecplot => f.write_str("Tecplot, text"),
             Self::Lammps => f.write_str("LAMMPS dump, text"),
             Self::RawF32 => f.write_str("XYZ, raw little-endian f32"),
             Self::Json => f.write_str("JSON"),
