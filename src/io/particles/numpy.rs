@@ -348,7 +348,11 @@ pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
         table.columns.extend(columns);
     }
     table.warnings.append(&mut chosen.warnings);
-    table.assemble(Format::Npz)
+    let mut particles = table.assemble(Format::Npz)?;
+    if let (Some(name), Some((_, names))) = (chosen.positions, particles.meanings.first_mut()) {
+        *names = vec![name];
+    }
+    Ok(particles)
 }
 
 /// The arrays of a zip.
@@ -467,7 +471,10 @@ fn choose<R: Read + std::io::Seek>(
         chosen.positions = able.into_iter().next();
         let name = chosen.positions.clone().unwrap_or_default();
         let more = if others > 0 {
-            format!(", {others} others of its shape are not read")
+            format!(
+                ", {others} others of its shape are not read: names tell what they are (np.savez(file, position=p, \
+                 velocity=v))"
+            )
         } else {
             String::new()
         };

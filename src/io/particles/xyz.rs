@@ -428,10 +428,10 @@ impl RowReader for Lines<'_> {
                     .into_iter()
                     .for_each(|c| c.data.stretch_last(*origin, *side));
             }
-            if let Some(Zones { column: Some(column), index }) = &self.zones {
-                if let Some(column) = columns.get_mut(*column) {
-                    column.data.push_number(*index);
-                }
+            if let Some(Zones { column: Some(column), index }) = &self.zones
+                && let Some(column) = columns.get_mut(*column)
+            {
+                column.data.push_number(*index);
             }
             self.rows += 1;
             return Ok(true);
