@@ -1,5 +1,6 @@
 //! Particles of a frame, and the foam step on their motion.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::gpu::memory::MemoryLocation;
@@ -497,25 +498,37 @@ impl Headless {
         result
     }
 
+    /// Draws only some of the uploaded particles, by index; `None`: all. Steps take all of them.
+    pub fn show(&mut self, some: Option<Range<u32>>) {
+        self.shown = some;
+    }
+
     /// The particles as a frame takes them.
     pub(super) fn streams(&self) -> Result<Particles, Error> {
         let Some(positions) = &self.positions else {
             return Err(Error::bad("particles", "none uploaded"));
         };
-        let foam = self.foam.as_ref().filter(|foam| foam.stepped).map(|foam| Stream {
-            buffer: foam.state.foam(),
-            size: 8 * u64::from(self.renderer.config().max_particles),
-            offset: 0,
-            stride: 8,
+        let Range { start, end } = self.shown.clone().unwrap_or(0..self.count);
+        let first = start.min(self.count);
+        let count = end.min(self.count).saturating_sub(first);
+        let some = |all: Stream| Stream { offset: u64::from(first) * u64::from(all.stride), ..all };
+        let of = |buffer: &Buffer, stride| some(stream(buffer, stride));
+        let foam = self.foam.as_ref().filter(|foam| foam.stepped).map(|foam| {
+            some(Stream {
+                buffer: foam.state.foam(),
+                size: 8 * u64::from(self.renderer.config().max_particles),
+                offset: 0,
+                stride: 8,
+            })
         });
         Ok(Particles {
-            densities: self.densities.as_ref().map(|buffer| stream(buffer, 4)),
-            velocities: self.velocities.as_ref().map(|buffer| stream(buffer, 12)),
-            ids: self.ids.as_ref().map(|buffer| stream(buffer, 4)),
+            densities: self.densities.as_ref().map(|buffer| of(buffer, 4)),
+            velocities: self.velocities.as_ref().map(|buffer| of(buffer, 12)),
+            ids: self.ids.as_ref().map(|buffer| of(buffer, 4)),
             foam,
             before: HOST_WRITE,
             after: HOST_WRITE,
-            ..Particles::new(stream(positions, 12), Count::Cpu(self.count))
+            ..Particles::new(of(positions, 12), Count::Cpu(count))
         })
     }
 }

@@ -20,6 +20,7 @@ mod stage;
 mod submit;
 mod transfer;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use ash::vk;
@@ -109,6 +110,8 @@ pub struct Headless {
     region: Option<Region>,
     previous: Option<Previous>,
     count: u32,
+    /// The particles that are drawn, by index; `None`: all.
+    shown: Option<Range<u32>>,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
     levels: Option<SmoothingLevels>,
@@ -162,6 +165,7 @@ impl Headless {
             region: None,
             previous: None,
             count: 0,
+            shown: None,
             layers: Vec::new(),
             counts: None,
             levels: None,

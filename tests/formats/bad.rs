@@ -95,6 +95,21 @@ fn unknown_extension() {
         &["unknown extension", "1 2 3"],
     );
     assert!(matches!(error, ReadError::UnknownFormat { .. }));
+    // Rows of numbers are positions, also with names, or with a count and a comment.
+    let rows = "0.5 1 2\n0.5 1 3\n0.5 1 4\n";
+    for head in ["", "# dam\n", "x y z\n", "3\n\n", "3\nframe 1\n"] {
+        let p = read_bytes(format!("{head}{rows}").as_bytes(), Extension::Unknown).unwrap();
+        assert_eq!(p.positions[2], [0.5, 1.0, 4.0], "{head}");
+    }
+    let p = read_bytes(rows.replace(' ', ",").as_bytes(), Extension::Unknown).unwrap();
+    assert_eq!(p.positions.len(), 3);
+    for other in [
+        "a log\n1 2 3\n4 5\n6 7 8\n",
+        "1 2\n3 4\n5 6\n",
+        "one two three\nfour\nfive\n1 2 3\n1 2 3\n1 2 3\n",
+    ] {
+        refused(other.as_bytes(), Extension::Unknown, &["unknown extension"]);
+    }
     // A name that does not fit is no excuse to guess either.
     refused(b"1 2 3\n", Extension::Ply, &["Ply"]);
     refused(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], Extension::Unknown, &[]);

@@ -436,7 +436,17 @@ fn tables_of_tecplot() {
     check("Tecplot", &p);
     check("Tecplot", &read(&text.replace("TITLE = \"dam\"\n", "# dam\n"), Extension::Text));
     let zone = text.split_once("ZONE").unwrap().1.to_string();
-    error(&format!("{text}ZONE{zone}"), Extension::Text, &["several frames", "line 6"]);
+    let next = zone.replace("0.32", "0.36");
+    error(&format!("{text}ZONE{next}"), Extension::Text, &["several frames", "line 6"]);
+    error(&text.replace("F=POINT", "F=BLOCK"), Extension::Text, &["in blocks (line 3)", "POINT"]);
+    // A record over several lines, and names on a line each.
+    let lines = text.replace("\", \"", "\"\n\"").replace(", I=2", "\n I = 2, J=1\n");
+    let mut p = read(&lines, Extension::Csv);
+    p.warnings.clear();
+    check("Tecplot", &p);
+    // A column may have the name.
+    let named = format!("zone x y z\n1 {}", "0 1 2\n");
+    assert_eq!(read(&named, Extension::Xyz).positions, [[0.0, 1.0, 2.0]]);
 }
 
 #[test]

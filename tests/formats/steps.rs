@@ -120,6 +120,199 @@ fn dumps_of_lammps_one_after_the_other() {
     assert!(steps(&folder.put("one.dump", frame(0, true))).unwrap().is_empty());
 }
 
+/// Zones are frames by their times or order; those of one time, or of different names, are parts of one.
+#[test]
+fn zones_of_tecplot() {
+    let folder = Folder::new("tecplot");
+    let head = "TITLE = dam\nVARIABLES = id, x, y, z, vx, vy, vz\n";
+    let frame = |record: &str, i: usize| format!("ZONE {record}\n{}", rows(&cloud(i), "", " "));
+    let file = |record: &dyn Fn(usize) -> String| -> String {
+        (0..3).fold(head.to_string(), |text, i| text + &frame(&record(i), i))
+    };
+    let text =
+        file(&|i| format!("T=\"fluid\", I=9\n STRANDID=1, SOLUTIONTIME = {}", 0.25 * i as f32));
+    check(&folder.put("a.dat", &text), &TIMES);
+    check(&folder.put("a.tec.gz", gzip(text.as_bytes())), &TIMES);
+    check(
+        &folder.put("b.dat", text.replace("ZONE", "VARIABLES = id, x, y, z, vx, vy, vz\nZONE")),
+        &TIMES,
+    );
+    check(&folder.put("c.dat", file(&|i| format!("T=\"t = {} s\"", 0.25 * i as f32))), &TIMES);
+    check(&folder.put("d.dat", file(&|i| format!("T=\"step {i}\""))), &[None; 3]);
+    let commas =
+        |i: usize| frame(&format!("SOLUTIONTIME={}", 0.25 * i as f32), i).replace(' ', ",");
+    let text: String = (0..3).map(commas).collect::<String>().replace("ZONE,", "ZONE ");
+    check(&folder.put("e.csv", format!("{head}{text}")), &TIMES);
+    // Water and walls.
+    let both = |i: usize, time: &str| {
+        frame(&format!("T=\"water\"{time}"), i) + &frame(&format!("T=\"walls\"{time}"), i + 1)
+    };
+    let walls = folder.put("walls.dat", format!("{head}{}", both(0, "")));
+    assert!(steps(&walls).unwrap().is_empty());
+    let all = read_with(&walls, &["zone"]).unwrap();
+    assert_eq!(all.positions.len(), 2 * samples::COUNT - 1);
+    assert_eq!(all.extras[0].values[samples::COUNT - 1..=samples::COUNT], [0.0, 1.0]);
+    assert!(all.warnings[0].contains("water, walls"), "{:?}", all.warnings);
+    let timed: String = (0..2).map(|i| both(i, &format!(", SOLUTIONTIME={i}"))).collect();
+    let timed = folder.put("timed.dat", format!("{head}{timed}"));
+    let found = steps(&timed).unwrap();
+    assert_eq!(found.iter().map(|step| step.time).collect::<Vec<_>>(), [Some(0.0), Some(1.0)]);
+    let second = read_step(&timed, found[1], &["zone"]).unwrap();
+    assert_eq!(second.positions.len(), 2 * samples::COUNT - 3);
+    assert_eq!(second.extras[0].values.iter().sum::<f64>(), (samples::COUNT - 2) as f64);
+}
+
+/// Frames of as many particles each, as arrays hold them.
+fn even(frame: usize) -> Particles {
+    let mut even = samples::cloud();
+    even.positions.iter_mut().for_each(|p| p[0] += frame as f32);
+    even
+}
+
+#[track_caller]
+fn check_even(path: &Path, times: &[Option<f64>], velocities: bool) {
+    let name = path.display();
+    let all = steps(path).unwrap_or_else(|error| panic!("{name}: {error}"));
+    assert_eq!(all.iter().map(|step| step.time).collect::<Vec<_>>(), times, "{name}");
+    for (i, step) in all.iter().enumerate() {
+        let (found, expected) = (read_step(path, *step, &[]).unwrap(), even(i));
+        assert_eq!(found.positions, expected.positions, "{name}: {i}");
+        assert_eq!(found.velocities, expected.velocities.filter(|_| velocities), "{name}: {i}");
+    }
+}
+
+#[test]
+fn arrays_of_frames() {
+    let folder = Folder::new("npy-steps");
+    let floats = |of: &dyn Fn(usize) -> Vec<[f32; 3]>| {
+        let all: Vec<[f32; 3]> = (0..3).flat_map(of).collect();
+        samples::floats(all.as_flattened(), 4, false)
+    };
+    let positions = floats(&|i| even(i).positions);
+    let velocities = floats(&|i| even(i).velocities.unwrap());
+    let count = samples::COUNT;
+    let shape = format!("(3, {count}, 3)");
+    check_even(
+        &folder.put("a.npy", samples::npy("<f4", &shape, false, 1, &positions)),
+        &[None; 3],
+        false,
+    );
+    // Component after component, as `a.transpose(0, 2, 1)` is, and in Fortran's order.
+    let value = |t: usize, n: usize, c: usize| even(t).positions[n][c];
+    let range = |n: usize| 0..n;
+    let turned: Vec<f32> = range(3)
+        .flat_map(|t| range(3).flat_map(move |c| range(count).map(move |n| value(t, n, c))))
+        .collect();
+    let turned = samples::floats(&turned, 4, false);
+    let header = format!("(3, 3, {count})");
+    check_even(
+        &folder.put("b.npy", samples::npy("<f4", &header, false, 1, &turned)),
+        &[None; 3],
+        false,
+    );
+    let fortran: Vec<f32> = range(3)
+        .flat_map(|c| range(count).flat_map(move |n| range(3).map(move |t| value(t, n, c))))
+        .collect();
+    let fortran = samples::floats(&fortran, 4, false);
+    check_even(
+        &folder.put("c.npy", samples::npy("<f4", &shape, true, 1, &fortran)),
+        &[None; 3],
+        false,
+    );
+    // With velocities, ids of all frames, densities of each, and times.
+    let ids: Vec<u8> = (0..count as u32).flat_map(u32::to_le_bytes).collect();
+    let densities = samples::floats(&vec![1000.0; 3 * count], 4, false);
+    let times = samples::floats(&[0.0, 0.25, 0.5], 8, false);
+    let arrays = |name: &'static str| {
+        [
+            (name, samples::npy("<f4", &shape, false, 1, &positions)),
+            ("vel", samples::npy("<f4", &shape, false, 1, &velocities)),
+            ("ids", samples::npy("<u4", &format!("({count},)"), false, 1, &ids)),
+            ("rho", samples::npy("<f4", &format!("(3, {count})"), false, 1, &densities)),
+            ("t", samples::npy("<f8", "(3,)", false, 1, &times)),
+        ]
+    };
+    for (name, packed) in [("positions", true), ("positions", false), ("frames_of_dam", false)] {
+        // What no name tells is the only one of its kind.
+        let known = name == "positions";
+        let all = arrays(name);
+        let some = if known { &all[..] } else { &all[..1] };
+        let path = folder.put(&format!("{name}-{packed}.npz"), samples::npz(some, packed));
+        check_even(&path, if known { &TIMES } else { &[None; 3] }, known);
+        let last = read_step(&path, steps(&path).unwrap()[2], &[]).unwrap();
+        assert_eq!(last.ids.is_some() && last.densities.is_some(), known);
+    }
+    let axes = ["x", "y", "z"].map(|axis| {
+        let c = "xyz".find(axis).unwrap();
+        let all: Vec<f32> =
+            range(3).flat_map(|t| range(count).map(move |n| value(t, n, c))).collect();
+        let all = samples::floats(&all, 4, false);
+        (axis, samples::npy("<f4", &format!("(3, {count})"), false, 1, &all))
+    });
+    check_even(&folder.put("axes.npz", samples::npz(&axes, true)), &[None; 3], false);
+    // One frame is no sequence.
+    let one = samples::npy("<f4", &format!("(1, {count}, 3)"), false, 1, &positions[..12 * count]);
+    assert!(steps(&folder.put("one.npy", one)).unwrap().is_empty());
+    // Cut off within the last frame: the others are read.
+    let cut = samples::npy("<f4", &shape, false, 1, &positions[..positions.len() - 12]);
+    let cut = folder.put("cut.npy", cut);
+    let all = steps(&cut).unwrap();
+    read_step(&cut, all[1], &[]).unwrap();
+    read_step(&cut, all[2], &[]).unwrap_err();
+}
+
+#[test]
+fn json_of_frames() {
+    let folder = Folder::new("json-steps");
+    let list = |of: &[[f32; 3]]| format!("{of:?}");
+    let positions = |i: usize| list(&cloud(i).positions);
+    let columns = |i: usize, time: &str| {
+        let of = cloud(i);
+        let (p, v) = (list(&of.positions), list(of.velocities.as_ref().unwrap()));
+        format!("{{{time}\"positions\": {p}, \"velocities\": {v}, \"id\": {:?}}}", of.ids.unwrap())
+    };
+    let objects = |i: usize| {
+        let of = cloud(i);
+        let row = |k: usize| {
+            let (p, v, id) =
+                (of.positions[k], of.velocities.as_ref().unwrap()[k], of.ids.as_ref().unwrap()[k]);
+            format!("{{\"id\": {id}, \"pos\": {p:?}, \"vel\": {v:?}}}")
+        };
+        format!("[{}]", (0..of.positions.len()).map(row).collect::<Vec<_>>().join(", "))
+    };
+    let all = |of: &dyn Fn(usize) -> String, between: &str| {
+        (0..3).map(of).collect::<Vec<_>>().join(between)
+    };
+    let timed = |i: usize| columns(i, &format!("\"time\": {}, ", 0.25 * i as f32));
+    let list_of = all(&timed, ", ");
+    check(&folder.put("a.json", format!("[{list_of}]")), &TIMES);
+    check(&folder.put("b.json", format!("{{\"dt\": 0.1, \"frames\": [{list_of}]}}")), &TIMES);
+    check(&folder.put("c.jsonl", all(&timed, "\n")), &TIMES);
+    check(&folder.put("c.json.gz", gzip(all(&timed, "\n").as_bytes())), &TIMES);
+    check(&folder.put("d.json", format!("[{}]", all(&objects, ", "))), &[None; 3]);
+    let held =
+        |i: usize| format!("{{\"time\": {}, \"particles\": {}}}", 0.25 * i as f32, objects(i));
+    check(&folder.put("e.json", format!("[{}]", all(&held, ", "))), &TIMES);
+    let named = |i: usize| format!("\"frame_{}\": {}", 8 + i, timed(i));
+    check(&folder.put("f.json", format!("{{{}}}", all(&named, ", "))), &TIMES);
+    // Arrays with one dimension more.
+    let even = |of: &dyn Fn(Particles) -> Vec<[f32; 3]>| all(&|i| list(&of(even(i))), ", ");
+    let p = even(&|of| of.positions);
+    let v = even(&|of| of.velocities.unwrap());
+    let text =
+        format!("{{\"positions\": [{p}], \"velocities\": [{v}], \"times\": [0, 0.25, 0.5]}}");
+    check_even(&folder.put("g.json", text), &TIMES, true);
+    check_even(&folder.put("h.json", format!("[{p}]")), &[None; 3], false);
+    // One frame, however deep.
+    for text in
+        [format!("[{}]", positions(0)), format!("[{}]", columns(0, "")), columns(0, ""), objects(0)]
+    {
+        let path = folder.put("one.json", text);
+        assert!(steps(&path).unwrap().is_empty(), "{}", std::fs::read_to_string(&path).unwrap());
+        assert_eq!(read(&path).unwrap().positions, cloud(0).positions);
+    }
+}
+
 /// Phases in a file each, and the ranks that a PVD has at one time.
 #[test]
 fn files_of_one_number_are_one_frame_where_told() {

@@ -15,10 +15,14 @@ use super::names::is_step;
 use super::plan::About;
 use super::source::{Content, Source, inner_error};
 use super::table::{RowReader, Table};
+use super::tecplot;
 use super::xyz;
 
 pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
     let lines = heading::lines(content)?;
+    if tecplot::is(&lines) {
+        return tecplot::open(content, &lines, asked);
+    }
     let heading = Heading::of(&lines);
     let first = |line: &[u8]| {
         let fields = heading::fields(line, heading.delimiter);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::error::ReadError;
-use super::foreign;
+use super::{foreign, heading};
 
 /// Format hint from a file name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -31,7 +31,7 @@ pub enum Extension {
     Csv,
     /// `.xyz`, `.txt`, `.asc`, `.pts`: text or raw `f32` triples
     Xyz,
-    /// `.dat`, `.extxyz`, `.out`, `.tab`: text
+    /// `.dat`, `.extxyz`, `.out`, `.tab`, `.tec`, `.tp`: text
     Text,
     /// `.json`
     Json,
@@ -60,7 +60,7 @@ impl Extension {
             Some("npy") => Self::Npy,
             Some("npz") => Self::Npz,
             Some("csv" | "tsv") => Self::Csv,
-            Some("dat" | "extxyz" | "out" | "tab") => Self::Text,
+            Some("dat" | "extxyz" | "out" | "tab" | "tec" | "tp") => Self::Text,
             Some("xyz" | "txt" | "asc" | "pts") => Self::Xyz,
             Some("json" | "jsonl" | "ndjson") => Self::Json,
             Some("bobj") => Self::Bobj,
@@ -134,6 +134,8 @@ pub enum Format {
     Csv,
     /// Text, three numbers a line
     Xyz,
+    /// Zones of Tecplot, text
+    Tecplot,
     /// A dump of LAMMPS or LIGGGHTS, text
     Lammps,
     /// Little-endian `f32` triples without a header
@@ -181,6 +183,7 @@ impl std::fmt::Display for Format {
             Self::Npz => f.write_str("NPZ"),
             Self::Csv => f.write_str("CSV"),
             Self::Xyz => f.write_str("XYZ, text"),
+            Self::Tecplot => f.write_str("Tecplot, text"),
             Self::Lammps => f.write_str("LAMMPS dump, text"),
             Self::RawF32 => f.write_str("XYZ, raw little-endian f32"),
             Self::Json => f.write_str("JSON"),
@@ -299,6 +302,7 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
         match hint {
             Extension::Csv => return Ok(Reader::Csv),
             Extension::Xyz | Extension::Text => return Ok(Reader::XyzText),
+            Extension::Unknown if is_table(body) => return Ok(Reader::XyzText),
             _ => {}
         }
     } else if is_readable(bytes)
@@ -314,6 +318,34 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
         return Ok(Reader::VtkXml);
     }
     Err(ReadError::UnknownFormat { found: describe(bytes, hint) })
+}
+
+/// Least number of rows of numbers in a text whose name says nothing.
+const ROWS: usize = 3;
+
+/// Whether a text begins as a table of positions: rows of as many numbers, and before them only the names of their
+/// columns, a count, or comments.
+fn is_table(text: &[u8]) -> bool {
+    let head = text.get(..text.len().min(4096)).unwrap_or(text);
+    // The last line may be cut.
+    let whole = if head.len() < text.len() { head.iter().rposition(|b| *b == b'\n') } else { None };
+    let head = head.get(..whole.unwrap_or(head.len())).unwrap_or(head);
+    let lines = head.split(|b| *b == b'\n').filter(|line| !heading::is_comment(line));
+    let (mut rows, mut columns, mut before) = (0, 0, 0);
+    for line in lines {
+        let delimiter = heading::delimiter(line);
+        let fields = heading::fields(line, delimiter);
+        let numbers = fields.iter().filter(|field| heading::is_number(field, delimiter)).count();
+        // The first column may be an element.
+        let row = fields.len() >= 3 && numbers >= 3 && numbers + 1 >= fields.len();
+        match (rows, row) {
+            (0, false) => before += 1,
+            (0, true) => (rows, columns) = (1, fields.len()),
+            (_, true) if fields.len() == columns => rows += 1,
+            _ => return false,
+        }
+    }
+    rows >= ROWS && before <= 2
 }
 
 /// Whether the beginning can be text: UTF-8 without control characters.

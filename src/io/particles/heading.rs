@@ -9,6 +9,7 @@ use super::bytes::parse_number;
 use super::error::ReadError;
 use super::names::have_positions;
 use super::source::Content;
+use super::tecplot;
 use super::text::Text;
 
 /// Number of lines searched for the names.
@@ -44,7 +45,7 @@ pub(super) fn lines(content: &Content<'_>) -> Result<Vec<Line>, ReadError> {
         let line = line.to_vec();
         lines.push(Line { text: line, start, next: text.at() });
     }
-    Ok(lines)
+    Ok(tecplot::joined(lines))
 }
 
 /// The line without its comment mark, and whether it had one.
@@ -60,26 +61,7 @@ fn uncommented(line: &[u8]) -> (&[u8], bool) {
 /// Whether a line is empty or a comment.
 pub(super) fn is_comment(line: &[u8]) -> bool {
     let (rest, marked) = uncommented(line);
-    marked || rest.is_empty() || is_zone(rest) || begins(rest, b"TITLE")
-}
-
-/// Whether a line is a Tecplot `ZONE` record, which begins its rows.
-pub(super) fn is_zone(line: &[u8]) -> bool {
-    begins(line, b"ZONE")
-}
-
-/// Whether a line begins with a Tecplot keyword.
-fn begins(line: &[u8], word: &[u8]) -> bool {
-    let line = line.trim_ascii_start();
-    let behind = line.get(word.len()..).and_then(<[u8]>::first);
-    let ends = behind.is_none_or(|b| b.is_ascii_whitespace() || *b == b'=');
-    ends && line.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
-}
-
-/// The names in a Tecplot `VARIABLES =` record.
-fn variables(line: &[u8]) -> Option<&[u8]> {
-    let rest = line.get(b"VARIABLES".len()..).filter(|_| begins(line, b"VARIABLES"))?;
-    rest.trim_ascii_start().strip_prefix(b"=")
+    marked || rest.is_empty() || tecplot::is_record(rest)
 }
 
 /// The separator of a line of numbers. A comma is a decimal comma if there is another separator.
@@ -166,7 +148,7 @@ impl Heading {
         let data = |after: usize| lines.iter().skip(after).find(|line| !is_comment(&line.text));
         for (i, line) in lines.iter().enumerate() {
             let (names_line, _) = uncommented(&line.text);
-            let names_line = variables(names_line).unwrap_or(names_line);
+            let names_line = tecplot::variables(names_line).unwrap_or(names_line);
             let row = data(i + 1);
             let separator = row.map_or_else(|| delimiter(names_line), |row| delimiter(&row.text));
             let count = row.map(|row| fields(&row.text, separator).len());

@@ -6,6 +6,9 @@
 //! particles, `{"particles": [...]}`, is read as that array. A file with one JSON value per line is read as
 //! an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Houdini's JSON geometry begins with
 //! `"fileversion"` and is refused.
+//!
+//! Several frames are a list of such lists or objects, such objects by name (`{"frame_1": ..}`), or arrays with
+//! one dimension more (`{"positions": [[[x, y, z], ..], ..]}`): see `json_frames`.
 
 use serde_json::{Map, Value};
 
@@ -14,19 +17,39 @@ use super::bytes::show;
 use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
 use super::names;
-use super::{Format, Particles};
+use super::source::Content;
+use super::{Format, Particles, json_frames};
 
-pub(super) fn read(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
+/// The times of the frames of a file; empty for one frame.
+pub(super) fn times(content: &Content<'_>) -> Result<Vec<Option<f64>>, ReadError> {
+    let mut bytes = Vec::new();
+    content.open(0, content.length())?.fill(content.length(), &mut bytes)?;
+    Ok(json_frames::times(&value(&bytes)?))
+}
+
+fn value(bytes: &[u8]) -> Result<Value, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let value = match parse(bytes) {
+    match parse(bytes) {
         // Only after an error: Python's numbers are rare, and replacing them takes a copy.
         Err(error) => match without_python(bytes) {
-            Some(bytes) => parse(&bytes)?,
-            None => return Err(error),
+            Some(bytes) => parse(&bytes),
+            None => Err(error),
         },
-        Ok(value) => value,
+        Ok(value) => Ok(value),
+    }
+}
+
+pub(super) fn read(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
+    let value = value(bytes)?;
+    let value = match asked.step() {
+        Some(step) => json_frames::one(value, step.index),
+        None => value,
     };
+    let value = json_frames::alone(value);
     let mut table = Table::new(asked);
+    if let Value::Object(map) = &value {
+        table.time = json_frames::time(map);
+    }
     match value {
         Value::Array(rows) => list(rows, &mut table)?,
         Value::Object(map) => object(map, &mut table)?,
@@ -235,7 +258,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
 }
 
 /// Whether a value is a list of objects or of lists.
-fn is_list_of_particles(value: &Value) -> bool {
+pub(super) fn is_list_of_particles(value: &Value) -> bool {
     let first = value.as_array().and_then(|list| list.first());
     first.is_some_and(|first| first.is_object() || first.is_array())
 }

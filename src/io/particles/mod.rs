@@ -53,9 +53,11 @@ mod heading;
 mod index;
 mod join;
 mod json;
+mod json_frames;
 mod lammps;
 mod meaning;
 mod names;
+mod npy_header;
 mod numpy;
 mod parts;
 mod plan;
@@ -67,6 +69,7 @@ mod spacing;
 mod steps;
 mod survey;
 mod table;
+mod tecplot;
 mod text;
 mod vtk_legacy;
 mod vtk_xml;
@@ -198,6 +201,18 @@ fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
     file.take(foreign::START as u64).read_to_end(&mut head).map_err(io)?;
     if let Some(told) = foreign::told(&head) {
         return Err(ReadError::File { path: path.to_path_buf(), reason: Box::new(told) });
+    }
+    // Of several frames no others are held in memory.
+    if asked.step().is_some() {
+        let input = source::Input::new(std::fs::File::open(path).map_err(io)?)?;
+        let mut start = Vec::new();
+        source::Source::new(&input, &input.whole(false)).fill(2, &mut start)?;
+        let gzip = bytes::is_gzip(&start);
+        let read = parts::plan(&input, Extension::from_path(path), gzip, asked)
+            .and_then(|plan| plan.map(plan::Plan::read).transpose());
+        if let Some(read) = read.map_err(|error| parts::named(path, error))? {
+            return Ok(read);
+        }
     }
     let bytes = std::fs::read(path).map_err(io)?;
     read_bytes_asked(&bytes, Extension::from_path(path), asked)

@@ -125,6 +125,22 @@ pub(super) fn is_vector(name: &str) -> bool {
     POSITION.contains(&plain.as_str()) || VELOCITY.contains(&plain.as_str())
 }
 
+/// Whether this is the name of positions.
+pub(super) fn is_position(name: &str) -> bool {
+    POSITION.contains(&plain(name).as_str())
+}
+
+/// Whether this is the name of one component of positions.
+pub(super) fn is_component(name: &str) -> bool {
+    let plain = plain(name);
+    triples(POSITION).any(|names| names.contains(&plain))
+}
+
+/// Whether this is the name of a list of times.
+pub(super) fn is_time(name: &str) -> bool {
+    is_step(name) || ["t", "times", "timesteps", "steps"].contains(&plain(name).as_str())
+}
+
 /// Whether one of these names may be a position, or three or two of them together.
 pub(super) fn may_have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     let whole = |name: &N| POSITION.contains(&plain(name.as_ref()).as_str());

@@ -6,8 +6,8 @@
 //! `[('pos', '<f4', (3,)), ...]`.
 //!
 //! A row is a particle. The array has shape (n, 3), or (3, n) in either order. Two columns are two
-//! dimensions; of six columns the last three are velocities. An array of more dimensions holds frames and is
-//! refused.
+//! dimensions; of six columns the last three are velocities. The first of three dimensions, (t, n, 3), is that
+//! of frames, which are read one by one: see `steps`.
 //!
 //! The reader is our own, because the crate npyz (0.9) brings a whole Python parser with big integers for
 //! three keys, returns values only in the type in which they are stored, and does not check the shape against
@@ -16,36 +16,14 @@
 use std::io::{Cursor as IoCursor, Read};
 
 use super::asked::Asked;
-use super::bytes::{Cursor, show, unpack, unpack_limit};
+use super::bytes::{Cursor, unpack, unpack_limit};
 use super::columns::{Attribute, AttributeType, Column, Data, Table};
 use super::error::{Place, ReadError};
 use super::names;
+use super::npy_header::{Header, One, WIDE, every, header};
 use super::rows::{Field, Layout, Rows};
 use super::source::{self, Check, Input, Packing, Piece, Source};
 use super::{Format, Particles};
-
-/// A field of a structured array, or the whole of a plain one.
-struct Member {
-    name: String,
-    ty: AttributeType,
-    components: usize,
-    /// Byte offset in an element.
-    offset: u64,
-    big_endian: bool,
-}
-
-/// The header of an array.
-struct Header {
-    /// Fields; a plain array has one without a name.
-    members: Vec<Member>,
-    structured: bool,
-    /// Bytes per element.
-    size: u64,
-    fortran: bool,
-    /// Without dimensions of 1 if there are more than two.
-    shape: Vec<u64>,
-    descr: String,
-}
 
 /// An array seen as rows.
 struct Rowed {
@@ -60,9 +38,6 @@ struct Rowed {
 const FRAMES: &str =
     "save a file for each: for i, frame in enumerate(a): np.save(f'frame_{i:04d}.npy', frame)";
 
-/// Least number of columns with which an array of 3 rows is taken as transposed particles.
-const WIDE: u64 = 8;
-
 impl Header {
     fn words(&self) -> String {
         let extents: Vec<_> = self.shape.iter().map(u64::to_string).collect();
@@ -76,6 +51,13 @@ impl Header {
 
     /// `vector`: whether the number of components equals that of dimensions.
     fn rowed(&self, name: &str, vector: bool) -> Result<Rowed, ReadError> {
+        let rowed = self.in_rows(name, vector)?;
+        // Elements of a frame are not beside each other there.
+        let strided = self.frame.is_some() && self.fortran;
+        Ok(Rowed { transposed: rowed.transposed || strided, ..rowed })
+    }
+
+    fn in_rows(&self, name: &str, vector: bool) -> Result<Rowed, ReadError> {
         let count = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
         let list = |rows| Rowed { rows, components: 1, transposed: false };
         match *self.shape.as_slice() {
@@ -89,7 +71,7 @@ impl Header {
                 let transposed = self.fortran && components > 1;
                 Ok(Rowed { rows, components: count(components), transposed })
             }
-            [frames, rows, 2 | 3] => Err(ReadError::Unsupported {
+            [frames, rows, 2 | 3 | 6] => Err(ReadError::Unsupported {
                 what: format!(
                     "array `{name}` of shape {}, {frames} frames of {rows} particles,",
                     self.words()
@@ -157,12 +139,19 @@ impl Header {
                 ));
             }
         }
+        let stride = self.size.saturating_mul(rowed.components as u64);
+        let before = match self.frame {
+            Some(one) if !self.fortran => {
+                one.index.saturating_mul(rowed.rows.saturating_mul(stride))
+            }
+            _ => 0,
+        };
         let rows = Rows {
             what: format!("array `{name}`"),
-            header,
+            header: header.saturating_add(before),
             between: Vec::new(),
             count: rowed.rows,
-            stride: self.size.saturating_mul(rowed.components as u64),
+            stride,
             big_endian,
             fields,
         };
@@ -191,10 +180,21 @@ impl Header {
         table: &mut Table,
     ) -> Result<Vec<Column>, ReadError> {
         let (rows, rowed, told) = self.rows(0, name, placed, &table.asked)?;
-        let raw = cursor.take(rows.bytes(), &rows.what)?;
+        cursor.take(rows.header, &rows.what)?;
+        let strided = match self.frame.filter(|_| self.fortran) {
+            Some(one) => {
+                let all = cursor.take(rows.bytes().saturating_mul(one.count), &rows.what)?;
+                Some(every(all, self.size, one))
+            }
+            None => None,
+        };
+        let raw = match &strided {
+            Some(strided) => strided,
+            None => cursor.take(rows.bytes(), &rows.what)?,
+        };
         table.warnings.extend(told);
         let mut columns = rows.columns();
-        if !rowed.transposed {
+        if self.structured || !rowed.transposed {
             rows.decode(raw, rows.count as usize, &vec![true; columns.len()], &mut columns);
             return Ok(columns);
         }
@@ -226,8 +226,8 @@ impl Header {
 
     /// Whether it may hold positions, whatever its name.
     fn may_be_positions(&self) -> bool {
-        let vectors = matches!(*self.shape.as_slice(), [_, 3 | 6])
-            || matches!(*self.shape.as_slice(), [3, n] if n >= WIDE);
+        let vectors = matches!(*self.shape.as_slice(), [_, 3 | 6] | [_, _, 3 | 6])
+            || matches!(*self.shape.as_slice(), [3, n] | [_, 3, n] if n >= WIDE);
         !self.structured
             && vectors
             && matches!(self.ty(), AttributeType::F16 | AttributeType::F32 | AttributeType::F64)
@@ -241,7 +241,7 @@ pub(super) fn read_npy(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
         return layout.read(bytes);
     }
     let mut cursor = Cursor::new(bytes);
-    let header = of_positions(&mut cursor)?;
+    let header = of_positions(&mut cursor, asked)?;
     let mut table = Table::new(asked);
     header.list(&mut table, NPY);
     let mut columns = header.columns(&mut cursor, NPY, true, &mut table)?.into_iter();
@@ -254,7 +254,7 @@ pub(super) fn read_npy(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
 /// the particles are not stored one after the other.
 pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64), ReadError> {
     let mut cursor = Cursor::new(bytes);
-    let header = of_positions(&mut cursor)?;
+    let header = of_positions(&mut cursor, asked)?;
     let length = cursor.at() as u64;
     let mut table = Table::new(asked);
     header.list(&mut table, NPY);
@@ -270,8 +270,10 @@ pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64
     Ok((layout, length))
 }
 
-fn of_positions(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
+fn of_positions(cursor: &mut Cursor<'_>, asked: &Asked) -> Result<Header, ReadError> {
     let header = header(cursor)?;
+    let frame = header.frames(false).and_then(|count| one(asked, count));
+    let header = header.of_frame(frame, true);
     if !header.structured && header.rowed(NPY, true)?.components < 2 {
         return Err(ReadError::Unsupported {
             what: format!("an array of shape {}", header.words()),
@@ -280,6 +282,52 @@ fn of_positions(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
     }
     Ok(header)
 }
+
+/// The frame that is asked for, of so many.
+fn one(asked: &Asked, count: u64) -> Option<One> {
+    let index = asked.step()?.index as u64;
+    (count > 0).then(|| One { index: index.min(count - 1), count })
+}
+
+/// The times of the frames in an array, or in a zip of arrays; empty for one frame.
+pub(super) fn times(input: &Input<'_>, zip: bool) -> Result<Vec<Option<f64>>, ReadError> {
+    let frames = |count: Option<u64>| match count.and_then(|n| usize::try_from(n).ok()) {
+        Some(count) if count <= MOST => vec![None; count],
+        _ => Vec::new(),
+    };
+    if !zip {
+        let mut source = Source::new(input, &input.whole(false));
+        let header = source::header(&mut source, |head| {
+            let mut cursor = Cursor::new(head);
+            let header = header(&mut cursor)?;
+            Ok((header, cursor.at() as u64))
+        })?;
+        return Ok(frames(header.frames(false)));
+    }
+    let mut archive = zip::ZipArchive::new(input.section()).map_err(bad_zip)?;
+    let (_, chosen) = choose(&mut archive, &Asked::default())?;
+    let mut times = frames(chosen.frames);
+    if let (Some(name), false) = (chosen.times, times.is_empty()) {
+        let mut file = archive.by_name(&format!("{name}.npy")).map_err(bad_zip)?;
+        let mut raw = Vec::new();
+        let all = file.by_ref().take(TIMES).read_to_end(&mut raw);
+        let mut cursor = Cursor::new(&raw);
+        // Frames without times are frames, too.
+        if let (Ok(_), Ok(header)) = (all, header(&mut cursor))
+            && let Ok(columns) =
+                header.columns(&mut cursor, &name, false, &mut Table::new(&Asked::default()))
+            && let [column] = columns.as_slice()
+        {
+            let found = (0..times.len()).map(|i| column.data.f64(i).filter(|t| t.is_finite()));
+            times = found.collect();
+        }
+    }
+    Ok(times)
+}
+
+/// Most frames of a file, and bytes of their times.
+const MOST: usize = 1 << 20;
+const TIMES: u64 = 16 << 20;
 
 pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
     let mut archive = zip::ZipArchive::new(IoCursor::new(bytes)).map_err(bad_zip)?;
@@ -291,7 +339,7 @@ pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
         let raw = unpack(&mut file, budget, &format!("array `{name}`"), 0)?;
         budget = budget.saturating_sub(raw.len());
         let mut cursor = Cursor::new(&raw);
-        let header = header(&mut cursor)?;
+        let header = chosen.frame(header(&mut cursor)?, &name, asked);
         let placed = chosen.positions.as_ref() == Some(&name);
         let mut columns = header.columns(&mut cursor, &name, placed, &mut table)?.into_iter();
         if placed {
@@ -300,7 +348,11 @@ pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
         table.columns.extend(columns);
     }
     table.warnings.append(&mut chosen.warnings);
-    table.assemble(Format::Npz)
+    let mut particles = table.assemble(Format::Npz)?;
+    if let (Some(name), Some((_, names))) = (chosen.positions, particles.meanings.first_mut()) {
+        *names = vec![name];
+    }
+    Ok(particles)
 }
 
 /// The arrays of a zip.
@@ -341,6 +393,7 @@ pub(super) fn arrays(input: &Input<'_>, asked: &Asked) -> Result<Option<Arrays>,
             Ok(((header, length), length))
         });
         let (header, length) = header?;
+        let header = chosen.frame(header, &name, asked);
         let of_positions = chosen.positions.as_ref() == Some(&name);
         let (rows, rowed, told) = header.rows(length, &name, of_positions, asked)?;
         if rowed.transposed {
@@ -369,7 +422,18 @@ struct Chosen {
     structured: Vec<String>,
     /// The array taken as positions, if none has such a name.
     positions: Option<String>,
+    /// Number of frames, and the array with their times.
+    frames: Option<u64>,
+    times: Option<String>,
     warnings: Vec<String>,
+}
+
+impl Chosen {
+    /// The part of an array that belongs to the frame that is asked for.
+    fn frame(&self, header: Header, name: &str, asked: &Asked) -> Header {
+        let one = self.frames.and_then(|count| one(asked, count));
+        header.of_frame(one, names::is_vector(name) || self.positions.as_deref() == Some(name))
+    }
 }
 
 /// Lists the arrays of a zip by their headers; an unreadable one is skipped.
@@ -378,7 +442,7 @@ fn choose<R: Read + std::io::Seek>(
     asked: &Asked,
 ) -> Result<(Table, Chosen), ReadError> {
     let (mut table, mut chosen) = (Table::new(asked), Chosen::default());
-    let (mut all, mut able) = (Vec::new(), Vec::new());
+    let (mut all, mut able, mut headers) = (Vec::new(), Vec::new(), Vec::new());
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
         let name = file.name().ok().and_then(|name| name.strip_suffix(".npy").map(str::to_string));
@@ -386,17 +450,17 @@ fn choose<R: Read + std::io::Seek>(
         let mut head = Vec::new();
         let _ = file.by_ref().take(4096).read_to_end(&mut head);
         let Ok(header) = header(&mut Cursor::new(&head)) else { continue };
-        header.list(&mut table, &name);
         if header.structured && !asked.wants(&name) {
             let fields = header.members.iter().map(|member| member.name.clone());
             all.extend(fields);
-            chosen.structured.push(name);
-            continue;
+            chosen.structured.push(name.clone());
+        } else {
+            if header.may_be_positions() && !asked.wants(&name) {
+                able.push(name.clone());
+            }
+            all.push(name.clone());
         }
-        if header.may_be_positions() && !asked.wants(&name) {
-            able.push(name.clone());
-        }
-        all.push(name);
+        headers.push((name, header));
     }
     // `savez` numbers arrays without names in their order.
     able.sort();
@@ -407,13 +471,29 @@ fn choose<R: Read + std::io::Seek>(
         chosen.positions = able.into_iter().next();
         let name = chosen.positions.clone().unwrap_or_default();
         let more = if others > 0 {
-            format!(", {others} others of its shape are not read")
+            format!(
+                ", {others} others of its shape are not read: names tell what they are (np.savez(file, position=p, \
+                 velocity=v))"
+            )
         } else {
             String::new()
         };
         chosen
             .warnings
             .push(format!("no array is called positions: `{name}` is taken as them{more}"));
+    }
+    let frames = headers.iter().filter_map(|(name, header)| {
+        let component = names::is_component(name);
+        let placed = names::is_position(name) || chosen.positions.as_ref() == Some(name);
+        let counts = header.structured || placed || component;
+        counts.then(|| header.frames(component)).flatten()
+    });
+    chosen.frames = frames.max();
+    for (name, header) in headers {
+        if chosen.frames.is_some_and(|frames| header.shape == [frames]) && names::is_time(&name) {
+            chosen.times = Some(name.clone());
+        }
+        chosen.frame(header, &name, asked).list(&mut table, &name);
     }
     Ok((table, chosen))
 }
@@ -429,169 +509,4 @@ fn wanted_array(
         || chosen.structured.contains(&name)
         || chosen.positions.as_ref() == Some(&name);
     used.then_some(name)
-}
-
-fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
-    const WHAT: &str = "the header of an array";
-    let magic = cursor.take(6, WHAT)?;
-    if magic != b"\x93NUMPY" {
-        return Err(ReadError::malformed(
-            "an array that begins with \\x93NUMPY",
-            show(magic),
-            Place::Byte(0),
-        ));
-    }
-    let [major, minor] = cursor.array::<2>(WHAT)?;
-    let length = match major {
-        1 => u64::from(u16::from_le_bytes(cursor.array(WHAT)?)),
-        2 | 3 => u64::from(u32::from_le_bytes(cursor.array(WHAT)?)),
-        _ => {
-            return Err(ReadError::Unsupported {
-                what: format!("NPY version {major}.{minor}"),
-                advice: "save with numpy.save or numpy.savez",
-            });
-        }
-    };
-    let place = cursor.place();
-    let raw = cursor.take(length, WHAT)?;
-    let bad = |key: &str| ReadError::malformed(format!("`{key}` in {WHAT}"), show(raw), place);
-    let text = std::str::from_utf8(raw).map_err(|_| bad("descr"))?;
-    // The value of a key begins after the colon.
-    let value = |key: &str| {
-        let start = text.find(&format!("'{key}'"))? + key.len() + 2;
-        Some(text.get(start..)?.trim_start().strip_prefix(':')?.trim_start())
-    };
-    let descr = value("descr").ok_or_else(|| bad("descr"))?;
-    let (members, size) = members(descr).ok_or_else(|| bad("descr"))?;
-    let structured = descr.starts_with('[');
-    let descr = match descr.strip_prefix('\'').and_then(|d| d.split_once('\'')) {
-        Some((descr, _)) => descr.to_string(),
-        None => "of several fields".to_string(),
-    };
-    let fortran = value("fortran_order").ok_or_else(|| bad("fortran_order"))?;
-    let shape = value("shape")
-        .and_then(|v| v.strip_prefix('(')?.split_once(')'))
-        .ok_or_else(|| bad("shape"))?
-        .0;
-    let shape = shape
-        .split(',')
-        .map(str::trim)
-        .filter(|n| !n.is_empty())
-        .map(|n| n.trim_end_matches('L').parse())
-        .collect::<Result<Vec<u64>, _>>()
-        .map_err(|_| bad("shape"))?;
-    let mut shape = shape;
-    while shape.len() > 2
-        && let Some(one) = shape.iter().position(|extent| *extent == 1)
-    {
-        shape.remove(one);
-    }
-    Ok(Header { members, structured, size, fortran: fortran.starts_with("True"), shape, descr })
-}
-
-/// Fields of an element by its `descr`, and its size in bytes.
-fn members(descr: &str) -> Option<(Vec<Member>, u64)> {
-    let mut words = Words { rest: descr };
-    if !descr.starts_with('[') {
-        let (ty, size, big_endian) = scalar(words.text()?);
-        let member = Member { name: String::new(), ty, components: 1, offset: 0, big_endian };
-        return Some((vec![member], size));
-    }
-    words.sign('[')?;
-    let (mut members, mut offset) = (Vec::new(), 0_u64);
-    while words.sign('(').is_some() {
-        // A name may be preceded by a title.
-        let name = match words.sign('(') {
-            Some(()) => {
-                words.text()?;
-                words.sign(',')?;
-                let name = words.text()?;
-                words.sign(')')?;
-                name
-            }
-            None => words.text()?,
-        };
-        words.sign(',')?;
-        let (ty, size, big_endian) = scalar(words.text()?);
-        let mut components = 1_u64;
-        if words.sign(',').is_some() {
-            if words.sign('(').is_some() {
-                while let Some(extent) = words.number() {
-                    components = components.checked_mul(extent)?;
-                    words.sign(',');
-                }
-                words.sign(')')?;
-            } else if let Some(extent) = words.number() {
-                components = extent;
-            }
-        }
-        words.sign(')')?;
-        words.sign(',');
-        let count = usize::try_from(components).ok()?;
-        members.push(Member { name: name.into(), ty, components: count, offset, big_endian });
-        offset = offset.checked_add(size.checked_mul(components)?)?;
-    }
-    words.sign(']')?;
-    Some((members, offset))
-}
-
-/// Splits a Python list into words.
-struct Words<'a> {
-    rest: &'a str,
-}
-
-impl<'a> Words<'a> {
-    fn sign(&mut self, sign: char) -> Option<()> {
-        self.rest = self.rest.trim_start().strip_prefix(sign)?;
-        Some(())
-    }
-
-    fn text(&mut self) -> Option<&'a str> {
-        let rest = self.rest.trim_start();
-        let quote = rest.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
-        let (text, behind) = rest.get(1..)?.split_once(quote)?;
-        self.rest = behind;
-        Some(text)
-    }
-
-    fn number(&mut self) -> Option<u64> {
-        let rest = self.rest.trim_start();
-        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-        let (digits, behind) = rest.split_at_checked(end)?;
-        let number = digits.parse().ok()?;
-        self.rest = behind.trim_start_matches('L');
-        Some(number)
-    }
-}
-
-/// Type of a number, its size in bytes, and whether it is big-endian.
-fn scalar(descr: &str) -> (AttributeType, u64, bool) {
-    let name = descr.trim_start_matches(['<', '>', '=', '|']);
-    let ty = dtype(name);
-    let digits = name.get(1..).unwrap_or_default();
-    let digits = digits
-        .find(|c: char| !c.is_ascii_digit())
-        .and_then(|end| digits.get(..end))
-        .unwrap_or(digits);
-    let size = digits.parse().unwrap_or(0_u64);
-    let size = if name.starts_with('U') { size.saturating_mul(4) } else { size };
-    (ty, ty.size().unwrap_or(size), descr.starts_with('>'))
-}
-
-fn dtype(name: &str) -> AttributeType {
-    use AttributeType as T;
-    match name {
-        "i1" => T::I8,
-        "u1" | "b1" => T::U8,
-        "i2" => T::I16,
-        "u2" => T::U16,
-        "i4" => T::I32,
-        "u4" => T::U32,
-        "i8" => T::I64,
-        "u8" => T::U64,
-        "f2" => T::F16,
-        "f4" => T::F32,
-        "f8" => T::F64,
-        _ => T::Other,
-    }
 }

@@ -6,7 +6,7 @@ use super::asked::Asked;
 use super::error::ReadError;
 use super::format::{self, Extension};
 use super::source::{Content, Input, Source};
-use super::{Particles, bytes, index, lammps, parts, read_asked, xyz};
+use super::{Particles, bytes, index, json, lammps, numpy, parts, read_asked, tecplot, xyz};
 
 /// A frame of a file that holds several.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +27,9 @@ pub(super) struct Start {
 }
 
 /// The frames of a file, in the file's order or, in a table with a column of times, in the order of time.
-/// Empty for a file with one frame. Recognized are counted XYZ and LAMMPS dumps with several frames, tables
-/// of any format with a column of times or steps, and HDF5 and XDMF with steps. If necessary, the whole file
+/// Empty for a file with one frame. Recognized are counted XYZ and LAMMPS dumps with several frames,
+/// zones of Tecplot, NumPy arrays of shape (t, n, 3), JSON lists of frames, tables of any format with a column of
+/// times or steps, and HDF5 and XDMF with steps. If necessary, the whole file
 /// is read for this.
 ///
 /// # Errors
@@ -66,8 +67,23 @@ fn times(path: &Path) -> Result<Vec<Option<f64>>, ReadError> {
     start.clear();
     Source::new(&input, &input.whole(gzip)).fill(1 << 12, &mut start)?;
     let starts = match format::detect(&start, hint) {
-        Ok(format::Reader::XyzText) => xyz::starts(&Content::new(&input, gzip)?, None)?,
+        Ok(format::Reader::XyzText | format::Reader::Csv) => {
+            let content = Content::new(&input, gzip)?;
+            let times = tecplot::times(&content)?;
+            if !times.is_empty() {
+                return Ok(times);
+            }
+            xyz::starts(&content, None)?
+        }
         Ok(format::Reader::Lammps) => lammps::starts(&Content::new(&input, gzip)?, None)?,
+        Ok(format::Reader::Json) => return json::times(&Content::new(&input, gzip)?),
+        Ok(kind @ (format::Reader::Npy | format::Reader::Npz)) if !gzip => {
+            let times = numpy::times(&input, kind == format::Reader::Npz)?;
+            if !times.is_empty() {
+                return Ok(times);
+            }
+            Vec::new()
+        }
         _ => Vec::new(),
     };
     if starts.len() > 1 {

@@ -21,6 +21,7 @@ use super::rows::{Field, Layout, Rows};
 use super::source::Content;
 use super::steps::{self, Start};
 use super::table::{RowReader, Table};
+use super::tecplot;
 use super::text::Text;
 
 /// The layout of raw triples in a file of this length.
@@ -85,7 +86,7 @@ pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<S
 }
 
 /// The time in a comment: `Time=0.1`.
-fn time_in(comment: &[u8]) -> Option<f64> {
+pub(super) fn time_in(comment: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(comment).ok()?.to_ascii_lowercase();
     let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '=' | ':' | '"'));
     let mut words = words.filter(|word| !word.is_empty());
@@ -94,6 +95,11 @@ fn time_in(comment: &[u8]) -> Option<f64> {
 }
 
 pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
+    let lines = heading::lines(content)?;
+    if tecplot::is(&lines) {
+        return tecplot::open(content, &lines, asked);
+    }
+    drop(lines);
     let starts = asked.step().map(|step| starts(content, Some(step.index))).transpose()?;
     let part = asked.step().zip(starts);
     if let Some((content, time)) =
@@ -164,8 +170,16 @@ pub(super) fn rows<'a>(
     (names, sides): (&[String], &[Side<'_>]),
     mut about: About,
 ) -> Table<'a> {
-    let mut rows =
-        Lines { text, number, rows: 0, promised, commas, columns: Vec::new(), box_of: Vec::new() };
+    let mut rows = Lines {
+        text,
+        number,
+        rows: 0,
+        promised,
+        commas,
+        columns: Vec::new(),
+        box_of: Vec::new(),
+        zones: None,
+    };
     let mut columns = Vec::new();
     for name in names {
         let (name, ty) = match name.strip_suffix(TEXT) {
@@ -180,6 +194,41 @@ pub(super) fn rows<'a>(
             columns.push(Column::new(name, 1, AttributeType::Number));
         }
     }
+    Table { columns, about, rows: Box::new(rows) }
+}
+
+/// Reads the rows of zones. `zone`: the column that counts them, if there are several, and whether it is used.
+pub(super) fn rows_of_zones<'a>(
+    text: Text<'a>,
+    number: u64,
+    commas: bool,
+    names: &[String],
+    zone: Option<Option<&str>>,
+    mut about: About,
+) -> Table<'a> {
+    let mut columns = Vec::new();
+    let keep = |name: &String| {
+        let keep = about.list(name, 1, AttributeType::Number);
+        let at = columns.len();
+        columns.extend(keep.then(|| Column::new(name, 1, AttributeType::Number)));
+        keep.then_some(at)
+    };
+    let taken: Vec<Option<usize>> = names.iter().map(keep).collect();
+    let zone = zone.flatten().map(|name| {
+        columns.push(Column::new(name, 1, AttributeType::Number));
+        columns.len() - 1
+    });
+    let zones = Some(Zones { column: zone, index: -1.0 });
+    let rows = Lines {
+        text,
+        number,
+        rows: 0,
+        promised: None,
+        commas,
+        columns: taken,
+        box_of: Vec::new(),
+        zones,
+    };
     Table { columns, about, rows: Box::new(rows) }
 }
 
@@ -329,6 +378,15 @@ struct Lines<'a> {
     columns: Vec<Option<usize>>,
     /// Columns with fractions of a box's sides: where the side begins, and its length.
     box_of: Vec<(usize, f64, f64)>,
+    /// The zones of Tecplot in which the rows are.
+    zones: Option<Zones>,
+}
+
+struct Zones {
+    /// The column of their numbers, if it is used.
+    column: Option<usize>,
+    /// Number of the zone, from 0; before the first -1.
+    index: f64,
 }
 
 impl Lines<'_> {
@@ -349,10 +407,14 @@ impl RowReader for Lines<'_> {
         while let Some(line) = self.text.line()? {
             self.number += 1;
             let line = line.trim_ascii();
-            if self.rows > 0 && heading::is_zone(line) {
-                return Err(several_frames(self.number));
-            }
             if is_comment(line) {
+                let zone = tecplot::is_zone(line);
+                self.zones.iter_mut().filter(|_| zone).for_each(|zones| zones.index += 1.0);
+                continue;
+            }
+            if self.zones.is_some()
+                && (tecplot::variables(line).is_some() || line.starts_with(b"\""))
+            {
                 continue;
             }
             let next = || line.iter().all(u8::is_ascii_digit) || line.starts_with(b"ITEM:");
@@ -365,6 +427,11 @@ impl RowReader for Lines<'_> {
                     .get_mut(*column)
                     .into_iter()
                     .for_each(|c| c.data.stretch_last(*origin, *side));
+            }
+            if let Some(Zones { column: Some(column), index }) = &self.zones
+                && let Some(column) = columns.get_mut(*column)
+            {
+                column.data.push_number(*index);
             }
             self.rows += 1;
             return Ok(true);

@@ -79,7 +79,8 @@ pub struct RenderArgs {
     /// 'fluid_%04d.bgeo', or one file that holds all frames
     ///
     /// Use %d for numbers without leading zeros. One file holds all frames if it is a table with a column of times, XYZ, a
-    /// LAMMPS dump, VTKHDF or XDMF; its frames are counted from 0. 'whitewater info' lists what the files hold.
+    /// LAMMPS dump, VTKHDF, XDMF, zones of Tecplot, a NumPy array of shape (frames, particles, 3) or a JSON list of frames; they
+    /// are counted from 0. 'whitewater info' lists what the files hold.
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Draw bubble foam: one, slope, box, or a .json file of blobs, alone or with particles

@@ -8,7 +8,7 @@ use whitewater::io::particles::ReadError;
 use whitewater::io::particles::sequence::SequenceError;
 use whitewater::io::picture::PictureError;
 
-use crate::frames;
+use crate::folder;
 
 /// Kind of a failure; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +109,7 @@ impl From<Error> for Failure {
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
         let advice = match &error {
-            ReadError::File { path, .. } => frames::unread(&path.display().to_string()),
+            ReadError::File { path, .. } => folder::unread(&path.display().to_string()),
             _ => None,
         };
         let advice = advice.map_or(String::new(), |advice| format!("; {advice}"));

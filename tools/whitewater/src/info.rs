@@ -7,15 +7,18 @@ use whitewater::io::particles::sequence::{self, Frame, SequenceError};
 use whitewater::io::particles::{self, Meaning, Particles};
 
 use crate::args::InfoArgs;
+use crate::bounds::Bounds;
 use crate::extras;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::folder;
 use crate::frames;
 use crate::out;
+use crate::placing;
 use crate::reader::Has;
 use crate::upright;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
-    let inputs = args.inputs.iter().map(|input| frames::in_folder(input));
+    let inputs = args.inputs.iter().map(|input| folder::in_folder(input));
     let inputs = inputs.collect::<Outcome<Vec<_>>>()?;
     let frames = expand(&inputs).map_err(frames::advised)?;
     let mut all = Vec::new();
@@ -112,9 +115,16 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "radii": extras::radii(particles),
         "phases": phases,
         "missing": missing(Has::of(particles)),
+        "unit": unit(particles),
         "z_is_up": upright::is_z(std::slice::from_ref(particles)),
         "warnings": particles.warnings,
     })
+}
+
+/// A word on an extent that is no likely one of water in metres.
+fn unit(particles: &Particles) -> Option<String> {
+    let extent = Bounds::of_bulk(&particles.positions)?.size().max_element();
+    placing::hint(extent, placing::fastest(particles))
 }
 
 /// What an attribute is taken as; none where it is passed over.
@@ -216,6 +226,9 @@ fn text(value: &Value) -> String {
     }
     if let Some(why) = value["z_is_up"].as_str() {
         lines.push(format!("  up          z: {why}"));
+    }
+    if let Some(unit) = value["unit"].as_str() {
+        lines.push(format!("  unit        {unit}"));
     }
     if let Some(missing) = value["missing"].as_str() {
         lines.push(format!("  missing     {missing}"));

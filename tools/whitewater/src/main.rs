@@ -19,6 +19,7 @@ mod failure;
 mod film;
 mod films;
 mod foam;
+mod folder;
 mod frames;
 mod generate;
 mod info;

@@ -1,8 +1,10 @@
 //! Converts axes and units of files to those of the scene: y up, metres.
 
+use glam::Vec3;
 use whitewater::io::particles::Particles;
 
 use crate::args::{Unit, Up};
+use crate::foam::quantile;
 use crate::layers;
 
 /// How the particles of files are put into the scene.
@@ -70,6 +72,12 @@ const FASTEST: f32 = 40.0;
 /// tell.
 const LARGE: f32 = 200.0;
 const TINY: f32 = 0.005;
+
+/// How fast nearly all particles are at most; none without velocities.
+pub fn fastest(particles: &Particles) -> Option<f32> {
+    let speeds = particles.velocities.as_ref()?.iter().map(|v| Vec3::from(*v).length());
+    quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
+}
 
 /// A word on an extent that is no likely one of water in metres; `fastest`: of nearly all, where velocities are known.
 pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {

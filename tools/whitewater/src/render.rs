@@ -447,7 +447,8 @@ impl Probes {
     /// A word on what is no likely extent of water.
     fn unit_hint(&self) -> Option<String> {
         let extent = self.bounds()?.size().max_element();
-        placing::hint(extent, self.frames.iter().filter_map(fastest).reduce(f32::max))
+        let fastest = self.frames.iter().filter_map(placing::fastest);
+        placing::hint(extent, fastest.reduce(f32::max))
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -466,12 +467,6 @@ impl Probes {
     }
 }
 
-/// The speed of the fastest of its particles, m/s: the 99 % quantile. None without velocities.
-fn fastest(frame: &Particles) -> Option<f32> {
-    let speeds = frame.velocities.as_ref()?.iter().map(|v| Vec3::from(*v).length());
-    foam::quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
-}
-
 /// The speed at which water of a sequence meets things, m/s: that of its fastest particles, or, where that is more or
 /// there are no velocities, of a fall from its highest particles to its lowest.
 pub fn impact_speed(frames: &[Particles]) -> f32 {
@@ -481,7 +476,7 @@ pub fn impact_speed(frames: &[Particles]) -> f32 {
         let [low, high] = [0.02, 0.998].map(|part| foam::quantile(heights.clone(), part));
         Some((2.0 * 9.81 * (high? - low?)).sqrt())
     };
-    let each = frames.iter().flat_map(|frame| [fall(frame), fastest(frame)]);
+    let each = frames.iter().flat_map(|frame| [fall(frame), placing::fastest(frame)]);
     each.flatten().fold(0.0, f32::max)
 }
 

@@ -1,0 +1,155 @@
+//! Separates the frames of a JSON file that holds several.
+
+use serde_json::{Map, Value};
+
+use super::json::is_list_of_particles;
+use super::names;
+
+/// How a file holds its frames.
+enum Frames {
+    /// A list: of lists of particles, or of objects with such a list or with arrays.
+    List(usize),
+    /// Objects or lists by name, in the order of the numbers in these names.
+    Named(Vec<String>),
+    /// Arrays with one dimension more than those of one frame.
+    Stacked(usize),
+    /// Frames behind the only name of an object.
+    Behind(String),
+}
+
+/// Whether a value is a list of positions, as lists or objects, or a list of them without the names.
+fn is_frame(value: &Value) -> bool {
+    match value {
+        Value::Array(rows) => rows.first().is_some_and(|row| match row {
+            Value::Array(row) => row.iter().all(Value::is_number) && row.len() > 1,
+            Value::Object(row) => names::may_have_positions(&row.keys().collect::<Vec<_>>()),
+            _ => false,
+        }),
+        Value::Object(map) => {
+            let known = names::may_have_positions(&map.keys().collect::<Vec<_>>());
+            // A particle has numbers and short vectors; a frame has lists of them.
+            let columns = map.iter().any(|(name, value)| {
+                let Value::Array(list) = value else { return false };
+                let vectors = list.first().is_some_and(|first| !first.is_number());
+                names::is_component(name)
+                    || (names::is_position(name) && (vectors || list.len() >= 6))
+            });
+            columns || (!known && map.values().any(is_list_of_particles))
+        }
+        _ => false,
+    }
+}
+
+fn frames(value: &Value) -> Option<Frames> {
+    match value {
+        Value::Array(list) if list.first().is_some_and(is_frame) => {
+            // A list of one frame is that frame.
+            (list.len() > 1 && list.iter().all(|frame| is_frame(frame) || is_none(frame)))
+                .then_some(Frames::List(list.len()))
+        }
+        Value::Object(map) => of_object(map),
+        _ => None,
+    }
+}
+
+/// Whether a value can be a frame without particles.
+fn is_none(value: &Value) -> bool {
+    let empty = |value: &Value| value.as_array().is_some_and(Vec::is_empty);
+    empty(value) || value.as_object().is_some_and(|map| map.values().any(empty))
+}
+
+fn of_object(map: &Map<String, Value>) -> Option<Frames> {
+    let positions = |name: &&String| names::is_position(name) || names::is_component(name);
+    if let Some(name) = map.keys().find(positions) {
+        let list = map.get(name)?.as_array()?;
+        let first = list.first()?.as_array()?;
+        let stacked = match names::is_component(name) {
+            true => first.first().is_some_and(Value::is_number) && first.len() > 3,
+            false => first.first().is_some_and(|row| row.is_array() || row.is_object()),
+        };
+        return (stacked && list.len() > 1).then_some(Frames::Stacked(list.len()));
+    }
+    let held = map.iter().filter(|(_, value)| value.is_array() || value.is_object());
+    let mut several = held.clone().filter(|(_, value)| frames(value).is_some());
+    if let (Some((name, _)), None) = (several.next(), several.next()) {
+        return Some(Frames::Behind(name.clone()));
+    }
+    let numbered =
+        held.map(|(name, value)| Some((number(name)?, name)).filter(|_| is_frame(value)));
+    let mut all: Vec<(u64, &String)> = numbered.collect::<Option<_>>()?;
+    all.sort_unstable();
+    (all.len() > 1).then(|| Frames::Named(all.into_iter().map(|(_, name)| name.clone()).collect()))
+}
+
+/// The last number in a name.
+fn number(name: &str) -> Option<u64> {
+    let end = name.rfind(|c: char| c.is_ascii_digit())? + 1;
+    let digits = name.get(..end)?;
+    let start = digits.rfind(|c: char| !c.is_ascii_digit()).map_or(0, |at| at + 1);
+    digits.get(start..)?.parse().ok()
+}
+
+/// The time of a frame.
+pub(super) fn time(map: &Map<String, Value>) -> Option<f64> {
+    map.iter().find_map(|(name, value)| value.as_f64().filter(|_| names::is_time(name)))
+}
+
+/// The times of all frames; empty for one frame.
+pub(super) fn times(value: &Value) -> Vec<Option<f64>> {
+    let of = |value: &Value| value.as_object().and_then(time);
+    match (frames(value), value) {
+        (Some(Frames::List(_)), Value::Array(list)) => list.iter().map(of).collect(),
+        (Some(Frames::Named(all)), Value::Object(map)) => {
+            all.iter().map(|name| map.get(name).and_then(of)).collect()
+        }
+        (Some(Frames::Stacked(count)), Value::Object(map)) => {
+            let list = map.iter().find_map(|(name, value)| {
+                value.as_array().filter(|list| names::is_time(name) && list.len() == count)
+            });
+            (0..count).map(|i| list.and_then(|list| list.get(i)?.as_f64())).collect()
+        }
+        (Some(Frames::Behind(name)), Value::Object(map)) => {
+            map.get(&name).map_or_else(Vec::new, times)
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// What a list holds whose only entry is an object with arrays.
+pub(super) fn alone(value: Value) -> Value {
+    match value {
+        Value::Array(mut list)
+            if list.len() == 1 && list.iter().all(|v| v.is_object() && is_frame(v)) =>
+        {
+            list.swap_remove(0)
+        }
+        value => value,
+    }
+}
+
+/// One frame; the value itself where it holds only one.
+pub(super) fn one(value: Value, index: usize) -> Value {
+    match (frames(&value), value) {
+        (Some(Frames::List(count)), Value::Array(mut list)) => {
+            list.swap_remove(index.min(count.saturating_sub(1)))
+        }
+        (Some(Frames::Named(all)), Value::Object(mut map)) => {
+            let name = all.get(index).or(all.last());
+            name.and_then(|name| map.remove(name)).unwrap_or_default()
+        }
+        (Some(Frames::Stacked(count)), Value::Object(map)) => {
+            let part = |(name, value): (String, Value)| match value {
+                // What is no list of frames is the same in all of them.
+                Value::Array(mut list) if list.len() == count => {
+                    (name, list.swap_remove(index.min(count.saturating_sub(1))))
+                }
+                value => (name, value),
+            };
+            Value::Object(map.into_iter().map(part).collect())
+        }
+        (Some(Frames::Behind(name)), Value::Object(mut map)) => {
+            one(map.remove(&name).unwrap_or_default(), index)
+        }
+        (_, value) => value,
+    }
+}

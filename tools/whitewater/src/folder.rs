@@ -1,0 +1,364 @@
+//! The sequence of particle files that is in a folder.
+
+use std::collections::{BTreeMap, HashSet};
+use std::ops::Range;
+use std::path::Path;
+
+use whitewater::io::particles::sequence;
+
+use crate::failure::{Failure, Outcome};
+
+/// Extensions of particle files; a second one, of packing, may follow.
+const EXTENSIONS: [&str; 28] = [
+    "bgeo",
+    "geo",
+    "vtk",
+    "vtu",
+    "vtp",
+    "pvtu",
+    "pvtp",
+    "vtm",
+    "ply",
+    "npy",
+    "npz",
+    "csv",
+    "txt",
+    "dat",
+    "xyz",
+    "json",
+    "dump",
+    "lammpstrj",
+    "tab",
+    "tec",
+    "tp",
+    "h5",
+    "hdf5",
+    "vtkhdf",
+    "h5part",
+    "h5md",
+    "xdmf",
+    "xmf",
+];
+
+/// The input, or of a folder the pattern of the one sequence in it.
+pub fn in_folder(input: &str) -> Outcome<String> {
+    let path = Path::new(input);
+    if !path.is_dir() {
+        return Ok(input.to_string());
+    }
+    let folder = input.trim_end_matches('/');
+    let folder = if folder.is_empty() { "/" } else { folder };
+    let (mut names, mut lists) = (Vec::new(), Vec::new());
+    let (mut folders, mut others) = (Vec::new(), Vec::new());
+    let io = |error| Failure::reading(path, &error);
+    for entry in std::fs::read_dir(path).map_err(io)?.flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.starts_with('.') {
+            continue;
+        }
+        if entry.path().is_dir() {
+            folders.push(name);
+        } else if name.ends_with(".pvd") || name.ends_with(".series") {
+            lists.push(name);
+        } else if readable(&name) {
+            names.push(name);
+        } else {
+            others.push(name);
+        }
+    }
+    names.sort();
+    let pieces = pieces(path, &names);
+    names.retain(|name| !pieces.contains(name));
+    if let [list] = lists.as_slice() {
+        let list = format!("{folder}/{list}");
+        let all = sequence::expand(std::slice::from_ref(&list), None).unwrap_or_default();
+        let listed: HashSet<&std::ffi::OsStr> =
+            all.iter().flat_map(|frame| frame.paths()).filter_map(Path::file_name).collect();
+        if !listed.is_empty()
+            && names.iter().all(|name| listed.contains(name.as_ref() as &std::ffi::OsStr))
+        {
+            return Ok(list);
+        }
+    }
+    let patterns = patterns(&names);
+    let patterns: BTreeMap<String, usize> = patterns
+        .into_iter()
+        .map(|(pattern, count)| (format!("{folder}/{pattern}"), count))
+        .collect();
+    let mut patterns: Vec<_> = patterns.into_iter().collect();
+    patterns.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let shown = |(pattern, count): &(String, usize)| {
+        format!("'{pattern}' ({count} {})", if *count == 1 { "file" } else { "files" })
+    };
+    match patterns.as_slice() {
+        [] => {}
+        [(pattern, _)] => return Ok(pattern.clone()),
+        many => {
+            let list: Vec<_> = many.iter().take(8).map(shown).collect();
+            let why = format!(
+                "{input} is a folder of several sequences: name one of {}; or, where they are parts of the same frames, \
+                 several, with --join",
+                list.join(", ")
+            );
+            return Err(Failure::input(why));
+        }
+    }
+    folders.sort();
+    others.sort();
+    let within = |name: &String| {
+        let name = format!("{folder}/{name}");
+        let inner = std::fs::read_dir(&name).into_iter().flatten().flatten();
+        let any = inner.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        any.into_iter().any(|file| readable(&file)).then_some(name)
+    };
+    if let Some(pattern) = in_folders(folder, &folders) {
+        return Ok(pattern);
+    }
+    let inner: Vec<_> = folders.iter().filter_map(within).take(8).collect();
+    let found = match (inner.is_empty(), others.first()) {
+        (false, _) => format!("; there are some in {}", inner.join(", ")),
+        (true, Some(first)) => {
+            let known = others.iter().find_map(|name| Some((name, unread(name)?)));
+            let first = known.map_or(first, |(name, _)| name);
+            let advice = known.map_or(String::new(), |(_, advice)| format!("; {advice}"));
+            format!(", found {} others, such as {first}{advice}", others.len())
+        }
+        (true, None) => String::new(),
+    };
+    Err(Failure::input(format!("{input}: expected particle files in the folder{found}")))
+}
+
+/// Largest size of a list of pieces that is looked into, in bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// The files that other files of the folder list as their pieces.
+fn pieces(folder: &Path, names: &[String]) -> HashSet<String> {
+    let list = |name: &&String| [".pvtu", ".pvtp", ".vtm"].iter().any(|end| name.ends_with(end));
+    let text = |name: &String| {
+        let path = folder.join(name);
+        let short = std::fs::metadata(&path).is_ok_and(|meta| meta.len() <= LONGEST);
+        if short { std::fs::read_to_string(path).ok() } else { None }
+    };
+    let mut found = HashSet::new();
+    for text in names.iter().filter(list).filter_map(text) {
+        for word in text.split('"') {
+            let name = word.rsplit(['/', '\\']).next().unwrap_or(word);
+            if name.ends_with(".vtu") || name.ends_with(".vtp") {
+                found.insert(name.to_string());
+            }
+        }
+    }
+    found
+}
+
+/// The patterns of the sequences that files belong to, and how many belong to each. A number with a point or an exponent
+/// is a time, where its last digits alone would make sequences of a file each.
+fn patterns(names: &[String]) -> BTreeMap<String, usize> {
+    let mut timed: BTreeMap<String, Vec<&String>> = BTreeMap::new();
+    for name in names {
+        let pattern = time(name).map(|time| {
+            let mut pattern = name.clone();
+            pattern.replace_range(time, "*");
+            pattern
+        });
+        pattern.into_iter().for_each(|pattern| timed.entry(pattern).or_default().push(name));
+    }
+    let mut patterns: BTreeMap<String, usize> = BTreeMap::new();
+    let mut done = HashSet::new();
+    for (pattern, names) in timed {
+        let plain: HashSet<String> = names.iter().map(|name| self::pattern(name)).collect();
+        if 2 * plain.len() > names.len() && names.len() > 1 {
+            done.extend(names.iter().copied());
+            *patterns.entry(pattern).or_default() += names.len();
+        }
+    }
+    for name in names.iter().filter(|name| !done.contains(name)) {
+        *patterns.entry(pattern(name)).or_default() += 1;
+    }
+    patterns
+}
+
+/// Where the last number with a point or an exponent is in a name, before its extension.
+fn time(name: &str) -> Option<Range<usize>> {
+    let digit = |at: usize| name.as_bytes().get(at).is_some_and(u8::is_ascii_digit);
+    let run = |from: usize| (from..name.len()).find(|at| !digit(*at)).unwrap_or(name.len());
+    let (mut at, mut found) = (0, None);
+    while at < name.len() {
+        if !digit(at) {
+            at += 1;
+            continue;
+        }
+        let (start, whole) = (at, run(at));
+        let mut end = whole;
+        if name[end..].starts_with('.') && digit(end + 1) {
+            end = run(end + 1);
+        }
+        if name[end..].starts_with(['e', 'E']) {
+            let sign = usize::from(name[end + 1..].starts_with(['+', '-']));
+            if digit(end + 1 + sign) {
+                end = run(end + 1 + sign);
+            }
+        }
+        // A rank is behind a number with zeros in front.
+        let padded = whole - start > 1 && name[start..].starts_with('0');
+        if end > whole && end < name.len() && !padded {
+            found = Some(start..end);
+        }
+        at = end;
+    }
+    found
+}
+
+/// The pattern of a file that is in each of several folders with numbers for names: `DIR/*/cloud.vtp`.
+fn in_folders(folder: &str, folders: &[String]) -> Option<String> {
+    let numbered = folders.iter().filter(|name| name.ends_with(|c: char| c.is_ascii_digit()));
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    let mut total = 0;
+    for name in numbered {
+        let inner = std::fs::read_dir(format!("{folder}/{name}")).ok()?.flatten();
+        let files: Vec<_> = inner
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .filter(|file| readable(file))
+            .collect();
+        total += usize::from(!files.is_empty());
+        files.into_iter().for_each(|file| *counts.entry(file).or_default() += 1);
+    }
+    let mut all = counts.into_iter().filter(|(_, count)| *count == total && total > 1);
+    match (all.next(), all.next()) {
+        (Some((file, _)), None) => Some(format!("{folder}/*/{file}")),
+        _ => None,
+    }
+}
+
+fn readable(name: &str) -> bool {
+    let name = name.to_lowercase();
+    let name = name.strip_suffix(".gz").unwrap_or(&name);
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    // As LAMMPS names them: dump.500.
+    EXTENSIONS.contains(&extension) || name.starts_with("dump.")
+}
+
+/// A name with `*` in the place of its last number.
+fn pattern(name: &str) -> String {
+    let stem =
+        name.find('.').filter(|at| *at > 0 && !name.starts_with("dump.")).unwrap_or(name.len());
+    let digits = |c: char| c.is_ascii_digit();
+    // The number may be between two points.
+    let (before, after) = match name[..stem].rfind(digits) {
+        Some(last) => (last, last + 1),
+        None => match name.rfind(digits) {
+            Some(last) => (last, last + 1),
+            None => return name.to_string(),
+        },
+    };
+    let start = name[..=before].rfind(|c: char| !digits(c)).map_or(0, |at| at + 1);
+    format!("{}*{}", &name[..start], &name[after..])
+}
+
+/// What to do with a file of a program that writes none of what is read here.
+pub fn unread(name: &str) -> Option<&'static str> {
+    let name = name.to_lowercase();
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    Some(match extension {
+        "bi4" | "ibi4" | "obi4" => {
+            "DualSPHysics' own format: PartVTK -dirin FOLDER -savevtk PartFluid -onlytype:-all,+fluid writes VTK"
+        }
+        "pkl" | "pickle" => "a pickle: save positions and velocities by numpy.savez",
+        "abc" | "usd" | "usdc" | "vdb" | "bhclassic" => {
+            "save the points as BGEO (Houdini's .bhclassic), PLY, VTU or CSV"
+        }
+        "sc" => "packed by blosc: save .bgeo or .bgeo.gz",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_the_sequence_in_it() {
+        for (name, expected) in [
+            ("ParticleData_Fluid_8.vtk", "ParticleData_Fluid_*.vtk"),
+            ("f2_0008.bgeo.gz", "f2_*.bgeo.gz"),
+            ("dam.0008.npz", "dam.*.npz"),
+            ("dump.500", "dump.*"),
+            ("dump.500.lammpstrj", "dump.*.lammpstrj"),
+            ("cloud.vtp", "cloud.vtp"),
+            ("8.csv", "*.csv"),
+        ] {
+            assert_eq!(pattern(name), expected);
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        let write = |name: &str| std::fs::write(at(name), "").unwrap();
+        std::fs::create_dir_all(at("out/partio")).unwrap();
+        std::fs::create_dir_all(at("bi4")).unwrap();
+        std::fs::create_dir_all(at("none")).unwrap();
+        write("bi4/Part_0001.bi4");
+        for number in [8, 9, 10] {
+            write(&format!("out/partio/Fluid_{number}.bgeo"));
+        }
+        write("out/log.txt~");
+        let said = |name: &str| crate::frames::expand(&[at(name)], false).unwrap_err().message;
+        assert_eq!(crate::frames::expand(&[at("out/partio")], false).unwrap().len(), 3);
+        assert_eq!(
+            crate::frames::within(
+                &crate::frames::expand(&[at("out/partio/")], false).unwrap(),
+                Some(9..=10)
+            )
+            .unwrap()
+            .len(),
+            2
+        );
+        assert!(
+            said("out").contains("there are some in ") && said("out").contains("out/partio"),
+            "{}",
+            said("out")
+        );
+        write("out/partio/Foam_8.bgeo");
+        let text = said("out/partio");
+        assert!(
+            text.contains("Fluid_*.bgeo' (3 files), '") && text.contains("Foam_*.bgeo' (1 file)"),
+            "{text}"
+        );
+        // Ranks, whose list is the frame, and a list of all frames.
+        std::fs::create_dir_all(at("ranks")).unwrap();
+        for number in [1, 2] {
+            for rank in [0, 1] {
+                write(&format!("ranks/p-{number:05}.{rank:04}.vtu"));
+            }
+            let list = format!(
+                "<Piece Source=\"p-{number:05}.0000.vtu\"/><Piece Source=\"ranks/p-{number:05}.0001.vtu\"/>"
+            );
+            std::fs::write(at(&format!("ranks/p-{number:05}.pvtu")), list).unwrap();
+        }
+        assert!(in_folder(&at("ranks")).unwrap().ends_with("ranks/p-*.pvtu"));
+        let set = |n: u8| format!("<DataSet timestep=\"{n}\" file=\"p-0000{n}.pvtu\"/>");
+        let list = format!("<VTKFile><Collection>{}{}</Collection></VTKFile>", set(1), set(2));
+        std::fs::write(at("ranks/p.pvd"), list).unwrap();
+        assert!(in_folder(&at("ranks")).unwrap().ends_with("ranks/p.pvd"));
+        // Times, in names and as folders.
+        std::fs::create_dir_all(at("times")).unwrap();
+        for time in ["0.4", "0.32", "0.36"] {
+            write(&format!("times/t{time}.npz"));
+            std::fs::create_dir_all(at(&format!("of/{time}"))).unwrap();
+            write(&format!("of/{time}/cloud.vtp"));
+        }
+        assert!(in_folder(&at("times")).unwrap().ends_with("times/t*.npz"));
+        assert!(in_folder(&at("of")).unwrap().ends_with("of/*/cloud.vtp"));
+        for (name, expected) in [
+            ("exp_3.200e-04.npz", Some(4..13)),
+            ("t0.4.npz", Some(1..4)),
+            ("dam.0008.npz", None),
+            ("p-00008.0001.vtu", None),
+            ("f_12.csv", None),
+            ("x1e3", None),
+        ] {
+            assert_eq!(time(name), expected, "{name}");
+        }
+        write("bi4/log.out~");
+        assert!(said("bi4").contains("PartVTK"), "{}", said("bi4"));
+        assert!(said("none").contains("expected particle files"), "{}", said("none"));
+    }
+}
