@@ -37,6 +37,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 foam_back;     // radiance of thin foam; w: quantum of the thickness
     vec4 foam_front;    // radiance of thick foam; w: exponent of the thesis' rule, or 0
     vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak
+    vec4 foam_aerated; // radiance of water with bubbles under foam; its opacity over the foam's
     vec4 spray_color;   // radiance; w: 1 = added
     vec4 spray_cloud;   // optical depth and half-axis of mist; seconds of motion that droplets are spread over
     vec4 spray_mist;    // contrast of mist; extinction for sunlight over foam's

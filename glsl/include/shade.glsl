@@ -499,6 +499,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool there = t.x > 0.0 && texels.depth < EMPTY;
     float z = foam_middle(texels);
+    float aerated = frame.foam_aerated.w * (1.0 - foam.kept);
     bool torn = frame.foam_pattern.y > 0.0 && there;
     while (torn) {
         foam.kept = through_lace(pixel, z, foam.kept, local);
@@ -522,7 +523,12 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
         shape = mix(shape, shape_light(pixel, z), frame.foam_octaves.w);
         shaped = false;
     }
-    foam.color *= under(vec3(sun * shape.x)) * (shape.y * relief(pixel, foam.depth, sun));
+    vec3 lit = under(vec3(sun * shape.x));
+    foam.color *= lit * (shape.y * relief(pixel, foam.depth, sun));
+    // Water under foam is milky with bubbles, also where the lace is open.
+    float covered = 1.0 - foam.kept;
+    foam.kept *= 1.0 - aerated;
+    foam.color = mix(frame.foam_aerated.rgb * lit, foam.color, covered / max(1.0 - foam.kept, 1.0e-6));
     return foam;
 }
 

@@ -28,8 +28,7 @@ const uint PLACE = 0x5370u;
 const uint SPINDLE = 4096u;
 // Fraction of the droplets of a particle that is entirely spray. Its fraction of mist is the cube.
 const float LEAST_TORN = 0.3;
-// Noise of mist: how much longer its cells are along the motion, and the maximum number of octaves.
-const float DRAWN_OUT = 1.5;
+// Maximum number of octaves of the mist's noise.
 const float OCTAVES = 5.0;
 // Distance at which water is looked up, in drawn radii.
 const float ASIDE = 1.5;
@@ -90,8 +89,7 @@ void main() {
     amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
     // Cells are one drawn radius wide, and lengthened by the streak. The smallest octave is a pixel wide.
-    vec2 cell = frame.particle.x * vec2(DRAWN_OUT, 1.0);
-    cell.x += DRAWN_OUT * speed * frame.spray.w;
+    vec2 cell = frame.particle.x + vec2(speed * frame.spray.w, 0.0);
     float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(cell.y / pixel), 0.0, OCTAVES) : 0.0;
     grain = vec3(axes / cell, mist ? octaves : 0.0);
     along = e1 / axes.x;

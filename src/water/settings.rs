@@ -581,6 +581,12 @@ pub struct FoamLook {
     /// Size of the largest holes' cells, spacings, (0, 1e3], default 4. Cells smaller than two pixels are not
     /// drawn.
     pub lace_size: f32,
+    /// Opacity of the water with bubbles under foam over that of the smooth foam, [0, 1], default 0. It shows
+    /// between the threads of the lace and around foam that ends. Not in the thesis.
+    pub aeration: f32,
+    /// Albedo of water with bubbles, linear RGB, 0 to 1, default 0.30, 0.62, 0.66: bubbles scatter all colours, and the
+    /// water around them absorbs red.
+    pub aerated_color: [f32; 3],
     /// Time of the frame in seconds, which advances the pattern. Default 0. If it stays constant the pattern
     /// stays in place and foam moves through it.
     pub time: f64,
@@ -619,6 +625,8 @@ impl FoamLook {
             pattern_period: 1.0,
             lace: 0.0,
             lace_size: 4.0,
+            aeration: 0.0,
+            aerated_color: [0.30, 0.62, 0.66],
             time: 0.0,
             veil: spacing,
             relief: 0.35,
@@ -668,6 +676,10 @@ impl FoamLook {
         range("Settings.foam.pattern_size", self.pattern_size, 1.0e-3, 1.0e3)?;
         range("Settings.foam.lace", self.lace, 0.0, 1.0)?;
         range("Settings.foam.lace_size", self.lace_size, 1.0e-3, 1.0e3)?;
+        range("Settings.foam.aeration", self.aeration, 0.0, 1.0)?;
+        for color in self.aerated_color {
+            range("Settings.foam.aerated_color", color, 0.0, 1.0)?;
+        }
         range("Settings.foam.pattern_period", self.pattern_period, 1.0e-3, 1.0e3)?;
         if !self.time.is_finite() {
             let why = format!("{}: not finite", self.time);

@@ -100,7 +100,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 58] = [
+    let changes: [Change; 60] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -132,6 +132,8 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("foam.veil", |s| s.foam.veil *= 2.0),
         ("foam.relief", |s| s.foam.relief = 0.7),
         ("foam.shadow", |s| s.foam.shadow *= 3.0),
+        ("foam.aeration", |s| s.foam.aeration = 0.7),
+        ("foam.aerated_color", |s| (s.foam.aeration, s.foam.aerated_color) = (0.5, [0.9; 3])),
         ("foam.back_color", |s| s.foam.back_color = [0.3; 3]),
         ("foam.front_color", |s| s.foam.front_color = [0.5; 3]),
         ("spray.opacity", |s| s.spray.opacity = 0.8),

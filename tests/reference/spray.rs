@@ -45,9 +45,7 @@ const SQUARES: f64 = 0.513 * 0.6;
 const LEAST_TORN: f64 = 0.3;
 /// Of the random numbers of a particle.
 const SPINDLE: u32 = 4096;
-/// Cells of the noise in mist are a drawn radius wide, and along the motion this many times that and a streak.
-const DRAWN_OUT: f64 = 1.5;
-/// Octaves at most.
+/// Octaves of the noise in mist at most.
 const OCTAVES: u32 = 5;
 /// `ln mean(exp(a n)) / a²` of the noise n.
 const RAISED: f64 = 0.0895;
@@ -327,7 +325,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             let radius = off(RADIUS * settings.spacing, 3.0);
             let (a, b) = (one.ellipse.a, one.ellipse.b);
             let streak = speed * off(settings.shutter, 1.0);
-            let along = off(DRAWN_OUT, 1.0) * radius + off(DRAWN_OUT, 1.0) * streak;
+            let along = radius + streak;
             let octaves = (radius / pixel).log2().clamp(0.0, f64::from(OCTAVES));
             let bits = whole_steps::chance(particle.id, 0);
             one.grain = (settings.contrast > 0.0).then_some(Grain {

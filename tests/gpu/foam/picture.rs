@@ -90,7 +90,7 @@ fn foam_covers_what_is_behind_it() {
 }
 
 /// Thin foam is torn into threads with clear holes between them, where its frontmost lies in the world, and that it carries
-/// along; none of it where cells are less than two pixels wide, and as smooth foam without it.
+/// along. In the holes there may be water with bubbles. None of it where cells are less than two pixels wide, and as smooth foam without it.
 #[test]
 fn thin_foam_is_torn_into_lace() {
     let gpu = Gpu::shared();
@@ -129,61 +129,72 @@ fn thin_foam_is_torn_into_lace() {
                 );
             }
             case.shot.settings.foam.lace_size = 3.0;
-            let drawn = case.draw(&mut rig);
-            let (found, view) = (of(&drawn), case.shot.view(size));
-            let to_world = view.view.inverse();
-            let cell = f64::from(3.0 * spacing);
-            let drift = DVec3::from(velocity.map(f64::from)) / cell;
-            let look = &case.shot.settings.foam;
-            let (size, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
-            let phases = Pattern { strength: 0.0, size, period, time: look.time }.phases();
-            assert!(phases.iter().all(|phase| phase.part > 0.1 && phase.carried.abs() > 0.05));
-            let (mut threads, mut holes, mut offs) = (0, 0, Vec::new());
-            for (i, color) in drawn.output.data.iter().enumerate() {
-                let z = f64::from(found.depth.data[i]);
-                if z >= 1e9 {
-                    continue;
+            case.shot.settings.foam.aerated_color = [0.1, 0.5, 0.3];
+            for aeration in [0.0, 0.6] {
+                case.shot.settings.foam.aeration = aeration;
+                let drawn = case.draw(&mut rig);
+                let (found, view) = (of(&drawn), case.shot.view(size));
+                let to_world = view.view.inverse();
+                let cell = f64::from(3.0 * spacing);
+                let drift = DVec3::from(velocity.map(f64::from)) / cell;
+                let look = &case.shot.settings.foam;
+                let (size, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
+                let phases = Pattern { strength: 0.0, size, period, time: look.time }.phases();
+                assert!(phases.iter().all(|phase| phase.part > 0.1 && phase.carried.abs() > 0.05));
+                let (mut threads, mut holes, mut offs) = (0, 0, Vec::new());
+                for (i, color) in drawn.output.data.iter().enumerate() {
+                    let z = f64::from(found.depth.data[i]);
+                    if z >= 1e9 {
+                        continue;
+                    }
+                    let [t, front] = found.thickness.data[i].map(f64::from);
+                    let ray = view.ray(i % 97, i / 97);
+                    let long = ray.length();
+                    let hidden = 1.0 - (-4.0 * t * long).exp();
+                    let at = to_world.transform_point3(ray * z) / cell;
+                    let pixels = cell / (view.slope_step().x * z).abs();
+                    let covered = foam::covered(hidden, at, (drift, &phases), pixels);
+                    let told = 0.8 * smoothstep(2.0, 6.0, pixels);
+                    threads += usize::from(covered > 0.95 && hidden < 0.7);
+                    holes += usize::from(covered < 0.05 && hidden > 0.3);
+                    let much = 1.0 + told * (covered / hidden.max(0.05) - 1.0);
+                    let back = (-5.0 * front * long * much).exp();
+                    let seen = hidden + told * (covered - hidden);
+                    // What rounds a place: 16u of the cells from the origin, 5u of where a phase begins, by the most that what
+                    // closes it grows a cell: twice 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope
+                    // draws places apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest.
+                    let steepest =
+                        5.8 * (0.5 + 0.32 / 0.4 + 0.18 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
+                    let origin = to_world.w_axis.truncate().length() / cell;
+                    let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
+                    let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
+                    let closed = told * (place * steepest + 32.0 * U) * 0.75 / foam::ends(pixels);
+                    for c in 0..3 {
+                        let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
+                        let foam = thick + (thin - thick) * back;
+                        let scene = f64::from(case.shot.color[i][c]);
+                        // Water with bubbles, where smooth foam would hide as much of it.
+                        let bubbly = [0.1, 0.5, 0.3][c];
+                        let scene = scene + (bubbly - scene) * f64::from(aeration) * hidden;
+                        let expected = scene + (foam - scene) * seen;
+                        let by_color =
+                            (thin - thick).abs() * back * 5.0 * front * long / hidden.max(0.05);
+                        let by_share = (scene - foam).abs();
+                        let bound =
+                            400.0 * U * (1.0 + expected) + closed * (by_share + seen * by_color);
+                        let off = (f64::from(color[c]) - expected).abs();
+                        assert!(off <= bound, "{lens:?} {i} {c}: {}, not {expected}", color[c]);
+                        offs.push(off);
+                    }
                 }
-                let [t, front] = found.thickness.data[i].map(f64::from);
-                let ray = view.ray(i % 97, i / 97);
-                let long = ray.length();
-                let hidden = 1.0 - (-4.0 * t * long).exp();
-                let at = to_world.transform_point3(ray * z) / cell;
-                let pixels = cell / (view.slope_step().x * z).abs();
-                let covered = foam::covered(hidden, at, (drift, &phases), pixels);
-                let told = 0.8 * smoothstep(2.0, 6.0, pixels);
-                threads += usize::from(covered > 0.95 && hidden < 0.7);
-                holes += usize::from(covered < 0.05 && hidden > 0.3);
-                let much = 1.0 + told * (covered / hidden.max(0.05) - 1.0);
-                let back = (-5.0 * front * long * much).exp();
-                let seen = hidden + told * (covered - hidden);
-                // What rounds a place: 16u of the cells from the origin, 5u of where a phase begins, by the most that what
-                // closes it grows a cell: twice 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope
-                // draws places apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest.
-                let steepest = 5.8 * (0.5 + 0.32 / 0.4 + 0.18 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
-                let origin = to_world.w_axis.truncate().length() / cell;
-                let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
-                let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
-                let closed = told * (place * steepest + 32.0 * U) * 0.75 / foam::ends(pixels);
-                for c in 0..3 {
-                    let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
-                    let foam = thick + (thin - thick) * back;
-                    let scene = f64::from(case.shot.color[i][c]);
-                    let expected = scene + (foam - scene) * seen;
-                    let by_color =
-                        (thin - thick).abs() * back * 5.0 * front * long / hidden.max(0.05);
-                    let by_share = (scene - foam).abs();
-                    let bound =
-                        400.0 * U * (1.0 + expected) + closed * (by_share + seen * by_color);
-                    let off = (f64::from(color[c]) - expected).abs();
-                    assert!(off <= bound, "{lens:?} {i} {c}: {}, not {expected}", color[c]);
-                    offs.push(off);
-                }
+                // The bound is of the worst place there may be; they are nearly all much nearer.
+                let mean = offs.iter().sum::<f64>() / offs.len() as f64;
+                assert!(mean < 1.0e-4, "{lens:?}: {mean} in the mean");
+                assert!(
+                    threads > 50 && holes > 50,
+                    "{lens:?}: {threads} in threads, {holes} in holes"
+                );
             }
-            // The bound is of the worst place there may be; they are nearly all much nearer.
-            let mean = offs.iter().sum::<f64>() / offs.len() as f64;
-            assert!(mean < 1.0e-4, "{lens:?}: {mean} in the mean");
-            assert!(threads > 50 && holes > 50, "{lens:?}: {threads} in threads, {holes} in holes");
         }
     }
 }

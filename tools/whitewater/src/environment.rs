@@ -118,7 +118,7 @@ impl Environment {
     /// The renderer's light for this environment.
     pub fn light(&self) -> Light {
         if let Source::Sky(sky) = &self.source {
-            return Light::of(sky);
+            return Light::of(sky).with(|it| it.shade = self.shade().to_array());
         }
         Light::default().with(|it| {
             it.direction = self.sun.to_array();
@@ -133,11 +133,11 @@ impl Environment {
         })
     }
 
-    /// Irradiance without the sun: of the sky, of what sunlit ground throws back, and of what the foam round
+    /// Irradiance without the sun: of the sky, of what sunlit water and ground throw back, and of what the foam round
     /// it scatters, which has lost its colour.
     fn shade(&self) -> Vec3 {
         let sky = 0.5 * (self.sky_irradiance + self.sky_irradiance.dot(LUMINANCE));
-        sky + 0.3 * self.sun_irradiance * self.sun.y.max(0.0)
+        sky + THROWN_BACK * self.sun_irradiance * self.sun.y.max(0.0)
     }
 
     /// The same sun for the scene behind the water.
@@ -153,6 +153,8 @@ impl Environment {
     }
 }
 
+/// The part of the sun's light that sunlit water and ground throw back: of a pool more green and blue than red.
+const THROWN_BACK: Vec3 = Vec3::new(0.24, 0.3, 0.31);
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 fn unit(v: [f32; 3]) -> Outcome<Vec3> {

@@ -491,17 +491,18 @@ const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32, speed: f32) {
-    let mist = 0.14 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.1 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         it.densities = SPRAY_DENSITIES;
-        it.opacity = 0.7;
+        it.opacity = 0.95;
         it.droplets = 64;
-        it.size = 0.17;
+        it.size = 0.2;
         it.spread = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = mist;
         it.mist_size = 2.5;
-        it.mist_contrast = 1.7;
+        it.mist_contrast = 2.0;
+        it.shutter = 0.001;
         it.shade = 2.0;
     });
 }
@@ -517,6 +518,7 @@ pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
         it.relief = 0.35;
         it.lace = 1.0;
         it.lace_size = 0.8;
+        it.aeration = 0.6;
         it.shape = 0.8;
         it.back_color = [0.62, 0.68, 0.73];
         it.front_color = [0.97; 3];

@@ -25,7 +25,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
         // Blue tiles, so that shallow water and deep water are of one colour.
         SetArg::Pool | SetArg::None => [
             of([0.175, 0.16, 0.145], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
-            of([0.36, 0.50, 0.54], 0.22, tiles(36.0)),
+            of([0.29, 0.43, 0.48], 0.22, tiles(36.0)),
             of([0.36, 0.335, 0.295], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
         ],
         SetArg::Studio => [
