@@ -3,8 +3,8 @@
 use ash::vk;
 
 use crate::contract::{
-    Blobs, Config, Count, DiffuseParticles, Frame, HostImage, Packets, Particles, Shore, Shoreline,
-    Slot, Stream, Surface,
+    Blobs, Config, Count, Frame, HostImage, Packets, Particles, Shore, Shoreline, Slot, Stream,
+    Surface, WhitewaterParticles,
 };
 use crate::error::Error;
 use crate::frame::{Lens, check_settings, check_up};
@@ -27,11 +27,11 @@ pub fn frame(
 ) -> Result<Lens, Error> {
     check_up("Settings.up", frame.settings.up)?;
     check_settings(&frame.settings.water, &frame.settings.light)?;
-    frame.settings.foam.check()?;
+    frame.settings.surface_foam.check()?;
     frame.settings.spray.check()?;
     frame.settings.shadow.check()?;
     frame.settings.noise.check()?;
-    frame.settings.diffuse.check()?;
+    frame.settings.whitewater.check()?;
     frame.settings.bubbles.check()?;
     frame.settings.shore.check()?;
     let (part, most) = (frame.output.rect.extent, config.extent);
@@ -56,8 +56,8 @@ pub fn frame(
         (fields!("Frame.scene_color"), &frame.scene_color),
         (fields!("Frame.scene_depth"), &frame.scene_depth),
     ];
-    let fluid = frame.diffuse.as_ref().and_then(|diffuse| diffuse.fluid_depth.as_ref());
-    let fluid = fluid.map(|image| (fields!("Frame.diffuse.fluid_depth"), image));
+    let fluid = frame.whitewater.as_ref().and_then(|whitewater| whitewater.fluid_depth.as_ref());
+    let fluid = fluid.map(|image| (fields!("Frame.whitewater.fluid_depth"), image));
     let own = frame.shore.as_ref();
     let surface = own.and_then(crate::shore::surface_of);
     let mask = own.and_then(|shore| shore.mask.as_ref());
@@ -73,8 +73,8 @@ pub fn frame(
         ));
     }
     particles(&frame.particles, config, limits)?;
-    if let Some(particles) = &frame.diffuse {
-        diffuse(frame, particles, config, limits)?;
+    if let Some(particles) = &frame.whitewater {
+        whitewater(frame, particles, config, limits)?;
     }
     if let Some(blobs) = &frame.bubbles {
         bubbles(blobs, config, limits)?;
@@ -174,11 +174,11 @@ fn particles(
     if let Some(ids) = &particles.ids {
         stream("Frame.particles.ids", ids, 4)?;
     }
-    if let Some(foam) = &particles.foam {
-        stream("Frame.particles.foam", foam, 8)?;
-        if !config.foam {
-            let why = "given, but Config.foam is false";
-            return Err(Error::bad("Frame.particles.foam", why));
+    if let Some(foam) = &particles.surface_foam {
+        stream("Frame.particles.surface_foam", foam, 8)?;
+        if !config.surface_foam {
+            let why = "given, but Config.surface_foam is false";
+            return Err(Error::bad("Frame.particles.surface_foam", why));
         }
     }
     let fields = ["Frame.particles.packets.offset", "Frame.particles.packets.count"];
@@ -197,42 +197,43 @@ fn packets(
     Ok(())
 }
 
-fn diffuse(
+fn whitewater(
     frame: &Frame<'_>,
-    particles: &DiffuseParticles,
+    particles: &WhitewaterParticles,
     config: &Config,
     limits: &vk::PhysicalDeviceLimits,
 ) -> Result<(), Error> {
-    let Some(config) = &config.diffuse else {
-        return Err(Error::bad("Frame.diffuse", "given, but Config.diffuse is None"));
+    let Some(config) = &config.whitewater else {
+        return Err(Error::bad("Frame.whitewater", "given, but Config.whitewater is None"));
     };
-    let fields = ["Frame.diffuse.count", "Frame.diffuse.count.offset"];
-    let most = ("Config.diffuse.max_particles", config.max_particles);
+    let fields = ["Frame.whitewater.count", "Frame.whitewater.count.offset"];
+    let most = ("Config.whitewater.max_particles", config.max_particles);
     let count = count(fields, particles.count, most, limits)?;
-    let most = ("Config.diffuse.max_stride", config.max_stride);
+    let most = ("Config.whitewater.max_stride", config.max_stride);
     if particles.fluid_depth.is_some_and(|image| image.image == frame.scene_depth.image) {
         return Err(Error::bad(
-            "Frame.diffuse.fluid_depth",
+            "Frame.whitewater.fluid_depth",
             "is the scene's depth: another image expected",
         ));
     }
-    particles.positions.check("Frame.diffuse.positions", 12, count, most)?;
+    particles.positions.check("Frame.whitewater.positions", 12, count, most)?;
     let others = [
-        ("Frame.diffuse.kinds", &particles.kinds),
-        ("Frame.diffuse.radii", &particles.radii),
-        ("Frame.diffuse.ages", &particles.ages),
-        ("Frame.diffuse.ids", &particles.ids),
+        ("Frame.whitewater.kinds", &particles.kinds),
+        ("Frame.whitewater.radii", &particles.radii),
+        ("Frame.whitewater.ages", &particles.ages),
+        ("Frame.whitewater.ids", &particles.ids),
     ];
     for (field, stream) in others {
         if let Some(stream) = stream {
             stream.check(field, 4, count, most)?;
         }
     }
-    let fields = ["Frame.diffuse.packets.offset", "Frame.diffuse.packets.count"];
+    let fields = ["Frame.whitewater.packets.offset", "Frame.whitewater.packets.count"];
     match &particles.packets {
-        Some(_) if !config.packets => {
-            Err(Error::bad("Frame.diffuse.packets", "given, but Config.diffuse.packets is false"))
-        }
+        Some(_) if !config.packets => Err(Error::bad(
+            "Frame.whitewater.packets",
+            "given, but Config.whitewater.packets is false",
+        )),
         Some(those) => packets(fields, those, limits),
         None => Ok(()),
     }
@@ -242,8 +243,8 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     let Some(config) = &config.bubbles else {
         return Err(Error::bad("Frame.bubbles", "given, but Config.bubbles is None"));
     };
-    if config.hand_over {
-        let why = "given, but Config.bubbles.hand_over makes the blobs of diffuse foam";
+    if config.crossfade {
+        let why = "given, but Config.bubbles.crossfade makes the blobs of whitewater foam";
         return Err(Error::bad("Frame.bubbles", why));
     }
     let fields = ["Frame.bubbles.count", "Frame.bubbles.count.offset"];
@@ -391,13 +392,13 @@ pub fn config(config: &Config) -> Result<(), Error> {
     if let Some(Shadows::Convolution(convolution)) = config.shadow {
         convolution.check()?;
     }
-    if let Some(diffuse) = &config.diffuse {
-        diffuse.check()?;
+    if let Some(whitewater) = &config.whitewater {
+        whitewater.check()?;
     }
     if let Some(bubbles) = &config.bubbles {
         bubbles.check()?;
-        if bubbles.hand_over && config.diffuse.is_none() {
-            return bad("Config.bubbles.hand_over", "set, but Config.diffuse is None".into());
+        if bubbles.crossfade && config.whitewater.is_none() {
+            return bad("Config.bubbles.crossfade", "set, but Config.whitewater is None".into());
         }
     }
     if let Some(shore) = &config.shore {

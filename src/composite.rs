@@ -9,7 +9,6 @@ use ash::vk;
 use crate::bubbles::Bubbles;
 use crate::contract::Config;
 use crate::error::Error;
-use crate::foam::Foam;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_SAMPLED,
@@ -23,6 +22,7 @@ use crate::water::coarsening;
 use crate::water::settings::{EXIT_STEPS, Exit, Shading};
 use crate::water::split::{DISPATCHES, KINDS};
 use crate::water::{Recording, WaterLayers};
+use crate::whitewater::Whitewater;
 
 /// As fast as compute on lavapipe, and usable with outputs that do not support storing. On an H200, which
 /// rasterizes slowly, compute takes a fourteenth of the time (docs/performance.md).
@@ -99,7 +99,7 @@ fn pipelines(
     let beside = [
         (10, u32::from(config.spray)),
         (14, u32::from(config.noise.is_some())),
-        (20, u32::from(config.diffuse.is_some())),
+        (20, u32::from(config.whitewater.is_some())),
         (22, u32::from(config.bubbles.is_some())),
         (24, u32::from(config.shore.is_some())),
         (25, config.mirror_steps),
@@ -110,7 +110,7 @@ fn pipelines(
     for (i, pipeline) in (0..).zip(&mut all) {
         let (near, foam, sheets) = (i >> 2, i >> 1 & 1, 1 + (i & 1));
         let kept = near == 0 || coarsening(config) > 0;
-        if kept && sheets <= config.sheets && foam <= u32::from(config.foam) {
+        if kept && sheets <= config.sheets && foam <= u32::from(config.surface_foam) {
             let own = [(0, thickness), (2, near), (8, sheets), (9, foam)];
             *pipeline = Some(make(&[&own[..], &beside, &light].concat())?);
         }
@@ -198,14 +198,14 @@ impl Composite {
         }
     }
 
-    /// All layers are sampled by fragment shaders before and after, those of `diffuse` and `bubbles` by compute
+    /// All layers are sampled by fragment shaders before and after, those of `whitewater` and `bubbles` by compute
     /// too.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         around: &Surroundings,
         layers: &WaterLayers<'_>,
-        diffuse: Option<&Foam>,
+        whitewater: Option<&Whitewater>,
         bubbles: Option<&Bubbles>,
         shore: Option<&Shore>,
     ) -> Result<(), Error> {
@@ -215,14 +215,14 @@ impl Composite {
         // Where there are none they are not read: any buffer will do.
         let boundaries = Resource::buffer(layers.boundaries.unwrap_or(&layers.split.lists));
         let foam = layers.foam.unwrap_or([layers.thickness; 2]);
-        let diffuse = diffuse.map_or([layers.thickness; 3], Foam::layers);
-        let [diffuse, diffuse_thickness, diffuse_light] =
-            diffuse.map(|image| Resource::Sampled(image.view, nearest));
+        let whitewater = whitewater.map_or([layers.thickness; 3], Whitewater::layers);
+        let [whitewater, whitewater_thickness, whitewater_light] =
+            whitewater.map(|image| Resource::Sampled(image.view, nearest));
         let soap = bubbles.map_or([layers.thickness; 2], |own| [own.depth(), own.image()]);
         let soap = soap.map(|image| Resource::Sampled(image.view, nearest));
         let coat = shore.map_or(layers.thickness, Shore::image);
         let coat = Resource::Sampled(coat.view, gpu.samplers.linear);
-        let [shadow, light_thickness, basis, span, light_diffuse, light_soap] =
+        let [shadow, light_thickness, basis, span, light_whitewater, light_soap] =
             r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
@@ -246,10 +246,10 @@ impl Composite {
             basis,
             span,
             (20, Resource::Sampled(layers.noise.unwrap_or(layers.thickness).view, nearest)),
-            (21, diffuse),
-            (22, diffuse_thickness),
-            (23, diffuse_light),
-            light_diffuse,
+            (21, whitewater),
+            (22, whitewater_thickness),
+            (23, whitewater_light),
+            light_whitewater,
             light_soap,
             (25, soap[0]),
             (26, soap[1]),

@@ -10,26 +10,26 @@ use std::sync::Arc;
 use ash::vk;
 use glam::{DVec3, Mat4, Vec3, Vec4};
 
-use crate::bubbles::settings::{BubbleConfig, BubbleLook};
+use crate::bubbles::settings::{BubbleConfig, BubbleSettings};
 use crate::diagnostics::Diagnostics;
 use crate::error::Error;
-use crate::foam::generate::settings::GenerateSettings;
-use crate::foam::settings::{DiffuseConfig, DiffuseLook};
 use crate::frame::level_axes;
 pub use crate::gpu::access::Access;
 use crate::gpu::memory::Allocate;
-use crate::shore::settings::{ShoreConfig, ShoreLook};
+use crate::shore::settings::{ShoreConfig, ShoreSettings};
 use crate::water::settings::{
-    Exit, FoamLook, FoamSettings, Kernels, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows,
-    Smoothing, Splat, SprayLook, WaterSettings,
+    Exit, Kernels, Ladder, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SpraySettings,
+    SurfaceFoamSettings, SurfaceNoiseSettings, WaterSettings, WeberSettings,
 };
+use crate::whitewater::generate::settings::GeneratorSettings;
+use crate::whitewater::settings::{WhitewaterConfig, WhitewaterSettings};
 
 /// Adds `value.with(|it| it.field = ..)` to structs that may grow.
 macro_rules! with {
     ($($name:ty),+ $(,)?) => {$(
         impl $name {
             /// The value after a change. It replaces struct-update syntax for structs that may grow:
-            /// `Config::new(..).with(|it| it.foam = true)`.
+            /// `Config::new(..).with(|it| it.surface_foam = true)`.
             #[must_use]
             pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
                 change(&mut self);
@@ -46,11 +46,11 @@ with!(
     Config,
     HostImage,
     Particles,
-    DiffuseParticles,
+    WhitewaterParticles,
     Blobs,
     Shore,
     Step<'_>,
-    GenerateStep<'_>,
+    GeneratorStep<'_>,
     Sun,
     Shadow,
     Frame<'_>,
@@ -135,7 +135,7 @@ pub struct Enabled {
     /// barriers of Vulkan 1.0 are recorded, which wait for slightly more; the picture is the same.
     pub synchronization2: bool,
     /// `shaderStorageImageWriteWithoutFormat`. Needed only on a device created for Vulkan 1.2, because 1.3 allows
-    /// it per format: for [`Config::foam`], [`Config::motion`], [`Shadows::Convolution`] and
+    /// it per format: for [`Config::surface_foam`], [`Config::motion`], [`Shadows::Convolution`] and
     /// [`Shading::Compute`].
     pub storage_image_write_without_format: bool,
     /// VK_EXT_debug_utils on the instance: names and labels.
@@ -150,7 +150,7 @@ pub struct Enabled {
     /// the termination.
     pub precise_occlusion_queries: bool,
     /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater takes two passes over
-    /// its particles ([`foam::Splat`](crate::foam::Splat)).
+    /// its particles ([`WhitewaterSplat`](crate::WhitewaterSplat)).
     pub buffer_int64_atomics: bool,
 }
 
@@ -166,8 +166,8 @@ pub struct Config {
     /// [`smoothing_level`](Self::smoothing_level) of 0 all smoothing levels have to fit in one image, beside or
     /// below each other (for a square up to two thirds of the limit, for a narrow one any length). Buffers that
     /// are bound at once have to fit in the storage-buffer range: 32 bytes per pixel with
-    /// [`diffuse`](Self::diffuse); 4 bytes per pixel and layer, plus 4, with [`bubbles`](Self::bubbles); 8
-    /// bytes per texel of thickness, 16 with [`foam`](Self::foam), and 16 more with two
+    /// [`whitewater`](Self::whitewater); 4 bytes per pixel and layer, plus 4, with [`bubbles`](Self::bubbles); 8
+    /// bytes per texel of thickness, 16 with [`surface_foam`](Self::surface_foam), and 16 more with two
     /// [`sheets`](Self::sheets).
     pub extent: vk::Extent2D,
     /// Format of the output: of a colour attachment or a storage image, as [`composite`](Self::composite)
@@ -224,18 +224,18 @@ pub struct Config {
     /// a drop in front of a pool: 1 as in the thesis, or 2 (default). Each has its own thickness, and the
     /// farther one its own surface where the nearer covers it. 1 saves the passes `gaps` and `back`.
     pub sheets: u32,
-    /// Whether surface foam is drawn (default false): the pass `foam`. The foam part of a particle is
+    /// Whether surface foam is drawn (default false): the pass `surface_foam`. The foam part of a particle is
     /// subtracted from its water. 68 bytes per particle more.
-    pub foam: bool,
+    pub surface_foam: bool,
     /// Whether spray is drawn (default false): the pass `spray`, for particles selected by
-    /// [`SprayLook::densities`], which then also apply to water and foam. 32 bytes per particle more.
+    /// [`SpraySettings::densities`], which then also apply to water and foam. 32 bytes per particle more.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own,
-    /// [`Frame::diffuse`]): the passes `splat`, `radiance`, `blur`. `None` (default): it is not. 88 bytes per
+    /// [`Frame::whitewater`]): the passes `splat`, `radiance`, `blur`. `None` (default): it is not. 88 bytes per
     /// pixel more.
-    pub diffuse: Option<DiffuseConfig>,
+    pub whitewater: Option<WhitewaterConfig>,
     /// Whether blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`, and
-    /// `near` if they come from whitewater foam ([`BubbleConfig::hand_over`]). `None` (default): they are not.
+    /// `near` if they come from whitewater foam ([`BubbleConfig::crossfade`]). `None` (default): they are not.
     /// 14½ bytes per pixel more, 4 per pixel and layer plus 4, and 64 per blob.
     pub bubbles: Option<BubbleConfig>,
     /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`.
@@ -250,8 +250,8 @@ pub struct Config {
     /// Whether water and foam cast shadows and caustics on the scene, and foam on itself: the passes `light`,
     /// `caustics` and `lit`. The value is the side length of the light maps over [`Sun::region`] in texels, a
     /// multiple of 16 from 16 to 4096. 36 bytes per texel, and a lit copy of the scene. With
-    /// [`diffuse`](Self::diffuse) whitewater also casts shadows on the scene, the water, foam and itself: the
-    /// pass `diffuse`, 24 bytes per texel more. `None` (default): nothing casts.
+    /// [`whitewater`](Self::whitewater) whitewater also casts shadows on the scene, the water, foam and itself: the
+    /// pass `whitewater_light`, 24 bytes per texel more. `None` (default): nothing casts.
     pub cast: Option<u32>,
     /// Whether motion vectors are made (default false): the pass `motion` and the layer `motion`, from
     /// [`Frame::previous`] and the particles' velocities. 12.5 bytes per pixel more (48, 26, 12.5 or 9.1 for a
@@ -287,9 +287,9 @@ impl Config {
             max_iterations: 256,
             coarsening: 3,
             sheets: 2,
-            foam: false,
+            surface_foam: false,
             spray: false,
-            diffuse: None,
+            whitewater: None,
             bubbles: None,
             shore: None,
             noise: None,
@@ -467,7 +467,7 @@ pub struct Particles {
     /// spray. `None`: this applies to all particles.
     pub densities: Option<Stream>,
     /// World velocities (3×f32, scene units per second), along which foam and spray are stretched, and for
-    /// motion vectors. Read with [`Config::foam`], [`Config::spray`] or [`Config::motion`] only. `None`: at
+    /// motion vectors. Read with [`Config::surface_foam`], [`Config::spray`] or [`Config::motion`] only. `None`: at
     /// rest.
     pub velocities: Option<Stream>,
     /// Numbers that stay with their particle from frame to frame (u32), for the noise in foam and the droplets
@@ -479,8 +479,8 @@ pub struct Particles {
     /// Groups to cull, instead of each particle.
     pub packets: Option<Packets>,
     /// Foam amount (0 water to 1 foam; NaN: water) and age (seconds) of each particle, 2×f32: the content of
-    /// [`State::foam`](crate::State::foam), at a stride of 8. With [`Config::foam`]. `None`: there is no foam.
-    pub foam: Option<Stream>,
+    /// [`State::foam`](crate::State::foam), at a stride of 8. With [`Config::surface_foam`]. `None`: there is no foam.
+    pub surface_foam: Option<Stream>,
     /// Last use of all these buffers before `record`; the layout is ignored. For buffers that the
     /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
     pub before: Access,
@@ -499,7 +499,7 @@ impl Particles {
             ids: None,
             count,
             packets: None,
-            foam: None,
+            surface_foam: None,
             before: crate::gpu::access::NOTHING,
             after: crate::gpu::access::NOTHING,
         }
@@ -531,8 +531,8 @@ impl Particles {
 
     /// Adds the foam fraction of each particle, as in [`State::foam`](crate::State::foam).
     #[must_use]
-    pub fn with_foam(self, foam: Stream) -> Self {
-        Self { foam: Some(foam), ..self }
+    pub fn with_surface_foam(self, foam: Stream) -> Self {
+        Self { surface_foam: Some(foam), ..self }
     }
 
     /// Sets the last use of the buffers before the frame, and their next use after it.
@@ -546,12 +546,12 @@ impl Particles {
 /// Only read.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub struct DiffuseParticles {
+pub struct WhitewaterParticles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are not drawn.
     pub positions: Stream,
     /// Kind of each particle (u32): 0 foam, 1 spray, 2 bubble. `None`: all are foam.
     pub kinds: Option<Stream>,
-    /// Radii (f32, scene units, (0, ∞)). `None`, and radii of 0 or less: [`DiffuseLook::radius`].
+    /// Radii (f32, scene units, (0, ∞)). `None`, and radii of 0 or less: [`WhitewaterSettings::radius`].
     pub radii: Option<Stream>,
     /// Relative age (f32), 0 new to 1 gone. Particles of 1 or more are not drawn. `None`: all are new.
     pub ages: Option<Stream>,
@@ -560,15 +560,15 @@ pub struct DiffuseParticles {
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
-    /// Packets of these particles, with [`DiffuseConfig::packets`](crate::foam::DiffuseConfig::packets).
+    /// Packets of these particles, with [`WhitewaterConfig::packets`](crate::whitewater::WhitewaterConfig::packets).
     /// Packets outside the view, and for shadows outside the light's region, are not read. If the particles
     /// have [`radii`](Self::radii), boxes enclose the spheres, otherwise the centres.
-    /// [`Splat::Raster`](crate::foam::Splat::Raster) reads all packets. `None`: each particle is culled on its
+    /// [`WhitewaterSplat::Raster`](crate::WhitewaterSplat::Raster) reads all packets. `None`: each particle is culled on its
     /// own.
     pub packets: Option<Packets>,
     /// Depth of a fluid surface of the host, such as a sea, in the camera's convention. The nearer of it and
     /// the particles' water counts. Any size, sampled by compute only, an image other than the scene's depth.
-    /// Particles behind it are visible with [`Submerged::Falloff`](crate::foam::Submerged::Falloff) only,
+    /// Particles behind it are visible with [`Submerged::Falloff`](crate::whitewater::Submerged::Falloff) only,
     /// because the host's water has no known absorption. `None`: the particles' water is the only surface.
     pub fluid_depth: Option<HostImage>,
     /// Last use of all these buffers before `record` (layout ignored).
@@ -577,7 +577,7 @@ pub struct DiffuseParticles {
     pub after: Access,
 }
 
-impl DiffuseParticles {
+impl WhitewaterParticles {
     /// Foam at positions alone, in buffers that the CPU wrote before the submit.
     pub fn new(positions: Stream, count: Count) -> Self {
         Self {
@@ -806,7 +806,7 @@ pub struct Step<'a> {
     /// World-space velocities (3×f32, scene units per second).
     pub velocities: Stream,
     /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a
-    /// particle that was just emitted: [`FoamSettings::rest_density`] is used. `None`: for all particles.
+    /// particle that was just emitted: [`WeberSettings::rest_density`] is used. `None`: for all particles.
     pub densities: Option<Stream>,
     /// Ids (u32), unique within a step and constant from step to step; they need not be dense. If two particles
     /// share an id, only one (unspecified) keeps its state. 0xffff_ffff is never foam. `None`: no state is
@@ -817,7 +817,7 @@ pub struct Step<'a> {
     /// Seconds since the previous step, [0, ∞).
     pub dt: f32,
     /// Uniform settings.
-    pub settings: &'a FoamSettings,
+    pub settings: &'a WeberSettings,
     /// Last use of all these buffers before the step (layout ignored).
     pub before: Access,
     /// First use of them after it (layout ignored).
@@ -831,7 +831,7 @@ impl<'a> Step<'a> {
         velocities: Stream,
         count: Count,
         dt: f32,
-        settings: &'a FoamSettings,
+        settings: &'a WeberSettings,
     ) -> Self {
         let (before, after) = (crate::gpu::access::NOTHING, crate::gpu::access::NOTHING);
         Self { slot, velocities, densities: None, ids: None, count, dt, settings, before, after }
@@ -856,11 +856,11 @@ impl<'a> Step<'a> {
     }
 }
 
-/// One fluid step, for [`Generator::record_step`](crate::foam::Generator::record_step): the fluid's particles
+/// One fluid step, for [`Generator::record_step`](crate::whitewater::Generator::record_step): the fluid's particles
 /// after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub struct GenerateStep<'a> {
+pub struct GeneratorStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
     /// World-space centres (3×f32, scene units). Non-finite ones are ignored.
@@ -869,28 +869,28 @@ pub struct GenerateStep<'a> {
     pub velocities: Stream,
     /// Ids (u32), constant from step to step, for the random numbers. `None`: the index is used.
     pub ids: Option<Stream>,
-    /// Number of particles, at most [`GenerateConfig::max_fluid`](crate::foam::GenerateConfig).
+    /// Number of particles, at most [`GeneratorConfig::max_fluid`](crate::whitewater::GeneratorConfig).
     pub count: Count,
     /// Seconds since the previous step, [0, ∞).
     pub dt: f32,
     /// Number of the step in the sequence, for the random numbers.
     pub number: u32,
     /// Uniform settings.
-    pub settings: &'a GenerateSettings,
+    pub settings: &'a GeneratorSettings,
     /// Last use of all these buffers before the step (layout ignored).
     pub before: Access,
     /// First use of them after it (layout ignored).
     pub after: Access,
 }
 
-impl<'a> GenerateStep<'a> {
+impl<'a> GeneratorStep<'a> {
     /// The first step, for particles without ids, in buffers that the CPU wrote before the submit.
     pub fn new(
         slot: Slot,
         [positions, velocities]: [Stream; 2],
         count: Count,
         dt: f32,
-        settings: &'a GenerateSettings,
+        settings: &'a GeneratorSettings,
     ) -> Self {
         let (before, after) = (crate::gpu::access::NOTHING, crate::gpu::access::NOTHING);
         Self {
@@ -1076,10 +1076,10 @@ pub struct Frame<'a> {
     pub scene_depth: HostImage,
     /// The particles.
     pub particles: Particles,
-    /// Whitewater particles, with [`Config::diffuse`]. `None`: there are none.
-    pub diffuse: Option<DiffuseParticles>,
+    /// Whitewater particles, with [`Config::whitewater`]. `None`: there are none.
+    pub whitewater: Option<WhitewaterParticles>,
     /// Blobs of bubble foam, with [`Config::bubbles`]. `None`: there are none, except those that whitewater
-    /// foam turns into ([`BubbleConfig::hand_over`]), with which it has to be `None`.
+    /// foam turns into ([`BubbleConfig::crossfade`]), with which it has to be `None`.
     pub bubbles: Option<Blobs>,
     /// Shoreline and contact foam, with [`Config::shore`]; `None`: there is none.
     pub shore: Option<Shore>,
@@ -1110,7 +1110,7 @@ impl<'a> Frame<'a> {
             scene_color: output,
             scene_depth,
             particles,
-            diffuse: None,
+            whitewater: None,
             bubbles: None,
             shore: None,
             camera,
@@ -1126,10 +1126,10 @@ impl<'a> Frame<'a> {
         Self { scene_color, ..self }
     }
 
-    /// Adds whitewater particles, for [`Config::diffuse`].
+    /// Adds whitewater particles, for [`Config::whitewater`].
     #[must_use]
-    pub fn with_diffuse(self, diffuse: DiffuseParticles) -> Self {
-        Self { diffuse: Some(diffuse), ..self }
+    pub fn with_whitewater(self, whitewater: WhitewaterParticles) -> Self {
+        Self { whitewater: Some(whitewater), ..self }
     }
 
     /// Adds blobs of bubble foam, for [`Config::bubbles`].
@@ -1181,19 +1181,19 @@ pub struct Settings {
     /// Layered water.
     pub water: WaterSettings,
     /// Surface foam.
-    pub foam: FoamLook,
+    pub surface_foam: SurfaceFoamSettings,
     /// Spray of the water's particles.
-    pub spray: SprayLook,
+    pub spray: SpraySettings,
     /// Whitewater.
-    pub diffuse: DiffuseLook,
+    pub whitewater: WhitewaterSettings,
     /// Bubble foam.
-    pub bubbles: BubbleLook,
+    pub bubbles: BubbleSettings,
     /// Shoreline and contact foam.
-    pub shore: ShoreLook,
+    pub shore: ShoreSettings,
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
     /// The baseline's surface noise.
-    pub noise: NoiseLook,
+    pub noise: SurfaceNoiseSettings,
     /// Sun and sky light.
     pub light: Light,
     /// How many layers the composite contains, for debug views. Default: all.
@@ -1206,13 +1206,13 @@ impl Default for Settings {
         Self {
             up: [0.0, 1.0, 0.0],
             water: WaterSettings::default(),
-            foam: FoamLook::default(),
-            spray: SprayLook::default(),
-            diffuse: DiffuseLook::default(),
-            bubbles: BubbleLook::default(),
-            shore: ShoreLook::default(),
+            surface_foam: SurfaceFoamSettings::default(),
+            spray: SpraySettings::default(),
+            whitewater: WhitewaterSettings::default(),
+            bubbles: BubbleSettings::default(),
+            shore: ShoreSettings::default(),
             shadow: ShadowFilter::default(),
-            noise: NoiseLook::default(),
+            noise: SurfaceNoiseSettings::default(),
             light: Light::default(),
             ladder: Ladder::default(),
         }
@@ -1225,16 +1225,16 @@ impl Settings {
     /// up. All lengths, speeds and optical densities of all looks follow from these two numbers. For another sky see
     /// [`with_light`](Self::with_light).
     ///
-    /// The host sets what belongs to a frame or step: radii of diffuse particles, [`Shore::bias`], gravity of
-    /// [`HeapSettings`](crate::bubbles::HeapSettings) and [`GenerateSettings`], and [`FoamSettings::weber_in`].
+    /// The host sets what belongs to a frame or step: radii of whitewater particles, [`Shore::bias`], gravity of
+    /// [`HeapSettings`](crate::bubbles::HeapSettings) and [`GeneratorSettings`], and [`WeberSettings::weber_in`].
     pub fn new(spacing: f32, units_per_metre: f32) -> Self {
         let mut settings = Self::default();
         settings.water.spacing = spacing;
         settings.water.medium = settings.water.medium.thinned(1.0 / units_per_metre);
-        settings.foam = FoamLook::of_spacing(spacing);
-        settings.diffuse = DiffuseLook::of_spacing(spacing);
-        settings.bubbles.hand_over.near *= units_per_metre;
-        settings.bubbles.hand_over.far *= units_per_metre;
+        settings.surface_foam = SurfaceFoamSettings::of_spacing(spacing);
+        settings.whitewater = WhitewaterSettings::of_spacing(spacing);
+        settings.bubbles.crossfade.near *= units_per_metre;
+        settings.bubbles.crossfade.far *= units_per_metre;
         settings.shore = settings.shore.in_units(units_per_metre);
         settings
     }
@@ -1259,9 +1259,9 @@ impl Settings {
     pub fn thesis(spacing: f32) -> Self {
         Self {
             water: WaterSettings::thesis(spacing),
-            foam: FoamLook::thesis(spacing),
-            spray: SprayLook::SOURCE,
-            diffuse: DiffuseLook::of_spacing(spacing),
+            surface_foam: SurfaceFoamSettings::thesis(spacing),
+            spray: SpraySettings::SOURCE,
+            whitewater: WhitewaterSettings::of_spacing(spacing),
             light: Light::default().thesis(),
             ..Self::default()
         }
@@ -1321,7 +1321,7 @@ impl Light {
 #[non_exhaustive]
 pub struct Layer {
     /// Name as in the tool's EXR files: `water.depth` for `water.depth.Z`, `motion` for `motion.X` and
-    /// `motion.Y`. With [`Config::foam`] `water.thickness` has a second channel: the water in front of the
+    /// `motion.Y`. With [`Config::surface_foam`] `water.thickness` has a second channel: the water in front of the
     /// frontmost foam. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: front layer, back layer,
     /// and the window between them. A texel of `water.iterations` has 32 bits: the low nine are the planned
     /// iterations, the other 23 the step size relative to the largest one.

@@ -7,7 +7,6 @@ use glam::Vec3;
 
 use crate::contract::{Config, HostImage};
 use crate::error::Error;
-use crate::foam::Irradiance;
 use crate::frame::{check_up, level_axes};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
@@ -18,6 +17,7 @@ use crate::gpu::graveyard::{Grave, Owned};
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
+use crate::whitewater::Irradiance;
 
 crate::contract::with!(Sky, Equirectangular);
 
@@ -218,7 +218,7 @@ impl Environment {
 
     /// Whether foam samples it in the directions of its occlusion samples.
     pub fn is_sampled(config: &Config) -> bool {
-        config.diffuse.is_some_and(|foam| foam.irradiance == Irradiance::Sampled)
+        config.whitewater.is_some_and(|foam| foam.irradiance == Irradiance::Sampled)
     }
 
     /// Records a black environment, so that frames can sample it.

@@ -7,12 +7,12 @@ use glam::{DMat4, Mat4, Vec3, Vec4};
 
 use crate::contract::{Camera, Config, Frame, Light, Region, Settings};
 use crate::error::Error;
-use crate::foam::settings::{Mixing, Reach, Submerged};
 use crate::gpu::shader;
 use crate::water::settings::{
-    Amplitude, Bed, Compositing, FoamLook, Fresnel, GREATEST, Medium, Rule, SprayLook, WATER_INDEX,
-    WaterSettings,
+    Amplitude, Bed, Compositing, Fresnel, GREATEST, Medium, Rule, SpraySettings,
+    SurfaceFoamSettings, WATER_INDEX, WaterSettings,
 };
+use crate::whitewater::settings::{OcclusionReach, ShadowMixing, Submerged};
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
 pub const EMPTY: f32 = 1.0e10;
@@ -77,17 +77,17 @@ pub struct FrameUniforms {
     pub noise: [f32; 4],
     pub noise_image: [f32; 4],
     pub noise_color: [f32; 4],
-    pub diffuse: [f32; 4],
-    pub diffuse_below: [f32; 4],
-    pub diffuse_light: [f32; 4],
-    pub diffuse_search: [f32; 4],
-    pub diffuse_samples: [f32; 4],
-    pub diffuse_opacity: [f32; 4],
-    pub diffuse_shadow: [f32; 4],
-    pub diffuse_color: [f32; 4],
-    pub diffuse_shapes: [[f32; 4]; 3],
-    pub diffuse_life: [f32; 4],
-    pub diffuse_sun: [f32; 4],
+    pub whitewater: [f32; 4],
+    pub whitewater_below: [f32; 4],
+    pub whitewater_light: [f32; 4],
+    pub whitewater_search: [f32; 4],
+    pub whitewater_samples: [f32; 4],
+    pub whitewater_opacity: [f32; 4],
+    pub whitewater_shadow: [f32; 4],
+    pub whitewater_color: [f32; 4],
+    pub whitewater_shapes: [[f32; 4]; 3],
+    pub whitewater_life: [f32; 4],
+    pub whitewater_sun: [f32; 4],
     pub shore_color: [f32; 4],
     pub contact_color: [f32; 4],
     pub up: [f32; 4],
@@ -154,17 +154,17 @@ shader::assert_layout!(
         noise,
         noise_image,
         noise_color,
-        diffuse,
-        diffuse_below,
-        diffuse_light,
-        diffuse_search,
-        diffuse_samples,
-        diffuse_opacity,
-        diffuse_shadow,
-        diffuse_color,
-        diffuse_shapes,
-        diffuse_life,
-        diffuse_sun,
+        whitewater,
+        whitewater_below,
+        whitewater_light,
+        whitewater_search,
+        whitewater_samples,
+        whitewater_opacity,
+        whitewater_shadow,
+        whitewater_color,
+        whitewater_shapes,
+        whitewater_life,
+        whitewater_sun,
         shore_color,
         contact_color,
         up,
@@ -324,22 +324,22 @@ impl FrameUniforms {
             _ => 0.0,
         };
         let (medium_a, medium_b, ambient) = medium(water, light);
-        let look = &frame.settings.foam;
+        let look = &frame.settings.surface_foam;
         let (parts, carried, began) = pattern_phases(look);
         let ripples = &frame.settings.noise;
-        let diffuse = &frame.settings.diffuse;
-        let over = config.bubbles.filter(|bubbles| bubbles.hand_over);
-        let over = over.map(|_| frame.settings.bubbles.hand_over);
+        let whitewater = &frame.settings.whitewater;
+        let over = config.bubbles.filter(|bubbles| bubbles.crossfade);
+        let over = over.map(|_| frame.settings.bubbles.crossfade);
         let [near, far] = over.map_or([0.0; 2], |over| [over.near, over.far]);
-        let falloff = match diffuse.submerged {
+        let falloff = match whitewater.submerged {
             Submerged::Water => None,
-            Submerged::Falloff { most, n, m } => Some([most, n, m, 0.0]),
+            Submerged::Falloff { depth, n, m } => Some([depth, n, m, 0.0]),
         };
         let noise_level = config.noise.unwrap_or(0);
         let noisy = reduced(full, noise_level);
         let sun = lens.view.transform_vector3(light.toward()).normalize_or_zero();
         let since = Since::new(lens, frame);
-        let mut shapes = [diffuse.foam_shape, diffuse.spray_shape, diffuse.bubble_shape]
+        let mut shapes = [whitewater.foam_shape, whitewater.spray_shape, whitewater.bubble_shape]
             .map(|[n, m]| [n, m, falloff_mean(n, m), 0.0]);
         // Bubbles are hollow.
         shapes[2][2] = 1.0 - shapes[2][2];
@@ -395,7 +395,12 @@ impl FrameUniforms {
                 f32::from(u8::from(water.compositing == Compositing::Source)),
             ),
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
-            foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
+            foam_noise: [
+                look.noise,
+                look.noise_rate,
+                look.normal_strength,
+                look.min_thickness.max(1.0e-6),
+            ],
             foam_pattern: [
                 3.0 * look.pattern,
                 look.lace,
@@ -450,51 +455,51 @@ impl FrameUniforms {
                 ripples.cells / radius,
             ],
             noise_color: foam_color(ripples.color, light),
-            diffuse: [diffuse.radius, near, far, f32::from(u8::from(falloff.is_some()))],
-            diffuse_below: falloff.unwrap_or([1.0; 4]),
-            diffuse_light: [
-                diffuse.half.log2(),
-                diffuse.exponent,
-                f32::from(u8::from(diffuse.mixing == Mixing::Source)),
+            whitewater: [whitewater.radius, near, far, f32::from(u8::from(falloff.is_some()))],
+            whitewater_below: falloff.unwrap_or([1.0; 4]),
+            whitewater_light: [
+                whitewater.half_intensity_thickness.log2(),
+                whitewater.exponent,
+                f32::from(u8::from(whitewater.mixing == ShadowMixing::Source)),
                 over.map_or(0.0, |over| over.size),
             ],
-            diffuse_search: [
-                diffuse.search[0],
-                diffuse.search[1],
-                diffuse.passes as f32,
-                diffuse.density,
+            whitewater_search: [
+                whitewater.search_radius,
+                whitewater.search_radius_step,
+                whitewater.passes as f32,
+                whitewater.sample_density,
             ],
-            diffuse_samples: [
-                diffuse.samples[0] as f32,
-                diffuse.samples[1] as f32,
-                match diffuse.reach {
-                    Reach::Radii(radii) => radii,
-                    Reach::Metres(metres) => -metres,
+            whitewater_samples: [
+                whitewater.min_samples as f32,
+                whitewater.max_samples as f32,
+                match whitewater.reach {
+                    OcclusionReach::Radii(radii) => radii,
+                    OcclusionReach::Metres(metres) => -metres,
                 },
                 0.0,
             ],
-            diffuse_opacity: [
-                diffuse.opacity[0],
-                diffuse.opacity[1],
-                diffuse.shadow[0],
-                diffuse.shadow[1],
+            whitewater_opacity: [
+                whitewater.fluid_opacity,
+                whitewater.scene_opacity,
+                whitewater.shadow_scale,
+                whitewater.shadow_exponent,
             ],
-            diffuse_shadow: with(
-                light_vector(diffuse.shadow_color.map(|c| 1.0 - c)),
-                diffuse.shadow[2],
+            whitewater_shadow: with(
+                light_vector(whitewater.shadow_color.map(|c| 1.0 - c)),
+                whitewater.shadow_offset,
             ),
-            diffuse_color: with(
-                light_vector(diffuse.albedo.map(|c| 2.0 * diffuse.scale * c)),
-                diffuse.blur,
+            whitewater_color: with(
+                light_vector(whitewater.albedo.map(|c| 2.0 * whitewater.scale * c)),
+                whitewater.blur,
             ),
-            diffuse_shapes: shapes,
-            diffuse_life: [
-                diffuse.life[0],
-                diffuse.life[1],
-                diffuse.sizes as f32,
-                diffuse.bubble_size,
+            whitewater_shapes: shapes,
+            whitewater_life: [
+                whitewater.life[0],
+                whitewater.life[1],
+                whitewater.sizes as f32,
+                whitewater.bubble_size,
             ],
-            diffuse_sun: sun_on(frame.settings),
+            whitewater_sun: sun_on(frame.settings),
             shore_color,
             contact_color,
             up: frame.settings.upward().extend(index(water).recip()).to_array(),
@@ -585,28 +590,32 @@ pub fn check_up(field: &'static str, up: [f32; 3]) -> Result<(), Error> {
 fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
     let (water, spray) = (&settings.water, &settings.spray);
     let own = [water.density_threshold, water.density_full, water.density_threshold];
-    let [all, full, none] =
-        if config.spray { spray.densities } else { own }.map(|part| part * water.rest_density);
+    let [all, full, none] = if config.spray {
+        [spray.all_spray_density, spray.full_water_density, spray.no_spray_density]
+    } else {
+        own
+    }
+    .map(|part| part * water.rest_density);
     [all, full, none, spray.droplets as f32]
 }
 
-fn spray_shape(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
+fn spray_shape(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
     let optical_depth = -(1.0 - spray.opacity).ln();
     // Droplets together cover what one would: of their squares 0.513 is the mean, and 0.6 of them are drawn (spray.vert).
     let many = if spray.droplets > 1 { 0.513 * 0.6 * spray.droplets as f32 } else { 1.0 };
     let half_axis = spray.size * water.radius() / many.sqrt();
-    [optical_depth, half_axis, spray.spread * water.spacing, spray.shutter]
+    [optical_depth, half_axis, spray.scatter_radius * water.spacing, spray.exposure]
 }
 
-fn spray_cloud(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
+fn spray_cloud(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
     [-(1.0 - spray.mist).ln(), spray.mist_size * water.spacing, spray.stretch, 0.0]
 }
 
-fn spray_mist(spray: &SprayLook) -> [f32; 4] {
+fn spray_mist(spray: &SpraySettings) -> [f32; 4] {
     [spray.mist_contrast, spray.shade, 0.0, 0.0]
 }
 
-fn spray_color(spray: &SprayLook, light: &Light) -> [f32; 4] {
+fn spray_color(spray: &SpraySettings, light: &Light) -> [f32; 4] {
     let [r, g, b, _] = foam_color(spray.color, light);
     [r, g, b, f32::from(u8::from(spray.additive))]
 }
@@ -627,7 +636,7 @@ const TO_PLACE: Mat4 = Mat4::from_cols_array(&[
 
 /// For the two phases of the foam's pattern: weights, such that the variance of their sum is constant;
 /// displacement relative to half a period, -1 to 1; origin in the noise, new in each period.
-fn pattern_phases(look: &FoamLook) -> ([f32; 2], [f32; 2], [f32; 2]) {
+fn pattern_phases(look: &SurfaceFoamSettings) -> ([f32; 2], [f32; 2], [f32; 2]) {
     let cycles = look.time / f64::from(look.pattern_period);
     let [one, other] = [0.0, 0.5].map(|late| {
         let at = cycles + late;
@@ -645,7 +654,7 @@ fn pattern_phases(look: &FoamLook) -> ([f32; 2], [f32; 2], [f32; 2]) {
 }
 
 /// Ratio of shade to sunlight; foam's extinction of sunlight.
-fn shade(light: &Light, foam: &FoamLook) -> [f32; 4] {
+fn shade(light: &Light, foam: &SurfaceFoamSettings) -> [f32; 4] {
     let part = |i: usize| {
         let whole = light.irradiance[i];
         if whole > 0.0 { (light.shade[i] / whole).clamp(0.0, 1.0) } else { 1.0 }

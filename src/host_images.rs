@@ -67,7 +67,7 @@ fn shadow_use(image: &HostImage, convolved: bool) -> Access {
 
 /// The host's own fluid surface.
 fn fluid<'a>(frame: &'a Frame<'_>) -> Option<(&'a HostImage, Access)> {
-    let image = frame.diffuse.as_ref()?.fluid_depth.as_ref()?;
+    let image = frame.whitewater.as_ref()?.fluid_depth.as_ref()?;
     Some((image, Access { layout: depth_layout(image), ..access::COMPUTE_SAMPLED }))
 }
 
@@ -97,7 +97,7 @@ pub fn sunlight(
     Sunlight {
         shadow: map.map_or(depth, |shadow| shadow_map(shadow, gpu)),
         thickness: light.map_or(depth, |light| light.thickness(gpu)),
-        diffuse: light.and_then(|light| light.diffuse(gpu)).unwrap_or(depth),
+        whitewater: light.and_then(|light| light.whitewater(gpu)).unwrap_or(depth),
         bubbles: bubbles.and_then(|bubbles| bubbles.cast(gpu)).unwrap_or(depth),
         convolved: convolving.map_or([depth, uniforms], |convolving| convolving.resources(gpu)),
     }

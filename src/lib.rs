@@ -26,7 +26,7 @@
 //! simulation step:
 //!
 //! - [`State`] holds which of the water's particles are foam ([`State::record_step`]).
-//! - [`foam::Generator`] emits, moves and ages whitewater: spray, foam and bubbles that are particles of their own.
+//! - [`Generator`] emits, moves and ages whitewater: spray, foam and bubbles that are particles of their own.
 //! - [`bubbles::Heap`] simulates blobs of bubble foam.
 //! - [`shore::ShoreMap`] holds the distance to the shore. It is updated only where the land has changed.
 //!
@@ -44,14 +44,14 @@
 //! | `particles.densities` | f32; 0 marks a particle that was just emitted | as above | as above |
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
 //! | `particles.packets` | the host's own groups with bounding boxes, for culling | storage buffer, aligned offset | as above |
-//! | `particles.velocities` | 3×f32, world space; with `Config.foam`, `Config.spray` or `Config.motion` | as above | as above |
+//! | `particles.velocities` | 3×f32, world space; with `Config.surface_foam`, `Config.spray` or `Config.motion` | as above | as above |
 //! | `particles.ids` | u32, the same for a particle in every frame; as velocities, and with `Config.noise` | as above | as above |
-//! | `particles.foam` | with `Config.foam`: foam amount and age (2×f32, as [`State::foam`]) | as above | as above |
-//! | `diffuse.positions` | with `Config.diffuse`: 3×f32, whitewater particles; NaN, infinite and huge ones are not drawn | as above | as above |
-//! | `diffuse.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 per particle; all optional | as above | as above |
-//! | `diffuse.count` | as `particles.count` | as above | as above |
-//! | `diffuse.packets` | as `particles.packets`, with `DiffuseConfig::packets` | as above | as above |
-//! | `diffuse.fluid_depth` | depth of a fluid surface of your own, in the camera's convention; any size; optional | sampled and depth attachment, single-sampled | `before` → `after` |
+//! | `particles.surface_foam` | with `Config.surface_foam`: foam amount and age (2×f32, as [`State::foam`]) | as above | as above |
+//! | `whitewater.positions` | with `Config.whitewater`: 3×f32, whitewater particles; NaN, infinite and huge ones are not drawn | as above | as above |
+//! | `whitewater.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 per particle; all optional | as above | as above |
+//! | `whitewater.count` | as `particles.count` | as above | as above |
+//! | `whitewater.packets` | as `particles.packets`, with `WhitewaterConfig::packets` | as above | as above |
+//! | `whitewater.fluid_depth` | depth of a fluid surface of your own, in the camera's convention; any size; optional | sampled and depth attachment, single-sampled | `before` → `after` |
 //! | `bubbles.balls` | with `Config.bubbles`: 4×f32, centre and radius of soap-foam blobs, world space; entries with a non-finite centre or a radius ≤ 0 are ignored | as above | as above |
 //! | `bubbles.turns`, `ids` | orientation quaternions (4×f32) and ids (u32) per blob; both optional | as above | as above |
 //! | `bubbles.count` | as `particles.count` | as above | as above |
@@ -68,7 +68,7 @@
 //! surface point in this frame minus its position in the previous frame ([`Frame::previous`]), in pixels, y down. Water and
 //! foam have the motion of their own surface, from the velocities of the particles near it, not the motion of the scene
 //! behind it. The scene is taken as static, so its vectors come from the camera alone. An engine with motion vectors of its
-//! own takes these where there is water: where `water.depth` or `water.foam` is less than 1e10. (`water.foam` has the
+//! own takes these where there is water: where `water.depth` or `surface_foam` is less than 1e10. (`surface_foam` has the
 //! resolution of the thickness.)
 //!
 //! # Promises
@@ -84,7 +84,7 @@
 //!   that used it has come back. Only construction, `resize`, `reconfigure`, `collect` and `destroy` call the allocator.
 //! - Equal inputs give equal pictures on one device, in any order of the particles. Sums are of integers, or of steps that
 //!   floats represent exactly. There are three exceptions: the additive blending of [`Splat::Raster`](water::Splat); light
-//!   maps some hundred spacings from the centre of their region, which are nearly exact; and [`foam::Splat::Raster`], which
+//!   maps some hundred spacings from the centre of their region, which are nearly exact; and [`WhitewaterSplat::Raster`], which
 //!   rounds sums beyond 256 and, of two whitewater particles at one depth, shows the first.
 //!
 //! # Demands
@@ -118,36 +118,36 @@
 //! | cells of pass `front` | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
-//! | environment without the sun (`DiffuseConfig::irradiance` of `Sampled`) | | 4.0 MiB | 4.0 MiB |
-//! | foam: depth, thickness and its sums, water in front of it (`foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
-//! | foam: its sunlit part (`foam` with `cast` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
-//! | foam: sprites and shares (`foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |
+//! | environment without the sun (`WhitewaterConfig::irradiance` of `Sampled`) | | 4.0 MiB | 4.0 MiB |
+//! | foam: depth, thickness and its sums, water in front of it (`surface_foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
+//! | foam: its sunlit part (`surface_foam` with `cast` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
+//! | foam: sprites and shares (`surface_foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |
 //! | spray: optical depth and its sunlit part (`spray`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |
 //! | surface noise: sprites (`noise`) | 16 n | 1.0 MiB for 65 536 | 160 MB for 10 million |
-//! | whitewater: words, depths, thickness, normals, light, tiles (`diffuse`) | 88 w h | 77.4 MiB | 174.1 MiB |
+//! | whitewater: words, depths, thickness, normals, light, tiles (`whitewater`) | 88 w h | 77.4 MiB | 174.1 MiB |
 //! | bubble foam: depth, colour, three layers and lists (`bubbles`) | 30½ w h | 26.8 MiB | 60.3 MiB |
 //! | bubble foam: blobs (`bubbles`) | 64 per blob | 0.3 MiB for 5000 | |
-//! | bubble foam: blobs made of whitewater foam (`bubbles.hand_over`) | 36 per blob | 2.3 MiB for 65 536 | |
+//! | bubble foam: blobs made of whitewater foam (`bubbles.crossfade`) | 36 per blob | 2.3 MiB for 65 536 | |
 //! | bubble foam: shadow map of N texels a side (`cast` = N with `bubbles`) | N² | 1 MiB for 1024 | |
 //! | shoreline and contact foam (`shore`), and 8.7 MiB for the textures | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
-//! | sunlight: map of whitewater (`cast` with `diffuse`) | 24 N² | 24 MiB for 1024 | |
+//! | sunlight: map of whitewater (`cast` with `whitewater`) | 24 N² | 24 MiB for 1024 | |
 //! | filtered host shadow map (`Shadows::Convolution`), N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, instead of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
-//! | which particles are in a packet (`foam`, `spray`, `motion`, `noise` or `cast`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
+//! | which particles are in a packet (`surface_foam`, `spray`, `motion`, `noise` or `cast`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
 //! | ellipsoids: grid, shapes, lists (`kernels`) | 92 to 96 n | 5.8 MiB for 65 536 | 960 MB for 10 million |
 //! | spheres: all, and the visible ones | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
-//! A [`State`] takes 68 bytes per particle. A [`foam::Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per
+//! A [`State`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per
 //! whitewater particle. A [`shore::ShoreMap`] takes 16 bytes per texel.
 //!
 //! # Where it differs from its sources
 //!
 //! Each pass states this in its header; `docs/differences.md` in the repository collects the main points. `water`
-//! follows Bagar 2010, `foam` Akinci et al. 2013 and Ihmsen et al. 2012, `bubbles` Huszár and Szécsi, `shore` a blog and a
+//! follows Bagar 2010, `WhitewaterSettings` Akinci et al. 2013 and Ihmsen et al. 2012, `bubbles` Huszár and Szécsi, `shore` a blog and a
 //! tutorial.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -176,7 +176,6 @@ mod contract;
 mod diagnostics;
 mod environment;
 mod error;
-pub mod foam;
 mod frame;
 mod gpu;
 #[cfg(feature = "headless")]
@@ -191,6 +190,7 @@ pub mod shore;
 mod sky;
 mod state;
 pub mod water;
+mod whitewater;
 
 pub use context::Context;
 pub use contract::*;
@@ -204,3 +204,7 @@ pub use gpu::requirements::{Limit, Need, Offer, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;
 pub use state::{State, StateConfig};
+pub use whitewater::{
+    Generator, GeneratorConfig, GeneratorSettings, Irradiance, Occlusion, OcclusionReach,
+    PotentialRange, ShadowMixing, Submerged, WhitewaterConfig, WhitewaterSettings, WhitewaterSplat,
+};

@@ -13,8 +13,6 @@ use crate::contract::{Config, Count, Frame, HostImage, Layer, MemoryUse, Recorde
 use crate::diagnostics::{Diagnostics, SmoothingLevels};
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
-use crate::foam::Foam;
-use crate::foam::streams::{self, Chunks};
 use crate::frame::{FrameUniforms, Lens};
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer};
@@ -25,9 +23,11 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
-use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
+use crate::light::{Convolving, Light, Output, convolution, whitewater_sets};
 use crate::shore::{Given, Shore, ShoreUniforms};
 use crate::water::{Beside, Recording, STREAM_USE, Water, buffers_of, shape_sets};
+use crate::whitewater::Whitewater;
+use crate::whitewater::streams::{self, Chunks};
 
 /// Offset of the smoothing levels in a slot's uniform buffer; 256 is the largest alignment that a device may
 /// require.
@@ -66,7 +66,7 @@ pub struct Renderer {
     composite: Composite,
     light: Option<Light>,
     convolving: Option<Convolving>,
-    foam: Option<Foam>,
+    foam: Option<Whitewater>,
     bubbles: Option<Bubbles>,
     shore: Option<Shore>,
     environment: Environment,
@@ -294,8 +294,8 @@ impl Renderer {
                 SHORE as u64,
                 size_of::<ShoreUniforms>() as u64,
             ),
-            shaped: frame.settings.diffuse.shaped(),
-            hand_over: handed_over.map(|(_, over)| over),
+            shaped: frame.settings.whitewater.shaped(),
+            crossfade: handed_over.map(|(_, over)| over),
             scene_depth,
             sunlight: sunlight(
                 frame,
@@ -310,10 +310,10 @@ impl Renderer {
         {
             convolving.record(&mut r, &convolution, shadow, shadow_map(shadow, gpu))?;
         }
-        let diffuse = self.foam.as_ref().map(|foam| (foam, frame.diffuse.as_ref()));
+        let whitewater = self.foam.as_ref().map(|foam| (foam, frame.whitewater.as_ref()));
         let blobs = frame.bubbles.or(handed_over.map(|(blobs, _)| blobs));
         let bubbles = self.bubbles.as_ref().map(|bubbles| (bubbles, blobs.as_ref()));
-        let beside = Beside { light: self.light.as_ref(), diffuse, bubbles };
+        let beside = Beside { light: self.light.as_ref(), whitewater, bubbles };
         self.water.record(&mut r, &frame.particles, &frame.settings.water, &beside)?;
         let given = Given::new(frame.shore.as_ref(), gpu);
         if let Some(shore) = &self.shore {
@@ -369,9 +369,9 @@ impl Renderer {
         let given_back = |handle| buffer(handle, STREAM_USE, frame.particles.after);
         let mut buffers: Vec<_> =
             buffers_of(&frame.particles).into_iter().map(given_back).collect();
-        if let (Some(diffuse), Some(foam)) = (&frame.diffuse, &self.foam) {
-            let back = |handle| buffer(handle, foam.reading(), diffuse.after);
-            buffers.extend(streams::buffers_of(diffuse).into_iter().map(back));
+        if let (Some(whitewater), Some(foam)) = (&frame.whitewater, &self.foam) {
+            let back = |handle| buffer(handle, foam.reading(), whitewater.after);
+            buffers.extend(streams::buffers_of(whitewater).into_iter().map(back));
         }
         if let (Some(blobs), Some(_)) = (&frame.bubbles, &self.bubbles) {
             let back = |handle| buffer(handle, bubbles::READING, blobs.after);
@@ -549,7 +549,7 @@ impl Renderer {
         let mut memory = self.water.memory();
         let light = self.light.as_ref().map(Light::memory);
         let convolving = self.convolving.as_ref().map(Convolving::memory);
-        let foam = self.foam.as_ref().map(Foam::memory);
+        let foam = self.foam.as_ref().map(Whitewater::memory);
         let bubbles = self.bubbles.as_ref().map(Bubbles::memory);
         let shore = self.shore.as_ref().map(Shore::memory);
         let all = light.into_iter().chain(convolving).chain(foam).chain(bubbles).chain(shore);
@@ -620,7 +620,7 @@ struct Parts {
     composite: Composite,
     light: Option<Light>,
     convolving: Option<Convolving>,
-    foam: Option<Foam>,
+    foam: Option<Whitewater>,
     bubbles: Option<Bubbles>,
     shore: Option<Shore>,
     scene_copy: Option<Image>,
@@ -640,7 +640,10 @@ impl Parts {
             composite: Composite::new(gpu, config)?,
             light: Self::light(gpu, config)?,
             convolving: Self::convolving(gpu, config)?,
-            foam: config.diffuse.map(|diffuse| Foam::new(gpu, config, &diffuse)).transpose()?,
+            foam: config
+                .whitewater
+                .map(|whitewater| Whitewater::new(gpu, config, &whitewater))
+                .transpose()?,
             bubbles: bubbles.transpose()?,
             shore: shore.transpose()?,
             scene_copy: Self::scene_copy(gpu, config)?,
@@ -685,15 +688,16 @@ impl SlotState {
 
     /// Number of descriptor sets: a few per pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
+        let whitewater =
+            config.whitewater.map_or(0, |whitewater| Chunks::new(&gpu.limits, &whitewater).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
-        let near = config.diffuse.filter(|_| config.bubbles.is_some_and(|own| own.hand_over));
-        let near = near.map_or(0, |diffuse| near_sets(&gpu.limits, &diffuse));
+        let near = config.whitewater.filter(|_| config.bubbles.is_some_and(|own| own.crossfade));
+        let near = near.map_or(0, |whitewater| near_sets(&gpu.limits, &whitewater));
         149 + shape_sets(config, water)
             + 27 * water
-            + 4 * diffuse
+            + 4 * whitewater
             + near
-            + diffuse_sets(&gpu.limits, config)
+            + whitewater_sets(&gpu.limits, config)
     }
 
     /// Begins a frame. The slot's earlier work is complete, so its sets and framebuffer are freed.
@@ -720,7 +724,7 @@ impl SlotState {
 fn kept(
     config: &Config,
     water: &Water,
-    (foam, bubbles, shore): (Option<&Foam>, Option<&Bubbles>, Option<&Shore>),
+    (foam, bubbles, shore): (Option<&Whitewater>, Option<&Bubbles>, Option<&Shore>),
     (light, convolving): (Option<&Light>, Option<&Convolving>),
     size: vk::Extent2D,
 ) -> Vec<Layer> {

@@ -105,7 +105,7 @@ fn formats_have_names() {
 }
 
 #[test]
-fn diffuse_attributes_are_read() {
+fn whitewater_attributes_are_read() {
     let text = "x,y,z,lifetime,type,id\n0,0,0,1.5,0,7\n1,0,0,-40,1,8\n2,0,0,0.25,2,9\n";
     let particles = read_bytes(text.as_bytes(), Extension::Csv).unwrap();
     assert_eq!(particles.lifetimes, Some(vec![1.5, -40.0, 0.25]));

@@ -23,16 +23,10 @@ mod contract;
 mod convolution;
 #[path = "gpu/depth.rs"]
 mod depth;
-#[path = "gpu/diffuse/mod.rs"]
-mod diffuse;
-#[path = "gpu/diffuse_parts.rs"]
-mod diffuse_parts;
 #[path = "gpu/environment.rs"]
 mod environment;
 #[path = "gpu/far.rs"]
 mod far;
-#[path = "gpu/foam/mod.rs"]
-mod foam;
 #[path = "gpu/generate.rs"]
 mod generate;
 #[path = "gpu/harness.rs"]
@@ -77,11 +71,17 @@ mod smooth;
 mod spied;
 #[path = "gpu/spray.rs"]
 mod spray;
+#[path = "gpu/surface_foam/mod.rs"]
+mod surface_foam;
 #[path = "gpu/temporal.rs"]
 mod temporal;
 #[path = "gpu/thickness.rs"]
 mod thickness;
 #[path = "gpu/up.rs"]
 mod up;
+#[path = "gpu/whitewater/mod.rs"]
+mod whitewater;
+#[path = "gpu/whitewater_parts.rs"]
+mod whitewater_parts;
 #[path = "gpu/work.rs"]
 mod work;

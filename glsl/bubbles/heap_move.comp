@@ -174,14 +174,14 @@ float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec
     uint halved = growth.halved & 0xffu;
     if (growth.parted < 1.0) {
         growth.parted = min(growth.parted + dt / push.solid.w, 1.0);
-    } else if (halved < push.halvings) {
+    } else if (halved < push.max_splits) {
         bool kept = company.volume >= push.water.z * volume_of(own.ball.w);
         growth.alone = kept ? 0.0 : growth.alone + dt;
         if (growth.alone > push.water.w) {
             float goal = 0.79370053 * own.ball.w;
             growth = Growth(goal, min(dt / push.solid.w, 1.0), 0.0, halved + 1u);
             Growth other = Growth(goal, growth.parted, 0.0, (halved + 1u) | CHILD);
-            uint at = index + ((push.blobs >> push.halvings) << halved);
+            uint at = index + ((push.blobs >> push.max_splits) << halved);
             float apart = push.pair.x * (radius_of(growth) + radius_of(other));
             balls[at] = vec4(place + apart * way_apart(own, company), radius_of(other));
             turns[at] = turns[index];
@@ -246,7 +246,7 @@ void main() {
     vec3 half_ = 0.5 * dt * spin;
     turn += vec4(turn.w * half_ + cross(half_, turn.xyz), -dot(half_, turn.xyz));
     vec3 place = own.ball.xyz + dt * speed;
-    float radius = push.halvings > 0u ? grown(own, index, company, place, speed, spin) : own.ball.w;
+    float radius = push.max_splits > 0u ? grown(own, index, company, place, speed, spin) : own.ball.w;
     balls[index] = vec4(place, radius);
     turns[index] = normalize(turn);
     drifts[index] = vec4(speed, 0.0);

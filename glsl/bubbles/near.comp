@@ -2,13 +2,13 @@
 // Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs (Akinci et al. 2013 draw no foam there;
 // blobs by Huszar, Szecsi): a particle's blob grows as its sprite shrinks. Two dispatches over the particles: a
 // histogram of their distances, then the blobs for which there are slots.
-// Reads: positions, kinds, radii, ages, ids, arguments, hand-over. Writes: numbers; count, balls, turns, blob ids.
+// Reads: positions, kinds, radii, ages, ids, arguments, crossfade. Writes: numbers; count, balls, turns, blob ids.
 
 #include "frame.glsl"
 #include "falloff.glsl"
-#include "diffuse.glsl"
+#include "whitewater.glsl"
 #include "random.glsl"
-#include "hand_over.glsl"
+#include "crossfade.glsl"
 #include "frustum.glsl"
 #include "near_blob.glsl"
 
@@ -32,7 +32,7 @@ layout(push_constant, std430) uniform Push {
     uint room; // capacity of blobs
 } push;
 
-#include "diffuse_streams.glsl"
+#include "whitewater_streams.glsl"
 
 layout(set = 0, binding = 6, std430) buffer Numbers { uint numbers[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
@@ -52,8 +52,8 @@ void main() {
     if (i >= arguments[push.chunk].w) {
         return;
     }
-    vec4 world = diffuse_world(i);
-    Diffuse p = diffuse_whole(i, world);
+    vec4 world = whitewater_world(i);
+    Whitewater p = whitewater_whole(i, world);
     // Counting and listing must compute exactly the same value.
     precise float distance_ = length(p.centre);
     uint ring = ring_of(distance_);
@@ -64,13 +64,13 @@ void main() {
         }
         return;
     }
-    if (near && ring < hand_over.rings) {
+    if (near && ring < crossfade.rings) {
         uint slot = atomicAdd(count, 1u);
         if (slot < push.room) {
-            uint id = diffuse_id(i);
+            uint id = whitewater_id(i);
             // The blob takes over the area that the sprite loses.
             float part = sqrt(1.0 - kept_of(p));
-            balls[slot] = vec4(world.xyz, frame.diffuse_light.w * p.radius * p.life * part);
+            balls[slot] = vec4(world.xyz, frame.whitewater_light.w * p.radius * p.life * part);
             turns[slot] = turn_of(id);
             blob_ids[slot] = id;
         }

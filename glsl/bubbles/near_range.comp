@@ -1,15 +1,15 @@
 #version 460
 // Pass `near`, between its dispatches: the distance up to which there are enough slots. If there are too few, the
 // cross-fade moves nearer for all particles, so that no blob is cut off half-way.
-// Reads: numbers. Writes: hand-over.
+// Reads: numbers. Writes: crossfade.
 
 #include "frame.glsl"
-#include "hand_over_rings.glsl"
+#include "crossfade_rings.glsl"
 
 layout(local_size_x = 128) in;
 
 layout(set = 0, binding = 6, std430) readonly buffer Numbers { uint numbers[]; };
-layout(set = 0, binding = 11, std430) writeonly buffer Over { HandOver hand_over; };
+layout(set = 0, binding = 11, std430) writeonly buffer Over { Crossfade crossfade; };
 layout(push_constant, std430) uniform Push { uint room; } push;
 
 const uint OWN = RINGS / 128u;
@@ -38,5 +38,5 @@ void main() {
         ++ring;
     }
     float part = float(ring) / float(RINGS);
-    hand_over = HandOver(frame.diffuse.y * part, frame.diffuse.z * part, ring, before);
+    crossfade = Crossfade(frame.whitewater.y * part, frame.whitewater.z * part, ring, before);
 }

@@ -10,7 +10,7 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCounts counts; };
-layout(set = 0, binding = 5, std430) buffer Particles { Diffuse particles[]; };
+layout(set = 0, binding = 5, std430) buffer Particles { Whitewater particles[]; };
 layout(set = 0, binding = 6, std430) buffer Drifts { Drift drifts[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Kinds { uint kinds[]; };
 // 1 for each free slot.
@@ -24,7 +24,7 @@ float rate_of(uint j) {
 #include "generate_water.glsl"
 
 void visit(uint i) {
-    Diffuse particle = particles[i];
+    Whitewater particle = particles[i];
     if (!(particle.age < 1.0)) {
         gone[i] = 1u;
         return;

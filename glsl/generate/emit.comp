@@ -17,7 +17,7 @@ layout(set = 0, binding = 3, std430) readonly buffer Motions { Motion motions[];
 layout(set = 0, binding = 4, std430) readonly buffer Normals { uvec4 normals[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Wanted { uint wanted[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Free { uint free_slots[]; };
-layout(set = 0, binding = 7, std430) writeonly buffer Particles { Diffuse particles[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer Particles { Whitewater particles[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer Drifts { Drift drifts[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer Kinds { uint kinds[]; };
 
@@ -79,7 +79,7 @@ void visit(uint i) {
             float least = max(push.life_least, seconds);
             age = seconds / mix(least, push.life_most, uniform_of(seed, id, 4u * k + random + 3u));
         }
-        particles[slot] = Diffuse(places[i].position + off + along * ahead, age);
+        particles[slot] = Whitewater(places[i].position + off + along * ahead, age);
         // Files hold ids of 31 bits.
         drifts[slot] = Drift(velocity + off, pcg(id + pcg(4u * k + random + 3u + pcg(seed))) >> 1);
         kinds[slot] = kind;

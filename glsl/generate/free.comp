@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { GenerateCounts counts; };
-layout(set = 0, binding = 2, std430) readonly buffer Particles { Diffuse particles[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Particles { Whitewater particles[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Gone { uint gone[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer Free { uint free_slots[]; };
 

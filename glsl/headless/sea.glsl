@@ -13,7 +13,7 @@ layout(constant_id = 3) const uint SEA = 0;
 
 const float REFRACTION = 1.333;
 const float MIRRORED = 0.02037; // reflectance at normal incidence
-const float DIFFUSE = 1.2;      // mean path of skylight per metre of depth under water
+const float WHITEWATER = 1.2;      // mean path of skylight per metre of depth under water
 
 // Whether the eye is above the sea; from below it is not drawn.
 bool over_sea() {
@@ -170,7 +170,7 @@ vec3 sun_under(vec3 at, float depth) {
 }
 
 vec3 sky_under(float depth) {
-    return exp(-extinction() * depth * DIFFUSE);
+    return exp(-extinction() * depth * WHITEWATER);
 }
 
 // Reflected environment, from above the horizon.

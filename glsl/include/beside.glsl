@@ -1,22 +1,22 @@
-// Shading of pixels without water. Needs frame.glsl, foam_texels.glsl. Reads: foam depth, spray, depth and intensity
+// Shading of pixels without water. Needs frame.glsl, surface_foam_texels.glsl. Reads: foam depth, spray, depth and intensity
 // of whitewater particles, depth of bubble foam.
 
 // 1: there may be shore foam; otherwise it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 layout(constant_id = 10) const uint SPRAY = 0;
-layout(constant_id = 20) const uint DIFFUSE = 0;
+layout(constant_id = 20) const uint WHITEWATER = 0;
 layout(constant_id = 22) const uint SOAP = 0;
 // Width of the foam's texels. A constant, so that loops over them are unrolled.
 layout(constant_id = 3) const uint FOAM_EDGE = 4;
 
 layout(set = 0, binding = 13) uniform sampler2D foam_depth;
 layout(set = 0, binding = 15) uniform sampler2D spray;
-layout(set = 0, binding = 21) uniform sampler2D diffuse;
+layout(set = 0, binding = 21) uniform sampler2D whitewater;
 layout(set = 0, binding = 25) uniform sampler2D soap_depth;
 
 bool spray_at(ivec2 pixel) {
     return SPRAY == 1u && texelFetch(spray, pixel, 0).x > 0.0
-        || DIFFUSE == 1u && texelFetch(diffuse, pixel, 0).x < EMPTY
+        || WHITEWATER == 1u && texelFetch(whitewater, pixel, 0).x < EMPTY
         || SOAP == 1u && texelFetch(soap_depth, pixel, 0).x < EMPTY;
 }
 

@@ -60,17 +60,17 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 noise;         // height of 1 in metres, foam; falloff per metre below the surface, half-axis
     vec4 noise_image;   // width, height of the surface noise; size of its texels in pixels; cells per metre
     vec4 noise_color;   // radiance of its foam
-    vec4 diffuse;       // default radius of a whitewater particle; near and far end of the cross-fade to blobs, 0: none; 1 = the paper's falloff below the surface
-    vec4 diffuse_below; // that falloff: metres, exponents
-    vec4 diffuse_light; // log2 of the intensity's half, its exponent; 1 = the paper's mixing; radius of a blob relative to its particle
-    vec4 diffuse_search; // occlusion spheres: first radius, increment per pass, passes, samples per cubic pixel
-    vec4 diffuse_samples; // minimum and maximum samples; reach of occluders in radii, or, negative, in metres
-    vec4 diffuse_opacity; // of fluid and solids; scale and exponent of the shadow
-    vec4 diffuse_shadow; // colour that a shadow removes; its offset
-    vec4 diffuse_color; // 2 albedo scale; radius of the blur relative to the first sphere
-    vec4 diffuse_shapes[3]; // foam, spray, bubbles: exponents of the shape, its mean over the disc
-    vec4 diffuse_life;  // exponents of the fade; number of sizes; relative radius of a bubble
-    vec4 diffuse_sun;   // the sun's irradiance on a surface that faces it, over 2 pi
+    vec4 whitewater;       // default radius of a whitewater particle; near and far end of the cross-fade to blobs, 0: none; 1 = the paper's falloff below the surface
+    vec4 whitewater_below; // that falloff: metres, exponents
+    vec4 whitewater_light; // log2 of the intensity's half, its exponent; 1 = the paper's mixing; radius of a blob relative to its particle
+    vec4 whitewater_search; // occlusion spheres: first radius, increment per pass, passes, samples per cubic pixel
+    vec4 whitewater_samples; // minimum and maximum samples; reach of occluders in radii, or, negative, in metres
+    vec4 whitewater_opacity; // of fluid and solids; scale and exponent of the shadow
+    vec4 whitewater_shadow; // colour that a shadow removes; its offset
+    vec4 whitewater_color; // 2 albedo scale; radius of the blur relative to the first sphere
+    vec4 whitewater_shapes[3]; // foam, spray, bubbles: exponents of the shape, its mean over the disc
+    vec4 whitewater_life;  // exponents of the fade; number of sizes; relative radius of a bubble
+    vec4 whitewater_sun;   // the sun's irradiance on a surface that faces it, over 2 pi
     vec4 shore_color;   // radiance of shoreline foam; its opacity
     vec4 contact_color; // radiance of contact foam; its lit share
     vec4 up;            // world, unit length; w: 1/n of the water

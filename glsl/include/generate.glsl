@@ -37,7 +37,7 @@ layout(push_constant, std430) uniform Push {
 #include "generate_types.glsl"
 
 // A whitewater particle. Its age is the fraction of its life that has passed; 1 means that it is gone.
-struct Diffuse {
+struct Whitewater {
     vec3 position;
     float age;
 };

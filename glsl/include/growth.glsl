@@ -4,7 +4,7 @@ struct Growth {
     float goal;   // final radius after the halves have separated
     float parted; // progress of the separation, 0 to 1
     float alone;  // seconds with too few neighbours
-    uint halved;  // number of halvings; with CHILD: this is the half that grows
+    uint halved;  // number of max_splits; with CHILD: this is the half that grows
 };
 
 const uint CHILD = 0x100u;

@@ -21,7 +21,7 @@ layout(push_constant, std430) uniform Push {
     uint blobs;
     uint buckets;      // a power of two
     float cells;       // grid cells per metre
-    uint halvings;     // most halvings of one blob; there are 2^that entries for each
+    uint max_splits;     // most max_splits of one blob; there are 2^that entries for each
 } push;
 
 #include "random.glsl"

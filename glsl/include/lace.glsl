@@ -2,7 +2,7 @@
 // of spheres of three sizes (Worley 1996 has distances to points), warped by the slope of a gradient noise, in world
 // space, evaluated per pixel, and advected with the foam as in pattern.glsl. Not in the thesis, whose thin foam is a
 // veil.
-// Needs frame.glsl, gradient_noise.glsl, foam_drift.glsl. Reads: drift.
+// Needs frame.glsl, gradient_noise.glsl, surface_foam_drift.glsl. Reads: drift.
 
 layout(set = 0, binding = 33, std430) readonly buffer Drift { int drift[]; };
 

@@ -1,6 +1,6 @@
 // Pass `motion`, not in the sources: motion of the surface in a texel since the previous frame: sums over the
 // particles near the frontmost surface of the texel's pixels, and near the farthest where that is another one. Needs
-// frame.glsl and the push constant `level`, the number of halvings.
+// frame.glsl and the push constant `level`, the number of max_splits.
 // Reads and writes: fronts, sums.
 
 // Per texel the nearest and the farthest surface of its pixels; EMPTY where there is none, or no other.

@@ -1,8 +1,8 @@
-// Which whitewater particles can become blobs of bubble foam. Needs frame.glsl, diffuse.glsl, hand_over.glsl,
+// Which whitewater particles can become blobs of bubble foam. Needs frame.glsl, whitewater.glsl, crossfade.glsl,
 // frustum.glsl.
 
 // Whether one does where there is room: off the screen there are none.
-bool may_be_blob(Diffuse p, float distance_) {
+bool may_be_blob(Whitewater p, float distance_) {
     return p.kind == FOAM && p.life > 0.0 && ring_of(distance_) < RINGS
-        && in_frustum(p.centre, frame.diffuse_light.w * p.radius);
+        && in_frustum(p.centre, frame.whitewater_light.w * p.radius);
 }

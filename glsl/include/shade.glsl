@@ -5,7 +5,7 @@
 // Whitewater is composited with the layers: the part behind the surface in the water, the rest over it.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam,
 // thickness and light of whitewater particles, bubble foam, contact foam.
-// Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
+// Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, surface_foam_texels.glsl, beside.glsl, sunlight.glsl,
 // shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
@@ -26,12 +26,12 @@ layout(set = 0, binding = 5) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6) uniform samplerCube environment;
 layout(set = 0, binding = 12) uniform sampler2D sheets;
 layout(set = 0, binding = 14) uniform sampler2D foam_thickness;
-layout(set = 0, binding = 22) uniform sampler2D diffuse_thickness;
-layout(set = 0, binding = 23) uniform sampler2D diffuse_light;
+layout(set = 0, binding = 22) uniform sampler2D whitewater_thickness;
+layout(set = 0, binding = 23) uniform sampler2D whitewater_light;
 layout(set = 0, binding = 26) uniform sampler2D soap;
 
 #include "ripples.glsl"
-#include "foam_drift.glsl"
+#include "surface_foam_drift.glsl"
 #include "lace.glsl"
 #include "march.glsl"
 
@@ -298,7 +298,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
     float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;
     sheet.sun = sun;
-    sun = DIFFUSED == 1u ? sun * past_diffuse(light_texels(position)) : sun;
+    sun = WITH_WHITEWATER == 1u ? sun * past_whitewater(light_texels(position)) : sun;
     sheet.shine = sun * w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
     if (NOISE == 1u) {
         // Foam of the noise, lit like the particles' foam.
@@ -534,19 +534,19 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
 
 // Radiance of whitewater particles from the light that they gather and their shadow (Akinci et al. 2013, Sec.
 // 2.5).
-vec3 diffuse_color(vec4 light) {
-    vec3 shadow = clamp(light.w * frame.diffuse_shadow.rgb, 0.0, 1.0);
-    vec3 whole = frame.diffuse_color.rgb * light.rgb;
-    return frame.diffuse_light.z > 0.5 ? max(min(whole, 1.0) - shadow, 0.0) : whole * (1.0 - shadow);
+vec3 whitewater_color(vec4 light) {
+    vec3 shadow = clamp(light.w * frame.whitewater_shadow.rgb, 0.0, 1.0);
+    vec3 whole = frame.whitewater_color.rgb * light.rgb;
+    return frame.whitewater_light.z > 0.5 ? max(min(whole, 1.0) - shadow, 0.0) : whole * (1.0 - shadow);
 }
 
 // Adds the whitewater particles behind the water's surface, at their mean depth.
 Foam with_submerged(Foam foam, ivec2 pixel, float front) {
-    vec3 thick = texelFetch(diffuse_thickness, pixel, 0).xyz;
+    vec3 thick = texelFetch(whitewater_thickness, pixel, 0).xyz;
     float kept = 1.0 - intensity_of(thick.y);
     float far = thick.y > 0.0 ? min(thick.z / thick.y, 0.999) : 0.0;
     float behind = frame.particle.y * far / (1.0 - far);
-    vec3 color = diffuse_color(texelFetch(diffuse_light, pixel, 0));
+    vec3 color = whitewater_color(texelFetch(whitewater_light, pixel, 0));
     // The two kinds of foam are mixed by their opacities.
     float own = (1.0 - foam.kept) / max(2.0 - foam.kept - kept, 1.0e-6);
     foam.behind = mix(behind, foam.behind + max(foam.depth - front, 0.0), own);
@@ -698,10 +698,10 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         } else if (!past) {
             sheet = among(foam, t, sheet);
         }
-    } else if (DIFFUSE == 1u) {
+    } else if (WHITEWATER == 1u) {
         foam = Foam(front, 1.0, 0.0, vec3(0.0), 0.0, vec2(0.0));
     }
-    if (DIFFUSE == 1u) {
+    if (WHITEWATER == 1u) {
         foam = with_submerged(foam, ivec2(pixel), front);
     }
     vec2 offset = bent(sheet.offset + back.offset);
@@ -730,7 +730,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     back = on_ladder(back);
     face.mirror = front < EMPTY && !by_source() ? sheet.mirror : 0.0;
     face.light = front < EMPTY ? sheet.mirror * sheet.mirrored + sheet.shine : vec3(0.0);
-    if (FOAM + DIFFUSE == 0u) {
+    if (FOAM + WHITEWATER == 0u) {
         sheet.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
         back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
         if (front >= EMPTY) {
@@ -803,9 +803,9 @@ vec3 shade(vec2 pixel, float front) {
         }
         c = with_contact(c, amount, lost, coat_light());
     }
-    if (DIFFUSE == 1u && frame.target.z >= FOAM_TOO) {
-        float over = intensity_of(texelFetch(diffuse_thickness, ivec2(pixel), 0).x);
-        c = mix(c, diffuse_color(texelFetch(diffuse_light, ivec2(pixel), 0)), over);
+    if (WHITEWATER == 1u && frame.target.z >= FOAM_TOO) {
+        float over = intensity_of(texelFetch(whitewater_thickness, ivec2(pixel), 0).x);
+        c = mix(c, whitewater_color(texelFetch(whitewater_light, ivec2(pixel), 0)), over);
     }
     if (SPRAY == 1u) {
         vec2 droplets = texelFetch(spray, ivec2(pixel), 0).xy;

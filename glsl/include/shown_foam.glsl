@@ -1,4 +1,4 @@
-// The foam that a pixel shows, of pass `foam`. Needs frame.glsl, foam_texels.glsl. Reads: foam depth and
+// The foam that a pixel shows, of pass `surface_foam`. Needs frame.glsl, surface_foam_texels.glsl. Reads: foam depth and
 // thickness.
 
 // 1: there may be foam; otherwise it is not read.

@@ -8,13 +8,13 @@
 // 1: water and foam absorb sunlight.
 layout(constant_id = 12) const uint CAST = 0;
 // 1: whitewater particles absorb it too.
-layout(constant_id = 21) const uint DIFFUSED = 0;
+layout(constant_id = 21) const uint WITH_WHITEWATER = 0;
 
 layout(set = 0, binding = 17) uniform sampler2D light_thickness;
 // 1: bubble foam absorbs it too.
 layout(constant_id = 23) const uint SOAPED = 0;
 
-layout(set = 0, binding = 24) uniform sampler2D light_diffuse;
+layout(set = 0, binding = 24) uniform sampler2D light_whitewater;
 layout(set = 0, binding = 27) uniform sampler2D light_soap;
 
 // The texels of the light maps around a point, and their weights.
@@ -49,8 +49,8 @@ vec2 before_depth(vec4 thick, float depth) {
 // (Cantelli's inequality), with equality if they lie at two depths, such as foam on water and spray above it.
 // The bound is scaled to reach 1 at the end of a uniform body. A minimal distance is subtracted, so that foam
 // does not shade itself within what a texel can resolve.
-float covered_by_diffuse(ivec2 texel, float depth) {
-    vec3 there = texelFetch(light_diffuse, texel, 0).xyz;
+float covered_by_whitewater(ivec2 texel, float depth) {
+    vec3 there = texelFetch(light_whitewater, texel, 0).xyz;
     float reach = 0.5 * frame.particle.y + 1.5 * frame.light_map.y;
     float behind = max(depth - there.y - reach, 0.0);
     float square = behind * behind;
@@ -59,11 +59,11 @@ float covered_by_diffuse(ivec2 texel, float depth) {
 }
 
 // Sunlight that whitewater particles before a point let through.
-float past_diffuse(LightTexels t) {
+float past_whitewater(LightTexels t) {
     float lost = 0.0;
     for (int i = 0; i < 4; ++i) {
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
-        lost += weight * covered_by_diffuse(t.base + ivec2(i & 1, i >> 1), t.depth);
+        lost += weight * covered_by_whitewater(t.base + ivec2(i & 1, i >> 1), t.depth);
     }
     return t.inside ? 1.0 - lost : 1.0;
 }
@@ -102,7 +102,7 @@ vec3 through_fluid(vec3 eye) {
         lost += weight * (1.0 - exp(-extinction * thick.x - frame.shade.w * thick.y));
     }
     vec3 left = t.inside ? 1.0 - lost : vec3(1.0);
-    left = DIFFUSED == 1u ? left * past_diffuse(t) : left;
+    left = WITH_WHITEWATER == 1u ? left * past_whitewater(t) : left;
     return SOAPED == 1u ? left * past_soap(t) : left;
 }
 

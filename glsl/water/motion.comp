@@ -10,7 +10,7 @@
 #include "density.glsl"
 #include "kernel.glsl"
 #include "random.glsl"
-#include "foam.glsl"
+#include "surface_foam.glsl"
 
 layout(local_size_x = 64) in;
 // 1: the foam part of a particle is not counted as water.

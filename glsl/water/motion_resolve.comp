@@ -12,7 +12,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, std430) uniform Push { uint level; } push;
 
 #include "motion.glsl"
-#include "foam_texels.glsl"
+#include "surface_foam_texels.glsl"
 #include "shown_foam.glsl"
 #include "smoothed_depth.glsl"
 

@@ -21,7 +21,7 @@ layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 // a coarser level may be visible.
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
-#include "foam_texels.glsl"
+#include "surface_foam_texels.glsl"
 #include "beside.glsl"
 #include "block.glsl"
 #include "reduction.glsl"

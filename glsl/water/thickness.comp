@@ -14,7 +14,7 @@
 #include "counts.glsl"
 #include "kernel.glsl"
 #include "sheets.glsl"
-#include "foam_share.glsl"
+#include "surface_foam_share.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint LARGE = 0;
@@ -32,7 +32,7 @@ layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
 
-// With foam: the words of the compute path of `foam` per texel. The first is the depth of the frontmost foam
+// With foam: the words of the compute path of `surface_foam` per texel. The first is the depth of the frontmost foam
 // (that of the scene if no foam lies before it), the second that of the scene, both as bits. Reading them is
 // faster than reading two images.
 layout(constant_id = 10) const uint FOAM_WORDS = 5;

@@ -8,8 +8,8 @@
 #include "sphere.glsl"
 #include "ellipsoid.glsl"
 #include "kernel.glsl"
-#include "foam_share.glsl"
-#include "foam_front.glsl"
+#include "surface_foam_share.glsl"
+#include "surface_foam_front.glsl"
 #include "sheets.glsl"
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;

@@ -5,8 +5,8 @@
 
 #include "frame.glsl"
 #include "kernel.glsl"
-#include "foam_share.glsl"
-#include "foam_front.glsl"
+#include "surface_foam_share.glsl"
+#include "surface_foam_front.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 1, std430) readonly buffer Sums { uvec2 sums[]; };

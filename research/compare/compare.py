@@ -139,14 +139,14 @@ def main():
     parser.add_argument("--only", action="append", help="this frame of them; may be given several times")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder to write to")
     parser.add_argument("--variant", action="append", help="NAME=ARGUMENTS: a run of whitewater with these arguments "
-                        "[default: 'water=--foam none --spray none' and 'default=']")
+                        "[default: 'water=--surface-foam none --spray none' and 'default=']")
     parser.add_argument("--whitewater", default="whitewater", help="the program [default: of the path]")
     parser.add_argument("--size", type=lambda text: [int(n) for n in text.split("x")], default=[640, 360], help="pixels [default: 640x360]")
     parser.add_argument("--spp", type=int, default=96, help="paths a pixel [default: 96]")
     parser.add_argument("--no-denoise", dest="denoise", action="store_false", help="leave the noise in")
     parser.add_argument("--mitsuba", default="llvm_ad_rgb", help="Mitsuba's variant [default: llvm_ad_rgb]")
     options = parser.parse_args()
-    options.variant = [text.split("=", 1) for text in options.variant or ["water=--foam none --spray none", "default="]]
+    options.variant = [text.split("=", 1) for text in options.variant or ["water=--surface-foam none --spray none", "default="]]
     frames = tomllib.loads(options.frames.read_text())
     wanted = options.only or list(frames)
     unknown = [name for name in wanted if name not in frames]

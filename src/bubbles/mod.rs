@@ -17,7 +17,7 @@ use std::sync::Arc;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
 
-use crate::contract::{Blobs, Config, DiffuseParticles, Frame, Layer};
+use crate::contract::{Blobs, Config, Frame, Layer, WhitewaterParticles};
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::frame::sun_on;
@@ -34,7 +34,7 @@ pub(crate) use lists::buffers_of;
 pub(crate) use near::sets as near_sets;
 use settings::MOST_FILM;
 pub use settings::{
-    BubbleConfig, BubbleLook, BubbleSort, Film, FilmFresnel, HandOver, Impostor, Spectrum,
+    BubbleConfig, BubbleSettings, BubbleSort, Crossfade, Film, FilmFresnel, Impostor, Spectrum,
 };
 use templates::Templates;
 
@@ -70,13 +70,18 @@ impl BubbleUniforms {
         let [sun_r, sun_g, sun_b] = light.color;
         Self {
             film: [look.film, look.variation, look.drainage, MOST_FILM],
-            core: [look.core[0], look.core[1], look.distortion, look.roundness],
+            core: [
+                look.core_opaque_radius,
+                look.core_outer_radius,
+                look.distortion,
+                look.roundness,
+            ],
             albedo: [r, g, b, look.pattern],
-            mirror: [look.reflection, look.shininess, flag(look.walls), flag(look.plug)],
+            mirror: [look.reflection, look.shininess, flag(look.walls), flag(look.fill_holes)],
             sun: sun_on(frame.settings),
-            sun_mirror: [sun_r, sun_g, sun_b, look.merge],
+            sun_mirror: [sun_r, sun_g, sun_b, look.min_pixels],
             tiles: [x, y, lists::SLICES, lists::room(config.extent, bubbles)],
-            kinds: [bubbles.templates, 0, 0, 0],
+            kinds: [bubbles.variants, 0, 0, 0],
         }
     }
 }
@@ -113,9 +118,9 @@ impl Bubbles {
         Ok(Self {
             templates,
             near: config
-                .diffuse
-                .filter(|_| bubbles.hand_over)
-                .map(|diffuse| near::Near::new(gpu, &diffuse, bubbles))
+                .whitewater
+                .filter(|_| bubbles.crossfade)
+                .map(|whitewater| near::Near::new(gpu, &whitewater, bubbles))
                 .transpose()?,
             lists: lists::Lists::new(gpu, config, bubbles)?,
             cast: cast::Cast::new(gpu, config)?,
@@ -150,7 +155,7 @@ impl Bubbles {
     pub fn record_near(
         &self,
         r: &mut Recording<'_>,
-        particles: Option<&DiffuseParticles>,
+        particles: Option<&WhitewaterParticles>,
     ) -> Result<bool, Error> {
         match &self.near {
             Some(near) => near.record(r, particles).map(|()| true),

@@ -10,10 +10,8 @@ use ash::vk;
 use bytemuck::NoUninit;
 
 use super::settings::BubbleConfig;
-use crate::contract::{Blobs, Count, DiffuseParticles, Stream};
+use crate::contract::{Blobs, Count, Stream, WhitewaterParticles};
 use crate::error::Error;
-use crate::foam::DiffuseConfig;
-use crate::foam::streams::{Chunks, Places, buffers_of};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_WRITE, INDIRECT, VERTEX_READ,
@@ -24,8 +22,10 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::water::Recording;
+use crate::whitewater::WhitewaterConfig;
+use crate::whitewater::streams::{Chunks, Places, buffers_of};
 
-/// Bins of the distance histogram (glsl/include/hand_over_rings.glsl).
+/// Bins of the distance histogram (glsl/include/crossfade_rings.glsl).
 const RINGS: u64 = 1024;
 /// Bytes of the cross-fade distances.
 const OVER: u64 = 16;
@@ -60,8 +60,12 @@ pub struct Near {
 }
 
 impl Near {
-    pub fn new(gpu: &Gpu, diffuse: &DiffuseConfig, bubbles: &BubbleConfig) -> Result<Self, Error> {
-        let chunks = Chunks::new(&gpu.limits, diffuse);
+    pub fn new(
+        gpu: &Gpu,
+        whitewater: &WhitewaterConfig,
+        bubbles: &BubbleConfig,
+    ) -> Result<Self, Error> {
+        let chunks = Chunks::new(&gpu.limits, whitewater);
         let own = |name, bytes, usage| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | usage;
             Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
@@ -76,7 +80,7 @@ impl Near {
             Ok([make(0)?, make(1)?])
         };
         Ok(Self {
-            begin: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_BEGIN_COMP, &[])?,
+            begin: Pipeline::compute(gpu, shader::LIGHT_WHITEWATER_BEGIN_COMP, &[])?,
             goes: [go(0)?, go(1)?],
             range: Pipeline::compute(gpu, shader::BUBBLES_NEAR_RANGE_COMP, &[])?,
             chunks,
@@ -119,7 +123,7 @@ impl Near {
     pub fn record(
         &self,
         r: &mut Recording<'_>,
-        particles: Option<&DiffuseParticles>,
+        particles: Option<&WhitewaterParticles>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"near");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -183,7 +187,7 @@ impl Near {
         &self,
         r: &Recording<'_>,
         go: usize,
-        particles: Option<&DiffuseParticles>,
+        particles: Option<&WhitewaterParticles>,
     ) -> Result<(), Error> {
         let Some(particles) = particles else { return Ok(()) };
         let arguments = self.arguments.handle;
@@ -212,6 +216,6 @@ impl Near {
 }
 
 /// Number of descriptor sets per frame.
-pub fn sets(limits: &vk::PhysicalDeviceLimits, diffuse: &DiffuseConfig) -> u32 {
-    2 + 2 * Chunks::new(limits, diffuse).count
+pub fn sets(limits: &vk::PhysicalDeviceLimits, whitewater: &WhitewaterConfig) -> u32 {
+    2 + 2 * Chunks::new(limits, whitewater).count
 }

@@ -4,7 +4,7 @@ use super::blob::BUBBLES;
 use crate::error::Error;
 use crate::water::settings::range;
 
-crate::contract::with!(BubbleConfig, BubbleLook);
+crate::contract::with!(BubbleConfig, BubbleSettings);
 
 /// Maximum number of blob layers per pixel.
 pub const MOST_LAYERS: u32 = 8;
@@ -18,7 +18,7 @@ pub struct BubbleConfig {
     /// Maximum number of blobs per frame, 1 to 2^20. 64 bytes each.
     pub max_blobs: u32,
     /// Number of precomputed blob variants, 1 to 32, default 8. Each blob uses one, chosen by its id.
-    pub templates: u32,
+    pub variants: u32,
     /// Bubbles per variant, 8 to 256, default 227 (the paper's 22 700 in a hundred blobs).
     pub bubbles: u32,
     /// Seed of the variants, default 1.
@@ -27,7 +27,7 @@ pub struct BubbleConfig {
     pub impostor: Impostor,
     /// Side length of a face of the impostor's cube map in texels, a multiple of 4 from 8 to 512. Default: the
     /// impostor's.
-    pub map: u32,
+    pub map_size: u32,
     /// Maximum steps of the search along a ray, 1 to 64. Default: the impostor's.
     pub steps: u32,
     /// Number of blobs per pixel that are composited, 1 to 8, default 3. Blobs behind these only contribute
@@ -37,10 +37,10 @@ pub struct BubbleConfig {
     pub sort: BubbleSort,
     /// The soap film.
     pub film: Film,
-    /// Whether whitewater foam near the camera turns into blobs ([`BubbleLook::hand_over`]), at most
+    /// Whether whitewater foam near the camera turns into blobs ([`BubbleSettings::crossfade`]), at most
     /// `max_blobs` of them; frames then have no other blobs. Default false. Needs
-    /// [`Config::diffuse`](crate::Config::diffuse). 36 bytes per blob more; adds the pass `near`.
-    pub hand_over: bool,
+    /// [`Config::whitewater`](crate::Config::whitewater). 36 bytes per blob more; adds the pass `near`.
+    pub crossfade: bool,
 }
 
 impl BubbleConfig {
@@ -48,16 +48,16 @@ impl BubbleConfig {
     pub fn new(max_blobs: u32) -> Self {
         Self {
             max_blobs,
-            templates: 8,
+            variants: 8,
             bubbles: 227,
             seed: 1,
             impostor: Impostor::Ids,
-            map: Impostor::Ids.map(),
+            map_size: Impostor::Ids.map_size(),
             steps: Impostor::Ids.steps(),
             layers: 3,
             sort: BubbleSort::Tiles,
             film: Film::default(),
-            hand_over: false,
+            crossfade: false,
         }
     }
 
@@ -69,12 +69,12 @@ impl BubbleConfig {
             Err(Error::bad(field, format!("expected {least} to {most}, found {value}")))
         };
         within("Config.bubbles.max_blobs", self.max_blobs, 1, 1 << 20)?;
-        within("Config.bubbles.templates", self.templates, 1, 32)?;
+        within("Config.bubbles.variants", self.variants, 1, 32)?;
         within("Config.bubbles.bubbles", self.bubbles, *BUBBLES.start(), *BUBBLES.end())?;
-        within("Config.bubbles.map", self.map, 8, 512)?;
-        if !self.map.is_multiple_of(4) {
-            let why = format!("{}: a multiple of 4 expected", self.map);
-            return Err(Error::bad("Config.bubbles.map", why));
+        within("Config.bubbles.map_size", self.map_size, 8, 512)?;
+        if !self.map_size.is_multiple_of(4) {
+            let why = format!("{}: a multiple of 4 expected", self.map_size);
+            return Err(Error::bad("Config.bubbles.map_size", why));
         }
         within("Config.bubbles.steps", self.steps, 1, 64)?;
         within("Config.bubbles.layers", self.layers, 1, MOST_LAYERS)?;
@@ -95,7 +95,7 @@ pub enum Impostor {
 
 impl Impostor {
     /// The paper's side length of a face, texels.
-    pub fn map(self) -> u32 {
+    pub fn map_size(self) -> u32 {
         match self {
             Self::Distance => 64,
             Self::Ids => 128,
@@ -164,7 +164,7 @@ pub enum Spectrum {
 /// Appearance of bubble foam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct BubbleLook {
+pub struct BubbleSettings {
     /// Mean thickness of the films in nanometres, 1 to 2000, default 380.
     pub film: f32,
     /// Variation of the film thickness between bubbles and within each, relative to `film`, 0 to 1, default
@@ -172,9 +172,11 @@ pub struct BubbleLook {
     pub variation: f32,
     /// Drainage: how much thinner films are at the top and thicker at the bottom, 0 to 1, default 0.35.
     pub drainage: f32,
-    /// Distances from a blob's centre, in its radius, within which the core is opaque and beyond which it is
-    /// absent. 0 ≤ first < second ≤ 2, default 0.65 and 0.98 (Sec. 4.4).
-    pub core: [f32; 2],
+    /// Distance from a blob's centre, in its radius, within which the core is opaque, [0, core_outer_radius),
+    /// default 0.65 (Sec. 4.4).
+    pub core_opaque_radius: f32,
+    /// Distance beyond which the core is absent, (core_opaque_radius, 2], default 0.98.
+    pub core_outer_radius: f32,
     /// Albedo of the core, linear RGB, 0 to 1, default 0.92 of each.
     pub albedo: [f32; 3],
     /// Visibility of the texture of small bubbles on the core, 0 to 1, default 0.7.
@@ -192,20 +194,20 @@ pub struct BubbleLook {
     /// Whether the walls between bubbles are drawn, with [`Impostor::Ids`]. Default true.
     pub walls: bool,
     /// Whether blobs behind the last layer fill the holes (Sec. 5). Default true.
-    pub plug: bool,
+    pub fill_holes: bool,
     /// Stochastic level of detail: blobs whose screen radius is below this many pixels are thinned out, and the
     /// rest enlarged so that they cover as much and reach this size (Cook, Halstead, Planck, Ryu 2007,
     /// Stochastic Simplification of Aggregate Detail). 0 to 64, default 1, 0 = off. Ids decide which blobs go
     /// first; each shrinks before it disappears.
-    pub merge: f32,
-    /// Cross-fade from whitewater foam sprites to blobs, with [`BubbleConfig::hand_over`].
-    pub hand_over: HandOver,
+    pub min_pixels: f32,
+    /// Cross-fade from whitewater foam sprites to blobs, with [`BubbleConfig::crossfade`].
+    pub crossfade: Crossfade,
 }
 
 /// Cross-fade of whitewater foam near the camera to blobs, where Akinci et al. 2013 draw none. Spray and
 /// particles under water stay sprites.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HandOver {
+pub struct Crossfade {
     /// Distance from the camera up to which foam consists of blobs only, scene units, [0, ∞), default 2.
     pub near: f32,
     /// Distance from which foam consists of sprites only, more than `near`, default 4. In between blobs grow as
@@ -215,19 +217,20 @@ pub struct HandOver {
     pub size: f32,
 }
 
-impl Default for HandOver {
+impl Default for Crossfade {
     fn default() -> Self {
         Self { near: 2.0, far: 4.0, size: 1.0 }
     }
 }
 
-impl Default for BubbleLook {
+impl Default for BubbleSettings {
     fn default() -> Self {
         Self {
             film: 380.0,
             variation: 0.35,
             drainage: 0.35,
-            core: [0.65, 0.98],
+            core_opaque_radius: 0.65,
+            core_outer_radius: 0.98,
             albedo: [0.92; 3],
             pattern: 0.7,
             distortion: 0.1,
@@ -235,23 +238,24 @@ impl Default for BubbleLook {
             reflection: 1.0,
             shininess: 800.0,
             walls: true,
-            plug: true,
-            merge: 1.0,
-            hand_over: HandOver::default(),
+            fill_holes: true,
+            min_pixels: 1.0,
+            crossfade: Crossfade::default(),
         }
     }
 }
 
-impl BubbleLook {
+impl BubbleSettings {
     pub(crate) fn check(&self) -> Result<(), Error> {
         range("Settings.bubbles.film", self.film, 1.0, MOST_FILM)?;
         range("Settings.bubbles.variation", self.variation, 0.0, 1.0)?;
         range("Settings.bubbles.drainage", self.drainage, 0.0, 1.0)?;
-        range("Settings.bubbles.core", self.core[0], 0.0, 2.0)?;
-        range("Settings.bubbles.core", self.core[1], 0.0, 2.0)?;
-        if self.core[0] >= self.core[1] {
-            let why = format!("{} is not less than {}", self.core[0], self.core[1]);
-            return Err(Error::bad("Settings.bubbles.core", why));
+        let (opaque, outer) = (self.core_opaque_radius, self.core_outer_radius);
+        range("Settings.bubbles.core_opaque_radius", opaque, 0.0, 2.0)?;
+        range("Settings.bubbles.core_outer_radius", outer, 0.0, 2.0)?;
+        if opaque >= outer {
+            let why = format!("{opaque} is not less than core_outer_radius, {outer}");
+            return Err(Error::bad("Settings.bubbles.core_opaque_radius", why));
         }
         for part in self.albedo {
             range("Settings.bubbles.albedo", part, 0.0, 1.0)?;
@@ -261,14 +265,14 @@ impl BubbleLook {
         range("Settings.bubbles.roundness", self.roundness, 0.0, 1.0)?;
         range("Settings.bubbles.reflection", self.reflection, 0.0, 8.0)?;
         range("Settings.bubbles.shininess", self.shininess, 1.0, 10_000.0)?;
-        range("Settings.bubbles.merge", self.merge, 0.0, 64.0)?;
-        let HandOver { near, far, size } = self.hand_over;
-        range("Settings.bubbles.hand_over.near", near, 0.0, 1.0e9)?;
-        range("Settings.bubbles.hand_over.far", far, 1.0e-9, 1.0e9)?;
+        range("Settings.bubbles.min_pixels", self.min_pixels, 0.0, 64.0)?;
+        let Crossfade { near, far, size } = self.crossfade;
+        range("Settings.bubbles.crossfade.near", near, 0.0, 1.0e9)?;
+        range("Settings.bubbles.crossfade.far", far, 1.0e-9, 1.0e9)?;
         if near >= far {
             let why = format!("{far} is not above near, {near}");
-            return Err(Error::bad("Settings.bubbles.hand_over.far", why));
+            return Err(Error::bad("Settings.bubbles.crossfade.far", why));
         }
-        range("Settings.bubbles.hand_over.size", size, 1.0e-6, 100.0)
+        range("Settings.bubbles.crossfade.size", size, 1.0e-6, 100.0)
     }
 }

@@ -81,7 +81,7 @@ pub struct Templates {
 
 impl Templates {
     pub fn new(gpu: &Gpu, config: &BubbleConfig) -> Result<Self, Error> {
-        let blobs = (0..config.templates).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles));
+        let blobs = (0..config.variants).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles));
         let blobs: Vec<Blob> = blobs.collect();
         let neighbours: Vec<_> = blobs.iter().flat_map(Blob::neighbours).collect();
         let bubbles: Vec<[f32; 4]> = blobs.into_iter().flat_map(|blob| blob.bubbles).collect();
@@ -97,10 +97,10 @@ impl Templates {
             | vk::ImageUsageFlags::TRANSFER_SRC;
         let half = vk::Format::R16G16B16A16_SFLOAT;
         let [distances, ids] = Self::edges(config);
-        let bytes = 6 * u64::from(config.templates) * u64::from(ids).pow(2);
+        let bytes = 6 * u64::from(config.variants) * u64::from(ids).pow(2);
         let extent = vk::Extent2D { width: distances, height: distances };
         // Six layers alone would be a cube.
-        let layers = 6 * config.templates.max(2);
+        let layers = 6 * config.variants.max(2);
         let name = "bubbles/distances";
         let map = ImageDesc::new(name, extent, vk::Format::R32_SFLOAT, usage);
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
@@ -152,15 +152,15 @@ impl Templates {
 
     /// Whether the data also fits another configuration.
     pub fn fits(&self, config: &BubbleConfig) -> bool {
-        let BubbleConfig { max_blobs, layers, sort, steps, hand_over, .. } = *config;
-        BubbleConfig { max_blobs, layers, sort, steps, hand_over, ..self.config } == *config
+        let BubbleConfig { max_blobs, layers, sort, steps, crossfade, .. } = *config;
+        BubbleConfig { max_blobs, layers, sort, steps, crossfade, ..self.config } == *config
     }
 
     /// Side lengths of the faces of both maps.
     fn edges(config: &BubbleConfig) -> [u32; 2] {
         match config.impostor {
-            Impostor::Distance => [config.map, UNUSED],
-            Impostor::Ids => [UNUSED, config.map],
+            Impostor::Distance => [config.map_size, UNUSED],
+            Impostor::Ids => [UNUSED, config.map_size],
         }
     }
 
@@ -195,7 +195,7 @@ impl Templates {
             }
             begin(pipeline, 1 + i);
             pipeline.push(gpu, cmd, &ImpostorPush { count: self.config.bubbles, size });
-            dispatch(pipeline, [size, size, 6 * self.config.templates]);
+            dispatch(pipeline, [size, size, 6 * self.config.variants]);
         }
         begin(&self.core, 3);
         self.core.push(gpu, cmd, &CorePush { size: CORE, seed: self.config.seed });

@@ -6,9 +6,9 @@ use ash::vk::{self, DescriptorType as Kind};
 use super::shader::{ALL, Shader};
 use crate::contract::Config;
 use crate::error::Error;
-use crate::foam::Splat;
 use crate::water::coarsening;
 use crate::water::settings::{Kernels, Shading, Smoothing};
+use crate::whitewater::WhitewaterSplat;
 
 /// A limit that a configuration needs.
 #[derive(Clone, Copy, Debug)]
@@ -124,10 +124,10 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
         return file.ends_with(".comp") == stored;
     };
     let of = |parts: &[&str]| parts.iter().any(|part| name.starts_with(part));
-    let diffuse = config.diffuse;
+    let whitewater = config.whitewater;
     match folder {
         "water" if of(&["classify"]) => false, // a `State`'s
-        "water" if of(&["foam"]) => config.foam,
+        "water" if of(&["surface_foam"]) => config.surface_foam,
         "water" if of(&["spray"]) => config.spray,
         "water" if of(&["noise"]) => config.noise.is_some(),
         "water" if of(&["motion"]) => config.motion,
@@ -138,16 +138,16 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
             matches!(config.smoothing, None | Some(Smoothing::Fused))
         }
         "light" if of(&["convolution"]) => crate::light::convolution(config).is_some(),
-        "light" if of(&["diffuse"]) => diffuse.is_some(),
+        "light" if of(&["whitewater"]) => whitewater.is_some(),
         "light" => config.cast.is_some(),
-        "foam" if of(&["splat64"]) => match diffuse.map(|own| own.splat) {
+        "whitewater" if of(&["splat64"]) => match whitewater.map(|own| own.splat) {
             Some(None) => int64_atomics,
-            Some(Some(way)) => way == Splat::Compute64,
+            Some(Some(way)) => way == WhitewaterSplat::Compute64,
             None => false,
         },
-        "foam" => diffuse.is_some(),
+        "whitewater" => whitewater.is_some(),
         "bubbles" if of(&["heap"]) => false, // a `Heap`'s
-        "bubbles" if of(&["near"]) => config.bubbles.is_some_and(|own| own.hand_over),
+        "bubbles" if of(&["near"]) => config.bubbles.is_some_and(|own| own.crossfade),
         "bubbles" => config.bubbles.is_some(),
         "gpu" => config.bubbles.is_some() || config.kernels == Kernels::Ellipsoids,
         "shore" if of(&["map"]) => false, // a `ShoreMap`'s
@@ -177,8 +177,8 @@ mod tests {
         assert_eq!(needed(&config, "maxComputeWorkGroupInvocations"), 256);
         // smooth_fused.comp: two arrays of 32 x 32 words.
         assert_eq!(needed(&config, "maxComputeSharedMemorySize"), 8192);
-        let diffuse = crate::foam::DiffuseConfig::new(1);
-        let diffuse = Config { diffuse: Some(diffuse), ..config };
-        assert_eq!(needed(&diffuse, "maxPerStageDescriptorStorageBuffers"), 10);
+        let whitewater = crate::whitewater::WhitewaterConfig::new(1);
+        let whitewater = Config { whitewater: Some(whitewater), ..config };
+        assert_eq!(needed(&whitewater, "maxPerStageDescriptorStorageBuffers"), 10);
     }
 }

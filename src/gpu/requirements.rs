@@ -7,14 +7,14 @@ use ash::vk;
 use crate::bubbles::bytes_bound as bubble_bytes;
 use crate::contract::Enabled;
 use crate::error::Error;
-use crate::foam;
-use crate::foam::splat::word_bytes;
 use crate::gpu::{limits, loaded};
 use crate::shore::bytes_bound as shore_bytes;
 use crate::water::settings::{Gate, Shading, Smoothing, Splat};
 use crate::water::{
     DEFAULT_SPLAT, foam_bytes, shape_bytes, smoothing_extent, thickness_bytes, water_bytes,
 };
+use crate::whitewater::WhitewaterSplat;
+use crate::whitewater::splat::word_bytes;
 
 pub use limits::Limit;
 
@@ -57,7 +57,7 @@ pub fn requirements() -> Requirements {
             },
             Need {
                 what: "shaderStorageImageWriteWithoutFormat",
-                why: "below Vulkan 1.3 alone: Config.foam, Config.motion, Shadows::Convolution, Shading::Compute",
+                why: "below Vulkan 1.3 alone: Config.surface_foam, Config.motion, Shadows::Convolution, Shading::Compute",
             },
             Need {
                 what: "VK_EXT_conditional_rendering, conditionalRendering",
@@ -77,7 +77,7 @@ pub fn requirements() -> Requirements {
             },
             Need {
                 what: "shaderBufferInt64Atomics, shaderInt64",
-                why: "whitewater in one pass, foam::Splat::Compute64; without them in two",
+                why: "whitewater in one pass, WhitewaterSplat::Compute64; without them in two",
             },
             Need { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
         ],
@@ -271,17 +271,17 @@ impl Offer {
                 "the raster splat paths need it; choose Splat::Compute or leave it to the library",
             );
         }
-        match config.diffuse.and_then(|diffuse| diffuse.splat) {
-            Some(foam::Splat::Raster) if !self.blend_floats => {
+        match config.whitewater.and_then(|whitewater| whitewater.splat) {
+            Some(WhitewaterSplat::Raster) if !self.blend_floats => {
                 return missing(
                     "blending of R32G32B32A32_SFLOAT".into(),
-                    "foam::Splat::Raster needs it; choose Compute or leave it to the library",
+                    "WhitewaterSplat::Raster needs it; choose Compute or leave it to the library",
                 );
             }
-            Some(foam::Splat::Compute64) if !self.optional.buffer_int64_atomics => {
+            Some(WhitewaterSplat::Compute64) if !self.optional.buffer_int64_atomics => {
                 return missing(
                     "shaderBufferInt64Atomics and shaderInt64".into(),
-                    "foam::Splat::Compute64 needs them; choose Compute or leave it to the library",
+                    "WhitewaterSplat::Compute64 needs them; choose Compute or leave it to the library",
                 );
             }
             _ => {}
@@ -295,12 +295,12 @@ impl Offer {
         if !self.blend_floats && !self.foam_floats && config.noise.is_some() {
             return missing("blending of R32_SFLOAT".into(), "Config.noise needs it; leave it off");
         }
-        if !self.foam_floats && config.foam {
+        if !self.foam_floats && config.surface_foam {
             return missing(
                 "blending of R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT, and storage use of the \
                  latter two"
                     .into(),
-                "Config.foam needs it; leave it off",
+                "Config.surface_foam needs it; leave it off",
             );
         }
         if let Some(convolution) = crate::light::convolution(config) {
@@ -412,9 +412,11 @@ fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'st
     let fewer = "a smaller extent, or a higher Config.thickness_level";
     let sums = (config.thickness_splat.unwrap_or(DEFAULT_SPLAT) == Splat::Compute)
         .then(|| ("Config.extent", thickness_bytes(config), fewer));
-    let words = sums.filter(|_| config.foam).map(|_| ("Config.extent", foam_bytes(config), fewer));
-    let diffuse =
-        config.diffuse.map(|_| ("Config.diffuse", word_bytes(config.extent), "a smaller extent"));
+    let words =
+        sums.filter(|_| config.surface_foam).map(|_| ("Config.extent", foam_bytes(config), fewer));
+    let whitewater = config
+        .whitewater
+        .map(|_| ("Config.whitewater", word_bytes(config.extent), "a smaller extent"));
     let water = [("Config.extent", water_bytes(config), fewer)];
     let shore =
         config.shore.map(|_| ("Config.shore", shore_bytes(config.extent), "a smaller extent"));
@@ -425,5 +427,11 @@ fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'st
             ("Config.bubbles.max_blobs", lists, "fewer blobs, or a smaller extent"),
         ]
     });
-    sums.into_iter().chain(words).chain(diffuse).chain(water).chain(shore).chain(bubbles).collect()
+    sums.into_iter()
+        .chain(words)
+        .chain(whitewater)
+        .chain(water)
+        .chain(shore)
+        .chain(bubbles)
+        .collect()
 }

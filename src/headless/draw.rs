@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::inputs::{Diffusing, Foamed};
+use super::inputs::{Foamed, WhitewaterBuffers};
 use super::submit::Parts;
 use super::transfer::staging;
 use super::{COLOR_REST, DEPTH_REST, Headless};
@@ -138,9 +138,10 @@ impl Headless {
         let made = self
             .generating
             .as_ref()
-            .filter(|made| made.shown && self.renderer.config().diffuse.is_some());
-        let diffuse = made.map(|made| made.generator.particles());
-        let diffuse = diffuse.or_else(|| self.diffuse.as_ref().map(Diffusing::streams));
+            .filter(|made| made.shown && self.renderer.config().whitewater.is_some());
+        let whitewater = made.map(|made| made.generator.particles());
+        let whitewater =
+            whitewater.or_else(|| self.whitewater.as_ref().map(WhitewaterBuffers::streams));
         let drawn = self.renderer.config().bubbles.is_some();
         let heap = self.heap.as_ref().filter(|_| drawn).map(Heap::blobs);
         let bubbles = heap.or_else(|| self.bubbles.as_ref().map(Foamed::streams));
@@ -150,7 +151,7 @@ impl Headless {
             scene_color: output,
             scene_depth: host_image(&self.depth, DEPTH_REST),
             particles,
-            diffuse,
+            whitewater,
             bubbles,
             shore: self.shores.shore(),
             camera: *camera,

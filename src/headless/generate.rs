@@ -2,9 +2,9 @@
 
 use super::Headless;
 use super::inputs::{HOST_WRITE, stream};
-use crate::contract::{Count, GenerateStep, Slot};
+use crate::contract::{Count, GeneratorStep, Slot};
 use crate::error::Error;
-use crate::foam::{GenerateConfig, GenerateSettings, Generator};
+use crate::whitewater::{Generator, GeneratorConfig, GeneratorSettings};
 
 /// The generator and its state.
 pub(super) struct Generating {
@@ -35,7 +35,7 @@ pub struct Generated {
 
 impl Headless {
     /// Emits whitewater from the particles uploaded last and their [`motion`](Self::motion): one step of a
-    /// [`Generator`]. The next frame shows it if [`Config::diffuse`](crate::Config::diffuse) has the same
+    /// [`Generator`]. The next frame shows it if [`Config::whitewater`](crate::Config::whitewater) has the same
     /// number of particles and strides of 16. `dt`: seconds since the previous step; `number`: the step's
     /// number in the sequence; `max_particles`: maximum number alive (a different value restarts the
     /// generator).
@@ -46,7 +46,7 @@ impl Headless {
         &mut self,
         dt: f32,
         number: u32,
-        settings: &GenerateSettings,
+        settings: &GeneratorSettings,
         max_particles: u32,
     ) -> Result<(), Error> {
         self.generate_any(Some(dt), number, settings, max_particles)
@@ -59,7 +59,7 @@ impl Headless {
     pub fn generate_snapshot(
         &mut self,
         number: u32,
-        settings: &GenerateSettings,
+        settings: &GeneratorSettings,
         max_particles: u32,
     ) -> Result<(), Error> {
         self.generate_any(None, number, settings, max_particles)
@@ -70,7 +70,7 @@ impl Headless {
         &mut self,
         dt: Option<f32>,
         number: u32,
-        settings: &GenerateSettings,
+        settings: &GeneratorSettings,
         max_particles: u32,
     ) -> Result<(), Error> {
         let (Some(positions), Some(velocities)) = (&self.positions, &self.velocities) else {
@@ -88,12 +88,12 @@ impl Headless {
             Some(old) => old,
             None => {
                 let fluid = self.renderer.config().max_particles;
-                let config = GenerateConfig::new(fluid, max_particles);
+                let config = GeneratorConfig::new(fluid, max_particles);
                 let generator = Generator::new(&self.context, &config)?;
                 Generating { generator, max_particles, shown: false, count: 0 }
             }
         };
-        let step = GenerateStep {
+        let step = GeneratorStep {
             slot: Slot(0),
             positions,
             velocities,
@@ -129,7 +129,7 @@ impl Headless {
     }
 
     /// Potentials of each fluid particle of the last [`generate`](Self::generate): trapped air, wave crest and
-    /// energy, in the units of [`GenerateSettings`], and the number of neighbours; zeros for particles that
+    /// energy, in the units of [`GeneratorSettings`], and the number of neighbours; zeros for particles that
     /// take no part.
     ///
     /// # Errors

@@ -8,8 +8,8 @@ use crate::error::Error;
 
 impl Headless {
     /// Hands blobs to a [`Heap`], at rest. The next frames show them as [`heap_step`](Self::heap_step) moves
-    /// them. [`Config::bubbles`](crate::Config::bubbles) needs room for their number times 2^`halvings`, where
-    /// `halvings` is how often a blob may split.
+    /// them. [`Config::bubbles`](crate::Config::bubbles) needs room for their number times 2^`max_splits`, where
+    /// `max_splits` is how often a blob may split.
     ///
     /// # Errors
     /// As [`Heap::new`] and [`Heap::record_set`]; then there is no heap.
@@ -17,11 +17,11 @@ impl Headless {
         &mut self,
         blobs: &[Bubble],
         field: Option<&DistanceField>,
-        halvings: u32,
+        max_splits: u32,
     ) -> Result<(), Error> {
         self.drop_heap();
         let count = u32::try_from(blobs.len()).unwrap_or(u32::MAX).max(1);
-        let config = HeapConfig { halvings, ..HeapConfig::new(count) };
+        let config = HeapConfig { max_splits, ..HeapConfig::new(count) };
         let mut heap = Heap::new(&self.context, &config, field)?;
         let staged = match Foamed::new(&self.gpu, blobs) {
             Ok(staged) => staged,

@@ -9,7 +9,7 @@ use bytemuck::{Pod, Zeroable};
 
 use super::Headless;
 use crate::contract::{
-    Access, Blobs, Count, DiffuseParticles, Packets, Particles, Slot, Step, Stream,
+    Access, Blobs, Count, Packets, Particles, Slot, Step, Stream, WhitewaterParticles,
 };
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -17,7 +17,7 @@ use crate::gpu::access::COPY_WRITE;
 use crate::gpu::buffer::Buffer;
 use crate::gpu::graveyard::Destroy;
 use crate::state::{State, StateConfig};
-use crate::water::settings::FoamSettings;
+use crate::water::settings::WeberSettings;
 
 /// State of surface foam.
 pub(super) struct Foaming {
@@ -27,9 +27,9 @@ pub(super) struct Foaming {
 }
 
 /// Whitewater particles of a frame, each attribute as long as `positions`, with the meaning of
-/// [`DiffuseParticles`].
+/// [`WhitewaterParticles`].
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Diffuse<'a> {
+pub struct Whitewater<'a> {
     /// World-space centres.
     pub positions: &'a [[f32; 3]],
     /// Kinds: 0 foam, 1 spray, 2 bubble.
@@ -43,7 +43,7 @@ pub struct Diffuse<'a> {
 }
 
 /// Whitewater particles on the device.
-pub(super) struct Diffusing {
+pub(super) struct WhitewaterBuffers {
     count: u32,
     positions: Buffer,
     kinds: Option<Buffer>,
@@ -53,7 +53,7 @@ pub(super) struct Diffusing {
     packets: Option<Buffer>,
 }
 
-impl Diffuse<'_> {
+impl Whitewater<'_> {
     /// Which there are beside positions.
     fn attributes(&self) -> [bool; 4] {
         self.words().map(|words| words.is_some())
@@ -70,7 +70,7 @@ impl Diffuse<'_> {
     }
 }
 
-impl Diffusing {
+impl WhitewaterBuffers {
     /// Allocates buffers for `count` particles.
     fn new(gpu: &Arc<Gpu>, count: u32, attributes: [bool; 4]) -> Result<Self, Error> {
         let room = |name, bytes: u64| {
@@ -82,18 +82,18 @@ impl Diffusing {
         let [kinds, radii, ages, ids] = attributes;
         Ok(Self {
             count,
-            positions: room("headless/diffuse", 12)?,
-            kinds: some(kinds, "headless/diffuse/kinds")?,
-            radii: some(radii, "headless/diffuse/radii")?,
-            ages: some(ages, "headless/diffuse/ages")?,
-            ids: some(ids, "headless/diffuse/ids")?,
+            positions: room("headless/whitewater", 12)?,
+            kinds: some(kinds, "headless/whitewater/kinds")?,
+            radii: some(radii, "headless/whitewater/radii")?,
+            ages: some(ages, "headless/whitewater/ages")?,
+            ids: some(ids, "headless/whitewater/ids")?,
             packets: None,
         })
     }
 
-    pub fn streams(&self) -> DiffuseParticles {
+    pub fn streams(&self) -> WhitewaterParticles {
         let words = |buffer: &Option<Buffer>| buffer.as_ref().map(|buffer| stream(buffer, 4));
-        DiffuseParticles {
+        WhitewaterParticles {
             kinds: words(&self.kinds),
             radii: words(&self.radii),
             ages: words(&self.ages),
@@ -105,7 +105,7 @@ impl Diffusing {
             }),
             before: COPY_WRITE,
             after: COPY_WRITE,
-            ..DiffuseParticles::new(stream(&self.positions, 12), Count::Cpu(self.count))
+            ..WhitewaterParticles::new(stream(&self.positions, 12), Count::Cpu(self.count))
         }
     }
 
@@ -139,7 +139,7 @@ struct Packing {
 }
 
 impl Packing {
-    fn add(&mut self, mut first: u32, part: &Diffuse<'_>) {
+    fn add(&mut self, mut first: u32, part: &Whitewater<'_>) {
         for (i, position) in part.positions.iter().enumerate() {
             if first.is_multiple_of(self.size) {
                 let (low, high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
@@ -162,53 +162,54 @@ impl Packing {
 /// Bytes that are on their way to the device at a time.
 const STAGING: usize = 4 << 20;
 
-/// An upload of whitewater particles in parts, from [`Headless::diffuse_parts`]. If it is dropped before
+/// An upload of whitewater particles in parts, from [`Headless::whitewater_parts`]. If it is dropped before
 /// [`finish`](Self::finish) there are none.
-pub struct DiffuseParts<'a> {
+pub struct WhitewaterParts<'a> {
     headless: &'a mut Headless,
     count: u32,
     written: u32,
     /// From the first part on, which says what attributes there are.
-    made: Option<(Diffusing, Buffer)>,
+    made: Option<(WhitewaterBuffers, Buffer)>,
     packing: Option<Packing>,
 }
 
-impl DiffuseParts<'_> {
+impl WhitewaterParts<'_> {
     /// Uploads the next particles. The borrowed slices are free afterwards.
     ///
     /// # Errors
     /// Attributes of different lengths, other attributes than in the previous part, more particles than
     /// announced, no memory. The part is then ignored.
-    pub fn push(&mut self, part: &Diffuse<'_>) -> Result<(), Error> {
+    pub fn push(&mut self, part: &Whitewater<'_>) -> Result<(), Error> {
         let length = part.positions.len();
         if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {
-            return Err(Error::bad("diffuse", "an attribute is not as long as positions"));
+            return Err(Error::bad("whitewater", "an attribute is not as long as positions"));
         }
         let left = self.count - self.written;
         let Some(length) = u32::try_from(length).ok().filter(|length| *length <= left) else {
             let why = format!("{length} particles in a part, of all there are {left} left");
-            return Err(Error::bad("diffuse", why));
+            return Err(Error::bad("whitewater", why));
         };
-        let (diffusing, staging) = match &mut self.made {
+        let (buffers, staging) = match &mut self.made {
             Some(made) => made,
             made => {
                 let gpu = &self.headless.gpu;
-                let new = Diffusing::new(gpu, self.count, part.attributes())?;
+                let new = WhitewaterBuffers::new(gpu, self.count, part.attributes())?;
                 // No more than all there is, which often is little.
                 let size = (12 * u64::from(self.count)).clamp(16, STAGING as u64);
                 let usage = vk::BufferUsageFlags::TRANSFER_SRC;
                 let location = MemoryLocation::CpuToGpu;
-                let staging = Buffer::new(gpu, "headless/diffuse/staging", size, usage, location)?;
+                let staging =
+                    Buffer::new(gpu, "headless/whitewater/staging", size, usage, location)?;
                 made.insert((new, staging))
             }
         };
-        let to = [&diffusing.kinds, &diffusing.radii, &diffusing.ages, &diffusing.ids];
+        let to = [&buffers.kinds, &buffers.radii, &buffers.ages, &buffers.ids];
         if to.map(Option::is_some) != part.attributes() {
-            return Err(Error::bad("diffuse", "other attributes than in the part before"));
+            return Err(Error::bad("whitewater", "other attributes than in the part before"));
         }
         let first = u64::from(self.written);
         let positions = bytemuck::cast_slice(part.positions);
-        self.headless.copy(staging, positions, &diffusing.positions, 12 * first)?;
+        self.headless.copy(staging, positions, &buffers.positions, 12 * first)?;
         for (to, words) in to.into_iter().zip(part.words()) {
             if let (Some(to), Some(words)) = (to, words) {
                 self.headless.copy(staging, words, to, 4 * first)?;
@@ -228,23 +229,23 @@ impl DiffuseParts<'_> {
     pub fn finish(mut self) -> Result<(), Error> {
         if self.written < self.count {
             let why = format!("{} particles expected, found {}", self.count, self.written);
-            return Err(Error::bad("diffuse", why));
+            return Err(Error::bad("whitewater", why));
         }
-        self.headless.diffuse = match self.made.take() {
-            Some((mut diffusing, mut staging)) => {
+        self.headless.whitewater = match self.made.take() {
+            Some((mut buffers, mut staging)) => {
                 if let Some(packing) = &self.packing {
                     let bytes: &[u8] = bytemuck::cast_slice(&packing.all);
                     let usage =
                         vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-                    let (name, place) = ("headless/diffuse/packets", MemoryLocation::GpuOnly);
+                    let (name, place) = ("headless/whitewater/packets", MemoryLocation::GpuOnly);
                     let size = bytes.len() as u64;
                     let buffer = Buffer::new(&self.headless.gpu, name, size, usage, place)?;
                     self.headless.copy(&mut staging, bytes, &buffer, 0)?;
-                    diffusing.packets = Some(buffer);
+                    buffers.packets = Some(buffer);
                 }
-                Some(diffusing)
+                Some(buffers)
             }
-            None => Some(Diffusing::new(&self.headless.gpu, 0, [false; 4])?),
+            None => Some(WhitewaterBuffers::new(&self.headless.gpu, 0, [false; 4])?),
         };
         Ok(())
     }
@@ -393,14 +394,14 @@ impl Headless {
         Ok(())
     }
 
-    /// Uploads the whitewater particles of a frame, with [`Config::diffuse`](crate::Config::diffuse). `None`:
+    /// Uploads the whitewater particles of a frame, with [`Config::whitewater`](crate::Config::whitewater). `None`:
     /// there are none.
     ///
     /// # Errors
-    /// As [`diffuse_parts`](Self::diffuse_parts) and [`DiffuseParts::push`]; then there are none.
-    pub fn diffuse(&mut self, diffuse: Option<&Diffuse<'_>>) -> Result<(), Error> {
-        let mut parts = self.diffuse_parts(diffuse.map_or(0, |all| all.positions.len()))?;
-        match diffuse {
+    /// As [`whitewater_parts`](Self::whitewater_parts) and [`WhitewaterParts::push`]; then there are none.
+    pub fn whitewater(&mut self, whitewater: Option<&Whitewater<'_>>) -> Result<(), Error> {
+        let mut parts = self.whitewater_parts(whitewater.map_or(0, |all| all.positions.len()))?;
+        match whitewater {
             Some(all) => {
                 parts.push(all)?;
                 parts.finish()
@@ -411,27 +412,28 @@ impl Headless {
 
     /// Uploads the whitewater particles of a frame in parts, so that only one part is in the host's memory at a
     /// time, for example from a file that is being read. `count`: total number. There are none until
-    /// [`DiffuseParts::finish`].
+    /// [`WhitewaterParts::finish`].
     ///
     /// # Errors
-    /// More than [`DiffuseConfig::max_particles`](crate::foam::DiffuseConfig::max_particles).
-    pub fn diffuse_parts(&mut self, count: usize) -> Result<DiffuseParts<'_>, Error> {
-        self.diffuse = None;
+    /// More than [`WhitewaterConfig::max_particles`](crate::whitewater::WhitewaterConfig::max_particles).
+    pub fn whitewater_parts(&mut self, count: usize) -> Result<WhitewaterParts<'_>, Error> {
+        self.whitewater = None;
         self.hide_generated();
         self.gpu.bury();
-        let most = self.renderer.config().diffuse.map_or(u32::MAX, |config| config.max_particles);
+        let most =
+            self.renderer.config().whitewater.map_or(u32::MAX, |config| config.max_particles);
         let Some(count) = u32::try_from(count).ok().filter(|count| *count <= most) else {
-            let why = format!("{count} is more than Config.diffuse.max_particles, {most}");
-            return Err(Error::bad("diffuse", why));
+            let why = format!("{count} is more than Config.whitewater.max_particles, {most}");
+            return Err(Error::bad("whitewater", why));
         };
-        let packets = self.renderer.config().diffuse.is_some_and(|config| config.packets);
+        let packets = self.renderer.config().whitewater.is_some_and(|config| config.packets);
         let packing = packets.then(|| Packing { size: packet_size(count), all: Vec::new() });
-        Ok(DiffuseParts { headless: self, count, written: 0, made: None, packing })
+        Ok(WhitewaterParts { headless: self, count, written: 0, made: None, packing })
     }
 
     /// Bytes of the buffers of uploaded whitewater particles.
-    pub fn diffuse_memory(&self) -> u64 {
-        self.diffuse.as_ref().map_or(0, Diffusing::size)
+    pub fn whitewater_memory(&self) -> u64 {
+        self.whitewater.as_ref().map_or(0, WhitewaterBuffers::size)
     }
 
     /// Copies bytes to a place in a buffer, as many at a time as the staging buffer holds.
@@ -459,13 +461,13 @@ impl Headless {
         Ok(())
     }
 
-    /// Advances surface foam, with [`Config::foam`](crate::Config::foam): one step of a [`State`] from the
+    /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a [`State`] from the
     /// particles' [`motion`](Self::motion). `dt`: seconds since the previous step. Without it, or without ids,
     /// each frame is independent.
     ///
     /// # Errors
     /// No motion, no memory, and as [`State::record_step`].
-    pub fn step(&mut self, dt: Option<f32>, settings: &FoamSettings) -> Result<(), Error> {
+    pub fn step(&mut self, dt: Option<f32>, settings: &WeberSettings) -> Result<(), Error> {
         let Some(velocities) = &self.velocities else {
             return Err(Error::bad("velocities", "none uploaded"));
         };
@@ -525,7 +527,7 @@ impl Headless {
             densities: self.densities.as_ref().map(|buffer| of(buffer, 4)),
             velocities: self.velocities.as_ref().map(|buffer| of(buffer, 12)),
             ids: self.ids.as_ref().map(|buffer| of(buffer, 4)),
-            foam,
+            surface_foam: foam,
             before: HOST_WRITE,
             after: HOST_WRITE,
             ..Particles::new(of(positions, 12), Count::Cpu(count))

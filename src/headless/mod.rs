@@ -2,7 +2,7 @@
 //! examples; an engine that embeds the library does not compile it.
 //!
 //! One frame at a time: [`Headless::new`]; the inputs of a frame by [`Headless::particles`] and
-//! [`Headless::motion`], [`Headless::diffuse`] or in parts [`Headless::diffuse_parts`], [`Headless::sky`] or
+//! [`Headless::motion`], [`Headless::whitewater`] or in parts [`Headless::whitewater_parts`], [`Headless::sky`] or
 //! [`Headless::equirectangular`], [`Headless::scene`]; then [`Headless::render`], and the picture and its
 //! layers are read back. Recorded commands are submitted and waited for at once.
 
@@ -29,8 +29,8 @@ pub use device::{Device, DeviceOptions};
 pub use draw::Background;
 pub use generate::Generated;
 use generate::Generating;
-pub use inputs::{Bubble, Diffuse, DiffuseParts};
-use inputs::{Diffusing, Foamed, Foaming};
+pub use inputs::{Bubble, Whitewater, WhitewaterParts};
+use inputs::{Foamed, Foaming, WhitewaterBuffers};
 pub use readback::Picture;
 pub use shore::ShoreMesh;
 use shore::Shores;
@@ -101,7 +101,7 @@ pub struct Headless {
     densities: Option<Buffer>,
     velocities: Option<Buffer>,
     ids: Option<Buffer>,
-    diffuse: Option<Diffusing>,
+    whitewater: Option<WhitewaterBuffers>,
     bubbles: Option<Foamed>,
     heap: Option<Heap>,
     shores: Shores,
@@ -156,7 +156,7 @@ impl Headless {
             densities: None,
             velocities: None,
             ids: None,
-            diffuse: None,
+            whitewater: None,
             bubbles: None,
             heap: None,
             shores: Shores::default(),
@@ -296,7 +296,7 @@ impl Headless {
         }
         // Freed with the shared objects.
         drop((self.commands, self.color, self.depth, self.scene));
-        drop((self.positions, self.densities, self.velocities, self.ids, self.diffuse));
+        drop((self.positions, self.densities, self.velocities, self.ids, self.whitewater));
         drop((self.bubbles, self.shores, self.without_sun));
         // SAFETY: the device is idle, or lost.
         unsafe { renderer.destroy() };

@@ -192,11 +192,11 @@ impl Headless {
     ///   frontmost foam (T_wf and T_wb of the thesis; without foam everything is in front).
     /// - `water.sheet.front` and `.back` are the water of each of two layers, channels of
     ///   `water.thickness.sheets`.
-    /// - `water.foam.front` is the foam right behind the frontmost, a channel of `water.foam.thickness`.
+    /// - `surface_foam.front` is the foam right behind the frontmost, a channel of `surface_foam.thickness`.
     /// - `motion.X` and `motion.Y` are channels of `motion`.
-    /// - Whitewater has `foam` (depth), `foam.intensity`, `foam.thickness`, `foam.submerged` (the part of the
-    ///   thickness behind the water's surface), `foam.normal.X`, `.Y`, `.Z`, `foam.radius` (search radius),
-    ///   `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`.
+    /// - Whitewater has `whitewater` (depth), `whitewater.intensity`, `whitewater.thickness`, `whitewater.submerged` (the part of the
+    ///   thickness behind the water's surface), `whitewater.normal.X`, `.Y`, `.Z`, `whitewater.radius` (search radius),
+    ///   `whitewater.irradiance.R`, `.G`, `.B` and `whitewater.shadow`.
     /// - Bubble foam has `bubbles` (depth) and `bubbles.layers` (number of composited blobs).
     /// - Shores have `shore.amount` and `contact.amount`.
     ///
@@ -212,14 +212,18 @@ impl Headless {
         let image = match name {
             "water.back" => "water.surface",
             "water.sheet.front" | "water.sheet.back" => "water.thickness.sheets",
-            "water.foam.front" => "water.foam.thickness",
+            "surface_foam.front" => "surface_foam.thickness",
             "motion.X" | "motion.Y" => "motion",
-            "foam.intensity" => "foam",
-            "foam.submerged" => "foam.thickness",
-            "foam.normal.X" | "foam.normal.Y" | "foam.normal.Z" | "foam.radius" => "foam.normal",
-            "foam.irradiance.R" | "foam.irradiance.G" | "foam.irradiance.B" | "foam.shadow" => {
-                "foam.irradiance"
-            }
+            "whitewater.intensity" => "whitewater",
+            "whitewater.submerged" => "whitewater.thickness",
+            "whitewater.normal.X"
+            | "whitewater.normal.Y"
+            | "whitewater.normal.Z"
+            | "whitewater.radius" => "whitewater.normal",
+            "whitewater.irradiance.R"
+            | "whitewater.irradiance.G"
+            | "whitewater.irradiance.B"
+            | "whitewater.shadow" => "whitewater.irradiance",
             "shore.amount" | "contact.amount" => "shore",
             name => name,
         };
@@ -231,10 +235,13 @@ impl Headless {
         }
         let area = vk::Rect2D::from(layer.extent);
         let channel = match name {
-            "water.sheet.back" | "water.foam.front" | "motion.Y" => 1,
-            "foam.intensity" | "foam.submerged" | "foam.normal.Y" | "foam.irradiance.G" => 1,
-            "foam.normal.Z" | "foam.irradiance.B" => 2,
-            "foam.radius" | "foam.shadow" => 3,
+            "water.sheet.back" | "surface_foam.front" | "motion.Y" => 1,
+            "whitewater.intensity"
+            | "whitewater.submerged"
+            | "whitewater.normal.Y"
+            | "whitewater.irradiance.G" => 1,
+            "whitewater.normal.Z" | "whitewater.irradiance.B" => 2,
+            "whitewater.radius" | "whitewater.shadow" => 3,
             _ => 0,
         };
         if layer.format == vk::Format::R8G8B8A8_UNORM {

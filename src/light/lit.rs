@@ -111,7 +111,7 @@ impl Lit {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let read = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
         gpu.barriers(cmd, &[access::image(self.image(), read.discarded(), COLOR_ATTACHMENT)], &[]);
-        let [shadow, thickness, basis, span, diffuse, soap] = sunlight.resources();
+        let [shadow, thickness, basis, span, whitewater, soap] = sunlight.resources();
         let resources = [
             (0, r.uniforms),
             (1, Resource::Sampled(scene.view, gpu.samplers.linear)),
@@ -121,7 +121,7 @@ impl Lit {
             thickness,
             basis,
             span,
-            diffuse,
+            whitewater,
             soap,
         ];
         self.target.begin(gpu, cmd, r.extent.into(), [0.0; 4]);

@@ -82,7 +82,7 @@ impl Map {
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                 pass: target.pass,
                 blend: &[blend(op)],
-                constants: &[(9, u32::from(config.foam))],
+                constants: &[(9, u32::from(config.surface_foam))],
             },
         )?;
         Ok(Self { target, pipeline, front })
@@ -105,7 +105,7 @@ impl Map {
         self.target.begin(gpu, cmd, self.image().extent.into(), clear);
         for index in 0..list.chunks {
             let first = index * list.chunk_size;
-            let others = [&particles.densities, &particles.foam];
+            let others = [&particles.densities, &particles.surface_foam];
             let bound = Window::all(gpu, &particles.positions, others, first);
             // A stream that ends before the chunk has no particles in it: the count was clamped.
             let Some((positions, [densities, foam])) = bound else { break };

@@ -1,18 +1,18 @@
 //! Effects of water and foam on sunlight: coloured shadows of water, shadows of foam, caustics (the thesis'
-//! future work). One pass per file: [`maps`] splats all particles as the sun sees them, [`diffuse`] the
+//! future work). One pass per file: [`maps`] splats all particles as the sun sees them, [`whitewater`] the
 //! whitewater, [`caustics`] traces the refracted light, [`lit`] applies both to the host's scene. Foam, spray
 //! and highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
 //! shadow map.
 
 mod caustics;
 mod convolution;
-mod diffuse;
 mod lit;
 mod maps;
+mod whitewater;
 
 use ash::vk;
 
-use crate::contract::{Config, DiffuseParticles, HostImage, Layer, Particles};
+use crate::contract::{Config, HostImage, Layer, Particles, WhitewaterParticles};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{Access, FRAGMENT_SAMPLED};
@@ -23,9 +23,9 @@ use crate::water::settings::Shadows;
 use crate::water::{Recording, SphereList};
 use caustics::Caustics;
 pub use convolution::{Convolution, Convolved, Convolving, convolution};
-use diffuse::Diffuse;
 use lit::Lit;
 use maps::Maps;
+use whitewater::Whitewater;
 
 /// Specialisation constants of glsl/include/sunlight.glsl.
 pub fn constants(config: &Config) -> [(u32, u32); 5] {
@@ -36,13 +36,13 @@ pub fn constants(config: &Config) -> [(u32, u32); 5] {
         Some(Shadows::Convolution(convolution)) => (3, convolution.terms),
     };
     let cast = config.cast.is_some();
-    let diffused = cast && config.diffuse.is_some();
+    let has_whitewater = cast && config.whitewater.is_some();
     let soaped = cast && config.bubbles.is_some();
     [
         (11, shadow),
         (12, u32::from(cast)),
         (13, terms),
-        (21, u32::from(diffused)),
+        (21, u32::from(has_whitewater)),
         (23, u32::from(soaped)),
     ]
 }
@@ -57,7 +57,7 @@ pub struct Sunlight {
     /// Basis of a filtered shadow map and its span, or stand-ins.
     pub convolved: [Resource; 2],
     /// The map of whitewater, or a stand-in.
-    pub diffuse: Resource,
+    pub whitewater: Resource,
     /// The map of bubble foam, or a stand-in.
     pub bubbles: Resource,
 }
@@ -71,7 +71,7 @@ impl Sunlight {
             (17, self.thickness),
             (18, basis),
             (19, span),
-            (24, self.diffuse),
+            (24, self.whitewater),
             (27, self.bubbles),
         ]
     }
@@ -80,7 +80,7 @@ impl Sunlight {
 /// The passes.
 pub struct Light {
     maps: Maps,
-    diffuse: Option<Diffuse>,
+    whitewater: Option<Whitewater>,
     caustics: Caustics,
     lit: Lit,
 }
@@ -89,7 +89,10 @@ impl Light {
     pub fn new(gpu: &Gpu, config: &Config, edge: u32) -> Result<Self, Error> {
         Ok(Self {
             maps: Maps::new(gpu, config, edge)?,
-            diffuse: config.diffuse.map(|diffuse| Diffuse::new(gpu, &diffuse, edge)).transpose()?,
+            whitewater: config
+                .whitewater
+                .map(|whitewater| Whitewater::new(gpu, &whitewater, edge))
+                .transpose()?,
             caustics: Caustics::new(gpu, config, edge)?,
             lit: Lit::new(gpu, config)?,
         })
@@ -111,23 +114,23 @@ impl Light {
     }
 
     /// The map of whitewater, if it casts.
-    pub fn diffuse(&self, gpu: &Gpu) -> Option<Resource> {
-        let image = &self.diffuse.as_ref()?.image;
+    pub fn whitewater(&self, gpu: &Gpu) -> Option<Resource> {
+        let image = &self.whitewater.as_ref()?.image;
         Some(Resource::Sampled(image.view, gpu.samplers.nearest))
     }
 
-    /// Passes `light`, `diffuse` and `caustics`, after `cull`, whose counts they use. The buffers of the
+    /// Passes `light`, `whitewater_light` and `caustics`, after `cull`, whose counts they use. The buffers of the
     /// whitewater particles are in the compute-read state afterwards.
     pub fn record_maps(
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
         list: &SphereList,
-        diffuse: Option<&DiffuseParticles>,
+        whitewater: Option<&WhitewaterParticles>,
     ) -> Result<(), Error> {
         self.maps.record(r, particles, list)?;
-        if let Some(pass) = &self.diffuse {
-            pass.record(r, diffuse, &self.maps)?;
+        if let Some(pass) = &self.whitewater {
+            pass.record(r, whitewater, &self.maps)?;
         }
         self.caustics.record(r, &self.maps)
     }
@@ -163,26 +166,26 @@ impl Light {
             layer("light.thickness", self.maps.thickness.image(), maps::AFTER),
             layer("light.caustics", &self.caustics.image, FRAGMENT_SAMPLED),
         ];
-        let diffuse = self.diffuse.as_ref();
-        layers.extend(diffuse.map(|pass| layer("light.diffuse", &pass.image, maps::AFTER)));
+        let whitewater = self.whitewater.as_ref();
+        layers.extend(whitewater.map(|pass| layer("light.whitewater", &pass.image, maps::AFTER)));
         layers
     }
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
         let (images, buffers) = self.caustics.memory();
-        let (diffuse, words) = self.diffuse.as_ref().map_or((0, 0), Diffuse::memory);
+        let (whitewater, words) = self.whitewater.as_ref().map_or((0, 0), Whitewater::memory);
         let maps = self.maps.front.image().size + self.maps.thickness.image().size;
-        (images + maps + diffuse + self.lit.image().size, buffers + words)
+        (images + maps + whitewater + self.lit.image().size, buffers + words)
     }
 }
 
 pub use lit::Output;
 
 /// Number of descriptor sets per frame for whitewater that casts.
-pub fn diffuse_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
-    match (config.cast, &config.diffuse) {
-        (Some(edge), Some(diffuse)) => diffuse::sets(limits, diffuse, edge),
+pub fn whitewater_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
+    match (config.cast, &config.whitewater) {
+        (Some(edge), Some(whitewater)) => whitewater::sets(limits, whitewater, edge),
         _ => 0,
     }
 }

@@ -30,7 +30,7 @@ use crate::host_images::depth_layout;
 use crate::water::{Recording, WaterLayers};
 pub use distance::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
 pub use settings::{
-    ContactLook, Edge, Measure, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
+    ContactSettings, Edge, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings, WebLayer,
 };
 use textures::Textures;
 pub(crate) use tiles::COAT_DISPATCH;
@@ -97,7 +97,7 @@ fn texels(image: &HostImage, frame: vk::Extent2D) -> ([f32; 4], [f32; 2]) {
 }
 
 /// Displacement of a pattern, in its repetitions.
-fn moved(look: &ShoreLook, scale: f32, speed: [f32; 2]) -> [f32; 2] {
+fn moved(look: &ShoreSettings, scale: f32, speed: [f32; 2]) -> [f32; 2] {
     speed.map(|speed| look.turned(f64::from(scale) * f64::from(speed)) as f32)
 }
 
@@ -218,10 +218,10 @@ impl ShoreUniforms {
             surface,
             surface_part: [x, y, kind, own.bias],
             map,
-            reach: [1.0 / s.reach[0], 1.0 / s.reach[1], s.fade, way],
-            waves: [s.frequency, phase, s.wave_rise[0], s.wave_rise[1]],
+            reach: [1.0 / s.sea_reach, 1.0 / s.land_reach, s.fade, way],
+            waves: [s.frequency, phase, s.wave_slope, s.wave_offset],
             mixed: [s.floor.unwrap_or(-1.0e9), s.wave_ratio, s.web_ratio, s.threshold],
-            web: [s.web_rise[0], s.web_rise[1], edges[0], edges[1]],
+            web: [s.web_slope, s.web_offset, edges[0], edges[1]],
             counts: [looks.count as f32, layers as f32, 0.0, 0.0],
             look: looks.own,
             look_moved: looks.moved,

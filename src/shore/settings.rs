@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use crate::error::Error;
 use crate::water::settings::range;
 
-crate::contract::with!(ShoreConfig, ShoreLook, ShorelineLook, ContactLook);
+crate::contract::with!(ShoreConfig, ShoreSettings, ShorelineSettings, ContactSettings);
 
 /// Maximum number of foam texture layers.
 pub const LAYERS: usize = 4;
@@ -58,26 +58,29 @@ pub enum Edge {
 /// Appearance of shoreline and contact foam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
-pub struct ShoreLook {
+pub struct ShoreSettings {
     /// Time in seconds, finite. Motion is derived from it in 64 bits. Default 0.
     pub time: f64,
     /// Period after which everything repeats, seconds, [0.1, 1e6]: speeds are rounded to whole cycles per
     /// period. `None` (default): no repetition.
     pub period: Option<f32>,
     /// Foam along shores.
-    pub shoreline: ShorelineLook,
+    pub shoreline: ShorelineSettings,
     /// Foam around objects in the water.
-    pub contact: ContactLook,
+    pub contact: ContactSettings,
 }
 
-impl ShoreLook {
+impl ShoreSettings {
     /// Converts this look from metres to scene units, for a number of scene units per metre.
     #[must_use]
     pub fn in_units(mut self, units_per_metre: f32) -> Self {
         let longer = |length: &mut f32| *length *= units_per_metre;
         let wider = |scale: &mut f32| *scale /= units_per_metre;
         let shore = &mut self.shoreline;
-        shore.reach.iter_mut().chain(&mut shore.web_warp_speed).for_each(longer);
+        [&mut shore.sea_reach, &mut shore.land_reach]
+            .into_iter()
+            .chain(&mut shore.web_warp_speed)
+            .for_each(longer);
         for layer in &mut shore.layers {
             wider(&mut layer.scale);
             layer.speed.iter_mut().for_each(longer);
@@ -133,10 +136,12 @@ impl Noise {
 /// with the shore coordinate v 0 at the sea's edge of the foam, 1 at the shore line and 2 inland (the blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct ShorelineLook {
-    /// Width of the foam seawards and inland of the shore line, metres, (0, 1e6], default 12 and 3, where v
-    /// comes from a distance. A strip has its own v.
-    pub reach: [f32; 2],
+pub struct ShorelineSettings {
+    /// Width of the foam seawards of the shore line, metres, (0, 1e6], default 12, where v comes from a
+    /// distance. A strip has its own v.
+    pub sea_reach: f32,
+    /// Width of the foam inland of the shore line, metres, (0, 1e6], default 3.
+    pub land_reach: f32,
     /// Wave frequency in radians per v, [0, 1000], default 13: two waves between the sea's edge and the shore
     /// line.
     pub frequency: f32,
@@ -145,9 +150,10 @@ pub struct ShorelineLook {
     pub speed: f32,
     /// Share of the motion that oscillates, 0 (none) to 1 (all), default 0.35.
     pub swing: f32,
-    /// The oscillation's amplitude in radians, [0, 1000], default 2.2, and its period in seconds, [0.1, 1e6],
-    /// default 7.
-    pub swing_by: [f32; 2],
+    /// Amplitude of the oscillation, radians, [0, 1000], default 2.2.
+    pub swing_amplitude: f32,
+    /// Period of the oscillation, seconds, [0.1, 1e6], default 7.
+    pub swing_period: f32,
     /// Noise added to the frequency. Default 5, 1/90 m.
     pub frequency_noise: Noise,
     /// Noise added to the speed, radians per second. Default 0.35, 1/90 m. It oscillates, because places would
@@ -155,16 +161,20 @@ pub struct ShorelineLook {
     pub speed_noise: Noise,
     /// Period of that oscillation, seconds, [0.1, 1e6], default 11.
     pub speed_period: f32,
-    /// Slope a and offset b of the waves over v, [-100, 100], default 1.1 and -0.75.
-    pub wave_rise: [f32; 2],
+    /// Slope a of the waves over v, [-100, 100], default 1.1.
+    pub wave_slope: f32,
+    /// Offset b of the waves, [-100, 100], default -0.75.
+    pub wave_offset: f32,
     /// Lower limit of the waves, [-100, 100]. `None` (default): no limit. The blog's first steps use 0.
     pub floor: Option<f32>,
     /// Weight of the waves in the mix, [0, 100], default 0.34.
     pub wave_ratio: f32,
     /// Weight of the foam texture in the mix, [0, 100], default 0.66.
     pub web_ratio: f32,
-    /// Slope a' and offset b' of the foam texture over v, [-100, 100], default 0.95 and -0.62.
-    pub web_rise: [f32; 2],
+    /// Slope a' of the foam texture over v, [-100, 100], default 0.95.
+    pub web_slope: f32,
+    /// Offset b' of the foam texture, [-100, 100], default -0.62.
+    pub web_offset: f32,
     /// Layers of the foam texture. Default: two.
     pub layers: [WebLayer; LAYERS],
     /// Domain warp of the foam texture, metres. Default 0.7, 1/18 m.
@@ -205,23 +215,27 @@ impl WebLayer {
     pub const NONE: Self = Self { weight: 0.0, scale: 0.0, angle: 0.0, speed: [0.0; 2] };
 }
 
-impl Default for ShorelineLook {
+impl Default for ShorelineSettings {
     fn default() -> Self {
         let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
         Self {
-            reach: [12.0, 3.0],
+            sea_reach: 12.0,
+            land_reach: 3.0,
             frequency: 13.0,
             speed: -0.9,
             swing: 0.35,
-            swing_by: [2.2, 7.0],
+            swing_amplitude: 2.2,
+            swing_period: 7.0,
             frequency_noise: Noise::new(5.0, 1.0 / 90.0),
             speed_noise: Noise::new(0.35, 1.0 / 90.0),
             speed_period: 11.0,
-            wave_rise: [1.1, -0.75],
+            wave_slope: 1.1,
+            wave_offset: -0.75,
             floor: None,
             wave_ratio: 0.34,
             web_ratio: 0.66,
-            web_rise: [0.95, -0.62],
+            web_slope: 0.95,
+            web_offset: -0.62,
             layers: [
                 layer(0.65, 1.0 / 10.5, 0.0, [0.12, 0.07]),
                 layer(0.35, 1.0 / 6.4, 37.0, [-0.1, 0.13]),
@@ -244,7 +258,7 @@ impl Default for ShorelineLook {
 /// Contact foam: the closer the scene is behind the water's surface, the more foam (Lettier).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct ContactLook {
+pub struct ContactSettings {
     /// Distance at which contact foam ends on the host's surface, metres, (0, 1e6], default 0.4. (The tutorial
     /// has 4 in its own units.)
     pub depth: f32,
@@ -270,7 +284,7 @@ pub struct ContactLook {
     pub particle_opacity: f32,
 }
 
-impl Default for ContactLook {
+impl Default for ContactSettings {
     fn default() -> Self {
         Self {
             depth: 0.4,
@@ -298,12 +312,12 @@ pub enum Measure {
     Vertical,
 }
 
-impl ShoreLook {
+impl ShoreSettings {
     pub(crate) fn check(&self) -> Result<(), Error> {
         if !self.time.is_finite() {
-            return Err(Error::bad("ShoreLook.time", "not finite"));
+            return Err(Error::bad("Settings.shore.time", "not finite"));
         }
-        range("ShoreLook.period", self.period.unwrap_or(1.0), 0.1, 1.0e6)?;
+        range("Settings.shore.period", self.period.unwrap_or(1.0), 0.1, 1.0e6)?;
         self.shoreline.check()?;
         self.contact.check()
     }
@@ -320,7 +334,7 @@ impl ShoreLook {
     /// The phase of the waves in radians, and what the noise on their speed is multiplied by.
     pub(crate) fn phases(&self) -> [f32; 2] {
         let s = &self.shoreline;
-        let [by, seconds] = s.swing_by.map(f64::from);
+        let (by, seconds) = (f64::from(s.swing_amplitude), f64::from(s.swing_period));
         let swing = f64::from(s.swing);
         let straight = self.turned((1.0 - swing) * f64::from(s.speed) / TAU) * TAU;
         let swung = swing * by * (self.turned(1.0 / seconds) * TAU).sin();
@@ -331,73 +345,92 @@ impl ShoreLook {
     }
 }
 
-impl ShorelineLook {
+impl ShorelineSettings {
     fn check(&self) -> Result<(), Error> {
-        for (field, value) in
-            [("ShorelineLook.reach[0]", self.reach[0]), ("ShorelineLook.reach[1]", self.reach[1])]
-        {
+        for (field, value) in [
+            ("Settings.shore.shoreline.sea_reach", self.sea_reach),
+            ("Settings.shore.shoreline.land_reach", self.land_reach),
+        ] {
             range(field, value, 1.0e-6, 1.0e6)?;
         }
-        range("ShorelineLook.frequency", self.frequency, 0.0, 1000.0)?;
-        range("ShorelineLook.speed", self.speed, -1000.0, 1000.0)?;
-        range("ShorelineLook.swing", self.swing, 0.0, 1.0)?;
-        range("ShorelineLook.swing_by[0]", self.swing_by[0], 0.0, 1000.0)?;
-        range("ShorelineLook.swing_by[1]", self.swing_by[1], 0.1, 1.0e6)?;
-        range("ShorelineLook.speed_period", self.speed_period, 0.1, 1.0e6)?;
-        range("ShorelineLook.floor", self.floor.unwrap_or(0.0), -100.0, 100.0)?;
-        range("ShorelineLook.wave_ratio", self.wave_ratio, 0.0, 100.0)?;
-        range("ShorelineLook.web_ratio", self.web_ratio, 0.0, 100.0)?;
-        range("ShorelineLook.threshold", self.threshold, -100.0, 100.0)?;
-        range("ShorelineLook.fade", self.fade, 0.001, 1.0)?;
-        range("ShorelineLook.opacity", self.opacity, 0.0, 1.0)?;
-        let pairs = [
-            ("ShorelineLook.wave_rise", self.wave_rise, 100.0),
-            ("ShorelineLook.web_rise", self.web_rise, 100.0),
-            ("ShorelineLook.web_warp_speed", self.web_warp_speed, 1000.0),
-        ];
+        range("Settings.shore.shoreline.frequency", self.frequency, 0.0, 1000.0)?;
+        range("Settings.shore.shoreline.speed", self.speed, -1000.0, 1000.0)?;
+        range("Settings.shore.shoreline.swing", self.swing, 0.0, 1.0)?;
+        range("Settings.shore.shoreline.swing_amplitude", self.swing_amplitude, 0.0, 1000.0)?;
+        range("Settings.shore.shoreline.swing_period", self.swing_period, 0.1, 1.0e6)?;
+        range("Settings.shore.shoreline.speed_period", self.speed_period, 0.1, 1.0e6)?;
+        range("Settings.shore.shoreline.floor", self.floor.unwrap_or(0.0), -100.0, 100.0)?;
+        range("Settings.shore.shoreline.wave_ratio", self.wave_ratio, 0.0, 100.0)?;
+        range("Settings.shore.shoreline.web_ratio", self.web_ratio, 0.0, 100.0)?;
+        range("Settings.shore.shoreline.wave_slope", self.wave_slope, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.wave_offset", self.wave_offset, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.web_slope", self.web_slope, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.web_offset", self.web_offset, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.threshold", self.threshold, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.fade", self.fade, 0.001, 1.0)?;
+        range("Settings.shore.shoreline.opacity", self.opacity, 0.0, 1.0)?;
+        let pairs = [("Settings.shore.shoreline.web_warp_speed", self.web_warp_speed, 1000.0)];
         for (field, pair, most) in pairs {
             pair.into_iter().try_for_each(|value| range(field, value, -most, most))?;
         }
-        self.color.into_iter().try_for_each(|c| range("ShorelineLook.color", c, 0.0, 1.0))?;
+        self.color
+            .into_iter()
+            .try_for_each(|c| range("Settings.shore.shoreline.color", c, 0.0, 1.0))?;
         for layer in &self.layers {
-            range("WebLayer.weight", layer.weight, 0.0, 1.0)?;
-            range("WebLayer.scale", layer.scale, 0.0, 100.0)?;
-            range("WebLayer.angle", layer.angle, -1.0e6, 1.0e6)?;
-            layer
-                .speed
-                .into_iter()
-                .try_for_each(|value| range("WebLayer.speed", value, -1000.0, 1000.0))?;
+            range("Settings.shore.shoreline.layers.weight", layer.weight, 0.0, 1.0)?;
+            range("Settings.shore.shoreline.layers.scale", layer.scale, 0.0, 100.0)?;
+            range("Settings.shore.shoreline.layers.angle", layer.angle, -1.0e6, 1.0e6)?;
+            layer.speed.into_iter().try_for_each(|value| {
+                range("Settings.shore.shoreline.layers.speed", value, -1000.0, 1000.0)
+            })?;
         }
         self.frequency_noise.check([
-            "ShorelineLook.frequency_noise.amplitude",
-            "ShorelineLook.frequency_noise.scale",
+            "Settings.shore.shoreline.frequency_noise.amplitude",
+            "Settings.shore.shoreline.frequency_noise.scale",
         ])?;
-        self.speed_noise
-            .check(["ShorelineLook.speed_noise.amplitude", "ShorelineLook.speed_noise.scale"])?;
+        self.speed_noise.check([
+            "Settings.shore.shoreline.speed_noise.amplitude",
+            "Settings.shore.shoreline.speed_noise.scale",
+        ])?;
         self.threshold_noise.check([
-            "ShorelineLook.threshold_noise.amplitude",
-            "ShorelineLook.threshold_noise.scale",
+            "Settings.shore.shoreline.threshold_noise.amplitude",
+            "Settings.shore.shoreline.threshold_noise.scale",
         ])?;
-        self.rise_noise
-            .check(["ShorelineLook.rise_noise.amplitude", "ShorelineLook.rise_noise.scale"])?;
-        self.warp.check(["ShorelineLook.warp.amplitude", "ShorelineLook.warp.scale"])?;
-        self.web_warp.check(["ShorelineLook.web_warp.amplitude", "ShorelineLook.web_warp.scale"])
+        self.rise_noise.check([
+            "Settings.shore.shoreline.rise_noise.amplitude",
+            "Settings.shore.shoreline.rise_noise.scale",
+        ])?;
+        self.warp.check([
+            "Settings.shore.shoreline.warp.amplitude",
+            "Settings.shore.shoreline.warp.scale",
+        ])?;
+        self.web_warp.check([
+            "Settings.shore.shoreline.web_warp.amplitude",
+            "Settings.shore.shoreline.web_warp.scale",
+        ])
     }
 }
 
-impl ContactLook {
+impl ContactSettings {
     fn check(&self) -> Result<(), Error> {
-        range("ContactLook.depth", self.depth, 1.0e-6, 1.0e6)?;
-        range("ContactLook.particle_depth", self.particle_depth.unwrap_or(1.0), 1.0e-6, 1.0e6)?;
-        range("ContactLook.mask", self.mask, 0.0, 1.0)?;
-        range("ContactLook.mask_scale", self.mask_scale, 0.0, 100.0)?;
+        range("Settings.shore.contact.depth", self.depth, 1.0e-6, 1.0e6)?;
+        range(
+            "Settings.shore.contact.particle_depth",
+            self.particle_depth.unwrap_or(1.0),
+            1.0e-6,
+            1.0e6,
+        )?;
+        range("Settings.shore.contact.mask", self.mask, 0.0, 1.0)?;
+        range("Settings.shore.contact.mask_scale", self.mask_scale, 0.0, 100.0)?;
         for speed in self.mask_speed {
-            range("ContactLook.mask_speed", speed, -1000.0, 1000.0)?;
+            range("Settings.shore.contact.mask_speed", speed, -1000.0, 1000.0)?;
         }
-        range("ContactLook.lit", self.lit, 0.0, 1.0)?;
+        range("Settings.shore.contact.lit", self.lit, 0.0, 1.0)?;
         let most = if self.lit > 0.0 { 1.0 } else { f32::MAX };
-        self.color.into_iter().try_for_each(|c| range("ContactLook.color", c, 0.0, most))?;
-        range("ContactLook.opacity", self.opacity, 0.0, 1.0)?;
-        range("ContactLook.particle_opacity", self.particle_opacity, 0.0, 1.0)
+        self.color
+            .into_iter()
+            .try_for_each(|c| range("Settings.shore.contact.color", c, 0.0, most))?;
+        range("Settings.shore.contact.opacity", self.opacity, 0.0, 1.0)?;
+        range("Settings.shore.contact.particle_opacity", self.particle_opacity, 0.0, 1.0)
     }
 }

@@ -22,7 +22,7 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Number of halvings from pixels to tiles: tiles are 8×8 (glsl/include/shore_lists.glsl).
+/// Number of max_splits from pixels to tiles: tiles are 8×8 (glsl/include/shore_lists.glsl).
 const LEVEL: u32 = 3;
 /// Maximum number of tiles per run (glsl/include/shore_runs.glsl).
 const LONGEST: u32 = 16;

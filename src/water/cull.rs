@@ -112,15 +112,15 @@ struct EndPush {
 /// Chunks hold a multiple of this number of particles: 16 spheres are 256 bytes, as are 64 of the shares that
 /// accompany foam.
 pub fn chunk_unit(config: &Config) -> u32 {
-    if config.foam { 64 } else { 16 }
+    if config.surface_foam { 64 } else { 16 }
 }
 
 /// Number of particles per chunk, and of chunks: one chunk of every stream fits in a binding, and the chunks'
 /// parts of the list begin at offsets that every device can bind.
 pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) {
     let range = u64::from(limits.max_storage_buffer_range).saturating_sub(256);
-    let own = match (config.foam, config.spray) {
-        (true, _) => super::foam::SPRITE as u32,
+    let own = match (config.surface_foam, config.spray) {
+        (true, _) => super::surface_foam::SPRITE as u32,
         (false, true) => super::spray::SPRITE as u32,
         (false, false) => 16,
     };
@@ -140,7 +140,11 @@ fn entry_bytes(config: &Config) -> u32 {
 
 /// Whether passes after `cull` read the host's particles again.
 fn goes_over_particles(config: &Config) -> bool {
-    config.foam || config.spray || config.motion || config.noise.is_some() || config.cast.is_some()
+    config.surface_foam
+        || config.spray
+        || config.motion
+        || config.noise.is_some()
+        || config.cast.is_some()
 }
 
 /// Bytes of a chunk's members: whole words, at offsets that every device can bind.
@@ -230,7 +234,7 @@ impl SphereList {
                 MemoryLocation::GpuOnly,
             )?);
         }
-        if config.foam {
+        if config.surface_foam {
             list.shares = Some(Buffer::new(
                 gpu,
                 &format!("{name}/shares"),
@@ -293,7 +297,8 @@ pub struct Cull {
 
 impl Cull {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let (foam, again) = (u32::from(config.foam), u32::from(goes_over_particles(config)));
+        let (foam, again) =
+            (u32::from(config.surface_foam), u32::from(goes_over_particles(config)));
         let each = |packets| {
             let constants = [(0, packets), (1, foam), (2, again), shape::constant(config)];
             Pipeline::compute(gpu, shader::WATER_CULL_COMP, &constants)
@@ -438,7 +443,7 @@ impl Cull {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let chunk = self.list.chunk(index);
         let first = index * self.list.chunk_size;
-        let others = [&particles.densities, &particles.foam];
+        let others = [&particles.densities, &particles.surface_foam];
         // A stream that ends before the chunk has no particles in it: the count was clamped.
         let Some((positions, [densities, foam])) =
             Window::all(gpu, &particles.positions, others, first)
@@ -539,7 +544,7 @@ fn streams(particles: &Particles) -> impl Iterator<Item = (&Stream, u64)> {
         (particles.densities.as_ref(), 4),
         (particles.velocities.as_ref(), 12),
         (particles.ids.as_ref(), 4),
-        (particles.foam.as_ref(), 8),
+        (particles.surface_foam.as_ref(), 8),
     ];
     all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
 }
@@ -603,7 +608,11 @@ mod tests {
         for max_particles in [1, 63, 64, 65, 1 << 20, 10_000_000, u32::MAX - 63, u32::MAX] {
             for (foam, spray) in [(false, false), (true, false), (true, true)] {
                 let format = vk::Format::R16G16B16A16_SFLOAT;
-                let config = Config { foam, spray, ..Config::new(extent, format, max_particles) };
+                let config = Config {
+                    surface_foam: foam,
+                    spray,
+                    ..Config::new(extent, format, max_particles)
+                };
                 let (size, count) = chunks(&limits, &config);
                 let name = format!("{max_particles}: {count} of {size}");
                 assert!(size.is_multiple_of(chunk_unit(&config)), "{name}");

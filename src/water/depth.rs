@@ -57,7 +57,7 @@ pub fn sprites(
     config: &Config,
 ) -> Result<(Pipeline, Pipeline), Error> {
     let make = |topology, quads| {
-        let constants = &[(0, quads), (9, u32::from(config.foam)), shape::constant(config)];
+        let constants = &[(0, quads), (9, u32::from(config.surface_foam)), shape::constant(config)];
         Pipeline::graphics(gpu, &Graphics { vertex, fragment, topology, pass, blend, constants })
     };
     Ok((

@@ -47,7 +47,7 @@ pub fn coarsening(config: &Config) -> u32 {
     if config.rule == Rule::ConstantWidth { config.coarsening } else { 0 }
 }
 
-/// The levels of a configuration in placement order: index in [`SmoothingLevels`], and number of halvings from
+/// The levels of a configuration in placement order: index in [`SmoothingLevels`], and number of max_splits from
 /// the first.
 fn levels(config: &Config) -> impl Iterator<Item = (usize, u32)> {
     let (coarsening, two) = (coarsening(config), config.sheets > 1);

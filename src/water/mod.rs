@@ -5,7 +5,6 @@ mod back;
 mod classify;
 mod cull;
 mod depth;
-mod foam;
 mod front;
 mod gaps;
 mod level;
@@ -19,16 +18,16 @@ mod smooth_query;
 pub(crate) mod split;
 mod spray;
 mod sprites;
+mod surface_foam;
 mod thickness;
 mod tiles;
 
 use ash::vk;
 
 use crate::bubbles::Bubbles;
-use crate::contract::{Blobs, Config, DiffuseParticles, Layer, MemoryUse, Particles};
+use crate::contract::{Blobs, Config, Layer, MemoryUse, Particles, WhitewaterParticles};
 use crate::diagnostics::{ParticleCounts, SmoothingLevels};
 use crate::error::Error;
-use crate::foam::Foam;
 use crate::frame::{Lens, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{Access, COMPUTE_READ};
@@ -38,20 +37,21 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 use crate::light::{Light, Sunlight};
+use crate::whitewater::Whitewater;
 
 pub(crate) use classify::Classify;
 pub(crate) use cull::{
     CAST, STREAM_USE, SphereList, Window, buffers_of, capacity, chunk_unit, chunks, each_once,
 };
 pub(crate) use depth::DEFAULT_SPLAT;
-pub(crate) use foam::word_bytes as foam_bytes;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, FoamLook, FoamSettings, Fresnel,
-    Gate, Kernels, Ladder, Medium, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing,
-    Splat, SprayLook, WaterSettings,
+    Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, Fresnel, Gate, Kernels, Ladder,
+    Medium, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SpraySettings,
+    SurfaceFoamSettings, SurfaceNoiseSettings, WaterSettings, WeberSettings,
 };
 pub(crate) use shape::{bytes_bound as shape_bytes, sets as shape_sets};
+pub(crate) use surface_foam::word_bytes as foam_bytes;
 pub(crate) use thickness::sum_bytes as thickness_bytes;
 
 /// Size of the image that holds all levels of the smoothing.
@@ -85,7 +85,7 @@ pub(crate) struct Recording<'a> {
     /// than the paper's.
     pub shaped: bool,
     /// Distances at which blobs replace whitewater sprites, if they do.
-    pub hand_over: Option<Resource>,
+    pub crossfade: Option<Resource>,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
     /// Shadow resources of the sun.
@@ -125,7 +125,7 @@ pub(crate) struct Beside<'a> {
     /// Its maps use the counts of `cull`.
     pub light: Option<&'a Light>,
     /// Foam and blobs have to be drawn before tile classification, which also lists their tiles.
-    pub diffuse: Option<(&'a Foam, Option<&'a DiffuseParticles>)>,
+    pub whitewater: Option<(&'a Whitewater, Option<&'a WhitewaterParticles>)>,
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
 }
 
@@ -172,7 +172,7 @@ pub(crate) struct Water {
     cull: cull::Cull,
     front: front::Front,
     depth: depth::Depth,
-    foam: Option<foam::Foam>,
+    foam: Option<surface_foam::Foam>,
     spray: Option<spray::Spray>,
     motion: Option<motion::Motion>,
     reduce: reduce::Reduce,
@@ -193,7 +193,7 @@ impl Water {
             cull: cull::Cull::new(gpu, config)?,
             front: front::Front::new(gpu, config)?,
             depth: depth::Depth::new(gpu, config)?,
-            foam: config.foam.then(|| foam::Foam::new(gpu, config)).transpose()?,
+            foam: config.surface_foam.then(|| surface_foam::Foam::new(gpu, config)).transpose()?,
             spray: config.spray.then(|| spray::Spray::new(gpu, config)).transpose()?,
             motion: config.motion.then(|| motion::Motion::new(gpu, config)).transpose()?,
             reduce: reduce::Reduce::new(gpu, config)?,
@@ -247,10 +247,10 @@ impl Water {
         settings: &WaterSettings,
         beside: &Beside<'_>,
     ) -> Result<(), Error> {
-        let Beside { light, diffuse, bubbles } = *beside;
-        let mut diffuse = diffuse.map(|(foam, particles)| (foam, particles.copied()));
+        let Beside { light, whitewater, bubbles } = *beside;
+        let mut whitewater = whitewater.map(|(foam, particles)| (foam, particles.copied()));
         if let Some((bubbles, blobs)) = bubbles {
-            if let Some((_, particles)) = &mut diffuse {
+            if let Some((_, particles)) = &mut whitewater {
                 let taken_over = bubbles.record_near(r, particles.as_ref())?;
                 if let (Some(particles), true) = (particles, taken_over) {
                     particles.before = COMPUTE_READ;
@@ -264,8 +264,8 @@ impl Water {
         let drawn = shaped.as_ref().unwrap_or(particles);
         self.cull.record(r, drawn, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
-            let diffuse = diffuse.as_ref().and_then(|(_, particles)| particles.as_ref());
-            light.record_maps(r, particles, &self.cull.list, diffuse)?;
+            let whitewater = whitewater.as_ref().and_then(|(_, particles)| particles.as_ref());
+            light.record_maps(r, particles, &self.cull.list, whitewater)?;
         }
         self.front.record(r, &self.cull)?;
         self.depth.record(r, &self.front.list)?;
@@ -275,7 +275,7 @@ impl Water {
         if let Some(spray) = &self.spray {
             spray.record(r, particles, &self.cull.list, &self.depth.image)?;
         }
-        if let Some((foam, mut particles)) = diffuse {
+        if let Some((foam, mut particles)) = whitewater {
             // The light's maps have taken their buffers over.
             if let (Some(particles), Some(_)) = (&mut particles, light) {
                 particles.before = COMPUTE_READ;
@@ -290,11 +290,11 @@ impl Water {
             gaps.record(r, &self.front.list, &self.cull.list)?;
         }
         self.thickness.record(r, &self.cull.list, gaps, self.foam.as_ref())?;
-        let foam = self.foam.as_ref().map(foam::Foam::depth);
+        let foam = self.foam.as_ref().map(surface_foam::Foam::depth);
         let spray = self.spray.as_ref().map(spray::Spray::image);
-        let diffuse = diffuse.map(|(foam, _)| foam.layers()[0]);
+        let whitewater = whitewater.map(|(foam, _)| foam.layers()[0]);
         let bubbles = bubbles.map(|(bubbles, _)| bubbles.depth());
-        let depths = reduce::Depths { water: &self.depth.image, foam, spray, diffuse, bubbles };
+        let depths = reduce::Depths { water: &self.depth.image, foam, spray, whitewater, bubbles };
         self.reduce.record(r, &depths, &self.smooth, &self.tiles, &self.level)?;
         self.level.record(r, &depths, &self.reduce, &self.smooth, &self.tiles)?;
         let (plan, tiles) = (&self.reduce.plan, &self.tiles);
@@ -342,7 +342,7 @@ impl Water {
             sheets: self.thickness.sheets.as_ref(),
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
             foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
-            drift: self.foam.as_ref().map(foam::Foam::drift),
+            drift: self.foam.as_ref().map(surface_foam::Foam::drift),
             spray: self.spray.as_ref().map(spray::Spray::image),
             noise: self.noise.as_ref().map(noise::Noise::image),
         }
@@ -403,8 +403,13 @@ impl Water {
             layers.push(layer("water.thickness.sheets", sheets, self.thickness.level, access));
         }
         if let Some(foam) = &self.foam {
-            layers.push(layer("water.foam", foam.depth(), foam.level, foam::AFTER));
-            layers.push(layer("water.foam.thickness", foam.thickness(), foam.level, foam::AFTER));
+            layers.push(layer("surface_foam", foam.depth(), foam.level, surface_foam::AFTER));
+            layers.push(layer(
+                "surface_foam.thickness",
+                foam.thickness(),
+                foam.level,
+                surface_foam::AFTER,
+            ));
         }
         if let Some(spray) = &self.spray {
             layers.push(layer("water.spray", spray.image(), 0, spray::AFTER));
@@ -425,7 +430,7 @@ impl Water {
         ];
         let (back, gaps) = self.sheets.as_ref().map_or((0, 0), Sheets::memory);
         let sheets = self.thickness.sheets.as_ref().map_or(0, |image| image.size);
-        let (foam, sprites) = self.foam.as_ref().map_or((0, 0), foam::Foam::memory);
+        let (foam, sprites) = self.foam.as_ref().map_or((0, 0), surface_foam::Foam::memory);
         let (spray, droplets) = self.spray.as_ref().map_or((0, 0), spray::Spray::memory);
         let (motion, sums) = self.motion.as_ref().map_or((0, 0), motion::Motion::memory);
         let (noise, ripples) = self.noise.as_ref().map_or((0, 0), noise::Noise::memory);

@@ -106,7 +106,7 @@ fn sum_bytes(config: &Config, level: u32) -> u64 {
     32 * u64::from(surfaces(level)) * texels(config, level)
 }
 
-/// Number of halvings: as the thickness, or the first further one at which the sums fit in one binding.
+/// Number of max_splits: as the thickness, or the first further one at which the sums fit in one binding.
 fn level(gpu: &Gpu, config: &Config) -> u32 {
     let range = u64::from(gpu.limits.max_storage_buffer_range);
     (config.thickness_level..32).find(|level| sum_bytes(config, *level) <= range).unwrap_or(32)
@@ -114,7 +114,7 @@ fn level(gpu: &Gpu, config: &Config) -> u32 {
 
 impl Motion {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let constants = [(9, u32::from(config.foam))];
+        let constants = [(9, u32::from(config.surface_foam))];
         let compute = |shader| Pipeline::compute(gpu, shader, &constants);
         let level = level(gpu, config);
         let (fronts, sums, image) = Self::sized(gpu, config, level)?;
@@ -205,7 +205,7 @@ impl Motion {
                 buffer(sums, COMPUTE_WRITE, COMPUTE_READ_WRITE),
             ];
             gpu.barriers(cmd, &[], &between);
-            let streams = [&particles.velocities, &particles.densities, &particles.foam];
+            let streams = [&particles.velocities, &particles.densities, &particles.surface_foam];
             let over = Over { particles, streams, binding: 4 };
             for index in 0..list.chunks {
                 let chunk = list.chunk(index);

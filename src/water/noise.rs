@@ -70,7 +70,7 @@ pub struct Noise {
     sprites: Sprites,
     draw: Pipeline,
     target: Target,
-    /// Number of halvings of its resolution.
+    /// Number of max_splits of its resolution.
     pub level: u32,
 }
 
@@ -114,7 +114,7 @@ impl Noise {
         self.target.resize(gpu, &desc(config, self.level), retired)
     }
 
-    /// The height; [`NoiseLook`](super::NoiseLook) sets the scale.
+    /// The height; [`SurfaceNoiseSettings`](super::SurfaceNoiseSettings) sets the scale.
     pub fn image(&self) -> &Image {
         &self.target.image
     }

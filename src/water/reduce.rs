@@ -36,7 +36,7 @@ pub struct Depths<'a> {
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
     /// Whitewater depth.
-    pub diffuse: Option<&'a Image>,
+    pub whitewater: Option<&'a Image>,
     /// Bubble-foam depth.
     pub bubbles: Option<&'a Image>,
 }
@@ -51,7 +51,7 @@ impl Depths<'_> {
         [
             (13, bound(self.foam)),
             (15, bound(self.spray)),
-            (21, bound(self.diffuse)),
+            (21, bound(self.whitewater)),
             (25, bound(self.bubbles)),
         ]
     }
@@ -84,9 +84,9 @@ impl Reduce {
             (0, config.smoothing_level),
             (1, rule_constant(config.rule)),
             (3, 1 << config.thickness_level),
-            (9, u32::from(config.foam)),
+            (9, u32::from(config.surface_foam)),
             (10, u32::from(config.spray)),
-            (20, u32::from(config.diffuse.is_some())),
+            (20, u32::from(config.whitewater.is_some())),
             (22, u32::from(config.bubbles.is_some())),
         ];
         Ok(Self {
@@ -158,7 +158,7 @@ impl Reduce {
                 buffer(work, COPY_WRITE, COMPUTE_READ_WRITE),
             ],
         );
-        let [foam, spray, diffuse, bubbles] = depths.beside(r);
+        let [foam, spray, whitewater, bubbles] = depths.beside(r);
         r.descriptors.bind(
             gpu,
             cmd,
@@ -174,7 +174,7 @@ impl Reduce {
                 (7, r.levels),
                 foam,
                 spray,
-                diffuse,
+                whitewater,
                 bubbles,
             ],
         )?;

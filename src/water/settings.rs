@@ -36,7 +36,14 @@ pub enum Shadows {
 
 pub use crate::light::Convolution;
 
-crate::contract::with!(WaterSettings, FoamSettings, FoamLook, SprayLook, ShadowFilter, NoiseLook);
+crate::contract::with!(
+    WaterSettings,
+    WeberSettings,
+    SurfaceFoamSettings,
+    SpraySettings,
+    ShadowFilter,
+    SurfaceNoiseSettings
+);
 
 /// Filter of the host's shadow map for [`Shadows::Convolution`] (Annen et al. 2007).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +86,7 @@ pub enum Ladder {
     /// Adds the water behind the frontmost foam.
     BackWater,
     /// Adds foam.
-    Foam,
+    SurfaceFoam,
     /// Adds the water in front of the foam, or all water where there is no foam.
     FrontWater,
     /// Adds reflections, highlights and spray: the complete picture.
@@ -132,7 +139,7 @@ pub struct WaterSettings {
     pub rest_density: f32,
     /// Particles below this fraction of the rest density are spray and are left out of the water, [0, ∞),
     /// default 0.35 (an isolated particle has 0.318 with the usual cubic spline). With
-    /// [`Config::spray`](crate::Config), [`SprayLook::densities`] replace it.
+    /// [`Config::spray`](crate::Config), [`SpraySettings::all_spray_density`] replaces it.
     pub density_threshold: f32,
     /// Fraction of the rest density from which a particle has its full radius. Default 0.45.
     pub density_full: f32,
@@ -378,7 +385,7 @@ impl Medium {
     pub const LAKE: Self = Self::turbid([0.322, 0.165, 0.408], [0.0205, 0.0232, 0.0287]);
     /// Clear ocean, Jerlov's type IB: 0.1 mg/m³ of chlorophyll (Mobley, Light and Water, 1994), absorption by Prieur and
     /// Sathyendranath (Limnol. Oceanogr. 26, 1981) as Mobley has it (Eq. 3.27, Table 3.7), scattering by Gordon and Morel
-    /// (1983), of which 0.0183 is backwards (Petzold's particles), and that of sea water (Morel 1974). Its diffuse
+    /// (1983), of which 0.0183 is backwards (Petzold's particles), and that of sea water (Morel 1974). Its whitewater
     /// attenuation agrees with Jerlov's table (Marine Optics, 1976, Table XXVII) to a fifth.
     pub const OCEAN: Self = Self::turbid([0.273, 0.0639, 0.0252], [0.0036, 0.004_55, 0.007_07]);
     /// A river, tan: 100 g/m³ of silt, which scatters 0.51 m²/g (Babin et al., Limnol. Oceanogr. 48, 2003), 0.0183 of it
@@ -476,7 +483,7 @@ impl Fresnel {
 /// from particle to particle (thesis, Sec. 3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct FoamSettings {
+pub struct WeberSettings {
     /// Weber number per density and squared speed, (0, ∞): the particle diameter divided by the surface tension
     /// ([`weber`](Self::weber)), or another reduced form.
     pub scale: f32,
@@ -497,7 +504,7 @@ pub struct FoamSettings {
 /// Surface tension of water in air at 20 °C, N/m.
 pub const SURFACE_TENSION: f32 = 0.0728;
 
-impl FoamSettings {
+impl WeberSettings {
     /// The full Weber number `ρ v² l / σ` in SI units, for a particle spacing in metres.
     pub fn weber(spacing: f32, threshold: f32) -> Self {
         Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
@@ -528,26 +535,26 @@ impl FoamSettings {
     pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
         let bad = |field, why: String| Err(crate::error::Error::bad(field, why));
         for (field, value) in [
-            ("FoamSettings.scale", self.scale),
-            ("FoamSettings.threshold", self.threshold),
-            ("FoamSettings.foam_lifetime", self.foam_lifetime),
-            ("FoamSettings.rest_density", self.rest_density),
+            ("WeberSettings.scale", self.scale),
+            ("WeberSettings.threshold", self.threshold),
+            ("WeberSettings.foam_lifetime", self.foam_lifetime),
+            ("WeberSettings.rest_density", self.rest_density),
         ] {
             if !value.is_finite() || value <= 0.0 {
                 return bad(field, format!("more than 0 expected, found {value}"));
             }
         }
         if !self.air.iter().all(|v| v.is_finite()) {
-            return bad("FoamSettings.air", format!("{:?}: not finite", self.air));
+            return bad("WeberSettings.air", format!("{:?}: not finite", self.air));
         }
         Ok(())
     }
 }
 
-/// Appearance of surface foam. No effect without [`Config::foam`](crate::Config).
+/// Appearance of surface foam. No effect without [`Config::surface_foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct FoamLook {
+pub struct SurfaceFoamSettings {
     /// Extinction per metre of foam along the ray, [0, ∞), default 0.4 / spacing: two layers of foam particles
     /// hide half.
     pub extinction: f32,
@@ -592,10 +599,10 @@ pub struct FoamLook {
     pub time: f64,
     /// Foam thinner than this fades out, scene units, [0, ∞), default one spacing, 0 = off: without it, thin
     /// veils look like steam. Not in the thesis.
-    pub veil: f32,
+    pub min_thickness: f32,
     /// How strongly the front layer's relief is shaded: light lost where it faces away from the sun, [0, 2],
     /// default 0.35.
-    pub relief: f32,
+    pub normal_strength: f32,
     /// How strongly foam is shaded by the shape of the whole splash, [0, 1], default 0 = off. The foam within
     /// six spacings turns a point towards the sun or away from it, where only sky light remains, and dims the
     /// sky in hollows. Not in the thesis.
@@ -609,7 +616,7 @@ pub struct FoamLook {
     pub front_color: [f32; 3],
 }
 
-impl FoamLook {
+impl SurfaceFoamSettings {
     /// The defaults for a particle spacing.
     pub fn of_spacing(spacing: f32) -> Self {
         Self {
@@ -628,8 +635,8 @@ impl FoamLook {
             aeration: 0.0,
             aerated_color: [0.30, 0.62, 0.66],
             time: 0.0,
-            veil: spacing,
-            relief: 0.35,
+            min_thickness: spacing,
+            normal_strength: 0.35,
             shape: 0.0,
             shadow: 0.25 / spacing,
             back_color: [0.65; 3],
@@ -648,8 +655,8 @@ impl FoamLook {
             front_depth: 7.0 * spacing,
             noise: 1.0,
             pattern: 0.0,
-            veil: 0.0,
-            relief: 0.0,
+            min_thickness: 0.0,
+            normal_strength: 0.0,
             shadow: 0.0,
             back_color: [0.25; 3],
             front_color: [1.0; 3],
@@ -659,40 +666,40 @@ impl FoamLook {
 
     /// Checks the ranges; the message names the field.
     pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
-        range("Settings.foam.extinction", self.extinction, 0.0, f32::MAX)?;
-        range("Settings.foam.front_extinction", self.front_extinction, 0.0, f32::MAX)?;
-        range("Settings.foam.front_power", self.front_power, 0.0, 64.0)?;
-        range("Settings.foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
-        range("Settings.foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
-        range("Settings.foam.noise", self.noise, 0.0, 1.0)?;
-        range("Settings.foam.pattern", self.pattern, 0.0, 2.0)?;
+        range("Settings.surface_foam.extinction", self.extinction, 0.0, f32::MAX)?;
+        range("Settings.surface_foam.front_extinction", self.front_extinction, 0.0, f32::MAX)?;
+        range("Settings.surface_foam.front_power", self.front_power, 0.0, 64.0)?;
+        range("Settings.surface_foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
+        range("Settings.surface_foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
+        range("Settings.surface_foam.noise", self.noise, 0.0, 1.0)?;
+        range("Settings.surface_foam.pattern", self.pattern, 0.0, 2.0)?;
         if self.noise > 0.0 && self.pattern > 0.0 {
             let why = format!(
-                "{} beside Settings.foam.pattern of {}: expected one of them, set the other to 0",
+                "{} beside Settings.surface_foam.pattern of {}: expected one of them, set the other to 0",
                 self.noise, self.pattern
             );
-            return Err(crate::error::Error::bad("Settings.foam.noise", why));
+            return Err(crate::error::Error::bad("Settings.surface_foam.noise", why));
         }
-        range("Settings.foam.pattern_size", self.pattern_size, 1.0e-3, 1.0e3)?;
-        range("Settings.foam.lace", self.lace, 0.0, 1.0)?;
-        range("Settings.foam.lace_size", self.lace_size, 1.0e-3, 1.0e3)?;
-        range("Settings.foam.aeration", self.aeration, 0.0, 1.0)?;
+        range("Settings.surface_foam.pattern_size", self.pattern_size, 1.0e-3, 1.0e3)?;
+        range("Settings.surface_foam.lace", self.lace, 0.0, 1.0)?;
+        range("Settings.surface_foam.lace_size", self.lace_size, 1.0e-3, 1.0e3)?;
+        range("Settings.surface_foam.aeration", self.aeration, 0.0, 1.0)?;
         for color in self.aerated_color {
-            range("Settings.foam.aerated_color", color, 0.0, 1.0)?;
+            range("Settings.surface_foam.aerated_color", color, 0.0, 1.0)?;
         }
-        range("Settings.foam.pattern_period", self.pattern_period, 1.0e-3, 1.0e3)?;
+        range("Settings.surface_foam.pattern_period", self.pattern_period, 1.0e-3, 1.0e3)?;
         if !self.time.is_finite() {
             let why = format!("{}: not finite", self.time);
-            return Err(crate::error::Error::bad("Settings.foam.time", why));
+            return Err(crate::error::Error::bad("Settings.surface_foam.time", why));
         }
-        range("Settings.foam.shadow", self.shadow, 0.0, f32::MAX)?;
-        range("Settings.foam.veil", self.veil, 0.0, f32::MAX)?;
-        range("Settings.foam.relief", self.relief, 0.0, 2.0)?;
-        range("Settings.foam.shape", self.shape, 0.0, 1.0)?;
-        range("Settings.foam.noise_rate", self.noise_rate, 0.0, 1.0e3)?;
+        range("Settings.surface_foam.shadow", self.shadow, 0.0, f32::MAX)?;
+        range("Settings.surface_foam.min_thickness", self.min_thickness, 0.0, f32::MAX)?;
+        range("Settings.surface_foam.normal_strength", self.normal_strength, 0.0, 2.0)?;
+        range("Settings.surface_foam.shape", self.shape, 0.0, 1.0)?;
+        range("Settings.surface_foam.noise_rate", self.noise_rate, 0.0, 1.0e3)?;
         for (back, front) in self.back_color.into_iter().zip(self.front_color) {
-            range("Settings.foam.back_color", back, 0.0, 1.0)?;
-            range("Settings.foam.front_color", front, 0.0, 1.0)?;
+            range("Settings.surface_foam.back_color", back, 0.0, 1.0)?;
+            range("Settings.surface_foam.front_color", front, 0.0, 1.0)?;
         }
         Ok(())
     }
@@ -705,7 +712,7 @@ impl FoamLook {
 /// centre, each stretched along its motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct SprayLook {
+pub struct SpraySettings {
     /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
     /// Half-axis of a particle's spray in drawn radii, (0, 8], default 0.5 as in the thesis. Its droplets
@@ -716,15 +723,19 @@ pub struct SprayLook {
     /// and larger droplets, down to 0.3 of them where it is only spray, and less mist, by the cube of that: an
     /// isolated particle is a few drops, torn water is many.
     pub droplets: u32,
-    /// Three rising fractions of the rest density, [0, ∞), default 0.6, 0.7, 0.85. Below the first a particle
-    /// is only spray. From the second on its water has the full radius and its foam is complete. From the third
-    /// on it is no spray. Lines of particles (0.48 with the usual cubic spline) are thus spray, single sheets
-    /// (0.70) hardly. They replace [`WaterSettings::density_threshold`] and
+    /// Fraction of the rest density below which a particle is only spray, [0, ∞), default 0.6: lines of particles
+    /// (0.48 with the usual cubic spline) are spray.
+    pub all_spray_density: f32,
+    /// Fraction of the rest density from which its water has the full radius and its foam is complete, at least
+    /// `all_spray_density`, default 0.7.
+    pub full_water_density: f32,
+    /// Fraction of the rest density from which a particle is no spray, at least `all_spray_density`, default
+    /// 0.85: single sheets (0.70) hardly are. These fractions replace [`WaterSettings::density_threshold`] and
     /// [`density_full`](WaterSettings::density_full).
-    pub densities: [f32; 3],
+    pub no_spray_density: f32,
     /// Maximum distance of droplets from the particle's centre, spacings, [0, 8], default 1.5; 0 as in the
     /// thesis.
-    pub spread: f32,
+    pub scatter_radius: f32,
     /// Droplets are also spread along the particle's velocity, by its motion in up to this time, forwards and
     /// backwards. Seconds, [0, 1], default 0. Torn water then flies in strands.
     pub stretch: f32,
@@ -739,7 +750,7 @@ pub struct SprayLook {
     pub mist_contrast: f32,
     /// Exposure time of a droplet's streak, seconds, [0, 1], default 1/250. A longer streak is more
     /// transparent. (The water itself is drawn at one instant.)
-    pub shutter: f32,
+    pub exposure: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
     /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. No effect
@@ -750,19 +761,21 @@ pub struct SprayLook {
     pub additive: bool,
 }
 
-impl Default for SprayLook {
+impl Default for SpraySettings {
     fn default() -> Self {
         Self {
             opacity: 0.5,
             size: 0.5,
             droplets: 16,
-            densities: [0.6, 0.7, 0.85],
-            spread: 1.5,
+            all_spray_density: 0.6,
+            full_water_density: 0.7,
+            no_spray_density: 0.85,
+            scatter_radius: 1.5,
             stretch: 0.0,
             mist: 0.05,
             mist_size: 0.5,
             mist_contrast: 0.0,
-            shutter: 1.0 / 250.0,
+            exposure: 1.0 / 250.0,
             color: [0.95; 3],
             shade: 0.5,
             additive: false,
@@ -770,19 +783,21 @@ impl Default for SprayLook {
     }
 }
 
-impl SprayLook {
+impl SpraySettings {
     /// The thesis' spray: one added sprite per particle.
     pub const SOURCE: Self = Self {
         opacity: 0.4,
         size: 0.5,
         droplets: 1,
-        densities: [0.35, 0.45, 0.35],
-        spread: 0.0,
+        all_spray_density: 0.35,
+        full_water_density: 0.45,
+        no_spray_density: 0.35,
+        scatter_radius: 0.0,
         stretch: 0.0,
         mist: 0.0,
         mist_size: 0.5,
         mist_contrast: 0.0,
-        shutter: 1.0 / 60.0,
+        exposure: 1.0 / 60.0,
         color: [1.0; 3],
         shade: 0.5,
         additive: true,
@@ -793,17 +808,17 @@ impl SprayLook {
         range("Settings.spray.opacity", self.opacity, 0.0, 1.0 - f32::EPSILON)?;
         range("Settings.spray.size", self.size, 1.0e-6, 8.0)?;
         range("Settings.spray.droplets", self.droplets as f32, 1.0, 64.0)?;
-        let [all, full, none] = self.densities;
-        range("Settings.spray.densities", all, 0.0, f32::MAX)?;
-        range("Settings.spray.densities", full, all, f32::MAX)?;
-        range("Settings.spray.densities", none, all, f32::MAX)?;
-        range("Settings.spray.spread", self.spread, 0.0, 8.0)?;
+        let all = self.all_spray_density;
+        range("Settings.spray.all_spray_density", all, 0.0, f32::MAX)?;
+        range("Settings.spray.full_water_density", self.full_water_density, all, f32::MAX)?;
+        range("Settings.spray.no_spray_density", self.no_spray_density, all, f32::MAX)?;
+        range("Settings.spray.scatter_radius", self.scatter_radius, 0.0, 8.0)?;
         range("Settings.spray.stretch", self.stretch, 0.0, 1.0)?;
         range("Settings.spray.mist", self.mist, 0.0, 1.0 - f32::EPSILON)?;
         range("Settings.spray.mist_size", self.mist_size, 1.0e-6, 8.0)?;
         range("Settings.spray.mist_contrast", self.mist_contrast, 0.0, 2.0)?;
         range("Settings.spray.shade", self.shade, 0.0, 64.0)?;
-        range("Settings.spray.shutter", self.shutter, 0.0, 1.0)?;
+        range("Settings.spray.exposure", self.exposure, 0.0, 1.0)?;
         for color in self.color {
             range("Settings.spray.color", color, 0.0, 1.0)?;
         }
@@ -817,7 +832,7 @@ impl SprayLook {
 /// the water, which turns its normals. It is also the baseline's foam: grey where the height is large or small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct NoiseLook {
+pub struct SurfaceNoiseSettings {
     /// Height of a noise value of 1, in drawn radii, [0, 16], default 0.336, 0 = flat. (The publication gives
     /// this number as the weight of the derivatives, in a unit of its own.)
     pub weight: f32,
@@ -834,13 +849,13 @@ pub struct NoiseLook {
     pub color: [f32; 3],
 }
 
-impl Default for NoiseLook {
+impl Default for SurfaceNoiseSettings {
     fn default() -> Self {
         Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 0.0, color: [0.5; 3] }
     }
 }
 
-impl NoiseLook {
+impl SurfaceNoiseSettings {
     /// The baseline, with its foam. The paper gives no foam strength; this value makes it visible.
     pub const SOURCE: Self =
         Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 1.0, color: [0.5; 3] };
@@ -877,7 +892,7 @@ pub(crate) fn range(
     Err(crate::error::Error::bad(field, why))
 }
 
-impl Default for FoamLook {
+impl Default for SurfaceFoamSettings {
     fn default() -> Self {
         Self::of_spacing(0.05)
     }

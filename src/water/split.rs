@@ -10,9 +10,9 @@ use crate::gpu::memory::MemoryLocation;
 use ash::vk;
 
 use super::Recording;
-use super::foam::Foam;
 use super::gaps::{Gaps, sheets_constant};
 use super::level::Atlas;
+use super::surface_foam::Foam;
 use super::tiles::{ALL_TILES, TILE, Tiles};
 use crate::contract::Config;
 use crate::error::Error;
@@ -66,7 +66,7 @@ impl Split {
             split: Pipeline::compute(
                 gpu,
                 shader::WATER_SPLIT_COMP,
-                &[sheets_constant(config), (9, u32::from(config.foam))],
+                &[sheets_constant(config), (9, u32::from(config.surface_foam))],
             )?,
             end: Pipeline::compute(gpu, shader::WATER_SPLIT_END_COMP, &[])?,
             lists: Self::lists(gpu, config)?,

@@ -162,9 +162,9 @@ impl Spray {
         let area = r.extent.into();
         self.target.begin(gpu, cmd, area, [0.0; 4]);
         if any {
-            let [shadow, thickness, basis, span, diffuse, soap] = r.sunlight.resources();
+            let [shadow, thickness, basis, span, whitewater, soap] = r.sunlight.resources();
             let water = Resource::Sampled(depth.view, gpu.samplers.nearest);
-            let sunlight = [shadow, thickness, basis, span, diffuse, soap];
+            let sunlight = [shadow, thickness, basis, span, whitewater, soap];
             let more = [&[(2, r.scene_depth), (3, water)][..], &sunlight].concat();
             self.sprites.draw(r, list, &self.draw, cull::SPRAY, &more)?;
         }

@@ -1,5 +1,5 @@
 //! Shared by passes over the host's particles: the binding of the streams that they read, chunk by chunk, and
-//! for `foam`, `spray` and `noise` the list of sprites that a draw or a dispatch reads.
+//! for `surface_foam`, `spray` and `noise` the list of sprites that a draw or a dispatch reads.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -10,7 +10,7 @@
 //!
 //! With foam there is a second channel, the water in front of the frontmost foam (the thesis decides this per
 //! particle, Listing A.14; here it is per fragment).
-//! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `foam`. Writes: thickness,
+//! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `surface_foam`. Writes: thickness,
 //! R32F or RG32F; sheets, RGBA32F (front, back, window).
 
 use crate::gpu::memory::MemoryLocation;
@@ -18,8 +18,8 @@ use ash::vk;
 
 use super::cull::SphereList;
 use super::depth::{DEFAULT_SPLAT, dispatch_sprites, draw_sprites, sprites};
-use super::foam::{self, Foam};
 use super::gaps::{self, Gaps};
+use super::surface_foam::{self, Foam};
 use super::{Recording, shape};
 use crate::contract::Config;
 use crate::error::Error;
@@ -68,7 +68,7 @@ struct Apart {
 /// it, and with two layers two each for the front one and the window.
 pub fn sum_bytes(config: &Config) -> u64 {
     let size = reduced(config.extent, config.thickness_level);
-    let sums = u64::from(config.foam) + if config.sheets > 1 { 3 } else { 1 };
+    let sums = u64::from(config.surface_foam) + if config.sheets > 1 { 3 } else { 1 };
     8 * sums * u64::from(size.width) * u64::from(size.height)
 }
 
@@ -79,7 +79,7 @@ pub struct Thickness {
     pub image: Image,
     /// Thickness of each of two layers.
     pub sheets: Option<Image>,
-    /// Number of halvings.
+    /// Number of max_splits.
     pub level: u32,
 }
 
@@ -87,9 +87,9 @@ impl Thickness {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let image = Self::image(gpu, config)?;
         let sheets = Self::sheets(gpu, config)?;
-        let foam = u32::from(config.foam);
+        let foam = u32::from(config.surface_foam);
         let compute = |shader, large, apart| {
-            let words = (10, foam::words_of(config));
+            let words = (10, surface_foam::words_of(config));
             let constants = [(0, large), (1, apart), (9, foam), words, shape::constant(config)];
             Pipeline::compute(gpu, shader, &constants)
         };
@@ -135,7 +135,7 @@ impl Thickness {
                     .transpose()?,
                 resolve: Pipeline::compute(
                     gpu,
-                    if config.foam {
+                    if config.surface_foam {
                         shader::WATER_THICKNESS_BEFORE_COMP
                     } else {
                         shader::WATER_THICKNESS_RESOLVE_COMP
@@ -150,7 +150,7 @@ impl Thickness {
 
     fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
         let one = vk::Format::R32_SFLOAT;
-        let format = if config.foam { vk::Format::R32G32_SFLOAT } else { one };
+        let format = if config.surface_foam { vk::Format::R32G32_SFLOAT } else { one };
         Self::image_of(gpu, config, "water/thickness", format)
     }
 

@@ -124,7 +124,7 @@ fn parts_of_any_size_are_the_whole_together() {
     assert!(rows > 900, "{rows}");
 }
 
-/// So many diffuse particles.
+/// So many whitewater particles.
 fn cloud(count: usize) -> Particles {
     let at = |i: usize| [i as f32 * 0.25, (i % 17) as f32, -(i as f32)];
     let mut all = Particles::from_positions((0..count).map(at).collect());
@@ -144,7 +144,7 @@ const FORMATS: [(WriteFormat, Extension); 5] = [
     (WriteFormat::Npz, Extension::Npz),
 ];
 
-/// A line for each of these diffuse particles.
+/// A line for each of these whitewater particles.
 fn table(particles: &Particles) -> Vec<u8> {
     let [ids, kinds] = [&particles.ids, &particles.kinds].map(|list| list.as_ref().unwrap());
     let mut out = String::from("x,y,z,vx,vy,vz,id,type,lifetime\n");

@@ -1,7 +1,7 @@
 //! Pass `classify`: foam phases by particle id, against the twin, over hundreds of steps.
 
 use ash::vk;
-use whitewater::water::FoamSettings;
+use whitewater::water::WeberSettings;
 use whitewater::{Access, Count, Error, Slot, State, StateConfig, Step, Stream};
 
 use crate::hostile::spoil;
@@ -50,7 +50,7 @@ impl<'g> Body<'g> {
         result
     }
 
-    fn step(&mut self, settings: &FoamSettings, dt: f32, particles: &[Particle]) -> Foam {
+    fn step(&mut self, settings: &WeberSettings, dt: f32, particles: &[Particle]) -> Foam {
         let cloud = Cloud::new(&self.stub, particles);
         self.record(&cloud.step(settings, dt)).expect("a step");
         self.foam(particles.len())
@@ -113,7 +113,7 @@ impl Cloud {
         Self { data: stub.data(bytemuck::cast_slice(&words), usage), count: particles.len() as u32 }
     }
 
-    fn step<'a>(&self, settings: &'a FoamSettings, dt: f32) -> Step<'a> {
+    fn step<'a>(&self, settings: &'a WeberSettings, dt: f32) -> Step<'a> {
         Step::new(Slot(0), stream(&self.data, 0, 20), Count::Cpu(self.count), dt, settings).with(
             |it| {
                 it.densities = Some(stream(&self.data, 12, 20));
@@ -125,14 +125,14 @@ impl Cloud {
     }
 }
 
-fn settings() -> FoamSettings {
-    FoamSettings::weber(0.05, 2500.0).with(|it| {
+fn settings() -> WeberSettings {
+    WeberSettings::weber(0.05, 2500.0).with(|it| {
         it.seed = 7;
         it.air = [0.5, 0.0, -0.25];
     })
 }
 
-fn twin_settings(settings: &FoamSettings) -> twin::Settings {
+fn twin_settings(settings: &WeberSettings) -> twin::Settings {
     twin::Settings {
         seed: settings.seed,
         scale: settings.scale,
@@ -529,7 +529,7 @@ fn bad_steps_are_errors() {
             "Step.densities",
             good.with(|it| it.densities = Some(Stream { size: 9, ..good.velocities })),
         ),
-        ("FoamSettings.threshold", good.with(|it| it.settings = &never)),
+        ("WeberSettings.threshold", good.with(|it| it.settings = &never)),
     ];
     for (field, step) in bad {
         match body.record(&step) {

@@ -8,7 +8,6 @@ use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Convolution, Shading, ShadowFilter, Shadows};
 use whitewater::{Config, Region, Shadow};
 
-use crate::foam::Foamy;
 use crate::light::{SIZE, casting, check_foam, light_views, shadows, wall};
 use crate::reference::Image;
 use crate::reference::convolution::{Convolved, Filter, Pages};
@@ -18,6 +17,7 @@ use crate::support::host::Texture;
 use crate::support::rig::{Drawn, Rig, extent};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::slow;
+use crate::surface_foam::Foamy;
 
 /// Without light of ours.
 fn convolving(convolution: Convolution) -> Config {
@@ -214,7 +214,7 @@ fn shares_of(case: &Foamy, map: &Map, drawn: &Drawn) -> Vec<([f64; 2], f64, f64)
     let convolution = Convolution::default();
     let twin = map.twin(case, convolution);
     let view = case.shot.view(SIZE);
-    let white = f64::from(case.shot.settings.foam.front_color[0]);
+    let white = f64::from(case.shot.settings.surface_foam.front_color[0]);
     let mut shares = Vec::new();
     for position in &case.shot.positions {
         let (p, by) = crate::light::middle(&case.shot, *position);

@@ -4,15 +4,15 @@
 
 use glam::{Mat4, vec3};
 use whitewater::Region;
-use whitewater::foam::DiffuseConfig;
-use whitewater::headless::Diffuse;
-use whitewater::water::{Splat, SprayLook};
+use whitewater::WhitewaterConfig;
+use whitewater::headless::Whitewater;
+use whitewater::water::{Splat, SpraySettings};
 
-use crate::foam::Foamy;
 use crate::support::device::Gpu;
 use crate::support::limits::{Claims, claim};
 use crate::support::rig::{Drawn, Rig, Shot, config};
 use crate::support::scenes::{self, Lens, Random};
+use crate::surface_foam::Foamy;
 
 const SIZE: ash::vk::Extent2D = ash::vk::Extent2D { width: 96, height: 64 };
 const SPACING: f32 = 0.04;
@@ -51,7 +51,7 @@ fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
     shot.positions = scenes::world(&shot.camera, &points);
     shot.scene_depth(|_, _| None);
     // Nothing that makes it more here and less there.
-    (shot.settings.foam.noise, shot.settings.foam.pattern) = (0.0, 0.0);
+    (shot.settings.surface_foam.noise, shot.settings.surface_foam.pattern) = (0.0, 0.0);
     let ids = (0..count).map(|_| random.bits() as u32).collect();
     let (amounts, velocities) = (vec![[0.0; 2]; count], vec![[0.0; 3]; count]);
     Foamy { shot, amounts, velocities, ids: Some(ids) }
@@ -61,8 +61,8 @@ fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
 fn draw(case: &Foamy, rig: &mut Rig<'_>) -> Drawn {
     let streams = case.streams(rig);
     let all = streams.particles();
-    let foam = all.foam.filter(|_| rig.config.foam);
-    rig.draw_particles(&case.shot, &all.with(|it| it.foam = foam))
+    let foam = all.surface_foam.filter(|_| rig.config.surface_foam);
+    rig.draw_particles(&case.shot, &all.with(|it| it.surface_foam = foam))
 }
 
 /// The sum of texels of `level` over a plane at such a distance: of a particle, square spacings times the unit.
@@ -109,7 +109,7 @@ fn spray_keeps_its_light(gpu: &Gpu, opacities: &[f32]) {
     for &opacity in opacities {
         let case = |spacings| {
             let mut case = plane(4000, spacings, 12.0);
-            case.shot.settings.spray = SprayLook::default().with(|it| it.opacity = opacity);
+            case.shot.settings.spray = SpraySettings::default().with(|it| it.opacity = opacity);
             case.shot.densities = Some(vec![1.0; 4000]);
             case
         };
@@ -146,7 +146,7 @@ fn far_foam_keeps_its_light() {
             it.thickness_splat = Some(splat);
             it.thickness_level = level;
         });
-        let mut rig = Rig::new(&gpu, &ways.with(|it| it.foam = true));
+        let mut rig = Rig::new(&gpu, &ways.with(|it| it.surface_foam = true));
         for amount in [1.0, 0.1] {
             // A plane is one layer: of all foam, of what lies right behind the frontmost, of what of that is lit.
             for (i, layer) in ["all", "front"].into_iter().enumerate() {
@@ -176,7 +176,7 @@ fn foam_off_the_axis_keeps_its_volume() {
             it.thickness_splat = Some(splat);
             it.thickness_level = 1;
         });
-        let mut rig = Rig::new(&gpu, &ways.with(|it| it.foam = true));
+        let mut rig = Rig::new(&gpu, &ways.with(|it| it.surface_foam = true));
         let mut case = plane_in(90.0, 2000, 4.0, 4.0);
         case.amounts.fill([1.0, 0.0]);
         let drawn = draw(&case, &mut rig);
@@ -210,7 +210,7 @@ fn far_maps_of_the_sun_keep_what_casts() {
     let gpu = Gpu::shared();
     let config = config(SIZE).with(|it| {
         it.cast = Some(64);
-        it.foam = true;
+        it.surface_foam = true;
         it.spray = true;
     });
     let mut rig = Rig::new(&gpu, &config);
@@ -233,15 +233,15 @@ fn far_maps_of_the_sun_keep_what_casts() {
     }
 }
 
-/// Diffuse particles, to the eye and to the sun: of a radius like the water's, of a fifth of it and in between.
+/// Whitewater particles, to the eye and to the sun: of a radius like the water's, of a fifth of it and in between.
 #[test]
-fn far_diffuse_particles_keep_their_light() {
+fn far_whitewater_particles_keep_their_light() {
     let gpu = Gpu::shared();
-    let diffuse = Some(DiffuseConfig::new(4096));
+    let whitewater = Some(WhitewaterConfig::new(4096));
     let mut rig = Rig::new(
         &gpu,
         &config(SIZE).with(|it| {
-            it.diffuse = diffuse;
+            it.whitewater = whitewater;
             it.cast = Some(64);
         }),
     );
@@ -265,22 +265,23 @@ fn far_diffuse_particles_keep_their_light() {
                 case.shot.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
             }
             case.shot.settings.light.direction = [0.0, 1.0, 0.0];
-            case.shot.settings.diffuse.radius = radius * SPACING;
+            case.shot.settings.whitewater.radius = radius * SPACING;
             let positions = std::mem::take(&mut case.shot.positions);
             let ids: Vec<u32> = (0..COUNT as u32).collect();
             let ages = vec![age; COUNT];
-            let input = Diffuse {
+            let input = Whitewater {
                 positions: &positions,
                 kinds: None,
                 radii: None,
                 ages: Some(&ages),
                 ids: Some(&ids),
             };
-            let (water, cloud) = (rig.particles(&case.shot), rig.diffuse(&input));
-            let drawn = rig.draw_diffuse(&case.shot, &water.particles(), Some(cloud.particles()));
+            let (water, cloud) = (rig.particles(&case.shot), rig.whitewater(&input));
+            let drawn =
+                rig.draw_whitewater(&case.shot, &water.particles(), Some(cloud.particles()));
             let map = match sun {
-                true => drawn.light_diffuse.expect("a map"),
-                false => drawn.diffuse.expect("foam").thickness,
+                true => drawn.light_whitewater.expect("a map"),
+                false => drawn.whitewater.expect("foam").thickness,
             };
             total(map.data.iter().map(|t| t[0]), &case, spacings, 0)
         };

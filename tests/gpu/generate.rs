@@ -1,11 +1,11 @@
-//! The generator of diffuse particles, against the twin, over steps of a torn sea.
+//! The generator of whitewater particles, against the twin, over steps of a torn sea.
 
 use std::collections::HashMap;
 
 use ash::vk;
 use glam::DVec3;
-use whitewater::foam::{DiffuseConfig, GenerateConfig, GenerateSettings, Generator, Limits};
-use whitewater::{Count, DiffuseParticles, Error, GenerateStep, Slot, Stream};
+use whitewater::{Count, Error, GeneratorStep, Slot, Stream, WhitewaterParticles};
+use whitewater::{Generator, GeneratorConfig, GeneratorSettings, PotentialRange, WhitewaterConfig};
 
 use crate::reference::generate::{self as twin, Fluid, Particle};
 use crate::support::compare;
@@ -38,7 +38,7 @@ struct Made {
 }
 
 impl Making {
-    fn new(gpu: &Gpu, config: &GenerateConfig) -> Self {
+    fn new(gpu: &Gpu, config: &GeneratorConfig) -> Self {
         let generator = Generator::new(&gpu.context(SLOTS), config).expect("a generator");
         Self { stub: Stub::new(gpu, SLOTS), generator: Some(generator), steps: 0 }
     }
@@ -48,7 +48,7 @@ impl Making {
     }
 
     /// A step of streams, in the slots' turn.
-    fn record(&mut self, step: &GenerateStep<'_>) -> Result<(), Error> {
+    fn record(&mut self, step: &GeneratorStep<'_>) -> Result<(), Error> {
         self.record_by(step, |generator, cmd, step| {
             // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
             unsafe { generator.record_step(cmd, step) }
@@ -57,8 +57,8 @@ impl Making {
 
     fn record_by(
         &mut self,
-        step: &GenerateStep<'_>,
-        by: impl FnOnce(&mut Generator, vk::CommandBuffer, &GenerateStep<'_>) -> Result<(), Error>,
+        step: &GeneratorStep<'_>,
+        by: impl FnOnce(&mut Generator, vk::CommandBuffer, &GeneratorStep<'_>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let slot = self.steps % SLOTS;
         self.steps += 1;
@@ -70,7 +70,7 @@ impl Making {
         result
     }
 
-    fn step(&mut self, fluid: &Fluid, settings: &GenerateSettings, dt: f32, number: u32) -> Made {
+    fn step(&mut self, fluid: &Fluid, settings: &GeneratorSettings, dt: f32, number: u32) -> Made {
         let data = self.upload(fluid);
         self.record(&step_of(&data, fluid, settings, dt, number)).expect("a step");
         self.made(fluid.ids.len())
@@ -149,11 +149,11 @@ impl Making {
 fn step_of<'a>(
     data: &Data,
     fluid: &Fluid,
-    settings: &'a GenerateSettings,
+    settings: &'a GeneratorSettings,
     dt: f32,
     number: u32,
-) -> GenerateStep<'a> {
-    GenerateStep::new(
+) -> GeneratorStep<'a> {
+    GeneratorStep::new(
         Slot(0),
         [stream(data, 0, 28), stream(data, 12, 28)],
         Count::Cpu(fluid.ids.len() as u32),
@@ -224,20 +224,20 @@ fn sea(step: u32) -> Fluid {
     fluid
 }
 
-fn settings() -> GenerateSettings {
-    let limits = |least, most| Limits { least, most };
-    GenerateSettings::new(SPACING, [limits(0.5, 8.0), limits(0.3, 4.0), limits(0.2, 6.0)], 1.0)
+fn settings() -> GeneratorSettings {
+    let limits = |least, most| PotentialRange { min: least, max: most };
+    GeneratorSettings::new(SPACING, [limits(0.5, 8.0), limits(0.3, 4.0), limits(0.2, 6.0)], 1.0)
         .with(|it| {
             it.trapped_air_rate = 60.0;
             it.wave_crest_rate = 40.0;
-            it.lifetime = [0.2, 0.5];
+            [it.min_lifetime, it.max_lifetime] = [0.2, 0.5];
             it.bounds = Some([[-0.5, -0.3, -0.5], [1.2, 1.4, 1.2]]);
             it.seed = 5;
         })
 }
 
-fn twins(settings: &GenerateSettings) -> twin::Settings {
-    let limits = |limits: Limits| [limits.least, limits.most];
+fn twins(settings: &GeneratorSettings) -> twin::Settings {
+    let limits = |limits: PotentialRange| [limits.min, limits.max];
     twin::Settings {
         spacing: settings.spacing,
         gravity: settings.gravity,
@@ -246,7 +246,7 @@ fn twins(settings: &GenerateSettings) -> twin::Settings {
         energy: limits(settings.energy),
         trapped_air_rate: settings.trapped_air_rate,
         wave_crest_rate: settings.wave_crest_rate,
-        lifetime: settings.lifetime,
+        lifetime: [settings.min_lifetime, settings.max_lifetime],
         buoyancy: settings.buoyancy,
         drag: settings.drag,
         seed: settings.seed,
@@ -295,8 +295,8 @@ fn potentials_are_the_twins() {
     assert!(surface > 300 && crests > 60 && trapped > 300, "{surface} {crests} {trapped}");
 }
 
-fn config() -> GenerateConfig {
-    GenerateConfig::new(2000, 4000).with(|it| it.max_stride = 28)
+fn config() -> GeneratorConfig {
+    GeneratorConfig::new(2000, 4000).with(|it| it.max_stride = 28)
 }
 
 /// Whether two particles are the same but for rounding and what the water's velocity may be off.
@@ -479,7 +479,7 @@ fn in_still_water_motion_is_exact() {
     assert!(seen.iter().all(|n| *n > 20), "{seen:?}");
 }
 
-/// A diffuse particle is of a kind by the water about it, of which the particle that makes it is a part: six that lie close
+/// A whitewater particle is of a kind by the water about it, of which the particle that makes it is a part: six that lie close
 /// together make foam, and 21 bubbles, at birth as in the step after it.
 #[test]
 fn kinds_at_birth_are_those_of_the_next_step() {
@@ -540,11 +540,11 @@ fn every_kind_of_input() {
     let expected = plain.step(&place, &settings, 0.03, 1);
 
     // Without ids particles are told by their place.
-    let mut making = Making::new(&gpu, &GenerateConfig::new(2000, 4000));
+    let mut making = Making::new(&gpu, &GeneratorConfig::new(2000, 4000));
     let positions = making.stub.data(bytemuck::cast_slice(&fluid.positions), storage);
     let velocities = making.stub.data(bytemuck::cast_slice(&fluid.velocities), storage);
     let counter = making.stub.data(&(count as u32).to_ne_bytes(), storage);
-    let step = GenerateStep::new(
+    let step = GeneratorStep::new(
         Slot(0),
         [stream(&positions, 0, 12), stream(&velocities, 0, 12)],
         Count::Gpu { buffer: counter.buffer, offset: 0 },
@@ -563,7 +563,7 @@ fn every_kind_of_input() {
     let range = u64::from(gpu.limits().max_storage_buffer_range);
     let stride = (range / 900).next_multiple_of(4).min(1 << 17) as u32;
     let mut chunked =
-        Making::new(&gpu, &GenerateConfig::new(2000, 4000).with(|it| it.max_stride = stride));
+        Making::new(&gpu, &GeneratorConfig::new(2000, 4000).with(|it| it.max_stride = stride));
     let wide: Vec<u8> = (0..count)
         .flat_map(|i| {
             let mut record = vec![0_u8; stride as usize];
@@ -583,7 +583,7 @@ fn every_kind_of_input() {
     assert_eq!(chunked.made(count), expected, "chunks");
 
     let mut making =
-        Making::new(&gpu, &GenerateConfig::new(9000, 50).with(|it| it.max_stride = 28));
+        Making::new(&gpu, &GeneratorConfig::new(9000, 50).with(|it| it.max_stride = 28));
     let none = making.step(&Fluid::default(), &settings, 0.03, 0);
     assert_eq!(none.counts, [0; 6]);
     // On one spot all are neighbours, as far as they are looked at.
@@ -614,7 +614,7 @@ fn an_abandoned_first_step_leaves_nothing() {
     making.stub.wait(0);
     let cmd = making.stub.begin(0);
     let generator = making.generator.as_mut().expect("only drop takes it");
-    let step = GenerateStep::new(
+    let step = GeneratorStep::new(
         Slot(0),
         [stream(&data, 0, 12), stream(&data, 0, 12)],
         Count::Cpu(fluid.ids.len() as u32),
@@ -635,25 +635,25 @@ fn an_abandoned_first_step_leaves_nothing() {
 #[test]
 fn mistakes_are_named() {
     let gpu = Gpu::shared();
-    let bad_config = |config: GenerateConfig| match Generator::new(&gpu.context(SLOTS), &config) {
+    let bad_config = |config: GeneratorConfig| match Generator::new(&gpu.context(SLOTS), &config) {
         Err(Error::BadInput { field, .. }) => field,
         other => panic!("expected bad input, found {:?}", other.map(|_| ())),
     };
-    let good = GenerateConfig::new(100, 100);
+    let good = GeneratorConfig::new(100, 100);
     for (field, config) in [
-        ("GenerateConfig.max_fluid", good.with(|it| it.max_fluid = 0)),
-        ("GenerateConfig.max_particles", good.with(|it| it.max_particles = 0)),
-        ("GenerateConfig.max_particles", good.with(|it| it.max_particles = u32::MAX)),
-        ("GenerateConfig.max_stride", good.with(|it| it.max_stride = 8)),
-        ("GenerateConfig.max_stride", good.with(|it| it.max_stride = 14)),
+        ("GeneratorConfig.max_fluid", good.with(|it| it.max_fluid = 0)),
+        ("GeneratorConfig.max_particles", good.with(|it| it.max_particles = 0)),
+        ("GeneratorConfig.max_particles", good.with(|it| it.max_particles = u32::MAX)),
+        ("GeneratorConfig.max_stride", good.with(|it| it.max_stride = 8)),
+        ("GeneratorConfig.max_stride", good.with(|it| it.max_stride = 14)),
     ] {
         assert_eq!(bad_config(config), field);
     }
 
-    let mut making = Making::new(&gpu, &GenerateConfig::new(100, 100));
+    let mut making = Making::new(&gpu, &GeneratorConfig::new(100, 100));
     let data = making.stub.data(&[0; 1200], vk::BufferUsageFlags::STORAGE_BUFFER);
     let settings = settings();
-    let step = GenerateStep::new(
+    let step = GeneratorStep::new(
         Slot(0),
         [stream(&data, 0, 12), stream(&data, 0, 12)],
         Count::Cpu(100),
@@ -665,35 +665,38 @@ fn mistakes_are_named() {
         it.after = HOST_WRITE;
     });
     let generator = making.generator.as_mut().expect("only drop takes it");
-    let mut bad = |field: &str, step: GenerateStep<'_>| {
+    let mut bad = |field: &str, step: GeneratorStep<'_>| {
         // SAFETY: nothing is recorded.
         match unsafe { generator.record_step(vk::CommandBuffer::null(), &step) } {
             Err(Error::BadInput { field: named, .. }) => assert_eq!(named, field),
             other => panic!("{field}: {other:?}"),
         }
     };
-    bad("GenerateStep.slot", step.with(|it| it.slot = Slot(9)));
-    bad("GenerateStep.dt", step.with(|it| it.dt = -1.0));
-    bad("GenerateStep.dt", step.with(|it| it.dt = f32::NAN));
-    bad("GenerateStep.count", step.with(|it| it.count = Count::Cpu(101)));
+    bad("GeneratorStep.slot", step.with(|it| it.slot = Slot(9)));
+    bad("GeneratorStep.dt", step.with(|it| it.dt = -1.0));
+    bad("GeneratorStep.dt", step.with(|it| it.dt = f32::NAN));
+    bad("GeneratorStep.count", step.with(|it| it.count = Count::Cpu(101)));
     let counter = Count::Gpu { buffer: data.buffer, offset: 2 };
-    bad("GenerateStep.count.offset", step.with(|it| it.count = counter));
-    bad("GenerateStep.positions", step.with(|it| it.positions = stream(&data, 4, 12)));
-    bad("GenerateStep.velocities", step.with(|it| it.velocities = stream(&data, 0, 20)));
-    bad("GenerateStep.ids", step.with(|it| it.ids = Some(stream(&data, 1000, 4))));
-    let limits = |least, most| Limits { least, most };
+    bad("GeneratorStep.count.offset", step.with(|it| it.count = counter));
+    bad("GeneratorStep.positions", step.with(|it| it.positions = stream(&data, 4, 12)));
+    bad("GeneratorStep.velocities", step.with(|it| it.velocities = stream(&data, 0, 20)));
+    bad("GeneratorStep.ids", step.with(|it| it.ids = Some(stream(&data, 1000, 4))));
+    let limits = |least, most| PotentialRange { min: least, max: most };
     for (field, settings) in [
-        ("GenerateSettings.spacing", settings.with(|it| it.spacing = 0.0)),
-        ("GenerateSettings.trapped_air", settings.with(|it| it.trapped_air = limits(2.0, 1.0))),
-        ("GenerateSettings.wave_crest", settings.with(|it| it.wave_crest = limits(-1.0, 1.0))),
-        ("GenerateSettings.energy", settings.with(|it| it.energy = limits(0.0, f32::NAN))),
-        ("GenerateSettings.trapped_air_rate", settings.with(|it| it.trapped_air_rate = -1.0)),
-        ("GenerateSettings.wave_crest_rate", settings.with(|it| it.wave_crest_rate = f32::NAN)),
-        ("GenerateSettings.lifetime", settings.with(|it| it.lifetime = [0.0, 1.0])),
-        ("GenerateSettings.buoyancy", settings.with(|it| it.buoyancy = 65.0)),
-        ("GenerateSettings.drag", settings.with(|it| it.drag = 1.5)),
-        ("GenerateSettings.gravity", settings.with(|it| it.gravity = [f32::NAN; 3])),
-        ("GenerateSettings.bounds", settings.with(|it| it.bounds = Some([[1.0; 3], [0.0; 3]]))),
+        ("GeneratorSettings.spacing", settings.with(|it| it.spacing = 0.0)),
+        ("GeneratorSettings.trapped_air", settings.with(|it| it.trapped_air = limits(2.0, 1.0))),
+        ("GeneratorSettings.wave_crest", settings.with(|it| it.wave_crest = limits(-1.0, 1.0))),
+        ("GeneratorSettings.energy", settings.with(|it| it.energy = limits(0.0, f32::NAN))),
+        ("GeneratorSettings.trapped_air_rate", settings.with(|it| it.trapped_air_rate = -1.0)),
+        ("GeneratorSettings.wave_crest_rate", settings.with(|it| it.wave_crest_rate = f32::NAN)),
+        (
+            "GeneratorSettings.lifetime",
+            settings.with(|it| [it.min_lifetime, it.max_lifetime] = [0.0, 1.0]),
+        ),
+        ("GeneratorSettings.buoyancy", settings.with(|it| it.buoyancy = 65.0)),
+        ("GeneratorSettings.drag", settings.with(|it| it.drag = 1.5)),
+        ("GeneratorSettings.gravity", settings.with(|it| it.gravity = [f32::NAN; 3])),
+        ("GeneratorSettings.bounds", settings.with(|it| it.bounds = Some([[1.0; 3], [0.0; 3]]))),
     ] {
         bad(field, step.with(|it| it.settings = &settings));
     }
@@ -704,10 +707,10 @@ fn mistakes_are_named() {
 fn what_is_made_is_drawn() {
     let gpu = Gpu::shared();
     let size = vk::Extent2D { width: 64, height: 48 };
-    let diffuse = DiffuseConfig::new(4000).with(|it| it.max_stride = 16);
-    let mut rig = Rig::lit(&gpu, &rig_config(size).with(|it| it.diffuse = Some(diffuse)), 1);
+    let whitewater = WhitewaterConfig::new(4000).with(|it| it.max_stride = 16);
+    let mut rig = Rig::lit(&gpu, &rig_config(size).with(|it| it.whitewater = Some(whitewater)), 1);
     let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(31, 10, 6.0, 9.0));
-    shot.settings.diffuse.radius = 0.05;
+    shot.settings.whitewater.radius = 0.05;
     let mut fluid = sea(0);
     // Before the eye.
     let eye: Vec<_> =
@@ -722,7 +725,7 @@ fn what_is_made_is_drawn() {
     assert!(made.living().len() > 100, "{}", made.living().len());
     let water = rig.particles(&shot);
     let streams = making.generator().particles();
-    let found = rig.draw_diffuse(&shot, &water.particles(), Some(streams));
+    let found = rig.draw_whitewater(&shot, &water.particles(), Some(streams));
 
     let positions: Vec<[f32; 3]> =
         made.particles.iter().map(|p| p.position.as_vec3().to_array()).collect();
@@ -735,15 +738,15 @@ fn what_is_made_is_drawn() {
         [bytemuck::cast_slice(&ages), bytemuck::cast_slice(&kinds), bytemuck::cast_slice(&ids)]
             .map(data);
     let count = Count::Cpu(made.particles.len() as u32);
-    let copied = DiffuseParticles::new(stream(&positions, 0, 12), count).with(|it| {
+    let copied = WhitewaterParticles::new(stream(&positions, 0, 12), count).with(|it| {
         it.kinds = Some(stream(&kinds, 0, 4));
         it.ages = Some(stream(&ages, 0, 4));
         it.ids = Some(stream(&ids, 0, 4));
         it.before = HOST_WRITE;
         it.after = HOST_WRITE;
     });
-    let expected = rig.draw_diffuse(&shot, &water.particles(), Some(copied));
+    let expected = rig.draw_whitewater(&shot, &water.particles(), Some(copied));
     compare::same_color("generate-drawn", &found.output, &expected.output);
-    let without = rig.draw_diffuse(&shot, &water.particles(), None);
+    let without = rig.draw_whitewater(&shot, &water.particles(), None);
     assert!(found.output != without.output, "nothing is drawn");
 }

@@ -7,7 +7,7 @@ use ash::vk;
 use glam::{Mat4, Vec3};
 use whitewater::headless::scene::{Material, Mesh, Scene, Texture};
 use whitewater::headless::{Background, Device, Headless};
-use whitewater::water::FoamSettings;
+use whitewater::water::WeberSettings;
 use whitewater::{Camera, Error, Sky};
 
 use crate::support::device::Gpu;
@@ -250,13 +250,13 @@ fn a_step_makes_foam() {
     let mut gpu = Gpu::spied();
     let device = gpu.take_device();
     let size = extent(64, 48);
-    let config = config(size).with(|it| it.foam = true);
+    let config = config(size).with(|it| it.surface_foam = true);
     let mut headless = Headless::new(device, &config).expect("headless");
     let camera = scenes::camera(Lens::Standard, size);
     let points = scenes::world(&camera, &scenes::cloud(3, 200, 2.0, 6.0));
     let look = scenes::settings(0.2);
     let background = Background::Color([0.2; 3]);
-    let foam = FoamSettings::reduced(look.water.spacing, 1.0);
+    let foam = WeberSettings::reduced(look.water.spacing, 1.0);
     let fast = vec![[30.0 * look.water.spacing, 0.0, 0.0]; points.len()];
     let ids: Vec<u32> = (0..points.len() as u32).collect();
     let covered = |headless: &mut Headless, stepped: Option<(Option<&[u32]>, Option<f32>)>| {
@@ -266,7 +266,7 @@ fn a_step_makes_foam() {
             headless.step(dt, &foam).expect("a step");
         }
         headless.render(&camera, &look, &background).expect("a frame");
-        let depth = headless.layer("water.foam").expect("read").expect("a layer");
+        let depth = headless.layer("surface_foam").expect("read").expect("a layer");
         // Of a quarter of the resolution.
         16 * depth.data.iter().filter(|z| **z < 1e9).count()
     };
@@ -287,11 +287,11 @@ fn a_step_makes_foam() {
 #[test]
 fn a_failed_step_keeps_the_state() {
     let (_gpu, device) = spied();
-    let config = config(SIZE).with(|it| it.foam = true);
+    let config = config(SIZE).with(|it| it.surface_foam = true);
     let mut headless = Headless::new(device, &config).expect("headless");
     let points = [[0.0, 0.0, -3.0]; 8];
     let ids: Vec<u32> = (0..8).collect();
-    let foam = FoamSettings::reduced(0.1, 1.0);
+    let foam = WeberSettings::reduced(0.1, 1.0);
     headless.particles(&points, None).expect("particles");
     let step = |headless: &mut Headless| {
         headless.motion(&[[9.0, 0.0, 0.0]; 8], Some(&ids))?;

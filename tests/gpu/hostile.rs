@@ -3,19 +3,19 @@
 //! 25) shows half of it: these tests run on a newer one too.
 
 use ash::vk;
-use whitewater::bubbles::{BubbleConfig, HandOver};
-use whitewater::foam::{DiffuseConfig, Splat};
+use whitewater::bubbles::{BubbleConfig, Crossfade};
 use whitewater::headless::Bubble;
 use whitewater::water::Shading;
-use whitewater::{Blobs, Count, DiffuseParticles, Packets, Particles, Previous};
+use whitewater::{Blobs, Count, Packets, Particles, Previous, WhitewaterParticles};
 use whitewater::{Slot, Stream};
+use whitewater::{WhitewaterConfig, WhitewaterSplat};
 
-use crate::foam::Foamy;
 use crate::light::everything;
 use crate::support::device::Gpu;
 use crate::support::host::{Data, HOST_WRITE};
 use crate::support::rig::{Rig, stream};
 use crate::support::scenes::{self, Lens, Random};
+use crate::surface_foam::Foamy;
 
 const SIZE: vk::Extent2D = vk::Extent2D { width: 64, height: 48 };
 const USAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
@@ -64,8 +64,8 @@ impl Words {
 fn streams(case: &Foamy) -> Vec<Words> {
     let shot = &case.shot;
     let (points, mut random) = (scenes::cloud(7, 300, 1.0, 9.0), Random(3));
-    let diffuse = scenes::world(&shot.camera, &points);
-    let count = diffuse.len() as u32;
+    let whitewater = scenes::world(&shot.camera, &points);
+    let count = whitewater.len() as u32;
     let packets = |count: u32| -> Vec<[u32; 8]> {
         let wide = 1e3_f32.to_bits();
         let low = (-1e3_f32).to_bits();
@@ -76,7 +76,7 @@ fn streams(case: &Foamy) -> Vec<Words> {
         turn: [0.1, 0.2, 0.3, 0.9],
         id: i as u32,
     };
-    let blobs: Vec<_> = diffuse.iter().take(60).enumerate().map(|(i, p)| blob(p, i)).collect();
+    let blobs: Vec<_> = whitewater.iter().take(60).enumerate().map(|(i, p)| blob(p, i)).collect();
     let radii: Vec<f32> = (0..count).map(|_| random.between(0.001, 0.4)).collect();
     vec![
         Words::of("positions", &shot.positions),
@@ -85,15 +85,15 @@ fn streams(case: &Foamy) -> Vec<Words> {
         Words::of("foam", &case.amounts),
         Words::of("ids", case.ids.as_ref().expect("ids")),
         Words::of("packets", &packets(shot.positions.len() as u32)),
-        Words::of("diffuse positions", &diffuse),
-        Words::of("diffuse kinds", &(0..count).map(|i| i % 4).collect::<Vec<_>>()),
-        Words::of("diffuse radii", &radii),
-        Words::of("diffuse ages", &radii),
-        Words::of("diffuse ids", &(0..count).collect::<Vec<_>>()),
-        Words::of("diffuse packets", &packets(count)),
+        Words::of("whitewater positions", &whitewater),
+        Words::of("whitewater kinds", &(0..count).map(|i| i % 4).collect::<Vec<_>>()),
+        Words::of("whitewater radii", &radii),
+        Words::of("whitewater ages", &radii),
+        Words::of("whitewater ids", &(0..count).collect::<Vec<_>>()),
+        Words::of("whitewater packets", &packets(count)),
         Words::of("blobs", &blobs),
         Words::of("count", &[shot.positions.len() as u32]),
-        Words::of("diffuse count", &[count]),
+        Words::of("whitewater count", &[count]),
         Words::of("blob count", &[60]),
     ]
 }
@@ -113,22 +113,24 @@ fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
     let particles = Particles::new(of("positions"), count("count")).with(|it| {
         it.densities = Some(of("densities"));
         it.velocities = Some(of("velocities"));
-        it.foam = Some(of("foam"));
+        it.surface_foam = Some(of("foam"));
         it.ids = Some(of("ids"));
         it.packets = Some(packets("packets"));
         it.before = before;
         it.after = after;
     });
-    let diffuse =
-        DiffuseParticles::new(of("diffuse positions"), count("diffuse count")).with(|it| {
-            it.kinds = Some(of("diffuse kinds"));
-            it.radii = Some(of("diffuse radii"));
-            it.ages = Some(of("diffuse ages"));
-            it.ids = Some(of("diffuse ids"));
-            it.packets = Some(packets("diffuse packets"));
-            it.before = before;
-            it.after = after;
-        });
+    let whitewater =
+        WhitewaterParticles::new(of("whitewater positions"), count("whitewater count")).with(
+            |it| {
+                it.kinds = Some(of("whitewater kinds"));
+                it.radii = Some(of("whitewater radii"));
+                it.ages = Some(of("whitewater ages"));
+                it.ids = Some(of("whitewater ids"));
+                it.packets = Some(packets("whitewater packets"));
+                it.before = before;
+                it.after = after;
+            },
+        );
     let balls = of("blobs");
     let part = |offset| Stream { offset, ..balls };
     let blobs = Blobs::new(balls, count("blob count")).with(|it| {
@@ -137,11 +139,11 @@ fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
         it.before = before;
         it.after = after;
     });
-    let theirs = rig.config.bubbles.filter(|bubbles| !bubbles.hand_over);
+    let theirs = rig.config.bubbles.filter(|bubbles| !bubbles.crossfade);
     let (color, depth) = rig.scene(&case.shot);
     let output = color.host_image();
     let frame = case.shot.frame(output, depth.host_image(), particles).with(|it| {
-        it.diffuse = rig.config.diffuse.map(|_| diffuse);
+        it.whitewater = rig.config.whitewater.map(|_| whitewater);
         it.bubbles = theirs.map(|_| blobs);
     });
     let cmd = rig.stub.begin(0);
@@ -159,19 +161,19 @@ fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
 fn hostile_bits_in_any_stream_of_a_frame() {
     let gpu = Gpu::shared();
     let mut case = Foamy::new(SIZE, Lens::Standard, 40.0);
-    case.shot.settings.bubbles.hand_over = HandOver { near: 2.0, far: 4.0, size: 1.0 };
+    case.shot.settings.bubbles.crossfade = Crossfade { near: 2.0, far: 4.0, size: 1.0 };
     let base = everything(&mut case);
     case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.02 });
     let bubbles = BubbleConfig::new(64).with(|it| {
-        it.templates = 2;
+        it.variants = 2;
         it.bubbles = 32;
-        it.map = 64;
+        it.map_size = 64;
     });
-    let diffuse = DiffuseConfig::new(1024).with(|it| it.packets = true);
+    let whitewater = WhitewaterConfig::new(1024).with(|it| it.packets = true);
     let base = base.with(|it| {
         it.motion = true;
         it.noise = Some(1);
-        it.diffuse = Some(diffuse);
+        it.whitewater = Some(whitewater);
         it.bubbles = Some(bubbles);
         it.shadow = None;
     });
@@ -183,8 +185,9 @@ fn hostile_bits_in_any_stream_of_a_frame() {
                 it.depth_splat = Some(whitewater::water::Splat::Raster);
                 it.thickness_splat = Some(whitewater::water::Splat::Raster);
                 it.composite = Some(Shading::Compute);
-                it.diffuse = Some(diffuse.with(|it| it.splat = Some(Splat::Raster)));
-                it.bubbles = Some(bubbles.with(|it| it.hand_over = true));
+                it.whitewater =
+                    Some(whitewater.with(|it| it.splat = Some(WhitewaterSplat::Raster)));
+                it.bubbles = Some(bubbles.with(|it| it.crossfade = true));
             }),
         ),
     ];

@@ -7,7 +7,6 @@ use whitewater::water::{Exit, Splat};
 use whitewater::{Config, Count, Packets, Particles, Previous, Region, Stream};
 
 use crate::depth::spheres;
-use crate::foam::Foamy;
 use crate::reference::Image;
 use crate::reference::cull::{CullParams, cull};
 use crate::support::compare;
@@ -16,6 +15,7 @@ use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Drawn, Rig, Sheets, Shot, config, extent, stream};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::{self, Sum};
+use crate::surface_foam::Foamy;
 
 /// Sums in fixed point: the order of the particles is no matter.
 pub fn exact(size: vk::Extent2D) -> Config {
@@ -364,7 +364,7 @@ fn particles_in_no_packet_are_in_no_pass() {
     let size = extent(96, 64);
     for max_stride in [16, 1 << 19] {
         let passes = exact(size).with(|it| {
-            it.foam = true;
+            it.surface_foam = true;
             it.spray = true;
             it.noise = Some(1);
             it.motion = true;
@@ -605,11 +605,11 @@ fn settings_follow_from_spacing_and_unit() {
         (whitewater::Settings::new(0.05, 1.0), whitewater::Settings::new(5.0, 100.0));
     let near = |a: f32, b: f32| assert!((a - b).abs() <= 1.0e-5 * a.abs(), "{a} {b}");
     near(100.0 * metres.water.radius(), others.water.radius());
-    near(metres.foam.extinction, 100.0 * others.foam.extinction);
-    near(100.0 * metres.foam.veil, others.foam.veil);
-    near(100.0 * metres.diffuse.radius, others.diffuse.radius);
-    near(100.0 * metres.bubbles.hand_over.near, others.bubbles.hand_over.near);
-    near(100.0 * metres.shore.shoreline.reach[0], others.shore.shoreline.reach[0]);
+    near(metres.surface_foam.extinction, 100.0 * others.surface_foam.extinction);
+    near(100.0 * metres.surface_foam.min_thickness, others.surface_foam.min_thickness);
+    near(100.0 * metres.whitewater.radius, others.whitewater.radius);
+    near(100.0 * metres.bubbles.crossfade.near, others.bubbles.crossfade.near);
+    near(100.0 * metres.shore.shoreline.sea_reach, others.shore.shoreline.sea_reach);
     near(metres.shore.shoreline.layers[1].scale, 100.0 * others.shore.shoreline.layers[1].scale);
     near(100.0 * metres.shore.contact.depth, others.shore.contact.depth);
     let whitewater::water::Medium::Physical { absorption: [a, ..], .. } = metres.water.medium
@@ -623,7 +623,7 @@ fn settings_follow_from_spacing_and_unit() {
     near(a, 100.0 * b);
     // The same number of particles as fast.
     let [a, b] = [(0.05, 1.0), (5.0, 100.0)].map(|(spacing, unit)| {
-        whitewater::water::FoamSettings::weber_in(spacing, unit, 1.0).scale * unit * unit
+        whitewater::water::WeberSettings::weber_in(spacing, unit, 1.0).scale * unit * unit
     });
     near(a, b);
     assert_eq!(metres, whitewater::Settings::default());

@@ -3,10 +3,10 @@
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, DistanceField, Heap, HeapConfig};
-use whitewater::foam::{self, DiffuseConfig, GenerateConfig, Generator};
 use whitewater::shore::ShoreConfig;
 use whitewater::water::{Gate, Shading, Smoothing, Splat};
 use whitewater::{Config, Count, Error, Packets, Particles, Renderer, Slot, State, StateConfig};
+use whitewater::{Generator, GeneratorConfig, WhitewaterConfig, WhitewaterSplat};
 
 use crate::invariants::{exact, packet_bytes, same_drawn, water};
 use crate::support::device::Gpu;
@@ -222,11 +222,11 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
     // 8 bytes a pixel of 120x120 are 115 200, under the 131 072.
     let base = config(extent(120, 120)).with(|it| it.thickness_level = 0);
     drop(Rig::new(&gpu, &base));
-    let foam = base.with(|it| it.foam = true);
+    let foam = base.with(|it| it.surface_foam = true);
     // Blended, they are images.
     drop(Rig::new(&gpu, &foam.with(|it| it.thickness_splat = Some(Splat::Raster))));
     let bubbles = BubbleConfig::new(8).with(|it| {
-        it.templates = 1;
+        it.variants = 1;
         it.bubbles = 8;
     });
     let of = |own| base.with(|it| it.bubbles = Some(own));
@@ -245,7 +245,7 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
         ("Config.extent", blended.with(|it| it.sheets = 2)),
         ("Config.extent", base.with(|it| it.sheets = 2)),
         ("Config.extent", foam),
-        ("Config.diffuse", base.with(|it| it.diffuse = Some(DiffuseConfig::new(64)))),
+        ("Config.whitewater", base.with(|it| it.whitewater = Some(WhitewaterConfig::new(64)))),
         ("Config.bubbles.layers", of(bubbles.with(|it| it.layers = 2))),
         ("Config.bubbles.max_blobs", of(many)),
     ] {
@@ -305,15 +305,15 @@ fn limits_are_what_the_shaders_use() {
     let mut gpu = Gpu::spied();
     let all = gpu.limits();
     let base = config(extent(64, 48));
-    let diffuse = Some(DiffuseConfig::new(64));
+    let whitewater = Some(WhitewaterConfig::new(64));
     let bubbles = Some(BubbleConfig::new(8).with(|it| {
-        it.templates = 1;
+        it.variants = 1;
         it.bubbles = 8;
-        it.hand_over = true;
+        it.crossfade = true;
     }));
-    let own = |splat| Some(DiffuseConfig::new(64).with(|it| it.splat = Some(splat)));
+    let own = |splat| Some(WhitewaterConfig::new(64).with(|it| it.splat = Some(splat)));
     let fluid = base.with(|it| {
-        it.foam = true;
+        it.surface_foam = true;
         it.spray = true;
         it.motion = true;
         it.noise = Some(1);
@@ -331,12 +331,12 @@ fn limits_are_what_the_shaders_use() {
         }),
         fluid.with(|it| {
             it.cast = Some(32);
-            it.diffuse = diffuse;
+            it.whitewater = whitewater;
         }),
-        base.with(|it| it.diffuse = own(foam::Splat::Compute)),
-        base.with(|it| it.diffuse = own(foam::Splat::Raster)),
+        base.with(|it| it.whitewater = own(WhitewaterSplat::Compute)),
+        base.with(|it| it.whitewater = own(WhitewaterSplat::Raster)),
         base.with(|it| {
-            it.diffuse = diffuse;
+            it.whitewater = whitewater;
             it.bubbles = bubbles;
             it.shore = Some(ShoreConfig::default());
         }),
@@ -378,7 +378,7 @@ fn limits_are_what_the_shaders_use() {
     let made = [
         State::new(&context, &StateConfig::new(8)).map(|_| ()),
         Heap::new(&context, &HeapConfig::new(8), None).map(|_| ()),
-        Generator::new(&context, &GenerateConfig::new(8, 8)).map(|_| ()),
+        Generator::new(&context, &GeneratorConfig::new(8, 8)).map(|_| ()),
         Renderer::new(&context, &base).map(|_| ()),
     ];
     for result in made {

@@ -57,7 +57,7 @@ impl Moving {
         let particles = cloud.particles().with(|it| {
             it.ids = ids.as_ref().map(|data| stream(data, 0, 4));
             it.velocities = velocities.as_ref().map(|data| stream(data, 0, 12));
-            it.foam = amounts.as_ref().map(|data| stream(data, 0, 8));
+            it.surface_foam = amounts.as_ref().map(|data| stream(data, 0, 8));
         });
         rig.draw_particles(&self.shot, &particles)
     }
@@ -88,7 +88,7 @@ impl Moving {
         let settings = Settings {
             spacing: f64::from(water.spacing),
             densities: [water.density_threshold, water.density_full].map(f64::from),
-            motion_threshold: f64::from(shot.settings.foam.motion_threshold),
+            motion_threshold: f64::from(shot.settings.surface_foam.motion_threshold),
             falloff: shot.falloff(),
             dt: self.dt(),
             level,
@@ -129,9 +129,9 @@ fn of(drawn: &Drawn) -> &Image<[f32; 2]> {
 /// Depth of the foam where it hides half of what is behind it, as `composite` has it.
 pub(crate) fn shown_foam(shot: &Shot, drawn: &Drawn) -> Option<Image<f32>> {
     let seen = drawn.foam.as_ref()?.seen(shot);
-    let look = &shot.settings.foam;
+    let look = &shot.settings.surface_foam;
     Some(seen.map(|(depth, [t, _])| {
-        let whole = smoothstep(0.0, f64::from(look.veil).max(1e-6), *t);
+        let whole = smoothstep(0.0, f64::from(look.min_thickness).max(1e-6), *t);
         let kept = (-f64::from(look.extinction) * t * whole).exp();
         if kept <= 0.5 { *depth as f32 } else { 1e10 }
     }))
@@ -168,7 +168,7 @@ fn vectors_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for foam in [false, true] {
-        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.foam = foam));
+        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.surface_foam = foam));
         for lens in LENSES {
             for (kind, points) in [
                 ("cloud", scenes::cloud(31, 160, 2.0, 9.0)),
@@ -258,7 +258,7 @@ fn what_is_still_has_no_motion() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     for lens in LENSES {
-        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.foam = true));
+        let mut rig = Rig::new(&gpu, &moving(size).with(|it| it.surface_foam = true));
         let points = scenes::block(3, 0.3, [12, 8, 4], [-1.6, -1.0, 4.0]);
         let mut case = Moving::new(size, lens, &points, 30.0);
         case.amounts = Some((0..points.len()).map(|i| [(i % 3) as f32 / 2.0, 0.0]).collect());
@@ -372,7 +372,7 @@ fn outlines_keep_both_sides() {
             &gpu,
             &moving(size).with(|it| {
                 it.thickness_level = thickness_level;
-                it.foam = foam;
+                it.surface_foam = foam;
             }),
         );
         let pool = scenes::block(3, 0.3, [30, 20, 3], [-4.5, -3.0, 8.0]);
@@ -426,7 +426,7 @@ fn the_order_of_particles_does_not_show() {
     for foam in [false, true] {
         let make = |max_stride| {
             moving(size).with(|it| {
-                it.foam = foam;
+                it.surface_foam = foam;
                 it.max_stride = max_stride;
             })
         };

@@ -1,7 +1,7 @@
 //! Pass `noise`: the baseline's surface noise against the twin, and the picture with it.
 
 use glam::{DVec3, Mat4, Vec3};
-use whitewater::water::{NoiseLook, Rule, Shading};
+use whitewater::water::{Rule, Shading, SurfaceNoiseSettings};
 use whitewater::{Camera, Config};
 
 use crate::composite::{FLAT, SKY, Sky, check, check_told};
@@ -43,7 +43,7 @@ impl Noisy {
         Self { shot, ids }
     }
 
-    fn look(&mut self) -> &mut NoiseLook {
+    fn look(&mut self) -> &mut SurfaceNoiseSettings {
         &mut self.shot.settings.noise
     }
 
@@ -128,7 +128,7 @@ fn noise_is_the_twins() {
     }
 }
 
-type Change = (&'static str, fn(&mut NoiseLook));
+type Change = (&'static str, fn(&mut SurfaceNoiseSettings));
 
 const CHANGES: [Change; 8] = [
     ("falloff-0", |look| look.falloff = 0.0),
@@ -207,7 +207,7 @@ fn noise_goes_by_ids_not_by_places() {
     let size = extent(97, 61);
     let mut rig = Rig::lit(&gpu, &config(size).with(|it| it.noise = Some(1)), 1);
     let mut case = Noisy::new(size, Lens::Standard);
-    *case.look() = NoiseLook::SOURCE;
+    *case.look() = SurfaceNoiseSettings::SOURCE;
     let first = case.draw(&mut rig);
     let order = Random(9).order(case.shot.positions.len());
     let mut mixed = case.clone();
@@ -283,7 +283,7 @@ fn the_picture_with_noise_is_the_twins() {
                 if flat {
                     case.shot.color.fill(FLAT);
                 }
-                *case.look() = NoiseLook::default().with(|it| {
+                *case.look() = SurfaceNoiseSettings::default().with(|it| {
                     it.weight = weight;
                     it.foam = foam;
                     it.color = [0.5, 0.4, 0.3];
@@ -305,9 +305,9 @@ fn a_hundredth_of_the_ripples_is_seen() {
     let mut case = Noisy::new(size, Lens::Standard);
     case.shot.settings.water.shininess = 20.0;
     case.shot.color.fill(FLAT);
-    *case.look() = NoiseLook::default().with(|it| it.foam = 1.0);
+    *case.look() = SurfaceNoiseSettings::default().with(|it| it.foam = 1.0);
     check("planted-ripples", &mut rig, &case.shot, Sky::Even);
-    type Fault = fn(&mut NoiseLook);
+    type Fault = fn(&mut SurfaceNoiseSettings);
     let faults: [(&str, Fault); 3] = [
         ("weight", |look| look.weight *= 1.01),
         ("foam", |look| look.foam *= 1.01),
@@ -337,7 +337,7 @@ fn without_weight_nothing_changes() {
         let mut off = Rig::lit(&gpu, &plain, 1);
         let mut on = Rig::lit(&gpu, &plain.with(|it| it.noise = Some(1)), 1);
         let mut case = Noisy::new(size, Lens::Standard);
-        *case.look() = NoiseLook::SOURCE;
+        *case.look() = SurfaceNoiseSettings::SOURCE;
         let expected = case.draw(&mut off);
         assert!(expected.noise.is_none());
         let drawn = case.draw(&mut on);

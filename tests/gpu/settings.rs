@@ -5,20 +5,21 @@ use std::f32::consts::PI;
 
 use ash::vk;
 use glam::{Mat4, Vec3};
-use whitewater::bubbles::{BubbleConfig, HandOver};
-use whitewater::foam::{DiffuseConfig, Mixing, Occlusion, Reach, Submerged};
-use whitewater::headless::{Bubble, Diffuse};
+use whitewater::bubbles::{BubbleConfig, Crossfade};
+use whitewater::headless::{Bubble, Whitewater};
 use whitewater::water::{
-    Amplitude, Convolution, Fresnel, Ladder, Medium, NoiseLook, Rule, Shadows, SprayLook,
+    Amplitude, Convolution, Fresnel, Ladder, Medium, Rule, Shadows, SpraySettings,
+    SurfaceNoiseSettings,
 };
+use whitewater::{Occlusion, OcclusionReach, ShadowMixing, Submerged, WhitewaterConfig};
 use whitewater::{Region, Settings, Shadow};
 
-use crate::foam::Foamy;
 use crate::light::shadows;
 use crate::reference::Image;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens, Random};
+use crate::surface_foam::Foamy;
 
 const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 
@@ -70,9 +71,9 @@ fn layered() -> Foamy {
     settings.light.direction = Vec3::new(-0.5, 0.7, 0.6).normalize().to_array();
     settings.water.shininess = 4.0;
     // A front layer that ends within the foam.
-    settings.foam.front_depth = 2.0 * settings.water.spacing;
-    settings.noise = NoiseLook::default().with(|it| it.foam = 0.5);
-    settings.spray = SprayLook::default().with(|it| it.size = 1.5);
+    settings.surface_foam.front_depth = 2.0 * settings.water.spacing;
+    settings.noise = SurfaceNoiseSettings::default().with(|it| it.foam = 0.5);
+    settings.spray = SpraySettings::default().with(|it| it.size = 1.5);
     case
 }
 
@@ -88,7 +89,7 @@ fn drawer<'r>(case: Foamy, rig: &'r mut Rig<'_>) -> impl FnMut(&Settings) -> Dra
 fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let gpu = Gpu::shared();
     let both = config(SIZE).with(|it| {
-        it.foam = true;
+        it.surface_foam = true;
         it.spray = true;
         it.noise = Some(0);
     });
@@ -120,35 +121,37 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("water.refraction", |s| s.water.refraction = 0.05),
         ("water.specular", |s| s.water.specular = 0.5),
         ("water.shininess", |s| s.water.shininess = 6.0),
-        ("foam.extinction", |s| s.foam.extinction *= 2.0),
-        ("foam.front_extinction", |s| s.foam.front_extinction *= 2.0),
-        ("foam.front_power", |s| s.foam.front_power = 2.0),
-        ("foam.front_depth", |s| s.foam.front_depth *= 2.0),
-        ("foam.motion_threshold", |s| s.foam.motion_threshold = 4.0),
-        ("foam.pattern", |s| s.foam.pattern = 0.5),
-        ("foam.pattern_size", |s| s.foam.pattern_size = 6.0),
-        ("foam.pattern_period", |s| s.foam.pattern_period = 0.7),
-        ("foam.time", |s| s.foam.time += 0.2),
-        ("foam.veil", |s| s.foam.veil *= 2.0),
-        ("foam.relief", |s| s.foam.relief = 0.7),
-        ("foam.shadow", |s| s.foam.shadow *= 3.0),
-        ("foam.aeration", |s| s.foam.aeration = 0.7),
-        ("foam.aerated_color", |s| (s.foam.aeration, s.foam.aerated_color) = (0.5, [0.9; 3])),
-        ("foam.back_color", |s| s.foam.back_color = [0.3; 3]),
-        ("foam.front_color", |s| s.foam.front_color = [0.5; 3]),
+        ("surface_foam.extinction", |s| s.surface_foam.extinction *= 2.0),
+        ("surface_foam.front_extinction", |s| s.surface_foam.front_extinction *= 2.0),
+        ("surface_foam.front_power", |s| s.surface_foam.front_power = 2.0),
+        ("surface_foam.front_depth", |s| s.surface_foam.front_depth *= 2.0),
+        ("surface_foam.motion_threshold", |s| s.surface_foam.motion_threshold = 4.0),
+        ("surface_foam.pattern", |s| s.surface_foam.pattern = 0.5),
+        ("surface_foam.pattern_size", |s| s.surface_foam.pattern_size = 6.0),
+        ("surface_foam.pattern_period", |s| s.surface_foam.pattern_period = 0.7),
+        ("surface_foam.time", |s| s.surface_foam.time += 0.2),
+        ("surface_foam.min_thickness", |s| s.surface_foam.min_thickness *= 2.0),
+        ("surface_foam.normal_strength", |s| s.surface_foam.normal_strength = 0.7),
+        ("surface_foam.shadow", |s| s.surface_foam.shadow *= 3.0),
+        ("surface_foam.aeration", |s| s.surface_foam.aeration = 0.7),
+        ("surface_foam.aerated_color", |s| {
+            (s.surface_foam.aeration, s.surface_foam.aerated_color) = (0.5, [0.9; 3]);
+        }),
+        ("surface_foam.back_color", |s| s.surface_foam.back_color = [0.3; 3]),
+        ("surface_foam.front_color", |s| s.surface_foam.front_color = [0.5; 3]),
         ("spray.opacity", |s| s.spray.opacity = 0.8),
         ("spray.size", |s| s.spray.size = 1.0),
         ("spray.droplets", |s| s.spray.droplets = 9),
-        ("spray.densities[0]", |s| s.spray.densities[0] = 0.5),
-        ("spray.densities[1]", |s| s.spray.densities[1] = 0.8),
-        ("spray.densities[2]", |s| s.spray.densities[2] = 0.95),
-        ("spray.spread", |s| s.spray.spread = 1.0),
+        ("spray.all_spray_density", |s| s.spray.all_spray_density = 0.5),
+        ("spray.full_water_density", |s| s.spray.full_water_density = 0.8),
+        ("spray.no_spray_density", |s| s.spray.no_spray_density = 0.95),
+        ("spray.scatter_radius", |s| s.spray.scatter_radius = 1.0),
         ("spray.stretch", |s| s.spray.stretch = 0.05),
         ("spray.mist", |s| s.spray.mist = 0.3),
         ("spray.mist_size", |s| s.spray.mist_size = 1.0),
         ("spray.mist_contrast", |s| (s.spray.mist, s.spray.mist_contrast) = (0.05, 1.5)),
         ("spray.shade", |s| s.spray.shade = 4.0),
-        ("spray.shutter", |s| s.spray.shutter = 0.1),
+        ("spray.exposure", |s| s.spray.exposure = 0.1),
         ("spray.color", |s| s.spray.color = [0.5; 3]),
         ("spray.additive", |s| s.spray.additive = true),
         ("noise.weight", |s| s.noise.weight = 0.6),
@@ -164,7 +167,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("light.shade", |s| s.light.shade = [0.1; 3]),
         ("ladder 0", |s| s.ladder = Ladder::Background),
         ("ladder 1", |s| s.ladder = Ladder::BackWater),
-        ("ladder 2", |s| s.ladder = Ladder::Foam),
+        ("ladder 2", |s| s.ladder = Ladder::SurfaceFoam),
         ("ladder 3", |s| s.ladder = Ladder::FrontWater),
         ("fresnel", |s| {
             s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
@@ -178,13 +181,13 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
 fn every_setting_of_the_other_modes_shows() {
     let gpu = Gpu::shared();
     let plain = config(SIZE).with(|it| {
-        it.foam = true;
+        it.surface_foam = true;
         it.thickness_level = 0;
     });
     let mut rig = Rig::lit(&gpu, &plain, 1);
     let mut case = layered();
     case.shot.sun.region = None;
-    let look = &mut case.shot.settings.foam;
+    let look = &mut case.shot.settings.surface_foam;
     (look.pattern, look.noise) = (0.0, 0.5);
     let source = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
     case.shot.settings.water.fresnel = source;
@@ -208,8 +211,8 @@ fn every_setting_of_the_other_modes_shows() {
         ("water.medium.falloff of what is behind", |s| {
             change_source(s, |_, falloff| falloff[3] *= 2.0)
         }),
-        ("foam.noise", |s| s.foam.noise = 1.0),
-        ("foam.noise_rate", |s| s.foam.noise_rate = 50.0),
+        ("surface_foam.noise", |s| s.surface_foam.noise = 1.0),
+        ("surface_foam.noise_rate", |s| s.surface_foam.noise_rate = 50.0),
     ];
     all_show("other modes", &base, &changes, drawer(case, &mut rig));
     // A rule of the smoothing that has a width of its own says so.
@@ -235,7 +238,7 @@ fn every_setting_of_the_shadow_filter_shows() {
     let convolution = Convolution { texels: 64, ..Convolution::default() };
     let shadow = Some(Shadows::Convolution(convolution));
     let config = config(SIZE).with(|it| {
-        it.foam = true;
+        it.surface_foam = true;
         it.shadow = shadow;
         it.thickness_level = 0;
     });
@@ -262,11 +265,11 @@ fn every_setting_of_the_shadow_filter_shows() {
     all_show("shadow filter", &base, &changes, drawer(case, &mut rig));
 }
 
-/// A heap of diffuse particles about some water.
+/// A heap of whitewater particles about some water.
 fn heap(size: vk::Extent2D) -> (Shot, Vec<[f32; 3]>, Vec<u32>, Vec<f32>) {
     let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(31, 60, 3.0, 6.0));
     let positions = scenes::world(&shot.camera, &scenes::cloud(7, 600, 2.5, 6.5));
-    shot.settings.diffuse.radius = 0.3;
+    shot.settings.whitewater.radius = 0.3;
     // Half of it a wall close behind some.
     shot.scene_depth(|x, _| Some(if x < size.width / 2 { 8.5 } else { 5.0 }));
     let n = positions.len();
@@ -282,80 +285,80 @@ fn heap_drawer<'r>(rig: &'r mut Rig<'_>) -> (Settings, impl FnMut(&Settings) -> 
     let draw = move |settings: &Settings| {
         shot.settings = settings.clone();
         let water = rig.particles(&shot);
-        let input = Diffuse {
+        let input = Whitewater {
             positions: &positions,
             kinds: Some(&kinds),
             radii: None,
             ages: Some(&ages),
             ids: None,
         };
-        let cloud = rig.diffuse(&input);
-        rig.draw_diffuse(&shot, &water.particles(), Some(cloud.particles()))
+        let cloud = rig.whitewater(&input);
+        rig.draw_whitewater(&shot, &water.particles(), Some(cloud.particles()))
     };
     (base, draw)
 }
 
 #[test]
-fn every_setting_of_diffuse_particles_shows() {
+fn every_setting_of_whitewater_particles_shows() {
     let gpu = Gpu::shared();
     let changes: [Change; 18] = [
-        ("diffuse.radius", |s| s.diffuse.radius *= 1.2),
-        ("diffuse.submerged", |s| s.diffuse.submerged = FALLOFF),
-        ("diffuse.half", |s| s.diffuse.half = 1.0),
-        ("diffuse.exponent", |s| s.diffuse.exponent = 2.0),
-        ("diffuse.passes", |s| s.diffuse.passes = 1),
-        ("diffuse.search[0]", |s| s.diffuse.search[0] = 3.0),
-        ("diffuse.search[1]", |s| s.diffuse.search[1] = 2.0),
-        ("diffuse.samples[1]", |s| s.diffuse.samples[1] = 40),
-        ("diffuse.reach", |s| s.diffuse.reach = Reach::Radii(0.3)),
-        ("diffuse.reach in metres", |s| s.diffuse.reach = Reach::Metres(0.2)),
-        ("diffuse.opacity[0]", |s| s.diffuse.opacity[0] = 1.0),
-        ("diffuse.opacity[1]", |s| s.diffuse.opacity[1] = 0.2),
-        ("diffuse.shadow[0]", |s| s.diffuse.shadow[0] = 2.0),
-        ("diffuse.shadow[1]", |s| s.diffuse.shadow[1] = 0.8),
-        ("diffuse.shadow[2]", |s| s.diffuse.shadow[2] = 0.1),
-        ("diffuse.shadow_color", |s| s.diffuse.shadow_color = [0.5; 3]),
-        ("diffuse.albedo", |s| s.diffuse.albedo = [0.5; 3]),
-        ("diffuse.mixing", |s| s.diffuse.mixing = Mixing::Source),
+        ("whitewater.radius", |s| s.whitewater.radius *= 1.2),
+        ("whitewater.submerged", |s| s.whitewater.submerged = FALLOFF),
+        ("whitewater.half_intensity_thickness", |s| s.whitewater.half_intensity_thickness = 1.0),
+        ("whitewater.exponent", |s| s.whitewater.exponent = 2.0),
+        ("whitewater.passes", |s| s.whitewater.passes = 1),
+        ("whitewater.search_radius", |s| s.whitewater.search_radius = 3.0),
+        ("whitewater.search_radius_step", |s| s.whitewater.search_radius_step = 2.0),
+        ("whitewater.max_samples", |s| s.whitewater.max_samples = 40),
+        ("whitewater.reach", |s| s.whitewater.reach = OcclusionReach::Radii(0.3)),
+        ("whitewater.reach in metres", |s| s.whitewater.reach = OcclusionReach::Metres(0.2)),
+        ("whitewater.fluid_opacity", |s| s.whitewater.fluid_opacity = 1.0),
+        ("whitewater.scene_opacity", |s| s.whitewater.scene_opacity = 0.2),
+        ("whitewater.shadow_scale", |s| s.whitewater.shadow_scale = 2.0),
+        ("whitewater.shadow_exponent", |s| s.whitewater.shadow_exponent = 0.8),
+        ("whitewater.shadow_offset", |s| s.whitewater.shadow_offset = 0.1),
+        ("whitewater.shadow_color", |s| s.whitewater.shadow_color = [0.5; 3]),
+        ("whitewater.albedo", |s| s.whitewater.albedo = [0.5; 3]),
+        ("whitewater.mixing", |s| s.whitewater.mixing = ShadowMixing::Source),
     ];
     let falloff: [Change; 3] = [
-        ("diffuse.submerged.most", |s| {
-            s.diffuse.submerged = Submerged::Falloff { most: 0.8, n: 2.0, m: 4.0 };
+        ("whitewater.submerged.most", |s| {
+            s.whitewater.submerged = Submerged::Falloff { depth: 0.8, n: 2.0, m: 4.0 };
         }),
-        ("diffuse.submerged.n", |s| {
-            s.diffuse.submerged = Submerged::Falloff { most: 2.0, n: 1.0, m: 4.0 };
+        ("whitewater.submerged.n", |s| {
+            s.whitewater.submerged = Submerged::Falloff { depth: 2.0, n: 1.0, m: 4.0 };
         }),
-        ("diffuse.submerged.m", |s| {
-            s.diffuse.submerged = Submerged::Falloff { most: 2.0, n: 2.0, m: 1.0 };
+        ("whitewater.submerged.m", |s| {
+            s.whitewater.submerged = Submerged::Falloff { depth: 2.0, n: 2.0, m: 1.0 };
         }),
     ];
-    // Points by what a sphere holds of pixels: of the source's way alone, as DiffuseLook says.
+    // Points by what a sphere holds of pixels: of the source's way alone, as WhitewaterSettings says.
     let points: [Change; 2] = [
-        ("diffuse.density", |s| s.diffuse.density = 0.01),
-        ("diffuse.samples[0]", |s| s.diffuse.samples[0] = 300),
+        ("whitewater.density", |s| s.whitewater.sample_density = 0.01),
+        ("whitewater.min_samples", |s| s.whitewater.min_samples = 300),
     ];
     for occlusion in [Occlusion::Fast, Occlusion::Reference] {
-        let diffuse = DiffuseConfig::new(4096).with(|it| it.occlusion = occlusion);
-        let mut rig = Rig::lit(&gpu, &config(SIZE).with(|it| it.diffuse = Some(diffuse)), 1);
+        let whitewater = WhitewaterConfig::new(4096).with(|it| it.occlusion = occlusion);
+        let mut rig = Rig::lit(&gpu, &config(SIZE).with(|it| it.whitewater = Some(whitewater)), 1);
         let (mut base, mut draw) = heap_drawer(&mut rig);
         all_show(&format!("{occlusion:?}"), &base, &changes, &mut draw);
         match occlusion {
             Occlusion::Fast => none_show("Fast", &base, &points, &mut draw),
             Occlusion::Reference => all_show("Reference", &base, &points, &mut draw),
         }
-        base.diffuse.submerged = FALLOFF;
+        base.whitewater.submerged = FALLOFF;
         all_show("falloff", &base, &falloff, &mut draw);
     }
 }
 
-const FALLOFF: Submerged = Submerged::Falloff { most: 2.0, n: 2.0, m: 4.0 };
+const FALLOFF: Submerged = Submerged::Falloff { depth: 2.0, n: 2.0, m: 4.0 };
 
 #[test]
 fn every_setting_of_bubble_foam_shows() {
     let gpu = Gpu::shared();
     let size = extent(112, 96);
     let bubbles = BubbleConfig::new(64).with(|it| {
-        it.templates = 3;
+        it.variants = 3;
         it.bubbles = 28;
     });
     let mut rig = Rig::lit(&gpu, &config(size).with(|it| it.bubbles = Some(bubbles)), 1);
@@ -385,8 +388,8 @@ fn every_setting_of_bubble_foam_shows() {
         ("bubbles.film", |s| s.bubbles.film = 500.0),
         ("bubbles.variation", |s| s.bubbles.variation = 0.1),
         ("bubbles.drainage", |s| s.bubbles.drainage = 0.1),
-        ("bubbles.core[0]", |s| s.bubbles.core[0] = 0.4),
-        ("bubbles.core[1]", |s| s.bubbles.core[1] = 1.2),
+        ("bubbles.core_opaque_radius", |s| s.bubbles.core_opaque_radius = 0.4),
+        ("bubbles.core_outer_radius", |s| s.bubbles.core_outer_radius = 1.2),
         ("bubbles.albedo", |s| s.bubbles.albedo = [0.5; 3]),
         ("bubbles.pattern", |s| s.bubbles.pattern = 0.2),
         ("bubbles.distortion", |s| s.bubbles.distortion = 0.5),
@@ -394,8 +397,8 @@ fn every_setting_of_bubble_foam_shows() {
         ("bubbles.reflection", |s| s.bubbles.reflection = 0.5),
         ("bubbles.shininess", |s| s.bubbles.shininess = 100.0),
         ("bubbles.walls", |s| s.bubbles.walls = false),
-        ("bubbles.plug", |s| s.bubbles.plug = false),
-        ("bubbles.merge", |s| s.bubbles.merge = 8.0),
+        ("bubbles.fill_holes", |s| s.bubbles.fill_holes = false),
+        ("bubbles.min_pixels", |s| s.bubbles.min_pixels = 8.0),
     ];
     all_show("bubbles", &base, &changes, |settings| {
         shot.settings = settings.clone();
@@ -407,25 +410,25 @@ fn every_setting_of_bubble_foam_shows() {
 fn every_setting_of_the_hand_over_shows() {
     let gpu = Gpu::shared();
     let bubbles = BubbleConfig::new(600).with(|it| {
-        it.templates = 3;
+        it.variants = 3;
         it.bubbles = 28;
-        it.hand_over = true;
+        it.crossfade = true;
     });
-    let diffuse = Some(DiffuseConfig::new(4096));
+    let whitewater = Some(WhitewaterConfig::new(4096));
     let mut rig = Rig::lit(
         &gpu,
         &config(SIZE).with(|it| {
             it.bubbles = Some(bubbles);
-            it.diffuse = diffuse;
+            it.whitewater = whitewater;
         }),
         1,
     );
     let (mut base, draw) = heap_drawer(&mut rig);
-    base.bubbles.hand_over = HandOver { near: 4.0, far: 5.0, size: 1.0 };
+    base.bubbles.crossfade = Crossfade { near: 4.0, far: 5.0, size: 1.0 };
     let changes: [Change; 3] = [
-        ("bubbles.hand_over.near", |s| s.bubbles.hand_over.near = 3.0),
-        ("bubbles.hand_over.far", |s| s.bubbles.hand_over.far = 6.0),
-        ("bubbles.hand_over.size", |s| s.bubbles.hand_over.size = 1.5),
+        ("bubbles.crossfade.near", |s| s.bubbles.crossfade.near = 3.0),
+        ("bubbles.crossfade.far", |s| s.bubbles.crossfade.far = 6.0),
+        ("bubbles.crossfade.size", |s| s.bubbles.crossfade.size = 1.5),
     ];
     all_show("hand-over", &base, &changes, draw);
 }

@@ -5,7 +5,7 @@ use crate::hostile::spoil;
 use crate::reference::generate::snapshot::{Snapshot, Stage};
 
 impl Making {
-    fn snapshot(&mut self, fluid: &Fluid, settings: &GenerateSettings, number: u32) -> Made {
+    fn snapshot(&mut self, fluid: &Fluid, settings: &GeneratorSettings, number: u32) -> Made {
         let data = self.upload(fluid);
         // Its time is no matter.
         let step = step_of(&data, fluid, settings, 0.0, number);
@@ -24,7 +24,7 @@ fn left(made: &Made) -> (u32, u32, u32, &[Particle]) {
     (high, new, lost, &made.particles)
 }
 
-fn roomy() -> GenerateConfig {
+fn roomy() -> GeneratorConfig {
     config().with(|it| it.max_particles = 100_000)
 }
 
@@ -77,7 +77,7 @@ struct Seen {
 fn assert_snapshot(
     made: &Made,
     fluid: &Fluid,
-    settings: &GenerateSettings,
+    settings: &GeneratorSettings,
     number: u32,
     seen: &mut Seen,
 ) {
@@ -142,9 +142,9 @@ fn torn(number: u32) -> Fluid {
 }
 
 /// Lives so short that the way back is of a few spacings.
-fn short(lifetime: [f32; 2]) -> GenerateSettings {
+fn short(lifetime: [f32; 2]) -> GeneratorSettings {
     settings().with(|it| {
-        it.lifetime = lifetime;
+        [it.min_lifetime, it.max_lifetime] = lifetime;
         it.trapped_air_rate = 400.0;
         it.wave_crest_rate = 300.0;
     })

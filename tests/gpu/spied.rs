@@ -4,19 +4,19 @@
 use std::mem;
 
 use ash::vk;
+use whitewater::WhitewaterConfig;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
-use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Background, Headless};
 use whitewater::water::{Convolution, Gate, Shading, Shadows, Smoothing, Splat};
 use whitewater::{Config, Context, Error, Particles, Recorded, Renderer, Slot};
 
-use crate::foam::Foamy;
 use crate::light::{even, everything};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Foamed, Rig, Shot, config, extent, stream};
 use crate::support::scenes::{self, Lens};
 use crate::support::{slow, spy};
+use crate::surface_foam::Foamy;
 
 fn spied() -> Gpu {
     let mut gpu = Gpu::spied();
@@ -73,7 +73,7 @@ fn record_only_records() {
     let base = config(size);
     let query = Some(Smoothing::Query(Gate::VertexCull));
     let bubbles = BubbleConfig::new(64).with(|it| {
-        it.templates = 2;
+        it.variants = 2;
         it.bubbles = 16;
     });
     let billboards = bubbles.with(|it| it.sort = BubbleSort::Peel);
@@ -92,7 +92,7 @@ fn record_only_records() {
         ("query", base.with(|it| it.smoothing = query)),
         ("motion", base.with(|it| it.motion = true)),
         ("noise", base.with(|it| it.noise = Some(1))),
-        ("diffuse", base.with(|it| it.diffuse = Some(DiffuseConfig::new(1024)))),
+        ("whitewater", base.with(|it| it.whitewater = Some(WhitewaterConfig::new(1024)))),
         ("bubbles", base.with(|it| it.bubbles = Some(bubbles))),
         ("billboards", base.with(|it| it.bubbles = Some(billboards))),
     ];
@@ -136,7 +136,7 @@ fn record_only_records_with_foam_spray_and_light() {
     let config = config(size).with(|it| {
         it.shadow = shadow;
         it.cast = Some(16);
-        it.foam = true;
+        it.surface_foam = true;
         it.spray = true;
         it.sheets = 2;
     });

@@ -4,10 +4,9 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use glam::{DVec3, Mat4, Vec3};
-use whitewater::water::{Shading, Shadows, SprayLook};
+use whitewater::water::{Shading, Shadows, SpraySettings};
 use whitewater::{Config, Packets, Shadow};
 
-use crate::foam::nearly;
 use crate::harness::fails;
 use crate::invariants::packet_bytes;
 use crate::light::shadows;
@@ -20,6 +19,7 @@ use crate::support::device::Gpu;
 use crate::support::host::Data;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
 use crate::support::scenes::{self, LENSES, Lens, Random};
+use crate::surface_foam::nearly;
 
 const STORAGE: ash::vk::BufferUsageFlags = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
 
@@ -62,7 +62,7 @@ impl Sprayed {
         Self { shot, velocities: Some(velocities), ids, amounts: None, packets: false }
     }
 
-    fn look(&mut self) -> &mut SprayLook {
+    fn look(&mut self) -> &mut SpraySettings {
         &mut self.shot.settings.spray
     }
 
@@ -79,7 +79,7 @@ impl Sprayed {
         let particles = cloud.particles().with(|it| {
             it.velocities = all(&velocities, 12);
             it.ids = all(&ids, 4);
-            it.foam = all(&amounts, 8);
+            it.surface_foam = all(&amounts, 8);
             it.packets = self.packets.then_some(packets);
         });
         rig.draw_particles(&self.shot, &particles)
@@ -101,19 +101,20 @@ impl Sprayed {
 
     fn settings(&self) -> spray::Settings {
         let (look, water) = (&self.shot.settings.spray, &self.shot.settings.water);
-        let [all, _, none] = look.densities.map(f64::from);
+        let [all, _, none] =
+            [look.all_spray_density, look.full_water_density, look.no_spray_density].map(f64::from);
         spray::Settings {
             spacing: f64::from(water.spacing),
             rest_density: f64::from(water.rest_density),
             opacity: f64::from(look.opacity),
             size: f64::from(look.size),
             droplets: look.droplets,
-            spread: f64::from(look.spread),
+            spread: f64::from(look.scatter_radius),
             stretch: f64::from(look.stretch),
             mist: [f64::from(look.mist), f64::from(look.mist_size)],
             contrast: f64::from(look.mist_contrast),
             densities: [all, none],
-            shutter: f64::from(look.shutter),
+            shutter: f64::from(look.exposure),
             sums: Sums::SINGLE,
         }
     }
@@ -192,7 +193,7 @@ fn spray_is_the_twins() {
     assert!(faded > 200, "{faded} pixels behind water");
 }
 
-type Change = (&'static str, fn(&mut SprayLook));
+type Change = (&'static str, fn(&mut SpraySettings));
 
 /// Every setting at its ends, and particles about the eye, at no place and at no speed.
 #[test]
@@ -201,12 +202,12 @@ fn spray_of_all_settings_is_the_twins() {
     let size = extent(97, 61);
     let mut rig = Rig::new(&gpu, &spraying(size));
     let changes: [Change; 22] = [
-        ("default", |look| *look = SprayLook::default()),
-        ("source", |look| *look = SprayLook::SOURCE),
-        ("spread-0", |look| look.spread = 0.0),
+        ("default", |look| *look = SpraySettings::default()),
+        ("source", |look| *look = SpraySettings::SOURCE),
+        ("spread-0", |look| look.scatter_radius = 0.0),
         // Droplets beyond the near plane of centres before it.
-        ("spread-small", |look| look.spread = 0.3),
-        ("spread-8", |look| look.spread = 8.0),
+        ("spread-small", |look| look.scatter_radius = 0.3),
+        ("spread-8", |look| look.scatter_radius = 8.0),
         ("stretch-0.05", |look| look.stretch = 0.05),
         ("stretch-1", |look| look.stretch = 1.0),
         ("no mist", |look| look.mist = 0.0),
@@ -215,27 +216,32 @@ fn spray_of_all_settings_is_the_twins() {
         ("mist-clumps-2", |look| (look.mist, look.mist_size, look.mist_contrast) = (0.3, 8.0, 2.0)),
         ("mist-streaks", |look| {
             (look.mist, look.mist_size, look.mist_contrast) = (0.9, 3.0, 2.0);
-            look.shutter = 0.3;
+            look.exposure = 0.3;
         }),
-        ("shutter-0", |look| look.shutter = 0.0),
-        ("shutter-1", |look| look.shutter = 1.0),
+        ("shutter-0", |look| look.exposure = 0.0),
+        ("shutter-1", |look| look.exposure = 1.0),
         ("opacity-99", |look| look.opacity = 0.99),
         ("opacity-most", |look| look.opacity = 1.0 - f32::EPSILON),
         ("opacity-least", |look| look.opacity = 1e-4),
         ("size-8", |look| (look.size, look.droplets) = (8.0, 1)),
         ("size-least", |look| look.size = 1e-6),
         ("droplets-64", |look| look.droplets = 64),
-        ("densities-same", |look| look.densities = [0.6; 3]),
-        ("densities-0", |look| look.densities = [0.0, 0.0, 3.0]),
+        ("densities-same", |look| {
+            [look.all_spray_density, look.full_water_density, look.no_spray_density] = [0.6; 3]
+        }),
+        ("densities-0", |look| {
+            [look.all_spray_density, look.full_water_density, look.no_spray_density] =
+                [0.0, 0.0, 3.0]
+        }),
     ];
     for (name, change) in changes {
         for (i, near) in [false, true].into_iter().enumerate() {
             let (from, to, radius) = if near { (0.01, 1.2, 0.05) } else { (1.5, 6.0, 0.2) };
-            let mut look = SprayLook::default().with(|it| it.size = 1.5);
+            let mut look = SpraySettings::default().with(|it| it.size = 1.5);
             change(&mut look);
             let mut points = scenes::cloud(8, 90, from, to);
             // Just before and just behind what they begin at.
-            for limit in [scenes::NEAR, 2.0 * look.spread * radius / 0.656] {
+            for limit in [scenes::NEAR, 2.0 * look.scatter_radius * radius / 0.656] {
                 points.extend([0.97, 0.99, 1.01, 1.03].map(|d| [0.0, 0.0, d * limit.max(0.01)]));
             }
             let mut case = Sprayed::of(Shot::new(size, Lens::OffAxis, radius, &points), 20.0);
@@ -266,7 +272,7 @@ fn chunks_and_packets_of_spray_are_the_twins() {
     let size = extent(97, 61);
     let mut rig = Rig::new(&gpu, &spraying(size).with(|it| it.max_stride = 1 << 20));
     let mut case = Sprayed::new(size, Lens::OffAxis, 20.0);
-    (case.look().shutter, case.look().spread) = (0.2, 2.0);
+    (case.look().exposure, case.look().scatter_radius) = (0.2, 2.0);
     for (ids, packets) in [(true, false), (false, false), (false, true)] {
         case.ids = case.ids.filter(|_| ids);
         case.packets = packets;
@@ -309,7 +315,7 @@ fn spray_lies_over_water_and_foam() {
     {
         let config = spraying(size).with(|it| {
             it.composite = Some(shading);
-            it.foam = foam;
+            it.surface_foam = foam;
             it.sheets = 2;
         });
         let mut rig = Rig::lit(&gpu, &config, 1);
@@ -350,7 +356,9 @@ fn without_spray_nothing_changes() {
     // No setting of it counts where it is not drawn.
     let mut case = Sprayed::new(size, Lens::Standard, 10.0);
     let expected = case.draw(&mut plain);
-    *case.look() = SprayLook::SOURCE.with(|it| it.densities = [0.9, 0.95, 1.2]);
+    *case.look() = SpraySettings::SOURCE.with(|it| {
+        [it.all_spray_density, it.full_water_density, it.no_spray_density] = [0.9, 0.95, 1.2]
+    });
     let drawn = case.draw(&mut plain);
     compare::same_color("spray-off", &drawn.output, &expected.output);
     compare::same("spray-off-depth", &drawn.depth, &expected.depth);
@@ -447,7 +455,7 @@ fn tiles_with_spray_alone_are_drawn() {
         let densities = (0..points.len()).map(|i| if i < row.len() { 1000.0 } else { 1.0 });
         case.shot.densities = Some(densities.collect());
         case.shot.settings.water.smoothing_width = 40.0;
-        (case.look().size, case.look().spread, case.look().droplets) = (0.1, 0.1, 4);
+        (case.look().size, case.look().scatter_radius, case.look().droplets) = (0.1, 0.1, 4);
         (case.look().opacity, case.look().mist) = (0.0, 0.0);
         let none = case.draw(&mut rig);
         (case.look().opacity, case.look().mist) = (0.9, 0.05);
@@ -477,7 +485,7 @@ fn straight_at_the_eye_spray_is_round() {
         let at = [random.between(-0.7, 0.7) * d, random.between(-0.4, 0.4) * d, d];
         let mut case = Sprayed::of(Shot::new(size, Lens::Standard, 0.2, &[at]), 0.0);
         case.shot.densities = Some(vec![1.0]);
-        (case.look().size, case.look().droplets, case.look().spread) = (2.0, 1, 0.0);
+        (case.look().size, case.look().droplets, case.look().scatter_radius) = (2.0, 1, 0.0);
         let eye = case.shot.camera_view().inverse().w_axis.truncate();
         let away = eye - DVec3::from(case.shot.positions[0].map(f64::from));
         for speed in [0.0, 0.1, 1.0, 10.0] {
@@ -498,7 +506,7 @@ fn each_droplet_has_its_own_sun() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     for (lens, droplets) in [(Lens::Standard, 16), (Lens::OffAxis, 40), (Lens::Reversed, 1)] {
         let mut case = Sprayed::new(size, lens, 20.0);
-        (case.look().droplets, case.look().spread) = (droplets, 8.0);
+        (case.look().droplets, case.look().scatter_radius) = (droplets, 8.0);
         let middle = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
         let sun = Vec3::new(0.5, 0.8, 0.3).normalize();
         let light = Mat4::look_at_rh(middle + 20.0 * sun, middle, Vec3::Y);

@@ -5,16 +5,16 @@
 //! steps too: what is continuous changes less in a shorter step, what pops does not.
 
 use glam::{DVec2, Mat4, Vec3};
-use whitewater::water::FoamLook;
+use whitewater::water::SurfaceFoamSettings;
 use whitewater::{Camera, Config, Previous};
 
-use crate::foam::Foamy;
 use crate::motion::shown_foam;
 use crate::reference::Image;
-use crate::reference::foam::{noise_reach, noise_slope};
+use crate::reference::surface_foam::{noise_reach, noise_slope};
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
+use crate::surface_foam::Foamy;
 
 const WIDTH: u32 = 192;
 const HEIGHT: u32 = 120;
@@ -26,7 +26,7 @@ const MARGIN: isize = 8;
 /// A renderer of foam that moves.
 fn moving(thickness_level: u32) -> Config {
     config(extent(WIDTH, HEIGHT)).with(|it| {
-        it.foam = true;
+        it.surface_foam = true;
         it.motion = true;
         it.thickness_level = thickness_level;
         it.max_particles = 8192;
@@ -44,8 +44,8 @@ fn block(pixels: f32, layers: usize) -> Foamy {
     let [w, h] = [count[0], count[1]].map(|n| 0.5 * spacing * (n as f32 - 1.0));
     let points = scenes::block(3, spacing, count, [-w, -h, depth]);
     let mut shot = Shot::new(size, Lens::Standard, 0.656 * spacing, &points);
-    let look = FoamLook::of_spacing(shot.settings.water.spacing);
-    shot.settings.foam = look.with(|it| {
+    let look = SurfaceFoamSettings::of_spacing(shot.settings.water.spacing);
+    shot.settings.surface_foam = look.with(|it| {
         it.pattern = 0.0;
         it.noise = 1.0;
     });
@@ -293,7 +293,7 @@ fn thickness_changes_by_phases_and_noise_alone() {
     for (level, reseeded) in [(2, false), (0, false), (0, true)] {
         let mut rig = Rig::new(&gpu, &moving(level));
         let mut whole = block(8.0, 3);
-        whole.shot.settings.foam.noise = 0.0;
+        whole.shot.settings.surface_foam.noise = 0.0;
         let whole = whole.draw(&mut rig).foam.expect("foam").thickness;
         // The fastest phase.
         let (dt, slope) = (f64::from(DT), 1.0 / 0.25);
@@ -308,7 +308,7 @@ fn thickness_changes_by_phases_and_noise_alone() {
                 case.ids = Some((n * count..(n + 1) * count).collect());
             }
             let spacing = f64::from(case.shot.settings.water.spacing);
-            let look = case.shot.settings.foam;
+            let look = case.shot.settings.surface_foam;
             let (g, rate) = (f64::from(look.noise), f64::from(look.noise_rate));
             let share =
                 dt * slope * (1.0 + g * noise_reach()) + foam * g * noise_slope() * rate * dt;
@@ -345,7 +345,7 @@ fn the_pattern_goes_with_the_foam() {
     let share = |rig: &mut Rig<'_>, pattern: f32, left: bool| {
         let [before, now] = [0, 6].map(|n| {
             let mut case = take.frame(n);
-            let look = &mut case.shot.settings.foam;
+            let look = &mut case.shot.settings.surface_foam;
             (look.pattern, look.pattern_period, look.noise) = (pattern, 1000.0, 0.0);
             // A tenth of a period from where both phases are as strong.
             look.time = 350.0 + if left { 0.0 } else { f64::from(n as f32 * DT) };
@@ -387,8 +387,9 @@ fn the_pattern_changes_by_its_phases_alone() {
         let (mut moved, mut most) = (0, 0.0_f64);
         for n in 0..=12 {
             let mut case = block(8.0, 3);
-            (case.shot.settings.foam.pattern, case.shot.settings.foam.noise) = (1.0, 0.0);
-            case.shot.settings.foam.time = 0.975 + f64::from(n) * step;
+            (case.shot.settings.surface_foam.pattern, case.shot.settings.surface_foam.noise) =
+                (1.0, 0.0);
+            case.shot.settings.surface_foam.time = 0.975 + f64::from(n) * step;
             let slack = 40.0 * f64::from(case.shot.settings.water.spacing) / 2048.0;
             let now = case.draw(&mut rig).foam.expect("foam").thickness;
             for (now, before) in now.data.iter().zip(before.iter().flat_map(|b| &b.data)) {
@@ -517,7 +518,7 @@ fn landing(t: f32, layers: usize) -> Foamy {
 fn passing(t: f32) -> Foamy {
     let mut case = block(8.0, 1);
     let spacing = case.shot.settings.water.spacing;
-    case.shot.settings.foam.front_depth = 4.0 * spacing;
+    case.shot.settings.surface_foam.front_depth = 4.0 * spacing;
     case.amounts.fill([0.3, 0.0]);
     let back = scenes::block(9, spacing, [20, 14, 3], [-9.5 * spacing, -6.5 * spacing, 4.0]);
     let behind = (2.0 + 5.0 * t) * spacing;

@@ -1,9 +1,9 @@
 //! Another direction than +y is up: a world that is turned, with all that is said of it, gives the same picture.
 
 use glam::{Mat4, Quat, Vec3};
+use whitewater::WhitewaterConfig;
 use whitewater::bubbles::BubbleConfig;
-use whitewater::foam::DiffuseConfig;
-use whitewater::headless::{Bubble, Diffuse};
+use whitewater::headless::{Bubble, Whitewater};
 use whitewater::shore::ShoreConfig;
 use whitewater::{Config, EnvironmentSource, Error, Region, Settings, Shore, Sky, Slot};
 
@@ -19,11 +19,11 @@ struct World {
     sky: Sky,
     velocities: Vec<[f32; 3]>,
     foam: Vec<[f32; 2]>,
-    diffuse: Vec<[f32; 3]>,
+    whitewater: Vec<[f32; 3]>,
 }
 
 impl World {
-    /// Water with foam and spray in it, diffuse foam and bubbles on it, before a shore, under a low sun.
+    /// Water with foam and spray in it, whitewater foam and bubbles on it, before a shore, under a low sun.
     fn new() -> Self {
         let size = extent(96, 64);
         let mut points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.2, 4.0]);
@@ -39,7 +39,7 @@ impl World {
         let around: Vec<_> = (0..60).map(|_| [0; 3].map(|_| random.between(-0.5, 0.5))).collect();
         let front: Vec<_> =
             around.iter().map(|[x, y, z]| [2.0 * x - 0.5, 1.4 * y, 3.6 + z]).collect();
-        let diffuse = scenes::world(&shot.camera, &front);
+        let whitewater = scenes::world(&shot.camera, &front);
         let balls = scenes::world(&shot.camera, &[[0.8, 0.6, 4.0], [1.2, 0.2, 4.4]]);
         shot.blobs = (1..)
             .zip(balls)
@@ -55,13 +55,17 @@ impl World {
         let settings = &mut shot.settings;
         settings.light.direction = Vec3::new(0.5, 0.4, 0.6).normalize().to_array();
         // What random places of the world make is not turned with it.
-        (settings.foam.pattern, settings.foam.noise, settings.foam.relief) = (0.0, 0.0, 0.0);
-        (settings.spray.droplets, settings.spray.spread) = (1, 0.0);
+        (
+            settings.surface_foam.pattern,
+            settings.surface_foam.noise,
+            settings.surface_foam.normal_strength,
+        ) = (0.0, 0.0, 0.0);
+        (settings.spray.droplets, settings.spray.scatter_radius) = (1, 0.0);
         settings.shore.contact.particle_opacity = 1.0;
         let [x, y, z] = shot.positions[0];
         shot.sun.region = Some(Region { center: [x, y, z], radius: 4.0 });
         let sky = Sky::default().with(|it| it.sun = shot.settings.light.direction);
-        Self { shot, sky, velocities, foam, diffuse }
+        Self { shot, sky, velocities, foam, whitewater }
     }
 
     /// What was y is z: exact, but for the order of sums.
@@ -93,7 +97,7 @@ impl World {
             it.up = [0.0, 0.0, 0.5];
         });
         other.velocities = all(&self.velocities);
-        other.diffuse = all(&self.diffuse);
+        other.whitewater = all(&self.whitewater);
         other
     }
 
@@ -106,14 +110,15 @@ impl World {
         let foam = rig.stub.data(bytemuck::cast_slice(&self.foam), usage);
         let particles = cloud.particles().with(|it| {
             it.velocities = Some(stream(&velocities, 0, 12));
-            it.foam = config.foam.then(|| stream(&foam, 0, 8));
+            it.surface_foam = config.surface_foam.then(|| stream(&foam, 0, 8));
         });
-        let diffuse = rig.diffuse(&Diffuse { positions: &self.diffuse, ..Diffuse::default() });
-        let some = config.diffuse.is_some().then(|| diffuse.particles());
+        let whitewater =
+            rig.whitewater(&Whitewater { positions: &self.whitewater, ..Whitewater::default() });
+        let some = config.whitewater.is_some().then(|| whitewater.particles());
         let mut shot = self.shot.clone();
         shot.shore = shot.shore.filter(|_| config.shore.is_some());
         shot.sun.region = shot.sun.region.filter(|_| config.cast.is_some());
-        rig.draw_diffuse(&shot, &particles, some).output
+        rig.draw_whitewater(&shot, &particles, some).output
     }
 }
 
@@ -130,9 +135,9 @@ fn apart(a: &Image<[f32; 4]>, b: &Image<[f32; 4]>) -> f64 {
 fn a_turned_world_looks_the_same() {
     let gpu = Gpu::shared();
     let base = config(extent(96, 64));
-    let diffuse = Some(DiffuseConfig::new(64));
+    let whitewater = Some(WhitewaterConfig::new(64));
     let bubbles = Some(BubbleConfig::new(8).with(|it| {
-        it.templates = 1;
+        it.variants = 1;
         it.bubbles = 12;
     }));
     let (world, z_up) = (World::new(), World::new().z_up());
@@ -142,9 +147,9 @@ fn a_turned_world_looks_the_same() {
     let mut wrong = Vec::new();
     for (name, config) in [
         ("water", base),
-        ("foam", base.with(|it| it.foam = true)),
+        ("foam", base.with(|it| it.surface_foam = true)),
         ("spray", base.with(|it| it.spray = true)),
-        ("diffuse", base.with(|it| it.diffuse = diffuse)),
+        ("whitewater", base.with(|it| it.whitewater = whitewater)),
         ("bubbles", base.with(|it| it.bubbles = bubbles)),
         ("shore", base.with(|it| it.shore = Some(ShoreConfig::default()))),
         ("cast", base.with(|it| it.cast = Some(64))),

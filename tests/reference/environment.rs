@@ -155,7 +155,7 @@ fn transmittance(depth: Rounded<DVec2>) -> Rounded<DVec3> {
 /// The radiance of the sky under a sun of unit irradiance, seen 50 m above the sea. A ray's light is
 /// what one scattering turns from the sun into it; rays lower than 0.003 are that one. What scatters
 /// more often adds 0.072 h / (h + 0.12) of the sun's height h where the air without its aerosol is thick. Under the horizon
-/// the ground, a diffuse 0.22 in the light of sun and sky, fades in down to 0.12.
+/// the ground, a whitewater 0.22 in the light of sun and sky, fades in down to 0.12.
 pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
     let eye = DVec3::Y * (EARTH + 0.05);
     let d = direction.with_y(direction.y.max(0.003)).normalize();

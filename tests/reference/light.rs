@@ -7,7 +7,7 @@
 //! particle of a texel, a multiple of a step, whether two depths are of one surface. A decision
 //! that rounding may turn opens the bounds by what it decides, and by nothing else.
 
-mod diffuse;
+mod whitewater;
 
 use super::thickness::{J, kernel};
 use super::whole_steps;
@@ -57,7 +57,7 @@ pub struct Light {
     /// Lost per metre of water and of foam.
     pub extinction: [f64; 3],
     pub foam_extinction: f64,
-    /// Of diffuse particles: half and exponent of what they cover.
+    /// Of whitewater particles: half and exponent of what they cover.
     pub intensity: [f64; 2],
 }
 
@@ -67,8 +67,8 @@ pub struct Maps<'a> {
     pub front: &'a Image<f32>,
     pub thickness: &'a Image<[f32; 4]>,
     pub caustics: &'a Image<f32>,
-    /// Diffuse particles, where they cast.
-    pub diffuse: Option<&'a Image<[f32; 4]>>,
+    /// Whitewater particles, where they cast.
+    pub whitewater: Option<&'a Image<[f32; 4]>>,
 }
 
 /// What of a particle is drawn.
@@ -436,7 +436,7 @@ impl Light {
             let lost = exact(self.foam_extinction) * before(y, w, half);
             let water = before(x, z, half);
             let kept = self.extinction.map(|k| (-(self::off(k, 1.0) * water) - lost).exp());
-            let covered = maps.diffuse.map(|map| self.covered(map.clamped(i, j), d));
+            let covered = maps.whitewater.map(|map| self.covered(map.clamped(i, j), d));
             let covered = covered.unwrap_or(exact(0.0));
             let below = before(x, z, exact(0.0)) / if x.v > 1e-9 { x } else { exact(1e-9) };
             let caustics = exact(f64::from(maps.caustics.clamped(i, j)));
@@ -466,7 +466,7 @@ impl Light {
         let kept = [0, 1, 2].map(mean);
         // Alone what is lost is a mean.
         let left = one - mean(5);
-        let kept = if maps.diffuse.is_some() { kept.map(|kept| kept * left) } else { kept };
+        let kept = if maps.whitewater.is_some() { kept.map(|kept| kept * left) } else { kept };
         // So near to the border it may be outside as well.
         let open = |v: Rounded| Rounded { e: v.e + (1.0 - v.v).abs(), ..v };
         if inside(-moved) { (kept, gain) } else { (kept.map(open), open(gain)) }

@@ -16,9 +16,7 @@ pub mod composite;
 pub mod convolution;
 pub mod cull;
 pub mod depth;
-pub mod diffuse;
 pub mod environment;
-pub mod foam;
 pub mod generate;
 pub mod levels;
 pub mod light;
@@ -31,7 +29,9 @@ pub mod shore;
 pub mod smooth;
 pub mod spray;
 pub mod surface;
+pub mod surface_foam;
 pub mod thickness;
+pub mod whitewater;
 pub mod whole_steps;
 
 /// The depth of a pixel without a surface.

@@ -11,8 +11,8 @@
 //! Every number comes with a bound of what single precision may make of it.
 
 use super::cull::frustum;
-use super::foam::{self, LooseEllipse, Off, Sprite, pixels, ray_off};
 use super::levels::Smoothed;
+use super::surface_foam::{self, LooseEllipse, Off, Sprite, pixels, ray_off};
 use super::thickness::kernel;
 use super::{Image, View, is_surface, smoothstep};
 use crate::support::rounded::{Rounded, exact, off};
@@ -150,9 +150,9 @@ fn sprites_of(
     }
     if foam * body > 0.0 {
         let sprite = Sprite { center, foam, velocity, age: 0.0, id: 0, sun: [1.0; 2] };
-        let look = foam::Settings {
+        let look = surface_foam::Settings {
             motion_threshold: settings.motion_threshold,
-            ..foam::Settings::new(settings.spacing)
+            ..surface_foam::Settings::new(settings.spacing)
         };
         let mut ellipses = LooseEllipse::all(&sprite, view, &look, 2.0);
         for ellipse in &mut ellipses {

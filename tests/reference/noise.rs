@@ -13,7 +13,7 @@
 //! The surface P(x, y) with N h on it has the tangents `P_x + h N_x n` and `P_y + h N_y n`, where n and
 //! what of it turns with the place are left out.
 
-use super::foam::{self, Off, origin};
+use super::surface_foam::{self, Off, origin};
 use super::{Image, View, is_surface};
 use crate::support::rounded::{Rounded, exact, off};
 use crate::support::tolerance::{Between, U};
@@ -97,8 +97,8 @@ fn addend(
     let (length, e) = (o[0].v.hypot(o[1].v), o[0].e.hypot(o[1].e));
     let from = (e + 19.0 * U * length) * scale.v + length * (scale.e + U * scale.v);
     let moved = 3.0_f64.sqrt() * from + U * at.abs().element_sum();
-    let e = foam::noise_slope() * moved + foam::noise_rounding();
-    Some(kernel * fade * Rounded { v: foam::noise(at), e })
+    let e = surface_foam::noise_slope() * moved + surface_foam::noise_rounding();
+    Some(kernel * fade * Rounded { v: surface_foam::noise(at), e })
 }
 
 /// The noise on the water, `depth` its surface at the view's resolution, in an image of which a texel
@@ -130,7 +130,7 @@ pub fn noise(
                 continue;
             }
             // As long a sum of products as a pixel's.
-            let terms = foam::ray_off(view, 0, 0).e;
+            let terms = surface_foam::ray_off(view, 0, 0).e;
             let v = view.ray_at(DVec2::new(x as f64 + 0.5, y as f64 + 0.5) * edge);
             let ray = Off { v, e: terms };
             let found = addend(settings, centre, particle.id, ray, surface, view);

@@ -11,7 +11,7 @@
 //! [`Rounded`], a vector [`Off`], roundings of an error are left out.
 
 use super::classify;
-use super::foam::{LooseEllipse, Off, pixels, ray_off, scene_depth};
+use super::surface_foam::{LooseEllipse, Off, pixels, ray_off, scene_depth};
 use super::thickness::kernel;
 use super::{Image, View, smoothstep, whole_steps};
 use crate::support::rounded::{self, Rounded, exact, off};

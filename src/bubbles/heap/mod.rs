@@ -51,7 +51,7 @@ struct Push {
     blobs: u32,
     buckets: u32,
     cells: f32,
-    halvings: u32,
+    max_splits: u32,
 }
 shader::assert_layout!(
     shader::BUBBLES_HEAP_MOVE_COMP,
@@ -67,7 +67,7 @@ shader::assert_layout!(
         blobs,
         buckets,
         cells,
-        halvings
+        max_splits
     }
 );
 
@@ -146,7 +146,7 @@ pub struct Heap {
 
 impl Heap {
     /// Makes pipelines and memory: 140 to 144 bytes per slot, 4 per point of the field, and for each frame in
-    /// flight 48 per solid. There are 2^[`halvings`](HeapConfig::halvings) slots per blob. `field`: solids
+    /// flight 48 per solid. There are 2^[`max_splits`](HeapConfig::max_splits) slots per blob. `field`: solids
     /// besides those of the steps.
     ///
     /// # Errors
@@ -160,14 +160,14 @@ impl Heap {
             let why = format!("expected 1 to {}, found {}", 1 << 20, config.max_blobs);
             return Err(Error::bad("HeapConfig.max_blobs", why));
         }
-        if config.halvings > 6 || config.max_blobs << config.halvings > 1 << 20 {
+        if config.max_splits > 6 || config.max_blobs << config.max_splits > 1 << 20 {
             let why = format!(
                 "{} of {} blobs: 0 to 6, and not more than {} places expected",
-                config.halvings,
+                config.max_splits,
                 config.max_blobs,
                 1 << 20
             );
-            return Err(Error::bad("HeapConfig.halvings", why));
+            return Err(Error::bad("HeapConfig.max_splits", why));
         }
         if config.max_solids > 65_536 {
             let why = format!("expected 0 to 65536, found {}", config.max_solids);
@@ -193,7 +193,7 @@ impl Heap {
         config: &HeapConfig,
         field: Option<&DistanceField>,
     ) -> Result<Self, Error> {
-        let places = config.max_blobs << config.halvings;
+        let places = config.max_blobs << config.max_splits;
         let most = u64::from(places);
         let buckets = places.next_power_of_two();
         let sized = |name, bytes: u64| {
@@ -315,7 +315,7 @@ impl Heap {
         let hosts_own = [(5, balls), (6, turns), (7, ids), (8, drifts.resource)];
         let resources = [&b.blobs()[..], &hosts_own].concat();
         own.setting.bind(gpu, cmd, &self.pipelines.set, &resources)?;
-        let all = count << self.config.halvings;
+        let all = count << self.config.max_splits;
         let [drift_word, drift_stride] = [drifts.word, drifts.stride];
         let push = SetPush { places, drift_word, drift_stride, blobs: count, all };
         self.pipelines.set.push(gpu, cmd, &push);
@@ -411,15 +411,15 @@ impl Heap {
         Push {
             gravity: [x, y, z, s.drag],
             pair: [s.rest, s.reach, s.stiffness, s.cohesion],
-            damping: [s.damping[0], s.damping[1], s.solid_damping, s.friction],
-            solid: [s.contact, s.solidity, step.dt / s.substeps as f32, s.parting],
-            water: [s.water.unwrap_or(-1.0e30), s.density, s.support, s.alone],
+            damping: [s.normal_damping, s.tangential_damping, s.solid_damping, s.friction],
+            solid: [s.contact, s.solidity, step.dt / s.substeps as f32, s.split_duration],
+            water: [s.water.unwrap_or(-1.0e30), s.density, s.split_support, s.split_delay],
             field,
             field_size: [points[0], points[1], points[2], step.solids.len() as u32],
             blobs: self.count(),
             buckets: self.buckets,
             cells,
-            halvings: self.config.halvings,
+            max_splits: self.config.max_splits,
         }
     }
 
@@ -455,11 +455,11 @@ impl Heap {
     /// Maximum number of blobs, including the halves of split ones. `Config::bubbles` has to allow as many.
     /// Unused slots are all zeros.
     pub fn count(&self) -> u32 {
-        self.count << self.config.halvings
+        self.count << self.config.max_splits
     }
 
     fn places(&self) -> u32 {
-        self.config.max_blobs << self.config.halvings
+        self.config.max_blobs << self.config.max_splits
     }
 
     /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).

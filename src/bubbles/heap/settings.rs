@@ -29,9 +29,10 @@ pub struct HeapSettings {
     pub stiffness: f32,
     /// Maximum attraction, m/s², [0, 1000], default 12.
     pub cohesion: f32,
-    /// Damping of the relative velocity of two touching blobs, along and across their axis, 1/s, [0, 100],
-    /// default 12 and 6.
-    pub damping: [f32; 2],
+    /// Damping of the relative velocity of two touching blobs along their axis, 1/s, [0, 100], default 12.
+    pub normal_damping: f32,
+    /// Damping of their relative velocity across that axis, 1/s, [0, 100], default 6.
+    pub tangential_damping: f32,
     /// Distance at which solids begin to repel, in radii, (0, 1], default 0.85: foam adheres to what it lies
     /// on.
     pub contact: f32,
@@ -46,12 +47,12 @@ pub struct HeapSettings {
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
     /// A blob splits in two if the blobs that it touches have less than this many times its volume, [0, 100],
-    /// default 2.5. A torn-off blob becomes a clump of four and more. With [`HeapConfig::halvings`].
-    pub support: f32,
+    /// default 2.5. A torn-off blob becomes a clump of four and more. With [`HeapConfig::max_splits`].
+    pub split_support: f32,
     /// Time that a blob must be isolated before it splits, seconds, [0, 10], default 0.1.
-    pub alone: f32,
+    pub split_delay: f32,
     /// Duration of a split, seconds, [0.01, 10], default 0.5: one half shrinks as the other grows out of it.
-    pub parting: f32,
+    pub split_duration: f32,
     /// Substeps per step, 1 to 64, default 4. Forces are stable for substeps of up to 1/200 s.
     pub substeps: u32,
 }
@@ -65,16 +66,17 @@ impl Default for HeapSettings {
             reach: 0.95,
             stiffness: 4000.0,
             cohesion: 12.0,
-            damping: [12.0, 6.0],
+            normal_damping: 12.0,
+            tangential_damping: 6.0,
             contact: 0.85,
             solidity: 20_000.0,
             solid_damping: 60.0,
             friction: 0.35,
             water: None,
             density: 0.2,
-            support: 2.5,
-            alone: 0.1,
-            parting: 0.5,
+            split_support: 2.5,
+            split_delay: 0.1,
+            split_duration: 0.5,
             substeps: 4,
         }
     }
@@ -96,17 +98,17 @@ impl HeapSettings {
         range("HeapSettings.reach", self.reach, self.rest + 1.0e-3, 1.2)?;
         range("HeapSettings.stiffness", self.stiffness, 1.0e-3, 1.0e5)?;
         range("HeapSettings.cohesion", self.cohesion, 0.0, 1000.0)?;
-        range("HeapSettings.damping", self.damping[0], 0.0, 100.0)?;
-        range("HeapSettings.damping", self.damping[1], 0.0, 100.0)?;
+        range("HeapSettings.normal_damping", self.normal_damping, 0.0, 100.0)?;
+        range("HeapSettings.tangential_damping", self.tangential_damping, 0.0, 100.0)?;
         range("HeapSettings.contact", self.contact, 1.0e-3, 1.0)?;
         range("HeapSettings.solidity", self.solidity, 1.0e-3, 1.0e5)?;
         range("HeapSettings.solid_damping", self.solid_damping, 0.0, 200.0)?;
         range("HeapSettings.friction", self.friction, 0.0, 10.0)?;
         range("HeapSettings.water", self.water.unwrap_or(0.0), -1.0e9, 1.0e9)?;
         range("HeapSettings.density", self.density, 0.01, 10.0)?;
-        range("HeapSettings.support", self.support, 0.0, 100.0)?;
-        range("HeapSettings.alone", self.alone, 0.0, 10.0)?;
-        range("HeapSettings.parting", self.parting, 0.01, 10.0)?;
+        range("HeapSettings.split_support", self.split_support, 0.0, 100.0)?;
+        range("HeapSettings.split_delay", self.split_delay, 0.0, 10.0)?;
+        range("HeapSettings.split_duration", self.split_duration, 0.01, 10.0)?;
         if !(1..=MOST_SUBSTEPS).contains(&self.substeps) {
             let why = format!("expected 1 to {MOST_SUBSTEPS}, found {}", self.substeps);
             return Err(Error::bad("HeapSettings.substeps", why));
@@ -130,9 +132,9 @@ pub enum Solid {
         /// Centre.
         center: [f32; 3],
         /// Half-extents.
-        half: [f32; 3],
+        half_extents: [f32; 3],
         /// Orientation: a unit quaternion, the real part last.
-        turn: [f32; 4],
+        rotation: [f32; 4],
     },
 }
 
@@ -151,7 +153,7 @@ impl Solid {
         let unit = |all: &[f32]| (all.iter().map(|v| v * v).sum::<f32>() - 1.0).abs() < 1.0e-3;
         let good = match self {
             Self::Plane { normal, distance } => unit(normal) && distance.is_finite(),
-            Self::Box { center, half, turn } => {
+            Self::Box { center, half_extents: half, rotation: turn } => {
                 whole(center) && whole(half) && half.iter().all(|v| *v >= 0.0) && unit(turn)
             }
         };
@@ -169,7 +171,7 @@ impl Solid {
                 size: [0.0, 0.0, 0.0, distance],
                 turn: [0.0, 0.0, 0.0, 1.0],
             },
-            Self::Box { center: [x, y, z], half: [a, b, c], turn } => {
+            Self::Box { center: [x, y, z], half_extents: [a, b, c], rotation: turn } => {
                 GpuSolid { place: [x, y, z, 1.0], size: [a, b, c, 0.0], turn }
             }
         }
@@ -184,15 +186,15 @@ pub struct HeapConfig {
     pub max_blobs: u32,
     /// Maximum number of solids per step, default 64.
     pub max_solids: u32,
-    /// Maximum number of successive splits of a blob ([`HeapSettings::support`]), 0 to 6, default 0. The heap
-    /// has 2^halvings times `max_blobs` slots, at most 2^20.
-    pub halvings: u32,
+    /// Maximum number of successive splits of a blob ([`HeapSettings::split_support`]), 0 to 6, default 0. The heap
+    /// has 2^max_splits times `max_blobs` slots, at most 2^20.
+    pub max_splits: u32,
 }
 
 impl HeapConfig {
     /// The defaults for a maximum number of blobs.
     pub fn new(max_blobs: u32) -> Self {
-        Self { max_blobs, max_solids: 64, halvings: 0 }
+        Self { max_blobs, max_solids: 64, max_splits: 0 }
     }
 }
 

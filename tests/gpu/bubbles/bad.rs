@@ -1,7 +1,7 @@
 //! Bad blobs, looks and configurations: errors that name the field.
 
 use ash::vk;
-use whitewater::bubbles::{BubbleConfig, BubbleLook, Film};
+use whitewater::bubbles::{BubbleConfig, BubbleSettings, Film};
 use whitewater::{Blobs, Count, Error, Frame};
 
 use crate::support::device::Gpu;
@@ -10,7 +10,7 @@ use crate::support::scenes::Lens;
 use crate::support::spy;
 
 type Spoil = (&'static str, fn(&mut Blobs));
-type Look = (&'static str, fn(&mut BubbleLook));
+type Look = (&'static str, fn(&mut BubbleSettings));
 
 #[test]
 fn bad_blobs_are_errors_before_any_command() {
@@ -19,7 +19,7 @@ fn bad_blobs_are_errors_before_any_command() {
     let gpu = gpu;
     let size = extent(32, 16);
     let bubbles = BubbleConfig::new(16).with(|it| {
-        it.templates = 1;
+        it.variants = 1;
         it.bubbles = 8;
     });
     let with = config(size).with(|it| it.bubbles = Some(bubbles));
@@ -49,7 +49,9 @@ fn bad_blobs_are_errors_before_any_command() {
         ("Settings.bubbles.film", |l| l.film = f32::NAN),
         ("Settings.bubbles.variation", |l| l.variation = 1.5),
         ("Settings.bubbles.drainage", |l| l.drainage = -0.1),
-        ("Settings.bubbles.core", |l| l.core = [0.9, 0.9]),
+        ("Settings.[bubbles.core_opaque_radius, bubbles.core_outer_radius]", |l| {
+            [l.core_opaque_radius, l.core_outer_radius] = [0.9, 0.9]
+        }),
         ("Settings.bubbles.albedo", |l| l.albedo[1] = 2.0),
         ("Settings.bubbles.pattern", |l| l.pattern = -1.0),
         ("Settings.bubbles.reflection", |l| l.reflection = f32::INFINITY),
@@ -111,12 +113,12 @@ fn bad_configurations_are_errors() {
     for (field, bad) in [
         ("Config.bubbles.max_blobs", good.with(|it| it.max_blobs = 0)),
         ("Config.bubbles.max_blobs", good.with(|it| it.max_blobs = (1 << 20) + 1)),
-        ("Config.bubbles.templates", good.with(|it| it.templates = 0)),
-        ("Config.bubbles.templates", good.with(|it| it.templates = 33)),
+        ("Config.bubbles.variants", good.with(|it| it.variants = 0)),
+        ("Config.bubbles.variants", good.with(|it| it.variants = 33)),
         ("Config.bubbles.bubbles", good.with(|it| it.bubbles = 7)),
         ("Config.bubbles.bubbles", good.with(|it| it.bubbles = 257)),
-        ("Config.bubbles.map", good.with(|it| it.map = 4)),
-        ("Config.bubbles.map", good.with(|it| it.map = 30)),
+        ("Config.bubbles.map_size", good.with(|it| it.map_size = 4)),
+        ("Config.bubbles.map_size", good.with(|it| it.map_size = 30)),
         ("Config.bubbles.steps", good.with(|it| it.steps = 0)),
         ("Config.bubbles.layers", good.with(|it| it.layers = 9)),
         ("Config.bubbles.film.index", good.with(|it| it.film = film(0.5))),

@@ -19,7 +19,7 @@ fn a_blob_casts_the_shadow_of_its_core() {
     let gpu = Gpu::shared();
     let size = extent(128, 96);
     let bubbles = BubbleConfig::new(4).with(|it| {
-        it.templates = 1;
+        it.variants = 1;
         it.bubbles = 32;
     });
     let edge = 256;

@@ -59,9 +59,9 @@ fn those_left_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(96, 80);
     let bubbles = BubbleConfig::new(256).with(|it| {
-        it.templates = 2;
+        it.variants = 2;
         it.bubbles = 28;
-        it.map = 64;
+        it.map_size = 64;
     });
     let config = config(size).with(|it| it.bubbles = Some(bubbles));
     let mut rig = Rig::lit(&gpu, &config, 1);
@@ -69,7 +69,7 @@ fn those_left_are_the_twins() {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.blobs = cloud(&shot, 0.06);
         let view = shot.view(size);
-        shot.settings.bubbles.merge = merge;
+        shot.settings.bubbles.min_pixels = merge;
         let found = rig.draw(&shot).soap.expect("bubble foam");
         let (mut gone, mut grown) = (0, 0);
         let all = shot.blobs.len();
@@ -83,7 +83,7 @@ fn those_left_are_the_twins() {
             scale > 0.0
         });
         assert!(gone > 40 && grown > 40, "{gone} gone and {grown} grown of {all}");
-        shot.settings.bubbles.merge = 0.0;
+        shot.settings.bubbles.min_pixels = 0.0;
         let expected = rig.draw(&shot).soap.expect("bubble foam");
         let same = |a: f32, b: f32| {
             is_surface(a.into()) == is_surface(b.into())
@@ -128,9 +128,9 @@ fn far_foam_is_even_and_as_bright_as_near_foam() {
     let gpu = Gpu::shared();
     let size = extent(64, 48);
     let bubbles = BubbleConfig::new(65_536).with(|it| {
-        it.templates = 4;
+        it.variants = 4;
         it.bubbles = 64;
-        it.map = 64;
+        it.map_size = 64;
     });
     let config = config(size).with(|it| it.bubbles = Some(bubbles));
     let mut rig = Rig::with_slots(&gpu, &config, 1);
@@ -141,7 +141,7 @@ fn far_foam_is_even_and_as_bright_as_near_foam() {
     let texel = shot.view(size).c_x() as f32;
     let mut shown = |pixels: f32, merge: f32| {
         shot.blobs = wall(&shot, 3.0 * texel * pixels);
-        shot.settings.bubbles.merge = merge;
+        shot.settings.bubbles.min_pixels = merge;
         let soap = rig.draw(&shot).soap.expect("bubble foam");
         let inner: Vec<[f32; 4]> =
             soap.color.data.iter().copied().filter(|c| c[3] > 0.999).collect();

@@ -66,7 +66,7 @@ fn tables_are_the_twins() {
     {
         let film = Film { index: INDEX as f32, fresnel, spectrum };
         let bubbles = BubbleConfig::new(1).with(|it| {
-            it.templates = 1;
+            it.variants = 1;
             it.bubbles = 8;
             it.film = film;
         });

@@ -31,8 +31,8 @@ impl Running {
     }
 
     /// Whose blobs may split so often.
-    pub fn halving(gpu: &Gpu, blobs: &[Bubble], halvings: u32) -> Self {
-        Self::stepped(gpu, (blobs, &[]), None, halvings, None)
+    pub fn halving(gpu: &Gpu, blobs: &[Bubble], max_splits: u32) -> Self {
+        Self::stepped(gpu, (blobs, &[]), None, max_splits, None)
     }
 
     /// In the same command buffer a step is recorded too.
@@ -40,10 +40,11 @@ impl Running {
         gpu: &Gpu,
         (blobs, velocities): (&[Bubble], &[[f32; 3]]),
         field: Option<&DistanceField>,
-        halvings: u32,
+        max_splits: u32,
         step: Option<&HeapStep<'_>>,
     ) -> Self {
-        let config = HeapConfig::new(blobs.len().max(1) as u32).with(|it| it.halvings = halvings);
+        let config =
+            HeapConfig::new(blobs.len().max(1) as u32).with(|it| it.max_splits = max_splits);
         let stub = Stub::new(gpu, 1);
         let mut heap = Heap::new(&gpu.context(1), &config, field).expect("a heap");
         let mut bytes = bytemuck::cast_slice(blobs).to_vec();
@@ -389,9 +390,9 @@ fn hostile_bits_in_a_heap() {
     spoil(&mut words, size_of::<Bubble>() / 4, &mut random);
     spoil(&mut speeds, 3, &mut random);
     let blobs: Vec<Bubble> = bytemuck::cast_slice(&words).to_vec();
-    for halvings in [0, 2] {
+    for max_splits in [0, 2] {
         let streams = (&blobs[..], bytemuck::cast_slice(&speeds));
-        let mut running = Running::stepped(&gpu, streams, None, halvings, None);
+        let mut running = Running::stepped(&gpu, streams, None, max_splits, None);
         for _ in 0..5 {
             running.step(1.0 / 60.0, &HeapSettings::default(), &[FLOOR]).expect("a step");
         }

@@ -15,7 +15,7 @@ pub const NONE: u32 = 0xffff_ffff;
 
 /// The templates of a configuration.
 pub fn templates(config: &BubbleConfig) -> Vec<Vec<[f32; 4]>> {
-    (0..config.templates).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles).bubbles).collect()
+    (0..config.variants).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles).bubbles).collect()
 }
 
 /// A turned blob at a place before the camera of tests.
@@ -50,7 +50,7 @@ fn seen(shot: &Shot, bubbles: &BubbleConfig) -> Image<Vec<(f64, usize, usize)>> 
             .iter()
             .enumerate()
             .filter_map(|(i, blob)| {
-                let own = &templates[(pcg(blob.id) % bubbles.templates) as usize];
+                let own = &templates[(pcg(blob.id) % bubbles.variants) as usize];
                 let (origin, direction) = into_blob(blob.ball, blob.turn, eye, *along);
                 let scale = f64::from(blob.ball[3]) / along.length();
                 let (t, bubble) = first(own, origin, direction, near / scale)?;
@@ -99,10 +99,10 @@ fn impostors_find_the_first_bubble() {
     let size = extent(160, 160);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     let mut random = Random(9);
-    let standard = BubbleConfig::new(1).with(|it| it.templates = 4);
+    let standard = BubbleConfig::new(1).with(|it| it.variants = 4);
     let distance = standard.with(|it| {
         it.impostor = Impostor::Distance;
-        it.map = Impostor::Distance.map();
+        it.map_size = Impostor::Distance.map_size();
         it.steps = Impostor::Distance.steps();
     });
     let few = distance.with(|it| it.bubbles = 64);
@@ -150,7 +150,7 @@ fn layers_are_the_nearest_blobs_in_order() {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.blobs = heap(&shot, 60);
         let bubbles = BubbleConfig::new(64).with(|it| {
-            it.templates = 3;
+            it.variants = 3;
             it.bubbles = 64;
             it.layers = 4;
         });
@@ -178,7 +178,7 @@ fn the_order_of_blobs_is_no_matter() {
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     shot.blobs = heap(&shot, 60);
     let bubbles = BubbleConfig::new(64).with(|it| {
-        it.templates = 3;
+        it.variants = 3;
         it.bubbles = 64;
     });
     let one = draw(&gpu, &shot, bubbles);
@@ -197,7 +197,7 @@ fn what_is_no_blob_is_not_drawn_and_none_changes_nothing() {
     let size = extent(64, 48);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     let bubbles = BubbleConfig::new(16).with(|it| {
-        it.templates = 2;
+        it.variants = 2;
         it.bubbles = 64;
     });
     let config = config(size).with(|it| it.bubbles = Some(bubbles));
@@ -254,7 +254,7 @@ fn billboards_find_what_the_tiles_do() {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         shot.blobs = heap(&shot, 60);
         let tiles = BubbleConfig::new(64).with(|it| {
-            it.templates = 3;
+            it.variants = 3;
             it.bubbles = 64;
             it.layers = layers;
         });
@@ -294,7 +294,7 @@ fn blobs_at_one_depth_are_all_layers() {
     let behind = blob(&shot, [0.0, 0.0, 7.0], 1.0, 0, &mut Random(6));
     shot.blobs = vec![one, behind, one, Bubble { id: 9, ..one }];
     let tiles = BubbleConfig::new(8).with(|it| {
-        it.templates = 1;
+        it.variants = 1;
         it.bubbles = 64;
         it.layers = 5;
     });

@@ -28,9 +28,9 @@ fn same(name: &str, rig: &mut Rig<'_>, fresh: &mut Rig<'_>, shot: &Shot) {
 fn a_resize_gives_what_a_new_renderer_gives() {
     let gpu = Gpu::shared();
     let bubbles = BubbleConfig::new(64).with(|it| {
-        it.templates = 2;
+        it.variants = 2;
         it.bubbles = 32;
-        it.map = 64;
+        it.map_size = 64;
     });
     for sort in [BubbleSort::Tiles, BubbleSort::Peel] {
         let of =
@@ -51,9 +51,9 @@ fn a_reconfiguration_gives_what_a_new_renderer_gives() {
     let gpu = Gpu::shared();
     let shot = shot(64, 48);
     let base = BubbleConfig::new(64).with(|it| {
-        it.templates = 2;
+        it.variants = 2;
         it.bubbles = 32;
-        it.map = 64;
+        it.map_size = 64;
     });
     let distance = Impostor::Distance;
     let film = |index| Film { index, ..Film::default() };
@@ -76,18 +76,18 @@ fn a_reconfiguration_gives_what_a_new_renderer_gives() {
             "templates",
             true,
             base.with(|it| {
-                it.templates = 3;
+                it.variants = 3;
                 it.seed = 5;
                 it.film = film(1.8);
             }),
         ),
-        ("map", true, base.with(|it| it.map = 32)),
+        ("map", true, base.with(|it| it.map_size = 32)),
         (
             "impostor",
             true,
             base.with(|it| {
                 it.impostor = distance;
-                it.map = 32;
+                it.map_size = 32;
                 it.steps = 20;
             }),
         ),

@@ -1,9 +1,9 @@
-//! Diffuse foam that becomes blobs near the eye.
+//! Whitewater foam that becomes blobs near the eye.
 
 use glam::{DVec3, Vec3, Vec4};
-use whitewater::bubbles::{BubbleConfig, HandOver};
-use whitewater::foam::DiffuseConfig;
-use whitewater::headless::{Bubble, Diffuse};
+use whitewater::WhitewaterConfig;
+use whitewater::bubbles::{BubbleConfig, Crossfade};
+use whitewater::headless::{Bubble, Whitewater};
 use whitewater::{Config, Error, Region};
 
 use crate::reference::classify::pcg;
@@ -16,7 +16,7 @@ use crate::support::scenes::{self, Lens, Random};
 const FOAM: u32 = 0;
 const RINGS: f64 = 1024.0;
 
-/// Diffuse particles of all kinds and ages.
+/// Whitewater particles of all kinds and ages.
 #[derive(Clone)]
 struct Cloud {
     shot: Shot,
@@ -35,10 +35,10 @@ impl Cloud {
         let mut shot = Shot::new(extent(96, 80), Lens::ReversedInfinite, 0.1, &[]);
         let center = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
         shot.sun.region = Some(Region { center, radius: 4.0 });
-        shot.settings.diffuse.radius = RADIUS;
+        shot.settings.whitewater.radius = RADIUS;
         // As they grow some are small: what merges is another test's.
-        shot.settings.bubbles.merge = 0.0;
-        shot.settings.bubbles.hand_over = HandOver { near: 2.0, far: 3.0, size: 1.25 };
+        shot.settings.bubbles.min_pixels = 0.0;
+        shot.settings.bubbles.crossfade = Crossfade { near: 2.0, far: 3.0, size: 1.25 };
         let mut random = Random(6);
         let place = |i| {
             let z = depth(i);
@@ -55,8 +55,8 @@ impl Cloud {
         }
     }
 
-    fn input(&self) -> Diffuse<'_> {
-        Diffuse {
+    fn input(&self) -> Whitewater<'_> {
+        Whitewater {
             positions: &self.positions,
             kinds: Some(&self.kinds),
             radii: None,
@@ -67,8 +67,8 @@ impl Cloud {
 
     fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
         let fluid = rig.particles(&self.shot);
-        let cloud = rig.diffuse(&self.input());
-        rig.draw_diffuse(&self.shot, &fluid.particles(), Some(cloud.particles()))
+        let cloud = rig.whitewater(&self.input());
+        rig.draw_whitewater(&self.shot, &fluid.particles(), Some(cloud.particles()))
     }
 
     fn distance(&self, i: usize) -> f64 {
@@ -78,7 +78,7 @@ impl Cloud {
 
     /// What of one is its blob's where there is room, of all.
     fn part(&self, i: usize) -> f64 {
-        let HandOver { near, far, .. } = self.shot.settings.bubbles.hand_over;
+        let Crossfade { near, far, .. } = self.shot.settings.bubbles.crossfade;
         let [near, far] = [near, far].map(f64::from);
         let t = ((self.distance(i) - near) / (far - near)).clamp(0.0, 1.0);
         if self.kinds[i] == FOAM { 1.0 - t * t * (3.0 - 2.0 * t) } else { 0.0 }
@@ -91,7 +91,7 @@ impl Cloud {
 
     /// Of such a radius.
     fn blobs_of(&self, radius: f32) -> Vec<Bubble> {
-        let size = f64::from(self.shot.settings.bubbles.hand_over.size);
+        let size = f64::from(self.shot.settings.bubbles.crossfade.size);
         (0..self.positions.len())
             .filter(|i| self.part(*i) > 0.0)
             .map(|i| {
@@ -116,16 +116,16 @@ fn turn(id: u32) -> [f32; 4] {
 
 fn bubbles(max_blobs: u32) -> BubbleConfig {
     BubbleConfig::new(max_blobs).with(|it| {
-        it.templates = 2;
+        it.variants = 2;
         it.bubbles = 32;
-        it.map = 64;
+        it.map_size = 64;
     })
 }
 
 fn with(cloud: &Cloud, bubbles: BubbleConfig) -> Config {
     let most = cloud.positions.len() as u32;
     config(cloud.shot.size).with(|it| {
-        it.diffuse = Some(DiffuseConfig::new(most));
+        it.whitewater = Some(WhitewaterConfig::new(most));
         it.bubbles = Some(bubbles);
         it.cast = Some(32);
     })
@@ -155,7 +155,7 @@ fn foam_near_the_eye_is_blobs() {
         for i in (0..40).step_by(10) {
             cloud.kinds[i] = 1 + i as u32 / 10 % 2;
         }
-        let over = bubbles(64).with(|it| it.hand_over = true);
+        let over = bubbles(64).with(|it| it.crossfade = true);
         let found = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, over), 1));
         let soap = found.soap.as_ref().expect("bubble foam");
         let mut other = cloud.clone();
@@ -188,8 +188,8 @@ fn foam_near_the_eye_is_blobs() {
         } else {
             // Where both are, sprites are less than the whole.
             let thick = |drawn: &Drawn| {
-                let diffuse = drawn.diffuse.as_ref().expect("foam");
-                diffuse.thickness.data.iter().map(|t| f64::from(t[0])).sum::<f64>()
+                let whitewater = drawn.whitewater.as_ref().expect("foam");
+                whitewater.thickness.data.iter().map(|t| f64::from(t[0])).sum::<f64>()
             };
             let part = thick(&found) / thick(&expected);
             assert!((0.2..0.8).contains(&part), "{part} of the sprites are left");
@@ -203,10 +203,10 @@ fn where_blobs_have_no_room_sprites_stay() {
     let gpu = Gpu::shared();
     let mut cloud = Cloud::new(120, |i| 1.2 + 0.014 * i as f32);
     cloud.ages.fill(0.0);
-    let over = bubbles(30).with(|it| it.hand_over = true);
+    let over = bubbles(30).with(|it| it.crossfade = true);
     let mut rig = Rig::lit(&gpu, &with(&cloud, over), 1);
     let one = cloud.draw(&mut rig);
-    let far = f64::from(cloud.shot.settings.bubbles.hand_over.far);
+    let far = f64::from(cloud.shot.settings.bubbles.crossfade.far);
     let mut rings: Vec<_> = (0..120).map(|i| (cloud.distance(i) / far * RINGS) as u32).collect();
     rings.sort_unstable();
     let ends = rings[30];
@@ -225,7 +225,8 @@ fn where_blobs_have_no_room_sprites_stay() {
     // Sprites beyond are whole: as where there are no blobs.
     let plain = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, bubbles(30)), 1));
     let alone = (0..one.output.data.len()).filter(|i| {
-        let thickness = |drawn: &Drawn| drawn.diffuse.as_ref().expect("foam").thickness.data[*i][0];
+        let thickness =
+            |drawn: &Drawn| drawn.whitewater.as_ref().expect("foam").thickness.data[*i][0];
         thickness(&plain) > 0.0 && (thickness(&one) - thickness(&plain)).abs() < 1.0e-3
     });
     assert!(alone.count() > 100);
@@ -254,9 +255,9 @@ fn shading(from: [f32; 3]) -> (Cloud, f64) {
     shot.settings.light.direction = (at - there).normalize().to_array();
     shot.settings.light.irradiance = [2.0; 3];
     shot.settings.light.shade = [0.0; 3];
-    shot.settings.diffuse.radius = 0.15;
+    shot.settings.whitewater.radius = 0.15;
     // Thinner than blobs: their shadows differ.
-    shot.settings.diffuse.half *= 2.0;
+    shot.settings.whitewater.half_intensity_thickness *= 2.0;
     shot.sun.region = Some(Region { center: there.to_array(), radius: 5.0 });
     cloud.positions = scenes::world(&shot.camera, &eye);
     cloud.kinds = vec![FOAM; eye.len()];
@@ -274,7 +275,7 @@ fn left(drawn: &[Drawn], lit: &Drawn) -> Vec<f64> {
     };
     let beside = |i: &usize| {
         drawn.iter().all(|drawn| {
-            let (soap, foam) = (drawn.soap.as_ref(), drawn.diffuse.as_ref());
+            let (soap, foam) = (drawn.soap.as_ref(), drawn.whitewater.as_ref());
             soap.is_none_or(|soap| soap.color.data[*i][3] == 0.0)
                 && foam.is_none_or(|foam| foam.thickness.data[*i][0] == 0.0)
         })
@@ -292,25 +293,25 @@ fn left(drawn: &[Drawn], lit: &Drawn) -> Vec<f64> {
 fn foam_that_is_handed_over_casts_one_shadow() {
     let gpu = Gpu::shared();
     let (mut cloud, away) = shading([-0.9, 0.0, 3.0]);
-    let config = |hand_over| {
-        let own = with(&cloud, bubbles(256).with(|it| it.hand_over = hand_over));
+    let config = |crossfade| {
+        let own = with(&cloud, bubbles(256).with(|it| it.crossfade = crossfade));
         own.with(|it| it.cast = Some(128))
     };
     let [mut over_rig, mut rig] =
-        [true, false].map(|hand_over| Rig::lit(&gpu, &config(hand_over), 1));
+        [true, false].map(|crossfade| Rig::lit(&gpu, &config(crossfade), 1));
     let mut none = cloud.clone();
     none.ages.fill(1.0);
     let lit = none.draw(&mut rig);
     let sprites = cloud.draw(&mut rig);
     let mut over = |near: f64, far: f64| {
-        let hand_over = HandOver { near: near as f32, far: far as f32, size: 1.0 };
-        cloud.shot.settings.bubbles.hand_over = hand_over;
+        let crossfade = Crossfade { near: near as f32, far: far as f32, size: 1.0 };
+        cloud.shot.settings.bubbles.crossfade = crossfade;
         cloud.draw(&mut over_rig)
     };
     let handed = over(2.0 * away, 3.0 * away);
     let half = over(0.5 * away, 1.5 * away);
-    none.shot.settings.bubbles.hand_over =
-        HandOver { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
+    none.shot.settings.bubbles.crossfade =
+        Crossfade { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
     none.shot.blobs = Cloud { ages: vec![0.0; cloud.ages.len()], ..none.clone() }.blobs_of(0.15);
     let blobs = none.draw(&mut rig);
     let all = [sprites, blobs, handed, half];
@@ -335,11 +336,11 @@ fn foam_that_is_handed_over_casts_one_shadow() {
 fn foam_beside_the_view_casts_the_shadow_of_sprites() {
     let gpu = Gpu::shared();
     let (mut cloud, away) = shading([-3.6, 0.0, 2.6]);
-    let [handed, sprites] = [true, false].map(|hand_over| {
-        let own = with(&cloud, bubbles(256).with(|it| it.hand_over = hand_over));
+    let [handed, sprites] = [true, false].map(|crossfade| {
+        let own = with(&cloud, bubbles(256).with(|it| it.crossfade = crossfade));
         let mut rig = Rig::lit(&gpu, &own.with(|it| it.cast = Some(128)), 1);
-        let hand_over = HandOver { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
-        cloud.shot.settings.bubbles.hand_over = hand_over;
+        let crossfade = Crossfade { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
+        cloud.shot.settings.bubbles.crossfade = crossfade;
         cloud.draw(&mut rig)
     });
     let mut none = cloud.clone();
@@ -358,8 +359,8 @@ fn foam_beside_the_view_casts_the_shadow_of_sprites() {
 fn it_takes_the_memory_it_says() {
     let gpu = Gpu::shared();
     let cloud = Cloud::new(4, |_| 2.0);
-    let [with_it, without] = [true, false].map(|hand_over| {
-        let bubbles = bubbles(1 << 18).with(|it| it.hand_over = hand_over);
+    let [with_it, without] = [true, false].map(|crossfade| {
+        let bubbles = bubbles(1 << 18).with(|it| it.crossfade = crossfade);
         let mut rig = Rig::with_slots(&gpu, &with(&cloud, bubbles), 1);
         rig.renderer().memory().buffers
     });
@@ -371,11 +372,11 @@ fn it_takes_the_memory_it_says() {
 fn bad_hand_overs_are_errors() {
     let gpu = Gpu::shared();
     let cloud = Cloud::new(4, |_| 2.0);
-    let over = bubbles(8).with(|it| it.hand_over = true);
-    let without = with(&cloud, over).with(|it| it.diffuse = None);
+    let over = bubbles(8).with(|it| it.crossfade = true);
+    let without = with(&cloud, over).with(|it| it.whitewater = None);
     assert!(matches!(
         Rig::try_new(&gpu, &without, 1),
-        Err(Error::BadInput { field: "Config.bubbles.hand_over", .. })
+        Err(Error::BadInput { field: "Config.bubbles.crossfade", .. })
     ));
     let mut rig = Rig::lit(&gpu, &with(&cloud, over), 1);
     let (color, depth) = rig.scene(&cloud.shot);
@@ -387,13 +388,13 @@ fn bad_hand_overs_are_errors() {
     // SAFETY: nothing of a bad frame may be used.
     let result = unsafe { rig.renderer().record(cmd, &bad) };
     assert!(matches!(result, Err(Error::BadInput { field: "Frame.bubbles", .. })));
-    for (field, hand_over) in [
-        ("Settings.bubbles.hand_over.far", HandOver { near: 2.0, far: 2.0, size: 1.0 }),
-        ("Settings.bubbles.hand_over.near", HandOver { near: -1.0, far: 2.0, size: 1.0 }),
-        ("Settings.bubbles.hand_over.size", HandOver { near: 1.0, far: 2.0, size: f32::NAN }),
+    for (field, crossfade) in [
+        ("Settings.bubbles.crossfade.far", Crossfade { near: 2.0, far: 2.0, size: 1.0 }),
+        ("Settings.bubbles.crossfade.near", Crossfade { near: -1.0, far: 2.0, size: 1.0 }),
+        ("Settings.bubbles.crossfade.size", Crossfade { near: 1.0, far: 2.0, size: f32::NAN }),
     ] {
         let mut settings = cloud.shot.settings.clone();
-        settings.bubbles = settings.bubbles.with(|it| it.hand_over = hand_over);
+        settings.bubbles = settings.bubbles.with(|it| it.crossfade = crossfade);
         // SAFETY: as above.
         let result =
             unsafe { rig.renderer().record(cmd, &frame.with(|it| it.settings = &settings)) };

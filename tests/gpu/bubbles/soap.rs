@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::bubbles::{BubbleConfig, BubbleLook};
+use whitewater::bubbles::{BubbleConfig, BubbleSettings};
 use whitewater::headless::Bubble;
 
 use super::film::bound;
@@ -41,8 +41,8 @@ pub fn half_step(value: f64) -> f64 {
 }
 
 /// Nothing of noise or pattern.
-pub fn even(film: f32) -> BubbleLook {
-    BubbleLook::default().with(|it| {
+pub fn even(film: f32) -> BubbleSettings {
+    BubbleSettings::default().with(|it| {
         it.film = film;
         it.variation = 0.0;
         it.drainage = 0.0;
@@ -51,19 +51,19 @@ pub fn even(film: f32) -> BubbleLook {
     })
 }
 
-fn twin(look: &BubbleLook, side: DVec3) -> Look {
+fn twin(look: &BubbleSettings, side: DVec3) -> Look {
     Look {
         film: f64::from(look.film),
         variation: f64::from(look.variation),
         drainage: f64::from(look.drainage),
-        core: look.core.map(f64::from),
+        core: [look.core_opaque_radius, look.core_outer_radius].map(f64::from),
         albedo: DVec3::from(look.albedo.map(f64::from)),
         pattern: f64::from(look.pattern),
         distortion: f64::from(look.distortion),
         roundness: f64::from(look.roundness),
         reflection: f64::from(look.reflection),
         walls: look.walls,
-        plug: look.plug,
+        plug: look.fill_holes,
         radiance: RADIANCE,
         side,
     }
@@ -99,7 +99,7 @@ impl<'g> Scene<'g> {
     /// The same of so many layers, by a configuration.
     pub fn of(gpu: &'g Gpu, side: DVec3, layers: u32, config: Config) -> Self {
         let bubbles = BubbleConfig::new(64).with(|it| {
-            it.templates = 3;
+            it.variants = 3;
             it.bubbles = 28;
             it.layers = layers;
         });
@@ -154,7 +154,7 @@ impl<'g> Scene<'g> {
     pub fn expected(&self, shot: &Shot, drawn: &Drawn) -> Image<Expected> {
         let found = drawn.soap.as_ref().expect("bubble foam");
         let look = twin(&shot.settings.bubbles, self.side);
-        let own = |id: u32| &self.templates[(pcg(id) % self.bubbles.templates) as usize];
+        let own = |id: u32| &self.templates[(pcg(id) % self.bubbles.variants) as usize];
         let placed =
             |b: &Bubble| Placed { ball: b.ball, turn: b.turn, id: b.id, template: own(b.id) };
         let blobs: Vec<_> = shot.blobs.iter().map(placed).collect();
@@ -278,7 +278,7 @@ fn films_walls_cores_and_plugs_are_the_twins() {
     let gpu = Gpu::shared();
     let mut scene = Scene::new(&gpu, DVec3::ZERO);
     let drained = even(380.0).with(|it| it.drainage = 0.35);
-    let thin = even(380.0).with(|it| it.core = [0.1, 0.5]);
+    let thin = even(380.0).with(|it| [it.core_opaque_radius, it.core_outer_radius] = [0.1, 0.5]);
     let varied = drained.with(|it| it.variation = 0.35);
     let cores = even(380.0).with(|it| {
         it.reflection = 0.0;
@@ -296,7 +296,7 @@ fn films_walls_cores_and_plugs_are_the_twins() {
             true,
             thin.with(|it| {
                 it.film = 900.0;
-                it.plug = false;
+                it.fill_holes = false;
             }),
             [3000, 2000, 5000, 0],
         ),
@@ -306,7 +306,7 @@ fn films_walls_cores_and_plugs_are_the_twins() {
         ("heap-varied", true, thin.with(|it| it.variation = 1.0), [3000, 2000, 5000, 10]),
         ("one-pattern", false, cores.with(|it| it.distortion = 0.6), [0, 0, 3000, 0]),
         ("heap-pattern", true, cores.with(|it| it.pattern = 1.0), [1000, 400, 5000, 20]),
-        ("heap-default", true, BubbleLook::default(), [1000, 400, 5000, 5]),
+        ("heap-default", true, BubbleSettings::default(), [1000, 400, 5000, 5]),
     ];
     let shots = [Lens::Standard, Lens::LeftHanded];
     let mut shots = shots.map(|lens| [false, true].map(|many| scene.shot(lens, many)));
@@ -359,7 +359,7 @@ fn films_and_cores_show_where_the_light_comes_from() {
     let mut scene = Scene::new(&gpu, DVec3::new(0.3, 0.4, -0.5));
     let films = even(380.0).with(|it| {
         it.albedo = [0.0; 3];
-        it.core = [0.1, 0.5];
+        [it.core_opaque_radius, it.core_outer_radius] = [0.1, 0.5];
     });
     let cores = even(380.0).with(|it| {
         it.reflection = 0.0;

@@ -58,7 +58,7 @@ fn a_lone_blob_becomes_a_clump() {
             // A half grows to 0.79 of the radius in half a second; its whole shrinks by three quarters of that at its
             // fastest: the volume goes by 3 p².
             let change = (now.radius - last.radius).abs();
-            let fastest = f64::from(DT / free().parting) * f64::from(radius);
+            let fastest = f64::from(DT / free().split_duration) * f64::from(radius);
             assert!(change <= fastest, "{} to {} at {step}", last.radius, now.radius);
         }
         let count = there(&now).len();
@@ -88,8 +88,8 @@ fn a_lone_blob_becomes_a_clump() {
 fn what_has_enough_beside_it_stays_whole() {
     let gpu = Gpu::shared();
     let settings = HeapSettings::default().with(|it| {
-        it.alone = 0.0;
-        it.parting = 0.05;
+        it.split_delay = 0.0;
+        it.split_duration = 0.05;
     });
     let mut random = Random(3);
     let mut blobs = cloud(300, [0.9, 0.8, 0.9], [0.07, 0.11], 9);
@@ -97,20 +97,20 @@ fn what_has_enough_beside_it_stays_whole() {
     for blob in &mut blobs[..20] {
         blob.ball[0] += random.between(1.2, 6.0);
     }
-    let halvings = 3;
-    let mut running = Running::halving(&gpu, &blobs, halvings);
+    let max_splits = 3;
+    let mut running = Running::halving(&gpu, &blobs, max_splits);
     let step = settings.with(|it| it.substeps = 1);
     let (mut split, mut whole) = (0, 0);
     // Since its last split; what parts does not split.
     let mut parting: HashMap<usize, u32> = HashMap::new();
-    let mut halved = vec![0_u32; blobs.len() << halvings];
+    let mut halved = vec![0_u32; blobs.len() << max_splits];
     for i in 0..240 {
         let before = running.blobs();
         running.step(1.0 / 240.0, &step, &[FLOOR]).expect("a step");
         let after = running.blobs();
         let live = there(&before);
         for k in 0..before.len() {
-            if before[k].radius == 0.0 || halved[k] >= halvings {
+            if before[k].radius == 0.0 || halved[k] >= max_splits {
                 continue;
             }
             let parts = parting.get(&k).is_some_and(|since| i - since < 12);
@@ -170,18 +170,18 @@ fn the_order_of_blobs_is_no_matter_to_their_halves() {
 fn bad_halvings_are_errors() {
     let gpu = Gpu::shared();
     for config in [
-        HeapConfig::new(4).with(|it| it.halvings = 7),
-        HeapConfig::new(1 << 18).with(|it| it.halvings = 3),
+        HeapConfig::new(4).with(|it| it.max_splits = 7),
+        HeapConfig::new(1 << 18).with(|it| it.max_splits = 3),
     ] {
         let result = Heap::new(&gpu.context(1), &config, None);
         let field = result.err().map(|error| error.to_string()).unwrap_or_default();
-        assert!(field.contains("HeapConfig.halvings"), "{field}");
+        assert!(field.contains("HeapConfig.max_splits"), "{field}");
     }
     type Spoil = fn(&mut HeapSettings);
     let spoils: [(&str, Spoil); 3] = [
-        ("HeapSettings.support", |s| s.support = -1.0),
-        ("HeapSettings.alone", |s| s.alone = f32::NAN),
-        ("HeapSettings.parting", |s| s.parting = 0.0),
+        ("HeapSettings.split_support", |s| s.split_support = -1.0),
+        ("HeapSettings.split_delay", |s| s.split_delay = f32::NAN),
+        ("HeapSettings.split_duration", |s| s.split_duration = 0.0),
     ];
     let mut running = Running::halving(&gpu, &[one(0.1)], 1);
     for (field, spoil) in spoils {

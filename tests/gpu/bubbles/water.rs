@@ -34,13 +34,13 @@ fn small(thickness_level: u32) -> Config {
 fn layers_in_water_are_the_twins() {
     let gpu = Gpu::shared();
     let source = Medium::Source { base: [0.3, 0.5, 0.9], falloff: [0.5, 0.4, 0.2, 0.7] };
-    let thin = even(380.0).with(|it| it.core = [0.1, 0.5]);
+    let thin = even(380.0).with(|it| [it.core_opaque_radius, it.core_outer_radius] = [0.1, 0.5]);
     for (name, level, layers, medium, look) in [
         ("turbid", 0, 3, TURBID, thin),
         ("turbid, coarse", 2, 3, TURBID, even(380.0)),
         ("turbid, eight", 2, 8, TURBID, thin),
         ("source's", 0, 3, source, thin),
-        ("source's, open", 2, 3, source, thin.with(|it| it.plug = false)),
+        ("source's, open", 2, 3, source, thin.with(|it| it.fill_holes = false)),
     ] {
         let mut scene = Scene::of(&gpu, DVec3::ZERO, layers, small(level));
         for (lens, depth, deep) in [(Lens::Standard, 2.6, 4), (Lens::LeftHanded, 1.6, 3)] {
@@ -78,7 +78,10 @@ fn layers_in_water_are_the_twins() {
 fn water_before_foam_takes_of_its_colour_alone() {
     let gpu = Gpu::shared();
     let mut scene = Scene::of(&gpu, DVec3::ZERO, 3, small(0));
-    for (deep, look) in [(3, even(380.0)), (2, even(500.0).with(|it| it.core = [0.1, 0.5]))] {
+    for (deep, look) in [
+        (3, even(380.0)),
+        (2, even(500.0).with(|it| [it.core_opaque_radius, it.core_outer_radius] = [0.1, 0.5])),
+    ] {
         let mut shot = scene.shot_in(Lens::Standard, true, (RADIUS, &block(0.9, deep)));
         shot.settings.water.medium = CLEAR;
         shot.settings.bubbles = look;
@@ -112,8 +115,8 @@ fn opaque_foam_has_one_colour_in_water_however_many_layers() {
     let gpu = Gpu::shared();
     // Nothing of a film: of two layers the first is all there is to see.
     let look = even(380.0).with(|it| {
-        it.core = [1.9, 2.0];
-        it.plug = false;
+        [it.core_opaque_radius, it.core_outer_radius] = [1.9, 2.0];
+        it.fill_holes = false;
     });
     let mut means = Vec::new();
     for layers in [1, 3, 8] {
@@ -143,7 +146,8 @@ fn foam_in_water_hides_what_is_behind_it_alone() {
         for (lens, depth) in [(Lens::Standard, 1.6), (Lens::LeftHanded, 3.2)] {
             let mut shot = scene.shot_in(lens, true, (RADIUS, &block(depth, 4)));
             shot.settings.water.medium = TURBID;
-            shot.settings.bubbles = even(380.0).with(|it| it.core = [0.1, 0.5]);
+            shot.settings.bubbles =
+                even(380.0).with(|it| [it.core_opaque_radius, it.core_outer_radius] = [0.1, 0.5]);
             shot.settings.light.color = [3.0, 2.0, 1.0];
             shot.settings.light.direction = [0.2, 0.4, 0.9];
             let whole = scene.rig.draw(&shot);

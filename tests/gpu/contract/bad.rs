@@ -135,11 +135,12 @@ fn spoils() -> Vec<Spoil> {
         ("light", "Settings.light", |g| g.settings.light.color[1] = -1.0),
         ("ambient", "Settings.light", |g| g.settings.light.ambient[2] = f32::INFINITY),
         ("irradiance", "Settings.light", |g| g.settings.light.irradiance[0] = f32::NAN),
-        ("foam", "Frame.particles.foam", |g| {
-            g.frame.particles.foam = Some(g.frame.particles.positions);
+        ("foam", "Frame.particles.surface_foam", |g| {
+            g.frame.particles.surface_foam = Some(g.frame.particles.positions);
         }),
-        ("foam stride", "Frame.particles.foam", |g| {
-            g.frame.particles.foam = Some(Stream { stride: 4, ..g.frame.particles.positions });
+        ("foam stride", "Frame.particles.surface_foam", |g| {
+            g.frame.particles.surface_foam =
+                Some(Stream { stride: 4, ..g.frame.particles.positions });
         }),
         ("velocities", "Frame.particles.velocities", |g| {
             let velocities = Stream { stride: 8, ..g.frame.particles.positions };
@@ -151,9 +152,9 @@ fn spoils() -> Vec<Spoil> {
         ("opacity", "Settings.spray.opacity", |g| g.settings.spray.opacity = 1.0),
         ("size", "Settings.spray.size", |g| g.settings.spray.size = 0.0),
         ("droplets", "Settings.spray.droplets", |g| g.settings.spray.droplets = 65),
-        ("densities", "Settings.spray.densities", |g| g.settings.spray.densities[1] = 0.1),
-        ("spread", "Settings.spray.spread", |g| g.settings.spray.spread = f32::NAN),
-        ("shutter", "Settings.spray.shutter", |g| g.settings.spray.shutter = -1.0),
+        ("densities", "Settings.spray.densities", |g| g.settings.spray.full_water_density = 0.1),
+        ("spread", "Settings.spray.scatter_radius", |g| g.settings.spray.scatter_radius = f32::NAN),
+        ("shutter", "Settings.spray.exposure", |g| g.settings.spray.exposure = -1.0),
         ("weight", "Settings.noise.weight", |g| g.settings.noise.weight = f32::NAN),
         ("falloff of noise", "Settings.noise.falloff", |g| g.settings.noise.falloff = -1.0),
         ("size of noise", "Settings.noise.size", |g| g.settings.noise.size = 0.0),
@@ -161,20 +162,30 @@ fn spoils() -> Vec<Spoil> {
         ("grey", "Settings.noise.foam", |g| g.settings.noise.foam = -0.1),
         ("grey's color", "Settings.noise.color", |g| g.settings.noise.color[0] = 1.5),
         ("drops", "Settings.spray.color", |g| g.settings.spray.color[2] = 2.0),
-        ("extinction", "Settings.foam.extinction", |g| g.settings.foam.extinction = f32::NAN),
-        ("noise", "Settings.foam.noise", |g| g.settings.foam.noise = 1.5),
-        ("noise beside a pattern", "Settings.foam.noise", |g| g.settings.foam.noise = 0.1),
-        ("pattern", "Settings.foam.pattern", |g| g.settings.foam.pattern = -0.5),
-        ("pattern size", "Settings.foam.pattern_size", |g| g.settings.foam.pattern_size = 0.0),
-        ("pattern period", "Settings.foam.pattern_period", |g| {
-            g.settings.foam.pattern_period = 0.0
+        ("extinction", "Settings.surface_foam.extinction", |g| {
+            g.settings.surface_foam.extinction = f32::NAN
         }),
-        ("time", "Settings.foam.time", |g| g.settings.foam.time = f64::INFINITY),
-        ("threshold", "Settings.foam.motion_threshold", |g| {
-            g.settings.foam.motion_threshold = 0.0;
+        ("noise", "Settings.surface_foam.noise", |g| g.settings.surface_foam.noise = 1.5),
+        ("noise beside a pattern", "Settings.surface_foam.noise", |g| {
+            g.settings.surface_foam.noise = 0.1
         }),
-        ("white", "Settings.foam.front_color", |g| g.settings.foam.front_color[1] = 1.1),
-        ("foam's shadow", "Settings.foam.shadow", |g| g.settings.foam.shadow = f32::NAN),
+        ("pattern", "Settings.surface_foam.pattern", |g| g.settings.surface_foam.pattern = -0.5),
+        ("pattern size", "Settings.surface_foam.pattern_size", |g| {
+            g.settings.surface_foam.pattern_size = 0.0
+        }),
+        ("pattern period", "Settings.surface_foam.pattern_period", |g| {
+            g.settings.surface_foam.pattern_period = 0.0
+        }),
+        ("time", "Settings.surface_foam.time", |g| g.settings.surface_foam.time = f64::INFINITY),
+        ("threshold", "Settings.surface_foam.motion_threshold", |g| {
+            g.settings.surface_foam.motion_threshold = 0.0;
+        }),
+        ("white", "Settings.surface_foam.front_color", |g| {
+            g.settings.surface_foam.front_color[1] = 1.1
+        }),
+        ("foam's shadow", "Settings.surface_foam.shadow", |g| {
+            g.settings.surface_foam.shadow = f32::NAN
+        }),
         ("shade", "Settings.light", |g| g.settings.light.shade[0] = -1.0),
         ("region", "Frame.sun.region", |g| {
             g.frame.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });

@@ -19,7 +19,7 @@ const _: () = {
     shared::<Context>();
     shared::<Renderer>();
     shared::<State>();
-    shared::<whitewater::foam::Generator>();
+    shared::<whitewater::Generator>();
     shared::<whitewater::bubbles::Heap>();
     shared::<whitewater::shore::ShoreMap>();
     shared::<whitewater::Frame<'static>>();
@@ -54,7 +54,7 @@ fn a_device_of_vulkan_1_2_draws_the_same() {
         plain,
         plain.with(|it| {
             it.smoothing = Some(Smoothing::Fused);
-            it.foam = true;
+            it.surface_foam = true;
             it.spray = true;
             it.motion = true;
             it.noise = Some(1);
@@ -91,7 +91,7 @@ fn an_old_device_says_what_it_lacks() {
         Err(Error::Missing { what, .. }) => what,
         other => panic!("{:?}", other.map(|_| ())),
     };
-    assert!(lacks(config.with(|it| it.foam = true)).contains("storage"));
+    assert!(lacks(config.with(|it| it.surface_foam = true)).contains("storage"));
     assert!(lacks(config.with(|it| it.motion = true)).contains("storage"));
     assert!(lacks(config.with(|it| it.composite = Some(Shading::Compute))).contains("storage"));
     let renderer = Renderer::new(&context, &config).expect("water");
@@ -107,7 +107,7 @@ fn what_a_device_lacks_is_named() {
     let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
     offer.check(&config).expect("this device will do");
     let raster = config.with(|it| it.depth_splat = Some(whitewater::water::Splat::Raster));
-    let foam = config.with(|it| it.foam = true);
+    let foam = config.with(|it| it.surface_foam = true);
     let convolving = |bits| config.with(|it| it.shadow = convolved(8, bits));
     let motion = config.with(|it| it.motion = true);
     let noise = config.with(|it| it.noise = Some(1));
@@ -156,7 +156,7 @@ fn what_a_device_lacks_is_named() {
     narrow.limits.max_storage_buffer_range = (1 << 20) + 256;
     let wide = |foam| {
         config.with(|it| {
-            it.foam = foam;
+            it.surface_foam = foam;
             it.max_stride = 1 << 16;
         })
     };
@@ -274,7 +274,7 @@ fn ten_million_particles_have_room() {
     let gpu = Gpu::shared();
     let count = 10_000_000;
     let config = config(extent(64, 48)).with(|it| it.max_particles = count);
-    let foam = config.with(|it| it.foam = true);
+    let foam = config.with(|it| it.surface_foam = true);
     // SAFETY: live handles; nothing is recorded.
     let state = unsafe {
         Renderer::new(&gpu.context(1), &foam).expect("room for foam").destroy();
@@ -305,7 +305,7 @@ fn memory_is_as_documented() {
         let config = Config::new(size, format, count).with(|it| {
             it.sheets = sheets;
             it.coarsening = coarsening;
-            it.foam = foam;
+            it.surface_foam = foam;
             it.spray = spray;
         });
         let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
@@ -329,7 +329,7 @@ fn memory_is_as_documented() {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config = Config::new(extent(width, height), format, count).with(|it| {
                 it.cast = cast;
-                it.foam = foam;
+                it.surface_foam = foam;
             });
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
@@ -378,9 +378,9 @@ fn memory_is_as_documented() {
         {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let templates = BubbleConfig::new(count).with(|it| {
-                it.templates = 1;
+                it.variants = 1;
                 it.bubbles = 8;
-                it.map = 8;
+                it.map_size = 8;
             });
             let bubbles = Some(templates.with(|it| {
                 it.sort = sort;
@@ -457,7 +457,7 @@ fn timings_name_every_pass() {
     let size = extent(32, 16);
     let config = config(size).with(|it| {
         it.sheets = 2;
-        it.foam = true;
+        it.surface_foam = true;
         it.spray = true;
         it.motion = true;
         it.noise = Some(1);

@@ -104,7 +104,7 @@ fn filtered_shadows_of_two_slots_in_flight() {
     let size = extent(96, 64);
     let shadow = Shadows::Convolution(Convolution { terms: 8, texels: 48, bits: 16 });
     let config = config(size).with(|it| {
-        it.foam = true;
+        it.surface_foam = true;
         it.shadow = Some(shadow);
     });
     let mut rig = Rig::lit(&gpu, &config, 2);

@@ -1,9 +1,9 @@
 //! Every kind of host image: formats of the scene's depth, in place and apart, any layout and access.
 
 use ash::vk;
-use whitewater::foam::{DiffuseConfig, Splat};
 use whitewater::water::{Kernels, Shading};
-use whitewater::{Access, Count, DiffuseParticles, Particles, Recorded};
+use whitewater::{Access, Count, Particles, Recorded, WhitewaterParticles};
+use whitewater::{WhitewaterConfig, WhitewaterSplat};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -142,16 +142,17 @@ fn particles_that_the_device_writes_are_waited_for() {
     let size = extent(64, 48);
     let plain = config(size);
     let light = plain.with(|it| it.cast = Some(64));
-    let diffuse = |splat| {
-        light
-            .with(|it| it.diffuse = Some(DiffuseConfig::new(500).with(|it| it.splat = Some(splat))))
+    let whitewater = |splat| {
+        light.with(|it| {
+            it.whitewater = Some(WhitewaterConfig::new(500).with(|it| it.splat = Some(splat)))
+        })
     };
     for config in [
         plain,
         light,
         light.with(|it| it.kernels = Kernels::Ellipsoids),
-        diffuse(Splat::Compute),
-        diffuse(Splat::Raster),
+        whitewater(WhitewaterSplat::Compute),
+        whitewater(WhitewaterSplat::Raster),
     ] {
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut shot = water(size, Lens::Standard);
@@ -168,18 +169,19 @@ fn particles_that_the_device_writes_are_waited_for() {
         ];
         let buffers = all.map(|bytes| rig.stub.data(bytes, usage));
         let [positions, dense, places] = &buffers;
-        let diffuse = config.diffuse.map(|_| {
-            DiffuseParticles::new(stream(places, 0, 12), count).with(|it| {
+        let whitewater = config.whitewater.map(|_| {
+            WhitewaterParticles::new(stream(places, 0, 12), count).with(|it| {
                 it.before = HOST_WRITE;
                 it.after = HOST_WRITE;
             })
         });
         let expected = {
             let cloud = rig.particles(&shot);
-            rig.draw_diffuse(&shot, &cloud.particles(), diffuse)
+            rig.draw_whitewater(&shot, &cloud.particles(), whitewater)
         };
         let written = |rig: &Rig<'_>, cmd| {
-            for (data, bytes) in buffers.iter().zip(all).take(2 + usize::from(diffuse.is_some())) {
+            for (data, bytes) in buffers.iter().zip(all).take(2 + usize::from(whitewater.is_some()))
+            {
                 for (at, part) in (0_u64..).step_by(65536).zip(bytes.chunks(65536)) {
                     // SAFETY: cmd is recording outside a render pass; the buffer may be copied to.
                     unsafe { rig.stub.functions().cmd_update_buffer(cmd, data.buffer, at, part) };
@@ -200,7 +202,7 @@ fn particles_that_the_device_writes_are_waited_for() {
             it.after = COLOR;
         });
         let mut frame = shot.frame(output, depth.host_image(), particles);
-        frame.diffuse = diffuse.map(|host| {
+        frame.whitewater = whitewater.map(|host| {
             host.with(|it| {
                 it.before = COPIED;
                 it.after = COPIED;

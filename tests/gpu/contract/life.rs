@@ -29,7 +29,7 @@ fn resize_gives_what_a_new_renderer_gives() {
         config(size).with(|it| {
             it.cast = Some(32);
             it.shadow = Some(Shadows::Map);
-            it.foam = true;
+            it.surface_foam = true;
             it.noise = Some(1);
         })
     };
@@ -83,18 +83,18 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
             it.depth_splat = Some(Splat::Raster);
         }),
         base.with(|it| {
-            it.foam = true;
+            it.surface_foam = true;
             it.sheets = 2;
             it.extent = extent(50, 40);
         }),
         base.with(|it| {
-            it.foam = true;
+            it.surface_foam = true;
             it.depth_splat = Some(Splat::Raster);
         }),
         base.with(|it| it.spray = true),
         base.with(|it| {
             it.spray = true;
-            it.foam = true;
+            it.surface_foam = true;
             it.composite = Some(Shading::Compute);
         }),
         base.with(|it| {
@@ -110,7 +110,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         base.with(|it| {
             it.cast = Some(64);
             it.shadow = Some(Shadows::Map);
-            it.foam = true;
+            it.surface_foam = true;
             it.spray = true;
         }),
         base.with(|it| {
@@ -125,7 +125,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         base.with(|it| {
             it.shadow = convolved(4, 8);
             it.spray = true;
-            it.foam = true;
+            it.surface_foam = true;
         }),
         base.with(|it| {
             it.shadow = convolved(16, 16);
@@ -138,7 +138,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         base.with(|it| it.motion = true),
         base.with(|it| {
             it.motion = true;
-            it.foam = true;
+            it.surface_foam = true;
             it.thickness_level = 0;
             it.extent = extent(50, 40);
         }),

@@ -4,7 +4,6 @@ use glam::{DVec3, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};
 use whitewater::{Config, Region, Shadow};
 
-use crate::foam::Foamy;
 use crate::reference::Image;
 use crate::reference::light::{ShadowMap, lit};
 use crate::support::device::Gpu;
@@ -12,6 +11,7 @@ use crate::support::rig::{Drawn, Rig, Shot, config};
 use crate::support::rounded::{Rounded, exact};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::U;
+use crate::surface_foam::Foamy;
 
 use super::shade::{light_views, shadows};
 use super::{SIZE, casting, even, halves, maps, twin, water};
@@ -34,7 +34,7 @@ pub fn grounded(lens: Lens, height: f64) -> Foamy {
         let depth = n.dot(DVec3::new(3.1, height, 0.2) - eye) / n.dot(along);
         (depth > 0.0 && depth < 60.0).then_some(depth)
     });
-    shot.settings.foam.shadow = 8.0;
+    shot.settings.surface_foam.shadow = 8.0;
     // Half precision does not hold these.
     shot.color.iter_mut().for_each(|c| *c = c.map(|v| v * 1.0309));
     shot.sun.region = Some(Region { center: [2.9, 0.7, 0.1], radius: 1.3 });
@@ -60,13 +60,13 @@ pub fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past:
     let (shot, light, maps) = (&case.shot, twin(&case.shot, config), maps(drawn));
     let scene = shot.scene_eye();
     let foam = drawn.foam.as_ref().map(|foam| foam.seen(shot));
-    let diffuse = drawn.diffuse.as_ref().map(|diffuse| &diffuse.occluders);
+    let whitewater = drawn.whitewater.as_ref().map(|whitewater| &whitewater.occluders);
     let sun = &shot.settings.light;
     let (mut outside, mut darker, mut lighter, mut wrong) = (0, 0, 0, String::new());
     for (i, found) in drawn.output.data.iter().enumerate() {
         let (x, y) = (i % drawn.output.width, i / drawn.output.width);
         let foamy = foam.as_ref().is_some_and(|seen| seen.data[i].0 < 1e9)
-            || diffuse.is_some_and(|seen| seen.data[i][0] < 1e9);
+            || whitewater.is_some_and(|seen| seen.data[i][0] < 1e9);
         if drawn.depth.data[i] < 1e9 || foamy {
             continue;
         }
@@ -207,7 +207,7 @@ fn highlights_and_relief_are_the_suns() {
     let gpu = Gpu::shared();
     let config = config(SIZE).with(|it| {
         it.shadow = Some(Shadows::Mask);
-        it.foam = true;
+        it.surface_foam = true;
         it.sheets = 2;
     });
     let mut rig = Rig::lit(&gpu, &config, 1);
@@ -228,7 +228,7 @@ fn highlights_and_relief_are_the_suns() {
         case.shot.sun.shadow = Some(shadow);
         let mut drawn = |specular: f32, relief: f32| {
             case.shot.settings.water.specular = specular;
-            case.shot.settings.foam.relief = relief;
+            case.shot.settings.surface_foam.normal_strength = relief;
             case.draw(&mut rig).output.data
         };
         let [plain, shining, raised] = [drawn(0.0, 0.0), drawn(1.0, 0.0), drawn(0.0, 0.6)];

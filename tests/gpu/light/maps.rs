@@ -2,11 +2,11 @@
 
 use whitewater::{Config, Region};
 
-use crate::foam::Foamy;
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig};
 use crate::support::scenes::{self, Lens, Random};
+use crate::surface_foam::Foamy;
 
 use super::{SIZE, casting, maps, particles, toward, twin};
 

@@ -2,22 +2,22 @@
 //! what the maps say. Here the scenes, and what the twin takes of them.
 
 mod caustics;
-mod diffuse;
 mod lit;
 mod maps;
 mod shade;
 mod spray;
 mod unchanged;
+mod whitewater_light;
 
 use ash::vk;
 use glam::{DVec3, Vec3};
 use whitewater::water::{Medium, Shadows};
 use whitewater::{Config, Region};
 
-use crate::foam::Foamy;
 use crate::reference::light::{Light, Maps, Particle};
 use crate::support::rig::{Drawn, Shot, config};
 use crate::support::scenes::{self, Lens, Random};
+use crate::surface_foam::Foamy;
 
 pub use shade::{check_foam, even, light_views, middle, shadows, wall};
 
@@ -26,7 +26,7 @@ pub const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 pub fn casting(texels: u32) -> Config {
     config(SIZE).with(|it| {
         it.cast = Some(texels);
-        it.foam = true;
+        it.surface_foam = true;
     })
 }
 
@@ -58,7 +58,11 @@ fn toward(x: f32, y: f32, z: f32) -> [f32; 3] {
 fn twin(shot: &Shot, config: &Config) -> Light {
     let (water, region) = (&shot.settings.water, shot.sun.region.expect("a region"));
     let [first, second, third] = match config.spray {
-        true => shot.settings.spray.densities,
+        true => [
+            shot.settings.spray.all_spray_density,
+            shot.settings.spray.full_water_density,
+            shot.settings.spray.no_spray_density,
+        ],
         false => [water.density_threshold, water.density_full, water.density_threshold],
     };
     let density = |part: f32| f64::from(part) * f64::from(water.rest_density);
@@ -79,8 +83,12 @@ fn twin(shot: &Shot, config: &Config) -> Light {
             }
             Medium::Source { falloff, .. } => [0, 1, 2].map(|i| f64::from(falloff[i])),
         },
-        foam_extinction: f64::from(shot.settings.foam.shadow),
-        intensity: [shot.settings.diffuse.half, shot.settings.diffuse.exponent].map(f64::from),
+        foam_extinction: f64::from(shot.settings.surface_foam.shadow),
+        intensity: [
+            shot.settings.whitewater.half_intensity_thickness,
+            shot.settings.whitewater.exponent,
+        ]
+        .map(f64::from),
     }
 }
 
@@ -99,7 +107,7 @@ fn maps(drawn: &Drawn) -> Maps<'_> {
         front: drawn.light_front.as_ref().expect("a front"),
         thickness: drawn.light_thickness.as_ref().expect("a thickness"),
         caustics: drawn.caustics.as_ref().expect("caustics"),
-        diffuse: drawn.light_diffuse.as_ref(),
+        whitewater: drawn.light_whitewater.as_ref(),
     }
 }
 

@@ -5,7 +5,6 @@ use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};
 use whitewater::{Access, Region, Shadow};
 
-use crate::foam::Foamy;
 use crate::reference::Image;
 use crate::reference::light::ShadowMap;
 use crate::support::device::Gpu;
@@ -14,6 +13,7 @@ use crate::support::rig::{Drawn, Rig, Shot, extent};
 use crate::support::rounded::{Rounded, exact, off};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::U;
+use crate::surface_foam::Foamy;
 
 use super::{SIZE, casting, maps, twin, water, wide};
 
@@ -50,10 +50,14 @@ pub fn wall(lens: Lens) -> Foamy {
     let mut case = water(Shot::new(SIZE, lens, 0.0656, &block));
     case.amounts.fill([1.0, 0.0]);
     let settings = &mut case.shot.settings;
-    (settings.foam.relief, settings.foam.noise, settings.foam.veil) = (0.0, 0.0, 0.0);
-    settings.foam.pattern = 0.0;
-    (settings.foam.extinction, settings.foam.front_extinction) = (1e5, 1e6);
-    settings.foam.front_color = [0.9, 0.8, 0.7];
+    (
+        settings.surface_foam.normal_strength,
+        settings.surface_foam.noise,
+        settings.surface_foam.min_thickness,
+    ) = (0.0, 0.0, 0.0);
+    settings.surface_foam.pattern = 0.0;
+    (settings.surface_foam.extinction, settings.surface_foam.front_extinction) = (1e5, 1e6);
+    settings.surface_foam.front_color = [0.9, 0.8, 0.7];
     settings.light.irradiance = [std::f32::consts::PI; 3];
     settings.light.shade = [0.0, 0.25 * std::f32::consts::PI, 0.5 * std::f32::consts::PI];
     case
@@ -91,7 +95,7 @@ pub fn check_foam(
         let (few, all) = (sprites.len() - sharp, sprites.len());
         assert!(few * 4 < all, "{name}: of {all} sprites the light of {few} is open");
     }
-    crate::foam::check_sprites(name, case, &sprites, drawn, 0);
+    crate::surface_foam::check_sprites(name, case, &sprites, drawn, 0);
 
     let (mut seen_foam, mut kinds, mut wrong) = (0, [0; 3], String::new());
     for (i, found) in drawn.output.data.iter().enumerate() {
@@ -107,8 +111,8 @@ pub fn check_foam(
         kinds[((3.0 * sun.v) as usize).min(2)] += 1;
         for (c, v) in found.iter().take(3).enumerate() {
             let (shade, most) = (settings.light.shade[c], settings.light.irradiance[c]);
-            let white =
-                f64::from(settings.foam.front_color[c]) * f64::from(most) / std::f64::consts::PI;
+            let white = f64::from(settings.surface_foam.front_color[c]) * f64::from(most)
+                / std::f64::consts::PI;
             let dark = off(f64::from(shade) / f64::from(most), 5.0);
             let expected = off(white, 40.0) * (dark + (exact(1.0) - dark) * sun);
             let v = f64::from(*v);
@@ -256,9 +260,9 @@ fn foam_is_in_its_own_shade() {
         case.shot.positions.extend(scenes::world(&case.shot.camera, &lump));
         case.amounts.extend((0..n).map(|i| [(i % 2) as f32, 0.0]));
         case.velocities.resize(case.shot.positions.len(), [0.0; 3]);
-        case.shot.settings.foam.shadow = 2.0;
+        case.shot.settings.surface_foam.shadow = 2.0;
         // Some of the wall is behind the front layer, or in part.
-        case.shot.settings.foam.front_depth = 0.15;
+        case.shot.settings.surface_foam.front_depth = 0.15;
         case.shot.settings.water.medium = medium;
         let center = at.to_array();
         case.shot.sun.region = Some(Region { center, radius: 2.0 });

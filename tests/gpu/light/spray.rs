@@ -1,11 +1,11 @@
 //! Spray in the sun and in the shade.
 
-use crate::foam::Foamy;
 use crate::reference::spray::Sums;
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::Rig;
 use crate::support::scenes::Lens;
+use crate::surface_foam::Foamy;
 
 use super::{SIZE, even, everything};
 

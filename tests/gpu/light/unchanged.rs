@@ -3,13 +3,13 @@
 use whitewater::Region;
 use whitewater::water::Shading;
 
-use crate::foam::Foamy;
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, extent, is_around};
 use crate::support::scenes::{Lens, Random};
 use crate::support::slow;
 use crate::support::tolerance::U;
+use crate::surface_foam::Foamy;
 
 use super::lit::is_nearly_half;
 use super::{SIZE, casting, even, everything, maps, pool, toward};

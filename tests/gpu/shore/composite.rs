@@ -2,7 +2,7 @@
 
 use ash::vk;
 use glam::{DVec2, DVec3};
-use whitewater::shore::{Edge, ShoreLook};
+use whitewater::shore::{Edge, ShoreSettings};
 use whitewater::water::{Shading, Shadows};
 use whitewater::{Shadow, Shore, Shoreline};
 
@@ -27,7 +27,7 @@ pub fn coasts(gpu: &Gpu) -> Mapped<'_> {
 }
 
 /// Foam of both kinds, in colours and light of three different channels.
-pub fn look() -> ShoreLook {
+pub fn look() -> ShoreSettings {
     let mut look = plain();
     (look.shoreline.color, look.shoreline.opacity) = ([0.9, 0.5, 0.25], 0.8);
     let c = &mut look.contact;

@@ -2,7 +2,7 @@
 
 use ash::vk;
 use glam::DVec3;
-use whitewater::shore::{ContactLook, Edge, Measure, ShoreLook, WebLayer};
+use whitewater::shore::{ContactSettings, Edge, Measure, ShoreSettings, WebLayer};
 use whitewater::{Shore, Shoreline};
 
 use super::{Tally, clock, is_shared, measure_of, shared_at, textures, water, with_shore};
@@ -16,7 +16,7 @@ use crate::support::scenes::{self, Lens};
 use super::SAMPLED;
 
 /// A look, and its twin on the host's surface and on the particles'.
-pub fn twins(look: &ShoreLook, spacing: f32) -> [Contact; 2] {
+pub fn twins(look: &ShoreSettings, spacing: f32) -> [Contact; 2] {
     let c = &look.contact;
     let depths = [c.depth, c.particle_depth.unwrap_or(4.0 * spacing)];
     let opacities = [c.opacity, c.particle_opacity];
@@ -26,8 +26,8 @@ pub fn twins(look: &ShoreLook, spacing: f32) -> [Contact; 2] {
     })
 }
 
-fn look(contact: ContactLook) -> ShoreLook {
-    ShoreLook::default().with(|it| {
+fn look(contact: ContactSettings) -> ShoreSettings {
+    ShoreSettings::default().with(|it| {
         it.time = 3.25;
         it.contact = contact;
     })
@@ -62,7 +62,7 @@ fn a_level_s_contacts_are_the_twin_s() {
     let size = extent(96, 64);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let (texture, pattern) = mask(&rig);
-    let base = ContactLook::default().with(|it| {
+    let base = ContactSettings::default().with(|it| {
         it.depth = 0.8;
         it.mask_scale = 0.3;
     });
@@ -177,14 +177,14 @@ fn contacts_on_particles_are_the_twin_s() {
     let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
     // Of posts of a pixel's width, about one a tile, few pixels have some: no tile is left out that has one.
     for (name, lens, contact) in [
-        ("posts", Lens::Reversed, ContactLook::default()),
-        ("posts, alone", Lens::OffAxis, ContactLook::default()),
-        ("distance", Lens::Standard, ContactLook::default()),
-        ("view", Lens::Reversed, ContactLook::default().with(|it| it.measure = Measure::View)),
+        ("posts", Lens::Reversed, ContactSettings::default()),
+        ("posts, alone", Lens::OffAxis, ContactSettings::default()),
+        ("distance", Lens::Standard, ContactSettings::default()),
+        ("view", Lens::Reversed, ContactSettings::default().with(|it| it.measure = Measure::View)),
         (
             "vertical",
             Lens::LeftHanded,
-            ContactLook::default().with(|it| {
+            ContactSettings::default().with(|it| {
                 it.measure = Measure::Vertical;
                 it.mask = 0.3;
             }),
@@ -254,7 +254,7 @@ fn nothing_is_not_at_the_far_plane() {
     let far = f64::from(scenes::FAR);
     for lens in [Lens::Standard, Lens::Reversed, Lens::Mirrored, Lens::LeftHanded] {
         let mut shot = Shot::new(size, lens, 2.0, &points);
-        let contact = ContactLook::default().with(|it| {
+        let contact = ContactSettings::default().with(|it| {
             it.depth = 90.0;
             it.measure = Measure::View;
         });

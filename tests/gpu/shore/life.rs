@@ -2,7 +2,7 @@
 
 use ash::vk;
 use glam::DVec2;
-use whitewater::shore::{ContactLook, Edge, ShoreConfig, ShoreLook, WebLayer};
+use whitewater::shore::{ContactSettings, Edge, ShoreConfig, ShoreSettings, WebLayer};
 use whitewater::{Error, Shore, Shoreline, Slot, Strip, Surface, Triangles};
 
 use super::shoreline::{AREA, heights, plain, web_alone};
@@ -164,7 +164,7 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     assert_eq!(rig.draw(&shot).shore.expect("foam").data, first.data, "the built-in again");
 }
 
-type Spoil = (&'static str, fn(&mut ShoreLook));
+type Spoil = (&'static str, fn(&mut ShoreSettings));
 
 #[test]
 fn bad_looks_shores_and_configurations_name_their_field() {
@@ -179,28 +179,30 @@ fn bad_looks_shores_and_configurations_name_their_field() {
     }
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let spoils: [Spoil; 22] = [
-        ("ShoreLook.time", |l| l.time = f64::NAN),
-        ("ShoreLook.period", |l| l.period = Some(0.0)),
-        ("ShorelineLook.reach[0]", |l| l.shoreline.reach[0] = 0.0),
-        ("ShorelineLook.reach[1]", |l| l.shoreline.reach[1] = f32::NAN),
-        ("ShorelineLook.frequency", |l| l.shoreline.frequency = -1.0),
-        ("ShorelineLook.speed", |l| l.shoreline.speed = f32::INFINITY),
-        ("ShorelineLook.swing", |l| l.shoreline.swing = 1.5),
-        ("ShorelineLook.swing_by[1]", |l| l.shoreline.swing_by[1] = 0.0),
-        ("ShorelineLook.speed_period", |l| l.shoreline.speed_period = 0.0),
-        ("ShorelineLook.wave_rise", |l| l.shoreline.wave_rise[1] = 101.0),
-        ("ShorelineLook.floor", |l| l.shoreline.floor = Some(f32::NAN)),
-        ("ShorelineLook.web_ratio", |l| l.shoreline.web_ratio = -1.0),
-        ("ShorelineLook.fade", |l| l.shoreline.fade = 0.0),
-        ("ShorelineLook.color", |l| l.shoreline.color[2] = 1.5),
-        ("ShorelineLook.opacity", |l| l.shoreline.opacity = 2.0),
-        ("WebLayer.weight", |l| l.shoreline.layers[1].weight = 2.0),
-        ("WebLayer.scale", |l| l.shoreline.layers[3].scale = -1.0),
-        ("ShorelineLook.warp.amplitude", |l| l.shoreline.warp.amplitude = f32::NAN),
-        ("ContactLook.depth", |l| l.contact.depth = 0.0),
-        ("ContactLook.particle_depth", |l| l.contact.particle_depth = Some(-1.0)),
-        ("ContactLook.mask", |l| l.contact.mask = 1.5),
-        ("ContactLook.color", |l| l.contact.color[0] = 1.5),
+        ("Settings.shore.time", |l| l.time = f64::NAN),
+        ("Settings.shore.period", |l| l.period = Some(0.0)),
+        ("Settings.shore.shoreline.sea_reach", |l| l.shoreline.sea_reach = 0.0),
+        ("Settings.shore.shoreline.land_reach", |l| l.shoreline.land_reach = f32::NAN),
+        ("Settings.shore.shoreline.frequency", |l| l.shoreline.frequency = -1.0),
+        ("Settings.shore.shoreline.speed", |l| l.shoreline.speed = f32::INFINITY),
+        ("Settings.shore.shoreline.swing", |l| l.shoreline.swing = 1.5),
+        ("Settings.shore.shoreline.swing_period", |l| l.shoreline.swing_period = 0.0),
+        ("Settings.shore.shoreline.speed_period", |l| l.shoreline.speed_period = 0.0),
+        ("Settings.[shore.shoreline.wave_slope, shore.shoreline.wave_offset]", |l| {
+            l.shoreline.wave_offset = 101.0
+        }),
+        ("Settings.shore.shoreline.floor", |l| l.shoreline.floor = Some(f32::NAN)),
+        ("Settings.shore.shoreline.web_ratio", |l| l.shoreline.web_ratio = -1.0),
+        ("Settings.shore.shoreline.fade", |l| l.shoreline.fade = 0.0),
+        ("Settings.shore.shoreline.color", |l| l.shoreline.color[2] = 1.5),
+        ("Settings.shore.shoreline.opacity", |l| l.shoreline.opacity = 2.0),
+        ("Settings.shore.shoreline.layers.weight", |l| l.shoreline.layers[1].weight = 2.0),
+        ("Settings.shore.shoreline.layers.scale", |l| l.shoreline.layers[3].scale = -1.0),
+        ("Settings.shore.shoreline.warp.amplitude", |l| l.shoreline.warp.amplitude = f32::NAN),
+        ("Settings.shore.contact.depth", |l| l.contact.depth = 0.0),
+        ("Settings.shore.contact.particle_depth", |l| l.contact.particle_depth = Some(-1.0)),
+        ("Settings.shore.contact.mask", |l| l.contact.mask = 1.5),
+        ("Settings.shore.contact.color", |l| l.contact.color[0] = 1.5),
     ];
     let mut shot = Shot::new(size, Lens::Standard, 0.2, &[]);
     shot.shore = Some(Shore::new(0.0));
@@ -211,7 +213,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
         assert!(why.contains(field), "{field}: {why}");
     }
     // Light of its own may be any.
-    let glowing = ContactLook::default().with(|it| {
+    let glowing = ContactSettings::default().with(|it| {
         it.lit = 0.0;
         it.color = [40.0, 9.0, 1.0];
     });

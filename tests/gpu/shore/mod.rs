@@ -21,7 +21,8 @@ use ash::vk;
 use glam::{DMat3, DVec3};
 use whitewater::shore::texture;
 use whitewater::shore::{
-    Area, Edge, Heights, Measure, ShoreConfig, ShoreLook, ShoreMap, ShoreMapConfig, ShoreMapStep,
+    Area, Edge, Heights, Measure, ShoreConfig, ShoreMap, ShoreMapConfig, ShoreMapStep,
+    ShoreSettings,
 };
 use whitewater::{Access, Coast, Config, Error, Shoreline, Slot, Surface};
 
@@ -214,25 +215,25 @@ fn shared_at(is_shared: bool, pixel: [usize; 2]) -> ([f64; 2], [f64; 2]) {
     }
 }
 
-fn clock(look: &ShoreLook) -> Clock {
+fn clock(look: &ShoreSettings) -> Clock {
     Clock { time: look.time, period: look.period.map(f64::from) }
 }
 
 /// The twin of a look.
-fn look_of(look: &ShoreLook) -> foam::Shoreline {
+fn look_of(look: &ShoreSettings) -> foam::Shoreline {
     let (s, clock) = (&look.shoreline, clock(look));
     let noise = |n: whitewater::shore::Noise| foam::noise(n.amplitude, n.scale);
     let layers = s.layers.iter().filter(|own| own.weight > 0.0);
     foam::Shoreline {
         frequency: f64::from(s.frequency),
-        phases: clock.phases(s.speed, s.swing, s.swing_by, s.speed_period),
+        phases: clock.phases(s.speed, s.swing, [s.swing_amplitude, s.swing_period], s.speed_period),
         frequency_noise: noise(s.frequency_noise),
         speed_noise: noise(s.speed_noise),
-        wave_rise: s.wave_rise.map(f64::from),
+        wave_rise: [s.wave_slope, s.wave_offset].map(f64::from),
         floor: s.floor.map(f64::from),
         wave_ratio: f64::from(s.wave_ratio),
         web_ratio: f64::from(s.web_ratio),
-        web_rise: s.web_rise.map(f64::from),
+        web_rise: [s.web_slope, s.web_offset].map(f64::from),
         layers: layers
             .map(|own| foam::layer(clock, own.weight, own.scale, own.angle, own.speed))
             .collect(),

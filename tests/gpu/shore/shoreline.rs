@@ -2,7 +2,7 @@
 
 use ash::vk;
 use glam::{DVec2, DVec3, Mat4, Vec3};
-use whitewater::shore::{Area, Edge, Noise, ShoreLook, ShorelineLook, WebLayer};
+use whitewater::shore::{Area, Edge, Noise, ShoreSettings, ShorelineSettings, WebLayer};
 use whitewater::{Shore, Shoreline, Surface};
 
 use super::{Mapped, Tally, is_shared, look_of, shared_at, textures, water, with_shore};
@@ -43,12 +43,12 @@ fn coast(gpu: &Gpu) -> Mapped<'_> {
 }
 
 /// The web alone: no noise, and no waves.
-pub fn web_alone(reach: [f32; 2], layers: [WebLayer; 4]) -> ShorelineLook {
-    ShorelineLook::default().with(|it| {
-        it.reach = reach;
+pub fn web_alone(reach: [f32; 2], layers: [WebLayer; 4]) -> ShorelineSettings {
+    ShorelineSettings::default().with(|it| {
+        [it.sea_reach, it.land_reach] = reach;
         it.wave_ratio = 0.0;
         it.web_ratio = 1.0;
-        it.web_rise = [0.0; 2];
+        [it.web_slope, it.web_offset] = [0.0; 2];
         it.threshold = 0.5;
         it.threshold_noise = Noise::NONE;
         it.rise_noise = Noise::NONE;
@@ -63,11 +63,11 @@ pub const AREA: Area =
     Area { up: [0.0, 1.0, 0.0], center: [7.0, -5.0], edge: 32.0, level: 0.0, reach: 8.0 };
 
 /// Two looks into the noise, two layers: what a frame of the less general kind has.
-pub fn plain() -> ShoreLook {
+pub fn plain() -> ShoreSettings {
     let noise = |amplitude, scale| Noise { amplitude, scale };
     let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
-    let shoreline = ShorelineLook::default().with(|it| {
-        it.reach = [3.0, 1.5];
+    let shoreline = ShorelineSettings::default().with(|it| {
+        [it.sea_reach, it.land_reach] = [3.0, 1.5];
         it.frequency = 9.0;
         it.frequency_noise = noise(2.0, 1.0 / 30.0);
         it.speed_noise = noise(0.35, 1.0 / 30.0);
@@ -81,14 +81,14 @@ pub fn plain() -> ShoreLook {
             WebLayer::NONE,
         ];
     });
-    ShoreLook::default().with(|it| {
+    ShoreSettings::default().with(|it| {
         it.time = 12.75;
         it.shoreline = shoreline;
     })
 }
 
 /// All there is.
-fn rich() -> ShoreLook {
+fn rich() -> ShoreSettings {
     let mut look = plain();
     let noise = |amplitude, scale| Noise { amplitude, scale };
     let s = &mut look.shoreline;
@@ -105,7 +105,7 @@ fn rich() -> ShoreLook {
 /// The four texels of the map about a place as v, which may be beyond its ends, and its change a pixel.
 fn v_by_map(
     (map, area): (&Map, &Area),
-    look: &ShorelineLook,
+    look: &ShorelineSettings,
     place: [Bounded; 2],
     across: [[Bounded; 2]; 2],
 ) -> Option<(Bounded, [Bounded; 2])> {
@@ -115,7 +115,7 @@ fn v_by_map(
     if !map.inside(texels)? {
         return Some((exact(0.0), [exact(0.0); 2]));
     }
-    let reach = look.reach.map(f64::from);
+    let reach = [look.sea_reach, look.land_reach].map(f64::from);
     let distance = map.at(texels, false);
     let v = coordinate(distance, reach);
     let slope = map.slope(texels).map(|s| s / edge);
@@ -148,7 +148,7 @@ pub fn pixel_by_map(
 }
 
 /// How much of a pixel is foam by the twin; none where rounding decides.
-pub fn amount(look: &ShoreLook, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Option<Bounded> {
+pub fn amount(look: &ShoreSettings, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Option<Bounded> {
     let [noise, web] = textures();
     let v = pixel.own_v();
     if v.high() <= 0.0 || v.low() >= 2.0 {
@@ -165,7 +165,7 @@ pub fn amount(look: &ShoreLook, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Op
 }
 
 /// A shot of the level with the map.
-fn with_map(coasts: &Mapped<'_>, shot: &mut Shot, look: &ShoreLook) {
+fn with_map(coasts: &Mapped<'_>, shot: &mut Shot, look: &ShoreSettings) {
     let line = Some(Shoreline::Map(coasts.coast()));
     shot.shore = Some(Shore::new(AREA.level).with(|it| it.shoreline = line));
     shot.settings.shore = *look;
@@ -261,7 +261,7 @@ fn both_pipelines_draw_the_same() {
         *noise = Noise::NONE;
     }
     // No bend where the shore is.
-    s.reach = [4.0; 2];
+    [s.sea_reach, s.land_reach] = [4.0; 2];
     with_map(&coasts, &mut shot, &look);
     let together = rig.draw(&shot).shore.expect("shoreline foam");
     let alone = rig.draw(&generally(&shot)).shore.expect("shoreline foam");

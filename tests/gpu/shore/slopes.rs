@@ -1,7 +1,7 @@
 //! The web's slopes where pixels are much longer than wide: they are those of a web that is turned.
 
 use glam::{Mat4, Vec3};
-use whitewater::shore::{Area, Edge, ShoreLook, WebLayer};
+use whitewater::shore::{Area, Edge, ShoreSettings, WebLayer};
 use whitewater::{Shore, Shoreline};
 
 use super::shoreline::{AREA, amount, heights, pixel_by_map, twin_map, web_alone};
@@ -16,7 +16,7 @@ use crate::support::scenes::Lens;
 const ANGLE: f32 = 30.0;
 
 /// The web alone, of so many layers that are turned alike.
-fn look(layers: usize) -> ShoreLook {
+fn look(layers: usize) -> ShoreSettings {
     let all = [0.3, 0.47, 0.21].map(|scale| WebLayer {
         weight: 1.0 / layers as f32,
         scale,
@@ -25,7 +25,7 @@ fn look(layers: usize) -> ShoreLook {
     });
     let layers = std::array::from_fn(|i| if i < layers { all[i] } else { WebLayer::NONE });
     let shoreline = web_alone([50.0; 2], layers);
-    ShoreLook::default().with(|it| {
+    ShoreSettings::default().with(|it| {
         it.time = 12.75;
         it.shoreline = shoreline;
     })

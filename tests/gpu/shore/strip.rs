@@ -151,7 +151,7 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
                 tally.add((x, y), found.data[i][0], exact(0.0));
                 continue;
             }
-            let reach = f64::from(shot.settings.shore.shoreline.reach[0]);
+            let reach = f64::from(shot.settings.shore.shoreline.sea_reach);
             let far = -bottom.y / tangent / reach;
             // Three depths, each off as its device depth is rounded, over a pixel's way along the bottom.
             let wide = behind * view.c_x().min(view.c_y());
@@ -183,7 +183,8 @@ fn by_the_depth_alone_nothing_above_the_level_is_a_shore() {
         let mut shore = Shore::new(level).with(|it| it.shoreline = Some(Shoreline::Screen));
         shore.bias = 0.0;
         shot.shore = Some(shore);
-        shot.settings.shore.shoreline.reach = [100.0, 1.0];
+        let shoreline = &mut shot.settings.shore.shoreline;
+        (shoreline.sea_reach, shoreline.land_reach) = (100.0, 1.0);
         let found = rig.draw(&shot).shore.expect("shoreline foam");
         let foam = found.data.iter().filter(|texel| texel[0] > 0).count();
         println!("level {level}: {foam} pixels with foam");

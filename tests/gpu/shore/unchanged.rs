@@ -10,12 +10,12 @@ use whitewater::{Camera, Config, Shore, Shoreline};
 use super::composite::{WAYS, look};
 use super::shoreline::{AREA, heights};
 use super::{Mapped, shore_config};
-use crate::foam::Foamy;
 use crate::light::{SIZE, even, everything};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, config};
 use crate::support::scenes::{self, Lens, projection};
+use crate::surface_foam::Foamy;
 
 fn same(name: &str, found: &Drawn, expected: &Drawn) {
     compare::same_color(&format!("{name}-output"), &found.whole, &expected.whole);

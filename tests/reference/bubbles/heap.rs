@@ -43,7 +43,7 @@ fn pair(own: &Blob, other: &Blob, s: &HeapSettings) -> Option<(DVec3, DVec3)> {
     let slip = at(other, -n) - at(own, n);
     let parting = slip.dot(n);
     let near = part.min(1.0);
-    let [d_along, d_across] = s.damping.map(f64::from);
+    let [d_along, d_across] = [s.normal_damping, s.tangential_damping].map(f64::from);
     let across = d_across * near * (slip - parting * n);
     let share = 2.0 * other.mass() / (own.mass() + other.mass());
     let speed = share * ((along + d_along * near * parting) * n + across);

@@ -9,7 +9,7 @@ use super::film::{Face, spectral};
 use super::impostor::into_blob;
 use super::wall::{Wall, between};
 use crate::reference::classify::pcg;
-use crate::reference::foam::{noise, noise_rounding, noise_slope};
+use crate::reference::surface_foam::{noise, noise_rounding, noise_slope};
 use crate::reference::{Image, smoothstep};
 use crate::support::tolerance::U;
 
@@ -69,7 +69,7 @@ impl Look {
 
     /// What a white surface of a normal sends of it: a mean of directions by their cosines, which is two thirds of the
     /// normal long.
-    fn diffuse(&self, normal: DVec3) -> DVec3 {
+    fn whitewater(&self, normal: DVec3) -> DVec3 {
         self.radiance * (1.0 + self.side.dot(normal) * 2.0 / 3.0)
     }
 }
@@ -348,7 +348,7 @@ fn layer(
     let (pattern, unsure) = picture.at(inside);
     let facing = mix(front, round, look.roundness) + look.pattern * pattern.lean;
     let bright = 1.0 + look.pattern * (pattern.brightness - 1.0);
-    let core = look.albedo * look.diffuse(turn * facing.normalize()) * bright * crease;
+    let core = look.albedo * look.whitewater(turn * facing.normalize()) * bright * crease;
     // What is not open to the environment is foam, as bright as this.
     let mirrored = |normal: DVec3, open: f64| {
         look.reflection * mix(core, look.light(turn * reflected(normal)), open)

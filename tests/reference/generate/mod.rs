@@ -1,4 +1,4 @@
-//! Twin of the diffuse particles: spray, foam and bubbles made from a particle fluid, after
+//! Twin of the whitewater particles: spray, foam and bubbles made from a particle fluid, after
 //! "Unified spray, foam and air bubbles for particle-based fluids" (Ihmsen et al. 2012).
 //!
 //! Metres and seconds, ids and random numbers as on the GPU. h = 2 s is the support of all sums,
@@ -66,7 +66,7 @@ pub struct Settings {
     pub bounds: Option<[[f32; 3]; 2]>,
 }
 
-/// A diffuse particle.
+/// A whitewater particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
     /// Where it is, metres.

@@ -1,4 +1,4 @@
-//! What makes diffuse particles: trapped air, wave crests and energy.
+//! What makes whitewater particles: trapped air, wave crests and energy.
 
 use super::water::{Fluid, Grid, Near, Part};
 use super::{MOST_STEPS, STEP, support, unit};

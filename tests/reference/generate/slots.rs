@@ -4,7 +4,7 @@ use super::motion::{carried_by, moved_in};
 use super::water::{Fluid, Grid};
 use super::{Particle, Settings, count, newborn, potentials, wanted};
 
-/// All diffuse particles. One that is gone leaves a free slot.
+/// All whitewater particles. One that is gone leaves a free slot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slots {
     /// The slots used so far; those of age 1 or more are free.

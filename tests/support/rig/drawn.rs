@@ -4,7 +4,7 @@ use ash::vk;
 use whitewater::{HostImage, Layer, Recorded, SmoothingLevel, SmoothingLevels};
 
 use super::{Rig, Shot, Soaped};
-use crate::reference::{Image, foam};
+use crate::reference::{Image, surface_foam};
 use crate::support::host;
 
 /// What a frame gave.
@@ -39,12 +39,12 @@ pub struct Drawn {
     pub light_front: Option<Image<f32>>,
     /// As above.
     pub light_thickness: Option<Image<[f32; 4]>>,
-    /// Of diffuse particles: thickness, metres along the light to its middle and of its spread.
-    pub light_diffuse: Option<Image<[f32; 4]>>,
+    /// Of whitewater particles: thickness, metres along the light to its middle and of its spread.
+    pub light_whitewater: Option<Image<[f32; 4]>>,
     /// As above.
     pub caustics: Option<Image<f32>>,
-    /// With diffuse particles.
-    pub diffuse: Option<Diffused>,
+    /// With whitewater particles.
+    pub whitewater: Option<DrawnWhitewater>,
     /// With bubble foam.
     pub soap: Option<Soaped>,
     /// With shoreline and contact foam: along shores, at contacts on the host's surface, what of the sun's light does not
@@ -78,9 +78,9 @@ impl Drawn {
             noise: None,
             light_front: None,
             light_thickness: None,
-            light_diffuse: None,
+            light_whitewater: None,
             caustics: None,
-            diffuse: None,
+            whitewater: None,
             soap: None,
             shore: None,
             shadow_basis: None,
@@ -125,14 +125,14 @@ impl Foaming {
         let (scene, layers) = (shot.scene_at(shot.size, 0), (&self.depth, &self.thickness));
         let spacing = f64::from(shot.settings.water.spacing);
         Image::from_fn(scene.width, scene.height, |x, y| {
-            foam::seen(layers, (x, y), self.level, scene.at(x, y), spacing)
+            surface_foam::seen(layers, (x, y), self.level, scene.at(x, y), spacing)
         })
     }
 }
 
-/// What a frame with diffuse particles gave besides.
+/// What a frame with whitewater particles gave besides.
 #[derive(Clone)]
-pub struct Diffused {
+pub struct DrawnWhitewater {
     /// Depth of the frontmost, intensity of all, depths of fluid and scene.
     pub occluders: Image<[f32; 4]>,
     /// Thickness before the fluid, behind it, the second by how far.
@@ -219,9 +219,9 @@ impl Rig<'_> {
         };
         let mut foams = false;
         let four = || Image::new(0, 0, [0.0; 4]);
-        let mut diffuse =
-            Diffused { occluders: four(), thickness: four(), normal: four(), light: four() };
-        let mut diffuses = false;
+        let mut whitewater =
+            DrawnWhitewater { occluders: four(), thickness: four(), normal: four(), light: four() };
+        let mut has_whitewater = false;
         let mut soap = own.bubbles.map(|layers| Soaped {
             depth: empty(),
             color: four(),
@@ -243,7 +243,7 @@ impl Rig<'_> {
                     foam.before = both.map(|t| t[1]);
                 }
                 "water.thickness" => drawn.thickness = self.floats(layer, whole),
-                "water.foam" => (foam.depth, foams) = (self.floats(layer, whole), true),
+                "surface_foam" => (foam.depth, foams) = (self.floats(layer, whole), true),
                 "water.spray" => {
                     let both = match layer.format {
                         vk::Format::R16G16_SFLOAT => self.halves(layer, whole),
@@ -263,9 +263,9 @@ impl Rig<'_> {
                     let bytes = self.bytes(layer, whole);
                     drawn.shadow_basis = Some(picture(layer.format, layer.extent, &bytes));
                 }
-                "light.diffuse" => drawn.light_diffuse = Some(self.fours(layer)),
+                "light.whitewater" => drawn.light_whitewater = Some(self.fours(layer)),
                 "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
-                "water.foam.thickness" => {
+                "surface_foam.thickness" => {
                     let four: Image<[f32; 4]> =
                         picture(layer.format, layer.extent, &self.bytes(layer, whole));
                     foam.thickness = four.map(|t| [t[0], t[1]]);
@@ -295,10 +295,10 @@ impl Rig<'_> {
                         sheets.coarser.iter_mut().zip(of(5..7)).for_each(|(to, l)| to.1 = read(l));
                     }
                 }
-                "foam" => (diffuse.occluders, diffuses) = (self.fours(layer), true),
-                "foam.thickness" => diffuse.thickness = self.fours(layer),
-                "foam.normal" => diffuse.normal = self.fours(layer),
-                "foam.irradiance" => diffuse.light = self.fours(layer),
+                "whitewater" => (whitewater.occluders, has_whitewater) = (self.fours(layer), true),
+                "whitewater.thickness" => whitewater.thickness = self.fours(layer),
+                "whitewater.normal" => whitewater.normal = self.fours(layer),
+                "whitewater.irradiance" => whitewater.light = self.fours(layer),
                 "bubbles" => {
                     soap.as_mut().expect("layers").depth = self.floats(layer, whole);
                 }
@@ -317,7 +317,7 @@ impl Rig<'_> {
         }
         drawn.sheets = sheets;
         drawn.foam = foams.then_some(foam);
-        drawn.diffuse = diffuses.then_some(diffuse);
+        drawn.whitewater = has_whitewater.then_some(whitewater);
         drawn.soap = soap;
         drawn
     }

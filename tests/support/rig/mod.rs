@@ -1,7 +1,7 @@
 //! A renderer in a host: the host stub with the images and buffers of a frame.
 
 mod bubbles;
-mod diffuse;
+mod cloud;
 mod drawn;
 mod shot;
 
@@ -9,8 +9,8 @@ use ash::vk;
 use whitewater::headless::Headless;
 use whitewater::water::{Exit, Kernels, Shading, Splat};
 use whitewater::{
-    Access, Config, Count, DiffuseParticles, EnvironmentSource, Equirectangular, Error, Particles,
-    Renderer, Slot, Stream,
+    Access, Config, Count, EnvironmentSource, Equirectangular, Error, Particles, Renderer, Slot,
+    Stream, WhitewaterParticles,
 };
 
 use super::device::Gpu;
@@ -18,8 +18,8 @@ use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
 use super::slow;
 
 pub use bubbles::{Foamed, Soaped};
-pub use diffuse::{attenuation, twins};
-pub use drawn::{Diffused, Drawn, Foaming, Sheets};
+pub use cloud::{attenuation, twins};
+pub use drawn::{Drawn, DrawnWhitewater, Foaming, Sheets};
 use shot::AROUND;
 pub use shot::{Shot, is_around};
 
@@ -263,23 +263,23 @@ impl<'g> Rig<'g> {
 
     /// Draws a shot with other particles than its own.
     pub fn draw_particles(&mut self, shot: &Shot, particles: &Particles) -> Drawn {
-        self.draw_diffuse(shot, particles, None)
+        self.draw_whitewater(shot, particles, None)
     }
 
-    /// The same with diffuse particles.
-    pub fn draw_diffuse(
+    /// The same with whitewater particles.
+    pub fn draw_whitewater(
         &mut self,
         shot: &Shot,
         particles: &Particles,
-        diffuse: Option<DiffuseParticles>,
+        whitewater: Option<WhitewaterParticles>,
     ) -> Drawn {
-        self.try_draw(shot, particles, diffuse).unwrap_or_else(|error| panic!("{error}"))
+        self.try_draw(shot, particles, whitewater).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// What is said of a shot that can't be drawn.
-    pub fn refused(&mut self, shot: &Shot, diffuse: Option<DiffuseParticles>) -> String {
+    pub fn refused(&mut self, shot: &Shot, whitewater: Option<WhitewaterParticles>) -> String {
         let cloud = self.particles(shot);
-        let result = self.try_draw(shot, &cloud.particles(), diffuse);
+        let result = self.try_draw(shot, &cloud.particles(), whitewater);
         result.err().expect("an error").to_string()
     }
 
@@ -287,7 +287,7 @@ impl<'g> Rig<'g> {
         &mut self,
         shot: &Shot,
         particles: &Particles,
-        diffuse: Option<DiffuseParticles>,
+        whitewater: Option<WhitewaterParticles>,
     ) -> Result<Drawn, Error> {
         let (color, depth) = self.scene(shot);
         let apart = (!self.config.in_place).then(|| {
@@ -300,12 +300,12 @@ impl<'g> Rig<'g> {
             texture.host_image().with(|it| it.rect = shot.with_margin(size).1)
         };
         let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
-        let theirs = self.config.bubbles.filter(|bubbles| !bubbles.hand_over);
+        let theirs = self.config.bubbles.filter(|bubbles| !bubbles.crossfade);
         let blobs = theirs.map(|_| self.blobs(shot));
         let frame = shot.frame(output, placed(&depth, shot.depth_extent), *particles).with(|it| {
             it.scene_color = placed(&color, shot.size);
             it.bubbles = blobs.as_ref().map(Foamed::streams);
-            it.diffuse = diffuse;
+            it.whitewater = whitewater;
         });
         let cmd = self.stub.begin(0);
         let renderer = self.renderer.as_mut().expect("only drop takes it");

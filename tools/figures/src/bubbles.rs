@@ -14,7 +14,7 @@ use crate::tool::Tool;
 /// A blob's upper half from near, with sky behind its films.
 const FILMS: &str = "--eye 0.2,1.9,2.3 --target 0.05,1.45,0";
 
-/// Diffuse foam from near: sprites, and the blobs that take over from them.
+/// Whitewater foam from near: sprites, and the blobs that take over from them.
 pub fn near(tool: &Tool, docs: &Path) -> Outcome<()> {
     let kept = tool.temporary("kept_%04d.bgeo");
     let kept = kept.display();
@@ -23,7 +23,7 @@ pub fn near(tool: &Tool, docs: &Path) -> Outcome<()> {
     let look = tool.settings("[bubbles]\nhand_over = [0.5, 1.0]\n")?;
     let view = "--eye 1.1,0.6,0.75 --target 1.0,0.22,0.2 --fov 45";
     let panels = ["", &look].map(|look| {
-        let more = format!("--whitewater {kept} {view} {look} --foam none --spray none");
+        let more = format!("--whitewater {kept} {view} {look} --surface-foam none --spray none");
         tool.frame("waterfall", frame, &more).map(|frame| frame.picture)
     });
     let [sprites, blobs] = panels;
@@ -41,7 +41,7 @@ pub fn one(tool: &Tool, docs: &Path) -> Outcome<()> {
 pub fn films(tool: &Tool, docs: &Path) -> Outcome<()> {
     let looks = [
         "film = 120.0\ncore = [0.4, 0.7]",
-        "core = [0.4, 0.7]",
+        "core_opaque_radius = 0.4\ncore_outer_radius = 0.7",
         "film = 900.0\ncore = [0.4, 0.7]",
         "drainage = 0.0\nvariation = 0.0\ncore = [0.4, 0.7]",
         "spectrum = \"three\"\ncore = [0.4, 0.7]",

@@ -8,10 +8,10 @@ use whitewater::io::picture::Layers;
 use crate::Outcome;
 use crate::bubbles;
 use crate::curves::{self, Curve};
-use crate::diffuse;
 use crate::panels::{self, amount, depth, grid, iterations, normals, save};
 use crate::shore;
 use crate::tool::{SIZE, Timed, Tool, sequence};
+use crate::whitewater_figures;
 
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
@@ -38,12 +38,12 @@ pub const ALL: [(&str, Figure); 39] = [
     ("flight-waterfall", |tool, docs| flight(tool, docs, "waterfall")),
     ("flight-corridor", |tool, docs| flight(tool, docs, "corridor")),
     ("flight-bamboo", |tool, docs| flight(tool, docs, "bamboo")),
-    ("seas", diffuse::seas),
-    ("seas-ray-cast", diffuse::ray_cast),
-    ("diffuse-layers", diffuse::layers),
-    ("diffuse-shapes", diffuse::shapes),
-    ("diffuse-look", diffuse::looks),
-    ("diffuse-distances", diffuse::distances),
+    ("seas", whitewater_figures::seas),
+    ("seas-ray-cast", whitewater_figures::ray_cast),
+    ("whitewater-layers", whitewater_figures::layers),
+    ("whitewater-shapes", whitewater_figures::shapes),
+    ("whitewater-look", whitewater_figures::looks),
+    ("whitewater-distances", whitewater_figures::distances),
     ("foam-near", bubbles::near),
     ("bubble-one", bubbles::one),
     ("bubble-films", bubbles::films),
@@ -81,7 +81,7 @@ fn film(tool: &Tool, docs: &Path) -> Outcome<()> {
 
 /// Figure 1.1: the baseline's noise foam beside foam of particles.
 fn noise_foam(tool: &Tool, docs: &Path) -> Outcome<()> {
-    let noise = "--rule fixed:40 --foam none --spray none --noise foam";
+    let noise = "--rule fixed:40 --surface-foam none --spray none --noise foam";
     let panels =
         [tool.frame("waterfall", 240, noise)?.picture, tool.frame("waterfall", 240, "")?.picture];
     grid(&panels, 2, &pictures(docs, "noise-foam.jpg"))
@@ -108,15 +108,15 @@ fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     let layers = &frame.layers;
     let panels = [
         depth(layers, "water.depth.Z")?,
-        depth(layers, "water.foam.Z")?,
+        depth(layers, "surface_foam.Z")?,
         depth(layers, "water.surface.Z")?,
         normals(layers, "water.normal", "water.surface.Z")?,
         iterations(layers)?,
         amount(layers, "water.thickness", 6.0 * radius)?,
-        amount(layers, "water.foam.thickness", radius)?,
-        amount(layers, "water.foam.front", radius)?,
+        amount(layers, "surface_foam.thickness", radius)?,
+        amount(layers, "surface_foam.front", radius)?,
         amount(layers, "water.spray", 0.5)?,
-        tool.frame("waterfall", 240, "--foam none --spray none")?.picture,
+        tool.frame("waterfall", 240, "--surface-foam none --spray none")?.picture,
         without.picture,
         frame.picture,
     ];
@@ -143,12 +143,12 @@ fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     let mut before = 0.0;
     // The one that the tool finds for the sequence stands for the source's 80.
-    let found = found_threshold(&tool.frame("waterfall", 240, "--foam auto")?.layers)?;
+    let found = found_threshold(&tool.frame("waterfall", 240, "--surface-foam auto")?.layers)?;
     println!("thresholds: found We {found:.1}");
     for source in [110.0, 90.0, 70.0, 50.0] {
         let threshold = found / 80.0 * source;
-        let drawn = tool.frame("waterfall", 240, &format!("--foam {threshold}"))?;
-        let foam = panels::mean_of(&drawn.layers, "water.foam.thickness")?;
+        let drawn = tool.frame("waterfall", 240, &format!("--surface-foam {threshold}"))?;
+        let foam = panels::mean_of(&drawn.layers, "surface_foam.thickness")?;
         println!("thresholds, We {threshold:.0}: {foam:.6} m of foam a pixel");
         if foam <= before {
             return Err(format!("foam does not grow as the threshold falls to {threshold}"));
@@ -164,7 +164,7 @@ fn found_threshold(layers: &Layers) -> Outcome<f32> {
     let settings = layers.attributes.iter().find(|(name, _)| name == "settings");
     let lines = settings.into_iter().flat_map(|(_, text)| text.lines());
     let mut found = lines.filter_map(|line| line.strip_prefix("threshold = "));
-    // Table [foam] stands before [shoreline], which has one too.
+    // Table [surface_foam] stands before [shoreline], which has one too.
     let number = found.next().and_then(|number| number.parse().ok());
     number.ok_or_else(|| "the frame does not say from which Weber number on it foams".into())
 }
@@ -174,7 +174,7 @@ fn curvature(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     for more in ["", NEAR] {
         // A pixel of the layers is one of the smoothing.
-        let more = format!("{more} --foam none --spray none --shadows none");
+        let more = format!("{more} --surface-foam none --spray none --shadows none");
         let frame = tool.frame("waterfall", 240, &more)?;
         for name in ["water.depth.Z", "water.surface.Z"] {
             let (image, spread) = panels::curvature(&frame.layers, name, RADIUS)?;
@@ -192,7 +192,8 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
     let near = "--eye 0.95,0.75,0.6 --target 0.2,0.15,0 --fov 45";
     for view in [far, near] {
         for rule in ["fixed:5", "fixed:40", "fixed:160", "constant-width"] {
-            let more = format!("{view} --rule {rule} --foam none --spray none --shadows none");
+            let more =
+                format!("{view} --rule {rule} --surface-foam none --spray none --shadows none");
             let picture = tool.frame("waterfall", 240, &more)?.picture;
             let half = (SIZE.0 as u32 / 2, SIZE.1 as u32 / 2);
             let panel = match view == far {
@@ -210,10 +211,10 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
 fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
     // From above: the ground lies behind.
     let view = "--radius 0.05 --eye 0,0.8,0 --target 0,0,0 --up 0,0,-1 --fov 40 --spray none --shadows none";
-    let water = tool.particles("x,y,z\n0,0,0\n", &format!("{view} --foam none"))?;
-    let own = tool.settings("[foam]\npattern = 0\nnoise = 1\n")?;
+    let water = tool.particles("x,y,z\n0,0,0\n", &format!("{view} --surface-foam none"))?;
+    let own = tool.settings("[surface_foam]\npattern = 0\nnoise = 1\n")?;
     let moving = "x,y,z,vx,vy,vz\n0,0,0,1.5,0,1\n";
-    let foam = tool.particles(moving, &format!("{view} --foam 1e-6 {own}"))?;
+    let foam = tool.particles(moving, &format!("{view} --surface-foam 1e-6 {own}"))?;
     let near = tool.frame("waterfall", 240, &format!("{NEAR} --thickness-level 0"))?.layers;
     let square = |image: image::RgbImage| {
         let (side, width) = (SIZE.1 as u32, image.width());
@@ -226,8 +227,8 @@ fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels = [
         part(&water, "water.thickness", 0.8 * most(&water, "water.thickness")?)?,
         part(&near, "water.thickness", 6.0 * RADIUS)?,
-        part(&foam, "water.foam.thickness", 0.8 * most(&foam, "water.foam.thickness")?)?,
-        part(&near, "water.foam.thickness", RADIUS)?,
+        part(&foam, "surface_foam.thickness", 0.8 * most(&foam, "surface_foam.thickness")?)?,
+        part(&near, "surface_foam.thickness", RADIUS)?,
     ];
     grid(&panels, 4, &pictures(docs, "kernels.png"))
 }
@@ -246,7 +247,7 @@ fn water_layers(tool: &Tool, docs: &Path) -> Outcome<()> {
 fn borders(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     for view in ["", NEAR] {
-        let more = format!("{view} --foam none --spray none --shadows none");
+        let more = format!("{view} --surface-foam none --spray none --shadows none");
         let frame = tool.frame("waterfall", 240, &more)?;
         panels.push(panels::borders(&frame.layers, "water.surface.Z", 5.3 * RADIUS)?);
     }
@@ -272,7 +273,7 @@ fn bamboo(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("bamboo", 80, "")?.picture,
         tool.frame("bamboo", 112, "")?.picture,
         tool.frame("bamboo", 112, near)?.picture,
-        tool.frame("bamboo", 112, &format!("{near} --foam none --spray none"))?.picture,
+        tool.frame("bamboo", 112, &format!("{near} --surface-foam none --spray none"))?.picture,
     ];
     grid(&panels, 2, &pictures(docs, "bamboo-foam.jpg"))
 }
@@ -282,10 +283,10 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
     let wave = "--eye 0.6,0.85,0.3 --target -1.4,0.15,-0.1 --fov 50";
     let under = "--eye 0.75,0.75,1.35 --target -0.05,0.1,0.1 --fov 40";
     let panels = [
-        tool.frame("corridor", 110, &format!("{wave} --foam none --spray none"))?.picture,
+        tool.frame("corridor", 110, &format!("{wave} --surface-foam none --spray none"))?.picture,
         tool.frame("corridor", 110, wave)?.picture,
         tool.frame("waterfall", 240, under)?.picture,
-        amount(&tool.frame("waterfall", 240, under)?.layers, "water.foam.thickness", 0.05)?,
+        amount(&tool.frame("waterfall", 240, under)?.layers, "surface_foam.thickness", 0.05)?,
     ];
     grid(&panels, 2, &pictures(docs, "foam.jpg"))
 }
@@ -293,7 +294,7 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
 /// Foam by a noise of each sprite's own, and by one that all share.
 fn pattern(tool: &Tool, docs: &Path) -> Outcome<()> {
     let wave = "--eye 0.6,0.85,0.3 --target -1.4,0.15,-0.1 --fov 50";
-    let own = tool.settings("[foam]\npattern = 0\nnoise = 1\n")?;
+    let own = tool.settings("[surface_foam]\npattern = 0\nnoise = 1\n")?;
     let panels = [
         tool.frame("waterfall", 195, &own)?.picture,
         tool.frame("waterfall", 195, "")?.picture,
@@ -308,7 +309,8 @@ fn sheets(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels: Result<Vec<_>, _> = ["1", "2"]
         .iter()
         .map(|sheets| {
-            let more = format!("{NEAR} --foam none --spray none --shadows none --sheets {sheets}");
+            let more =
+                format!("{NEAR} --surface-foam none --spray none --shadows none --sheets {sheets}");
             let frame = tool.frame("waterfall", 240, &more)?;
             Ok::<_, String>(frame.picture)
         })
@@ -319,10 +321,10 @@ fn sheets(tool: &Tool, docs: &Path) -> Outcome<()> {
 /// The ways that the thesis compares, and ours. All see straight through water, as the thesis does: what a second refraction
 /// costs is no matter of smoothing and foam.
 const WAYS: [(&str, &str); 4] = [
-    ("baseline: 40 iterations", "--sheets 1 --foam none --rule fixed:40"),
-    ("source, without foam", "--sheets 1 --foam none --rule source"),
-    ("source, with foam", "--sheets 1 --foam auto --rule source"),
-    ("ours: constant width, two sheets, foam", "--foam auto"),
+    ("baseline: 40 iterations", "--sheets 1 --surface-foam none --rule fixed:40"),
+    ("source, without foam", "--sheets 1 --surface-foam none --rule source"),
+    ("source, with foam", "--sheets 1 --surface-foam auto --rule source"),
+    ("ours: constant width, two sheets, foam", "--surface-foam auto"),
 ];
 
 /// The most that the thesis' ways may cost, of the baseline's: without foam and with it (its Table 5.1 has up to 1.10 and

@@ -1,4 +1,4 @@
-//! The figures of `docs/layered-water.md`, `docs/screen-space-foam.md`, `docs/bubble-foam.md` and `docs/shore-foam.md`: the
+//! The figures of `docs/layered-water.md`, `docs/whitewater.md`, `docs/bubble-foam.md` and `docs/shore-foam.md`: the
 //! sources' own (F. Bagar, 2010; Akinci et al., 2013; Huszár, Szécsi; a blog; D. Lettier), drawn anew by `whitewater`.
 //!
 //! ```sh
@@ -13,12 +13,12 @@
 
 mod bubbles;
 mod curves;
-mod diffuse;
 mod figures;
 mod gallery;
 mod panels;
 mod shore;
 mod tool;
+mod whitewater_figures;
 
 use std::path::PathBuf;
 use std::process::ExitCode;

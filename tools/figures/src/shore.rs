@@ -21,11 +21,11 @@ fn look(tool: &Tool, look: &str) -> Outcome<String> {
 /// The blog's steps: waves; thinner out to sea; noise on the frequency; the web, by two thresholds; the mix.
 pub fn steps(tool: &Tool, docs: &Path) -> Outcome<()> {
     let web = "wave_ratio = 0.0\nweb_ratio = 1.0\nthreshold_noise = [0.0, 0.0]\nrise_noise = [0.0, 0.0]\nfade = 0.02\n\
-               web_rise = [0.9, -0.9]\n";
+               web_slope = 0.9\nweb_offset = -0.9\n";
     let looks = [
-        format!("{PLAIN}floor = 0.0\nwave_rise = [0.0, 0.0]\nthreshold = 0.4\n"),
-        format!("{PLAIN}wave_rise = [1.0, 0.0]\nthreshold = 1.25\n"),
-        format!("{PLAIN}wave_rise = [1.0, 0.0]\nthreshold = 1.25\n")
+        format!("{PLAIN}floor = 0.0\nwave_slope = 0.0\nwave_offset = 0.0\nthreshold = 0.4\n"),
+        format!("{PLAIN}wave_slope = 1.0\nwave_offset = 0.0\nthreshold = 1.25\n"),
+        format!("{PLAIN}wave_slope = 1.0\nwave_offset = 0.0\nthreshold = 1.25\n")
             .replace("frequency_noise = [0.0, 0.0]", "frequency_noise = [9.0, 0.02]"),
         format!("{web}threshold = 0.85\n"),
         format!("{web}threshold = 0.5\n"),
@@ -65,6 +65,6 @@ pub fn contact(tool: &Tool, docs: &Path) -> Outcome<()> {
     let on = tool.settings(
         "[contact]\nparticle_opacity = 1.0\nparticle_depth = 0.3\nmask_scale = 2.0\nmask = 0.6\n",
     )?;
-    let water = tool.frame("waterfall", 200, &format!("{on} --foam none"))?.picture;
+    let water = tool.frame("waterfall", 200, &format!("{on} --surface-foam none"))?.picture;
     grid(&[without, pool, lava, water], 2, &pictures(docs, "contact.jpg"))
 }

@@ -227,37 +227,49 @@ impl Tool {
         Ok(format!("--settings {}", path.display()))
     }
 
-    /// The picture of a sea, of so many diffuse particles. `look`: its table `[diffuse]`.
-    pub fn sea(&self, sea: &str, diffuse: &str, size: &str, look: &str) -> Outcome<RgbImage> {
-        let png = self.draw_sea("png", [sea, diffuse, size, look], None)?;
+    /// The picture of a sea, of so many whitewater particles. `look`: its table `[whitewater]`.
+    pub fn sea(&self, sea: &str, whitewater: &str, size: &str, look: &str) -> Outcome<RgbImage> {
+        let png = self.draw_sea("png", [sea, whitewater, size, look], None)?;
         Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
     }
 
     /// The same from so many metres away.
-    pub fn sea_from(&self, metres: f32, sea: &str, diffuse: &str, size: &str) -> Outcome<RgbImage> {
-        let png = self.draw_sea("png", [sea, diffuse, size, ""], Some(metres))?;
+    pub fn sea_from(
+        &self,
+        metres: f32,
+        sea: &str,
+        whitewater: &str,
+        size: &str,
+    ) -> Outcome<RgbImage> {
+        let png = self.draw_sea("png", [sea, whitewater, size, ""], Some(metres))?;
         Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
     }
 
     /// The layers of its foam.
-    pub fn sea_layers(&self, sea: &str, diffuse: &str, size: &str, look: &str) -> Outcome<Layers> {
-        let exr = self.draw_sea("exr", [sea, diffuse, size, look], None)?;
+    pub fn sea_layers(
+        &self,
+        sea: &str,
+        whitewater: &str,
+        size: &str,
+        look: &str,
+    ) -> Outcome<Layers> {
+        let exr = self.draw_sea("exr", [sea, whitewater, size, look], None)?;
         picture::read(&exr).map_err(|error| error.to_string())
     }
 
     fn draw_sea(
         &self,
         kind: &str,
-        [sea, diffuse, size, look]: [&str; 4],
+        [sea, whitewater, size, look]: [&str; 4],
         away: Option<f32>,
     ) -> Outcome<PathBuf> {
         let (to, toml) = (self.temporary(&format!("sea.{kind}")), self.temporary("sea.toml"));
-        std::fs::write(&toml, format!("[diffuse]\n{look}\n"))
+        std::fs::write(&toml, format!("[whitewater]\n{look}\n"))
             .map_err(|error| format!("cannot write {}: {error}", toml.display()))?;
         let mut arguments = vec![
             "bench".to_owned(),
             format!("--sea={sea}"),
-            format!("--diffuse={diffuse}"),
+            format!("--whitewater={whitewater}"),
             format!("--size={size}"),
             "--frames=1".to_owned(),
             "--warmup=0".to_owned(),
@@ -270,7 +282,7 @@ impl Tool {
     }
 
     /// How much of each pixel the foam of a sea covers by volume ray-casting, 0 to 1.
-    pub fn sea_ray_cast(&self, sea: &str, diffuse: u32, size: &str) -> Outcome<Vec<f32>> {
+    pub fn sea_ray_cast(&self, sea: &str, whitewater: u32, size: &str) -> Outcome<Vec<f32>> {
         let (program, png) = (self.program.with_file_name(CASTER), self.temporary("cast.png"));
         if !program.exists() {
             return Err(format!("{} is not there; build {CASTER}", program.display()));
@@ -279,7 +291,7 @@ impl Tool {
             &program,
             &[
                 format!("--sea={sea}"),
-                format!("--particles={diffuse}"),
+                format!("--particles={whitewater}"),
                 format!("--size={size}"),
                 "--method=grid".to_owned(),
                 "--step=1".to_owned(),
@@ -290,7 +302,7 @@ impl Tool {
         Ok(grey.iter().map(|v| linear(*v)).collect())
     }
 
-    /// The layers of one diffuse particle of a kind, whose disc has a radius in pixels in the middle of a picture of so
+    /// The layers of one whitewater particle of a kind, whose disc has a radius in pixels in the middle of a picture of so
     /// many.
     pub fn particle(&self, kind: &str, size: u32, pixels: f64) -> Outcome<Layers> {
         // At a depth where the picture is twice its radius of one high.
@@ -299,7 +311,7 @@ impl Tool {
         let files = [
             ("water.csv", "x,y,z\n0,-9,0\n".to_owned()),
             ("one.csv", "x,y,z\n0,0,0\n".to_owned()),
-            ("one.toml", format!("[diffuse]\nradius = {radius:.1}\n")),
+            ("one.toml", format!("[whitewater]\nradius = {radius:.1}\n")),
         ];
         for (name, text) in &files {
             let file = self.temporary(name);

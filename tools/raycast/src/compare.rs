@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
 use whitewater::ash::vk;
-use whitewater::foam::{DiffuseConfig, Occlusion};
-use whitewater::headless::{Background, COLOR_FORMAT, Device, Diffuse, Headless, Picture};
+use whitewater::headless::{Background, COLOR_FORMAT, Device, Headless, Picture, Whitewater};
 use whitewater::{Camera, Config, Settings as Look};
+use whitewater::{Occlusion, WhitewaterConfig};
 use whitewater_raycast::{Caster, Input, Method, SceneDepth};
 use whitewater_seas::{Foam, Sea};
 
@@ -202,14 +202,14 @@ fn row(name: &str, cast: Option<&Cast>, times: &[(&'static str, f64)], ours: [f6
 
 fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)> {
     let count = shot.foam.positions.len() as u32;
-    let diffuse = DiffuseConfig::new(count.max(1)).with(|it| it.occlusion = Occlusion::Fast);
+    let whitewater = WhitewaterConfig::new(count.max(1)).with(|it| it.occlusion = Occlusion::Fast);
     let config =
-        Config::new(shot.extent(), COLOR_FORMAT, 1024).with(|it| it.diffuse = Some(diffuse));
+        Config::new(shot.extent(), COLOR_FORMAT, 1024).with(|it| it.whitewater = Some(whitewater));
     let mut headless = Headless::new(device, &config).map_err(line)?;
     let mut draw = || {
         headless.particles(&[], None)?;
         headless.scene(&shot.sea.scene(), false)?;
-        headless.diffuse(Some(&Diffuse {
+        headless.whitewater(Some(&Whitewater {
             positions: &shot.foam.positions,
             kinds: Some(&shot.foam.kinds),
             radii: None,
@@ -217,7 +217,7 @@ fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)
             ids: Some(&shot.foam.ids),
         }))?;
         let mut look = Look::default();
-        look.diffuse.radius = shot.radius;
+        look.whitewater.radius = shot.radius;
         let mut frames = Vec::new();
         for frame in 0..=repeat {
             headless.render(&shot.camera, &look, &Background::Scene)?;
@@ -225,7 +225,7 @@ fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)
                 frames.push(by_name(&headless.timings()));
             }
         }
-        let intensity = headless.layer("foam.intensity")?;
+        let intensity = headless.layer("whitewater.intensity")?;
         let depth = headless.scene_depth()?;
         Ok((frames, intensity, SceneDepth::of_device(&shot.camera, &depth.data)?))
     };

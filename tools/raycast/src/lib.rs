@@ -22,7 +22,7 @@
 //!
 //! # What is drawn
 //! The optical thickness ρ of a pixel's ray, and of that the intensity ι = ρ^e / (m + ρ^e) (Sec. 2.3), white: what
-//! `whitewater` draws as its layer `foam.intensity`, whose ρ is the sum of the particles' sprites. Particles therefore have
+//! `whitewater` draws as its layer `whitewater.intensity`, whose ρ is the sum of the particles' sprites. Particles therefore have
 //! their sprites' radius, life and widening (Sec. 2.1, 2.2), and each is a ball whose kernel's integral along a ray is the
 //! thickness F(x) of the sprite at x radii from its centre. Balls face the camera as sprites do: distances across the view
 //! are measured at the depth of the centre. The kernels are then the only difference, and at a fine step the pictures agree
@@ -56,7 +56,7 @@ mod vulkan;
 use glam::{Mat4, Vec4};
 use whitewater::headless::{Device, Picture};
 use whitewater::{Camera, Error, Timing};
-/// Diffuse particles; other kinds than foam, spray and bubbles are foam, those of NaN, infinite or past ages are not drawn.
+/// Whitewater particles; other kinds than foam, spray and bubbles are foam, those of NaN, infinite or past ages are not drawn.
 pub use whitewater_seas::Foam;
 
 use balls::Balls;

@@ -4,10 +4,10 @@ mod twin;
 
 use std::ops::Deref;
 
+use whitewater::WhitewaterConfig;
 use whitewater::ash::vk;
-use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{
-    Background, COLOR_FORMAT, Device, DeviceOptions, Diffuse, Headless, Picture,
+    Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Picture, Whitewater,
 };
 use whitewater::{Config, Error, Settings as Look};
 use whitewater_raycast::{Caster, EMPTY, Foam, Input, Method, PROFILES, SceneDepth, Settings};
@@ -456,12 +456,12 @@ fn converged_thickness_is_whitewaters() {
     let casts = Method::ALL.map(|m| draw(&gpu, m, &foam, &SceneDepth::Nothing, &settings));
     let twin = twin_of(Method::Kernel, &foam, &SceneDepth::Nothing, &settings);
     let extent = vk::Extent2D { width: SIZE[0], height: SIZE[1] };
-    let diffuse = Some(DiffuseConfig::new(300));
-    let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.diffuse = diffuse);
+    let whitewater = Some(WhitewaterConfig::new(300));
+    let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.whitewater = whitewater);
     let mut headless = Headless::new(gpu.0.take().expect("a device"), &config).expect("renderer");
     headless.particles(&[], None).expect("no particles");
     headless
-        .diffuse(Some(&Diffuse {
+        .whitewater(Some(&Whitewater {
             positions: &foam.positions,
             kinds: Some(&foam.kinds),
             radii: None,
@@ -470,10 +470,10 @@ fn converged_thickness_is_whitewaters() {
         }))
         .expect("particles");
     let mut look = Look::default();
-    look.diffuse.radius = RADIUS;
+    look.whitewater.radius = RADIUS;
     let camera = camera(SIZE[0] as f32 / SIZE[1] as f32);
     headless.render(&camera, &look, &Background::Color([0.0; 3])).expect("drawn");
-    let ours = headless.layer("foam.thickness").expect("read").expect("a layer");
+    let ours = headless.layer("whitewater.thickness").expect("read").expect("a layer");
     gpu.0 = Some(headless.finish().expect("the device"));
     let mut some = 0;
     for pixel in twin.pixels() {

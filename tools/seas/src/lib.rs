@@ -38,7 +38,7 @@ pub enum Sea {
     Flood,
 }
 
-/// Diffuse particles, each attribute as long as `positions`.
+/// Whitewater particles, each attribute as long as `positions`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Foam {
     /// World-space centres, metres.
@@ -148,7 +148,7 @@ impl Sea {
     }
 
     /// The radius with which so many particles cover as much as any other number of them, metres: for
-    /// [`DiffuseLook::radius`](whitewater::foam::DiffuseLook::radius).
+    /// [`WhitewaterSettings::radius`](whitewater::WhitewaterSettings::radius).
     pub fn radius(self, count: u32) -> f32 {
         self.plan().radius * (1.0e6 / count.max(1) as f32).sqrt()
     }

@@ -134,11 +134,11 @@ pub struct RenderArgs {
     ///
     /// FILES belong to the same frames and are named like the inputs, with types and lifetimes as FoamGenerator
     /// writes them. KIND=FILES hold one kind each: foam, spray or bubble. May be given several times. Size and
-    /// opacity follow from their number; table [diffuse] overrides (radius, or radii = [foam, spray, bubbles],
-    /// and half). 'generate' emits them from the water's particles where it traps air, breaks and is fast
-    /// (table [generate]). With [bubbles] hand_over = [NEAR, FAR] foam turns into soap-bubble blobs between FAR
-    /// and NEAR metres. The water's own foam and spray are then drawn only if --foam and --spray ask for them.
-    #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::diffuse::named)]
+    /// opacity follow from their number; table [whitewater] overrides (radius, or radii = [foam, spray, bubbles],
+    /// and half_intensity_thickness). 'generate' emits them from the water's particles where it traps air, breaks and is fast
+    /// (table [generate]). With [bubbles] crossfade = [NEAR, FAR] foam turns into soap-bubble blobs between FAR
+    /// and NEAR metres. The water's own foam and spray are then drawn only if --surface-foam and --spray ask for them.
+    #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::whitewater_source::named)]
     pub whitewater: Vec<Whitewater>,
     /// Write the emitted whitewater to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
     ///
@@ -191,7 +191,7 @@ pub struct RenderArgs {
     pub draw: DrawArgs,
 }
 
-/// Where diffuse particles come from.
+/// Where whitewater particles come from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Whitewater {
     /// They are made of the water's.
@@ -246,13 +246,13 @@ pub struct DrawArgs {
     pub samples: u32,
     /// Settings file in TOML
     ///
-    /// Tables: [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
+    /// Tables: [water], [surface_foam], [spray], [whitewater], [bubbles], [generate], [shore], [shoreline], [contact],
     /// [shadow], [noise] and [light]. An EXR's attribute 'settings' holds all settings that it was drawn with.
     /// [water] medium takes the names of --medium, or numbers per metre: {absorption = [r, g, b],
     /// reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple scattering, {absorption = [r, g, b],
-    /// scattering = [r, g, b]} for single scattering. [foam] also sets which water foams: by = 'air' (the speed
+    /// scattering = [r, g, b]} for single scattering. [surface_foam] also sets which water foams: by = 'air' (the speed
     /// at which neighbours approach) or 'speed' (its own; default for sequences and if threshold or air is
-    /// given); weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold (as --foam); lifetime =
+    /// given); weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold (as --surface-foam); lifetime =
     /// 1.0 (mean seconds of decay); air = [0, 0, 0] (wind, scene units per second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
@@ -282,7 +282,7 @@ pub struct DrawArgs {
     pub sun: Option<[f32; 3]>,
     /// EXR layers besides R G B A: all, none, or names such as water.depth,scene
     ///
-    /// 'ladder' adds the picture up to each of its layers (background, back_water, foam, front_water). motion.X
+    /// 'ladder' adds the picture up to each of its layers (background, back_water, surface_foam, front_water). motion.X
     /// and motion.Y are the motion since the previous frame in pixels, x right, y down: 0 in the first frame of
     /// a sequence, for the scene from the camera alone.
     #[arg(long, value_name = "NAMES", default_value = "all")]
@@ -315,17 +315,21 @@ pub struct DrawArgs {
     /// number foam, at most 30 % of the particles at a time. A number applies to the water's own speed. With
     /// ids foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
+    pub surface_foam: Option<Foaming>,
+    /// The former name of --surface-foam
+    #[arg(long = "foam", hide = true, value_name = "WHEN", value_parser = was_foam)]
     pub foam: Option<Foaming>,
     /// Spray of particles with few or no neighbours: auto or none [default: auto; none with --whitewater]
     ///
-    /// It uses densities from the files, or estimated ones. Table [spray] densities sets the limits as
-    /// fractions of the rest density [default: 0.42, 0.66, 0.7].
+    /// It uses densities from the files, or estimated ones. all_spray_density, full_water_density and
+    /// no_spray_density in table [spray] set the limits as fractions of the rest density [default: 0.42, 0.66,
+    /// 0.7].
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or
     /// foam (normals and grey foam)
     ///
-    /// The complete baseline is --noise foam --rule fixed:40 --foam none.
+    /// The complete baseline is --noise foam --rule fixed:40 --surface-foam none.
     #[arg(long, value_enum, default_value_t = NoiseArg::None)]
     pub noise: NoiseArg,
     /// Shadows: all (scene, water and foam, with caustics), scene (those of the scene on foam and spray), or
@@ -599,6 +603,11 @@ pub enum Foaming {
     From(f32),
 }
 
+/// A flag that has another name now is refused, with that name.
+fn was_foam(_: &str) -> Result<Foaming, String> {
+    Err("--foam was renamed: use --surface-foam".into())
+}
+
 fn foaming(text: &str) -> Result<Foaming, String> {
     match text {
         "auto" => Ok(Foaming::Auto),
@@ -705,6 +714,21 @@ mod tests {
     fn the_command_line_is_sound() {
         use clap::CommandFactory;
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn old_flags_are_refused_with_the_new_names() {
+        for (line, says) in [
+            ("whitewater render a.ply -o a.png --foam auto", "use --surface-foam"),
+            ("whitewater render a.ply -o a.png --foam=none", "use --surface-foam"),
+            ("whitewater demo -o a.png --foam 80", "use --surface-foam"),
+            ("whitewater bench --sea wave --diffuse 20k", "use --whitewater"),
+        ] {
+            let message = Cli::try_parse_from(line.split(' ')).unwrap_err().to_string();
+            assert!(message.contains("was renamed") && message.contains(says), "{message}");
+        }
+        let line = "whitewater render a.ply -o a.png --surface-foam auto";
+        assert!(Cli::try_parse_from(line.split(' ')).is_ok());
     }
 
     #[test]

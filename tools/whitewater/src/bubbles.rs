@@ -128,7 +128,7 @@ pub struct Motion {
     pub settings: HeapSettings,
     pub solids: Vec<Solid>,
     pub field: Option<DistanceField>,
-    pub halvings: u32,
+    pub max_splits: u32,
 }
 
 impl Motion {
@@ -140,7 +140,7 @@ impl Motion {
             settings: HeapSettings::default(),
             solids: ground.into_iter().map(floor).collect(),
             field: field_of(scene, largest)?,
-            halvings: HALVINGS,
+            max_splits: HALVINGS,
         })
     }
 }
@@ -318,8 +318,8 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
         .collect();
     let solids = boxes.iter().map(|(at, half)| Solid::Box {
         center: at.to_array(),
-        half: half.to_array(),
-        turn: turn.to_array(),
+        half_extents: half.to_array(),
+        rotation: turn.to_array(),
     });
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
     let solids = solids.chain([floor]).collect();
@@ -330,7 +330,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     Set {
         blobs: Blobs {
             blobs,
-            motion: Some(Motion { settings, solids, field: None, halvings: HALVINGS }),
+            motion: Some(Motion { settings, solids, field: None, max_splits: HALVINGS }),
         },
         scene,
         lit: low,
@@ -401,7 +401,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     file.apply(&mut settings);
     let Region { center, radius } = lit.region();
     let count = blobs.blobs.len();
-    let bubbles = file.bubbles.config().with(|it| it.hand_over = false);
+    let bubbles = file.bubbles.config().with(|it| it.crossfade = false);
     let look = Look {
         camera,
         settings,
@@ -412,7 +412,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         photograph: false,
         still: None,
         foam: None,
-        diffuse: None,
+        whitewater: None,
         bubbles: Some((blobs, bubbles)),
         shores: None,
         exposure: 0.0,

@@ -9,13 +9,13 @@ use crate::args::{DemoArgs, Foaming, SetArg, SprayArg};
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
-use crate::foam;
 use crate::output;
 use crate::progress::Progress;
 use crate::render::{foam_of_caches, impact_speed, spray_of_caches};
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 use crate::stage;
+use crate::surface_foam;
 
 const PARTICLES: &[u8] = include_bytes!("../../../assets/waterfall/waterfall_0240.bgeo");
 const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
@@ -59,23 +59,27 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let mut settings = file.look(SPACING, environment.light());
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
-        foam_of_caches(&mut settings.foam, SPACING);
+        foam_of_caches(&mut settings.surface_foam, SPACING);
         let speed = impact_speed(std::slice::from_ref(&particles));
         spray_of_caches(&mut settings.spray, SPACING, speed);
         // Its particles are so large that whole ones would be no drops.
-        settings.spray.densities = DENSITIES;
+        [
+            settings.spray.all_spray_density,
+            settings.spray.full_water_density,
+            settings.spray.no_spray_density,
+        ] = DENSITIES;
     }
     file.apply(&mut settings);
     let count = particles.positions.len();
-    let foam = args.draw.foam.unwrap_or(Foaming::Auto);
+    let foam = args.draw.surface_foam.unwrap_or(Foaming::Auto);
     let spray = args.draw.spray != Some(SprayArg::None);
     let frames = std::slice::from_ref(&particles);
     // Its foam is made for it.
-    let by = *file.foam.by.get_or_insert(FoamBy::Speed);
-    let foam = foam::settings(foam, (&file.foam, by), frames, &[0.0], &settings);
+    let by = *file.surface_foam.by.get_or_insert(FoamBy::Speed);
+    let foam = surface_foam::settings(foam, (&file.surface_foam, by), frames, &[0.0], &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
-    let (diffuse, fps, rate) = (None, None, None);
+    let (whitewater, fps, rate) = (None, None, None);
     let look = Look {
         camera,
         settings,
@@ -86,7 +90,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         matte: false,
         still: None,
         foam,
-        diffuse,
+        whitewater,
         bubbles: None,
         shores: None,
         exposure: stage::exposure(SetArg::Pool),

@@ -2,21 +2,21 @@
 
 use glam::Vec3;
 use whitewater::Settings;
-use whitewater::foam::{GenerateSettings, Limits};
 use whitewater::headless::Headless;
 use whitewater::io::particles::Particles;
+use whitewater::{GeneratorSettings, PotentialRange};
 
 use crate::bounds::Bounds;
-use crate::diffuse::{Columns, Sizes};
 use crate::failure::Outcome;
-use crate::foam::quantile;
 use crate::placing::Placing;
 use crate::render::round;
 use crate::session::PRE_ROLLED;
 use crate::settings::SettingsFile;
 use crate::settings::generate::GenerateTable;
+use crate::surface_foam::quantile;
+use crate::whitewater_source::{Columns, Sizes};
 
-/// Most diffuse particles at a time, where nothing is said.
+/// Most whitewater particles at a time, where nothing is said.
 const MOST: u32 = 1_000_000;
 /// The part of them that there are when as much is made as goes.
 const FULL: f64 = 0.5;
@@ -30,7 +30,7 @@ const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
 /// Particles a second of one at most: more are a cloud round it.
 const MOST_RATE: f64 = 4000.0;
 /// Of a table that does not say, or not yet.
-const ANY: Limits = Limits { least: 0.0, most: 1.0 };
+const ANY: PotentialRange = PotentialRange { min: 0.0, max: 1.0 };
 /// How far beyond the water spray may fly, of its width.
 const ASIDE: f32 = 0.1;
 
@@ -42,19 +42,19 @@ pub struct Generate {
     /// How long the sequence is that they are made in; of single frames `None`.
     seconds: Option<f32>,
     probes: Vec<Particles>,
-    found: Option<GenerateSettings>,
+    found: Option<GeneratorSettings>,
     /// Of each kind, how many a column holds that holds any, in the frames that are looked at.
     columns: [Option<f32>; 3],
 }
 
 /// The limits of trapped air, wave crests and energy by those that particles have. `fall`: the squared speed, over 2, of a fall
 /// through a spacing.
-fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [Limits; 3] {
+fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [PotentialRange; 3] {
     let floors = [FLOORS[0] * fall.sqrt(), FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall];
     [0, 1, 2].map(|which| {
         let values = potentials.iter().map(|all| all[which]).collect();
         let most = quantile(values, NEARLY_ALL).unwrap_or(0.0).max(floors[which]);
-        Limits { least: LEAST * most, most }
+        PotentialRange { min: LEAST * most, max: most }
     })
 }
 
@@ -68,7 +68,7 @@ impl Generate {
         seconds: Option<f32>,
         probes: Vec<Particles>,
     ) -> Outcome<Self> {
-        let mut settings = GenerateSettings::new(spacing, [ANY; 3], 0.0);
+        let mut settings = GeneratorSettings::new(spacing, [ANY; 3], 0.0);
         table.apply(&mut settings);
         settings.check()?;
         // Nothing else keeps spray in: as far as the water itself ever comes, and a little farther; up as it may.
@@ -82,7 +82,7 @@ impl Generate {
         Ok(Self { table, spacing, bounds, seconds, probes, found: None, columns })
     }
 
-    /// Most diffuse particles at a time.
+    /// Most whitewater particles at a time.
     pub fn max_particles(&self) -> u32 {
         self.table.max_particles.unwrap_or(MOST)
     }
@@ -99,7 +99,7 @@ impl Generate {
     pub fn settings(
         &mut self,
         headless: &mut Headless,
-    ) -> Outcome<(GenerateSettings, Option<String>)> {
+    ) -> Outcome<(GeneratorSettings, Option<String>)> {
         if let Some(found) = self.found {
             return Ok((found, None));
         }
@@ -107,9 +107,10 @@ impl Generate {
         self.columns = self.count(headless, &found)?;
         self.found = Some(found);
         self.probes = Vec::new();
-        let limits = |limits: Limits| format!("{} to {}", round(limits.least), round(limits.most));
+        let limits =
+            |limits: PotentialRange| format!("{} to {}", round(limits.min), round(limits.max));
         let line = format!(
-            "diffuse particles from trapped air {}, wave crest {}, energy {}, {:.0} and {:.0} a second \
+            "whitewater particles from trapped air {}, wave crest {}, energy {}, {:.0} and {:.0} a second \
              (found; table [generate] sets them)",
             limits(found.trapped_air),
             limits(found.wave_crest),
@@ -129,12 +130,14 @@ impl Generate {
         let Sizes { radii: [foam, spray, _], half } = Sizes::of_columns(self.columns, self.spacing);
         // They have one radius for all: of foam, of which there is most, where there is any.
         let radius = if self.columns[0].is_some() { foam } else { spray };
-        let table = &file.diffuse;
-        settings.diffuse.radius = table.radius.unwrap_or(radius);
-        settings.diffuse.half = table.half.unwrap_or(half);
-        let [radius, half] = [settings.diffuse.radius, settings.diffuse.half].map(round);
+        let table = &file.whitewater;
+        settings.whitewater.radius = table.radius.unwrap_or(radius);
+        settings.whitewater.half_intensity_thickness =
+            table.half_intensity_thickness.unwrap_or(half);
+        let [radius, half] =
+            [settings.whitewater.radius, settings.whitewater.half_intensity_thickness].map(round);
         Some(format!(
-            "radius {radius} and half = {half} of them (found; table [diffuse] sets them)"
+            "radius {radius} and half_intensity_thickness = {half} of them (found; table [whitewater] sets them)"
         ))
     }
 
@@ -142,7 +145,7 @@ impl Generate {
     fn count(
         &self,
         headless: &mut Headless,
-        settings: &GenerateSettings,
+        settings: &GeneratorSettings,
     ) -> Outcome<[Option<f32>; 3]> {
         let mut columns = Columns::default();
         // With room for another number those of the frames to come begin anew.
@@ -160,8 +163,8 @@ impl Generate {
         Ok(columns.means())
     }
 
-    fn find(&self, headless: &mut Headless) -> Outcome<GenerateSettings> {
-        let mut settings = GenerateSettings::new(self.spacing, [ANY; 3], 0.0);
+    fn find(&self, headless: &mut Headless) -> Outcome<GeneratorSettings> {
+        let mut settings = GeneratorSettings::new(self.spacing, [ANY; 3], 0.0);
         settings.bounds = Some(self.bounds);
         self.table.apply(&mut settings);
         let mut potentials: Vec<[f32; 4]> = Vec::new();
@@ -177,8 +180,8 @@ impl Generate {
         settings.energy = energy;
         self.table.apply(&mut settings);
         if self.table.rates.is_none() {
-            let phi = |limits: Limits, v: f32| {
-                f64::from(((v - limits.least) / (limits.most - limits.least)).clamp(0.0, 1.0))
+            let phi = |limits: PotentialRange, v: f32| {
+                f64::from(((v - limits.min) / (limits.max - limits.min)).clamp(0.0, 1.0))
             };
             let each = potentials.iter().map(|&[air, crest, energy, _]| {
                 phi(settings.energy, energy)
@@ -186,14 +189,14 @@ impl Generate {
             });
             let a_frame = each.sum::<f64>() / f64::from(frames.max(1));
             // A short sequence ends before as many go as come.
-            let life = 0.5 * (settings.lifetime[0] + settings.lifetime[1]);
+            let life = 0.5 * (settings.min_lifetime + settings.max_lifetime);
             let life =
                 f64::from(self.seconds.map_or(life, |seconds| life.min(seconds + PRE_ROLLED)));
             // Of no potentials, as of little ones, as much as there may be.
             let rate_of = |seconds: f64| {
                 (FULL * f64::from(self.max_particles()) / (seconds * a_frame)).min(MOST_RATE) as f32
             };
-            let set = |settings: &mut GenerateSettings, rate| {
+            let set = |settings: &mut GeneratorSettings, rate| {
                 settings.trapped_air_rate = rate;
                 settings.wave_crest_rate = rate;
             };
@@ -245,9 +248,9 @@ mod tests {
             let fall = 9.81 * spacing;
             let calm = [fall.sqrt(), 0.3, 0.005 * fall, 30.0];
             let limits = limits_of(&vec![calm; 5000], fall);
-            assert_eq!(limits.map(|limits| limits.most), [15.0 * fall.sqrt(), 4.0, 8.0 * fall]);
+            assert_eq!(limits.map(|limits| limits.max), [15.0 * fall.sqrt(), 4.0, 8.0 * fall]);
             assert_eq!(limits, limits_of(&[], fall));
-            assert!(limits.iter().zip(calm).all(|(limits, potential)| potential < limits.least));
+            assert!(limits.iter().zip(calm).all(|(limits, potential)| potential < limits.min));
         }
     }
 
@@ -256,10 +259,10 @@ mod tests {
     fn limits_are_by_nearly_all_particles() {
         let wild: Vec<_> = (0..10_000_u16).map(|i| [100.0 + f32::from(i); 4]).collect();
         for limits in limits_of(&wild, 1.0e-4) {
-            assert_eq!((limits.most, limits.least), (10_090.0, LEAST * 10_090.0));
+            assert_eq!((limits.max, limits.min), (10_090.0, LEAST * 10_090.0));
         }
         let few: Vec<_> =
             (0..10_000_u16).map(|i| [if i < 9_950 { 0.0 } else { f32::from(i) }; 4]).collect();
-        assert_eq!(limits_of(&few, 1.0e-4)[1].most, 9_990.0);
+        assert_eq!(limits_of(&few, 1.0e-4)[1].max, 9_990.0);
     }
 }

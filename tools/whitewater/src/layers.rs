@@ -21,19 +21,19 @@ const GROUPS: [&str; 30] = [
     "water.thickness.back",
     "water.sheet.front",
     "water.sheet.back",
-    "water.foam",
-    "water.foam.thickness",
-    "water.foam.front",
+    "surface_foam",
+    "surface_foam.thickness",
+    "surface_foam.front",
     "water.spray",
     "water.noise",
-    "foam",
-    "foam.thickness",
-    "foam.submerged",
-    "foam.intensity",
-    "foam.radius",
-    "foam.normal",
-    "foam.shadow",
-    "foam.irradiance",
+    "whitewater",
+    "whitewater.thickness",
+    "whitewater.submerged",
+    "whitewater.intensity",
+    "whitewater.radius",
+    "whitewater.normal",
+    "whitewater.shadow",
+    "whitewater.irradiance",
     "bubbles",
     "bubbles.layers",
     "shore.amount",
@@ -52,9 +52,15 @@ pub const LADDER: &str = "ladder";
 const RUNGS: [(&str, Ladder); 4] = [
     ("background", Ladder::Background),
     ("back_water", Ladder::BackWater),
-    ("foam", Ladder::Foam),
+    ("surface_foam", Ladder::SurfaceFoam),
     ("front_water", Ladder::FrontWater),
 ];
+
+/// The name that a layer has now, of one that had another.
+fn renamed(name: &str) -> Option<String> {
+    let of = |old: &str, new: &str| name.strip_prefix(old).map(|rest| format!("{new}{rest}"));
+    of("water.foam", "surface_foam").or_else(|| of("foam", "whitewater"))
+}
 
 /// Understands `--layers`. The ladder is not among `all`: each of its rungs is another frame to draw.
 pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
@@ -71,6 +77,11 @@ pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
                 .into_iter()
                 .find(|g| *g == name || name.strip_prefix(g).is_some_and(|rest| rest.len() == 2))
                 .ok_or_else(|| {
+                    if let Some(new) = renamed(name) {
+                        return Failure::usage(format!(
+                            "--layers: {name} was renamed: use {new}"
+                        ));
+                    }
                     Failure::usage(format!(
                         "--layers: expected all, none or names of {}, found '{name}'; mend the name",
                         GROUPS.join(", ")
@@ -143,7 +154,7 @@ pub fn collect(
         push(name, &color.map(|v| v[c]), Merge::Mean)?;
     }
     let depth = |picture: Picture<f32>| picture.map(|z| if *z < EMPTY { *z } else { EMPTY });
-    for name in ["water.depth", "water.back", "water.foam", "foam", "bubbles"] {
+    for name in ["water.depth", "water.back", "surface_foam", "whitewater", "bubbles"] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
@@ -157,15 +168,15 @@ pub fn collect(
         ("water.thickness.back", Merge::Mean),
         ("water.sheet.front", Merge::Mean),
         ("water.sheet.back", Merge::Mean),
-        ("water.foam.thickness", Merge::Mean),
-        ("water.foam.front", Merge::Mean),
+        ("surface_foam.thickness", Merge::Mean),
+        ("surface_foam.front", Merge::Mean),
         ("water.spray", Merge::Mean),
         ("water.noise", Merge::Mean),
-        ("foam.thickness", Merge::Mean),
-        ("foam.submerged", Merge::Mean),
-        ("foam.intensity", Merge::Mean),
-        ("foam.radius", Merge::Most),
-        ("foam.shadow", Merge::Mean),
+        ("whitewater.thickness", Merge::Mean),
+        ("whitewater.submerged", Merge::Mean),
+        ("whitewater.intensity", Merge::Mean),
+        ("whitewater.radius", Merge::Most),
+        ("whitewater.shadow", Merge::Mean),
         ("bubbles.layers", Merge::Most),
         ("shore.amount", Merge::Mean),
         ("contact.amount", Merge::Mean),
@@ -176,7 +187,9 @@ pub fn collect(
             push(name, &picture, merge)?;
         }
     }
-    for (name, axes) in [("foam.normal", ["X", "Y", "Z"]), ("foam.irradiance", ["R", "G", "B"])] {
+    for (name, axes) in
+        [("whitewater.normal", ["X", "Y", "Z"]), ("whitewater.irradiance", ["R", "G", "B"])]
+    {
         for name in
             axes.map(|axis| format!("{name}.{axis}")).iter().filter(|_| wanted.contains(&name))
         {
@@ -217,7 +230,7 @@ pub fn collect(
     {
         // A mean over an outline is no motion of anything: that of the nearest sample.
         let mut depths = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
-        for name in ["water.depth", "water.foam"] {
+        for name in ["water.depth", "surface_foam"] {
             if let Some(layer) = headless.layer(name)? {
                 // Texels of a reduced layer are a power of two pixels wide.
                 let texel = depths.width.div_ceil(layer.width).next_power_of_two();
@@ -332,5 +345,12 @@ mod tests {
         assert_eq!(wanted("motion").unwrap(), [MOTION]);
         assert!(wanted("water").is_err() && wanted("").is_err());
         assert!(wanted("none").unwrap().is_empty());
+        for (old, new) in [
+            ("water.foam.thickness", "surface_foam.thickness"),
+            ("foam.normal.X", "whitewater.normal.X"),
+        ] {
+            let message = wanted(old).unwrap_err().message;
+            assert!(message.contains(&format!("use {new}")), "{message}");
+        }
     }
 }

@@ -12,13 +12,11 @@ mod camera;
 mod cells;
 mod compare;
 mod demo;
-mod diffuse;
 mod environment;
 mod extras;
 mod failure;
 mod film;
 mod films;
-mod foam;
 mod folder;
 mod frames;
 mod generate;
@@ -38,8 +36,10 @@ mod shore;
 mod simulate;
 mod spouts;
 mod stage;
+mod surface_foam;
 mod timings;
 mod upright;
+mod whitewater_source;
 
 use std::process::ExitCode;
 

@@ -4,8 +4,8 @@ use glam::Vec3;
 use whitewater::io::particles::Particles;
 
 use crate::args::{Unit, Up};
-use crate::foam::quantile;
 use crate::layers;
+use crate::surface_foam::quantile;
 
 /// How the particles of files are put into the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

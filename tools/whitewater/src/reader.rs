@@ -11,8 +11,8 @@ use crate::args::Up;
 use crate::bounds;
 use crate::extras::{self, Condition};
 use crate::failure::Outcome;
-use crate::foam::quantile;
 use crate::placing::Placing;
+use crate::surface_foam::quantile;
 
 /// Frames a second, where that can't be found.
 pub const DEFAULT_FPS: f32 = 30.0;

@@ -6,16 +6,14 @@ use whitewater::headless::scene::Scene;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
 use whitewater::water::Medium;
-use whitewater::water::{FoamLook, SprayLook};
+use whitewater::water::{SpraySettings, SurfaceFoamSettings};
 
 use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Turntable, Unit, Up, Whitewater};
 use crate::bounds::{self, Bounds};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Turn};
-use crate::diffuse;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
-use crate::foam;
 use crate::frames;
 use crate::generate::Generate;
 use crate::output;
@@ -27,7 +25,9 @@ use crate::settings::{FoamBy, SettingsFile};
 use crate::shore::{self, Shores};
 use crate::spouts;
 use crate::stage;
+use crate::surface_foam;
 use crate::upright;
+use crate::whitewater_source;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
     if let Some(which) = &args.shore {
@@ -123,7 +123,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         step: step_of(&all),
     };
     let made = args.whitewater == [Whitewater::Generate];
-    let foams = args.draw.foam.unwrap_or(foaming(args)) != Foaming::None;
+    let foams = args.draw.surface_foam.unwrap_or(foaming(args)) != Foaming::None;
     let moving = made || foams || sequence.motion;
     // Numbers may be those of steps: a second has so many numbers.
     let step = step_of(&all);
@@ -178,16 +178,16 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let settings_of_bubbles = settings.bubbles.config();
     let shores = Shores::of_particles(&settings)?;
-    if settings_of_bubbles.hand_over && (foam.is_some() || args.whitewater.is_empty()) {
-        let why = "--settings, [bubbles] hand_over: diffuse particles become blobs, so that --whitewater is expected, and no \
+    if settings_of_bubbles.crossfade && (foam.is_some() || args.whitewater.is_empty()) {
+        let why = "--settings, [bubbles] crossfade: whitewater particles become blobs, so that --whitewater is expected, and no \
                    --bubbles";
         return Err(Failure::usage(why));
     }
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
     let spacing = spacing(args, (&probes, reader.radii), &settings, &progress);
-    let files =
-        steps.during("reading", || diffuse::Files::find(files, placing, single, spacing))?;
+    let files = steps
+        .during("reading", || whitewater_source::Files::find(files, placing, single, spacing))?;
     if let Some(files) = &files {
         let numbers: Vec<_> = all.iter().map(|f| f.number).collect();
         files.missing(&numbers)?.iter().for_each(|line| progress.say(line));
@@ -204,7 +204,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         look(args, sequence, &mut probes, found, settings, environment, &progress)
     })?;
     let foam = match foam {
-        None if settings_of_bubbles.hand_over => Some(Vec::new()),
+        None if settings_of_bubbles.crossfade => Some(Vec::new()),
         foam => foam,
     };
     let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
@@ -235,7 +235,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     report(left.len(), failed)
 }
 
-/// Where nothing is said: diffuse particles take the place of the water's own foam.
+/// Where nothing is said: whitewater particles take the place of the water's own foam.
 fn foaming(args: &RenderArgs) -> Foaming {
     if args.whitewater.is_empty() { Foaming::Auto } else { Foaming::None }
 }
@@ -264,7 +264,7 @@ fn draw(
     session.frame(number, before, &frame.path.display().to_string(), &particles)?;
     let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
     let made = session.made()?.map(|made| made as usize).or(session.read);
-    let made = made.map_or(String::new(), |made| format!(", {made} diffuse particles"));
+    let made = made.map_or(String::new(), |made| format!(", {made} whitewater particles"));
     Ok(format!(
         "frame {number}: {} particles{made}, {:.2} s, {}",
         particles.positions.len(),
@@ -404,7 +404,7 @@ impl Probes {
         let apart = |pair: &[Frame]| {
             let [a, b] = pair else { return None };
             let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);
-            let seconds = foam::seconds(&first, &second)?;
+            let seconds = surface_foam::seconds(&first, &second)?;
             Some((b.number - a.number) as f32 / seconds)
         };
         let middle = (all.len() - 1) / 2;
@@ -473,7 +473,7 @@ pub fn impact_speed(frames: &[Particles]) -> f32 {
     let fall = |frame: &Particles| {
         let heights: Vec<f32> =
             frame.positions.iter().map(|p| p[1]).filter(|y| y.is_finite()).collect();
-        let [low, high] = [0.02, 0.998].map(|part| foam::quantile(heights.clone(), part));
+        let [low, high] = [0.02, 0.998].map(|part| surface_foam::quantile(heights.clone(), part));
         Some((2.0 * 9.81 * (high? - low?)).sqrt())
     };
     let each = frames.iter().flat_map(|frame| [fall(frame), placing::fastest(frame)]);
@@ -490,19 +490,19 @@ const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
 /// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
-pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32, speed: f32) {
+pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
     let mist = 0.1 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
-        it.densities = SPRAY_DENSITIES;
+        [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
         it.droplets = 64;
         it.size = 0.2;
-        it.spread = 4.5;
+        it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = mist;
         it.mist_size = 2.5;
         it.mist_contrast = 2.0;
-        it.shutter = 0.001;
+        it.exposure = 0.001;
         it.shade = 2.0;
     });
 }
@@ -510,12 +510,12 @@ pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32, speed: f32) {
 /// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
 /// it is lit by the shape of the splash. (Of the library's whole relief, which is as large as a particle, it is gravel; of its
 /// veil, a cloud.)
-pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
+pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
     *foam = foam.with(|it| {
         it.extinction = 0.35 / spacing;
         it.front_extinction = 0.1 / spacing;
-        it.veil = 0.1 * spacing;
-        it.relief = 0.35;
+        it.min_thickness = 0.1 * spacing;
+        it.normal_strength = 0.35;
         it.lace = 1.0;
         it.lace_size = 0.8;
         it.aeration = 0.6;
@@ -580,7 +580,7 @@ fn spacing(
 struct Found {
     camera: Option<CameraFile>,
     spacing: f32,
-    files: Option<diffuse::Files>,
+    files: Option<whitewater_source::Files>,
     /// The axis across which the particles lie in one layer.
     sheet: Option<usize>,
 }
@@ -608,7 +608,7 @@ struct Sequence {
 fn step_of(all: &[Frame]) -> f32 {
     let apart: Vec<f32> =
         all.windows(2).map(|two| (two[1].number - two[0].number) as f32).collect();
-    foam::quantile(apart, 0.5).unwrap_or(1.0).max(1.0)
+    surface_foam::quantile(apart, 0.5).unwrap_or(1.0).max(1.0)
 }
 
 /// How the camera goes round.
@@ -703,7 +703,7 @@ fn look(
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
         spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
-        foam_of_caches(&mut settings.foam, spacing);
+        foam_of_caches(&mut settings.surface_foam, spacing);
         let wide = bounds.size().x.max(bounds.size().z);
         if wide < SMALL {
             settings.water.medium = Medium::CLEAR;
@@ -723,25 +723,26 @@ fn look(
     settings.water.spacing = spacing;
     if let Some(files) = &mut files {
         files.choose(&file, &mut settings);
-        if let Some([foam, spray, bubbles]) = files.radii().filter(|_| file.diffuse.radii.is_none())
+        if let Some([foam, spray, bubbles]) =
+            files.radii().filter(|_| file.whitewater.radii.is_none())
         {
             let copies = files.copies();
             if copies > 1 {
                 progress
-                    .say(&format!("each diffuse particle as {copies}, scattered: they are few"));
+                    .say(&format!("each whitewater particle as {copies}, scattered: they are few"));
             }
             progress.say(&format!(
-                "diffuse particles with radii of {}, {} and {} (foam, spray, bubbles) and half = {} (found; table \
-                 [diffuse] sets them)",
+                "whitewater particles with radii of {}, {} and {} (foam, spray, bubbles) and half_intensity_thickness = {} (found; table \
+                 [whitewater] sets them)",
                 round(foam),
                 round(spray),
                 round(bubbles),
-                round(settings.diffuse.half),
+                round(settings.whitewater.half_intensity_thickness),
             ));
         }
         // What a picture was drawn with stands in it.
-        file.diffuse.radii = files.radii();
-        file.diffuse.copies = file.diffuse.radii.map(|_| files.copies());
+        file.whitewater.radii = files.radii();
+        file.whitewater.copies = file.whitewater.radii.map(|_| files.copies());
     }
 
     let camera = camera.unwrap_or_else(|| {
@@ -810,9 +811,10 @@ fn look(
         file.light.put(&mut settings.light);
     }
     scene.sun = environment.sun_light();
-    // Diffuse particles take the place of the water's own foam and spray.
-    let diffused = !args.whitewater.is_empty();
-    let spray = args.draw.spray.unwrap_or(if diffused { SprayArg::None } else { SprayArg::Auto });
+    // Whitewater particles take the place of the water's own foam and spray.
+    let has_whitewater = !args.whitewater.is_empty();
+    let spray =
+        args.draw.spray.unwrap_or(if has_whitewater { SprayArg::None } else { SprayArg::Auto });
     let spray = spray == SprayArg::Auto;
     // As `Session::frame` does it.
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
@@ -825,24 +827,36 @@ fn look(
     };
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
-    let wanted = args.draw.foam.unwrap_or(foaming(args));
+    let wanted = args.draw.surface_foam.unwrap_or(foaming(args));
     // In a sequence by speed: where air is trapped changes from frame to frame, three times as much as foam by speed does.
     let steady = sequence.is.then_some(FoamBy::Speed);
-    let by = file.foam.by.or(steady).unwrap_or_else(|| file.foam.by(wanted, file.is_thesis()));
-    file.foam.by = Some(by);
-    let foam = foam::settings(wanted, (&file.foam, by), &probes.frames, &seconds, &settings);
+    let by = file
+        .surface_foam
+        .by
+        .or(steady)
+        .unwrap_or_else(|| file.surface_foam.by(wanted, file.is_thesis()));
+    file.surface_foam.by = Some(by);
+    let foam = surface_foam::settings(
+        wanted,
+        (&file.surface_foam, by),
+        &probes.frames,
+        &seconds,
+        &settings,
+    );
     if let Some(foam) = &foam {
         let of = match by {
             FoamBy::Air => "of trapped air ",
             FoamBy::Speed => "",
         };
         let number = round(foam.threshold);
-        progress.say(&format!("foam from Weber number {of}{number} on (--foam sets it; none)"));
+        progress.say(&format!(
+            "surface foam from Weber number {of}{number} on (--surface-foam sets it; none)"
+        ));
     } else if wanted == Foaming::Auto && probes.frames.iter().any(|f| f.velocities.is_some()) {
-        let onset = foam::ONSET;
+        let onset = surface_foam::ONSET;
         progress.say(&format!(
             "no foam: the water is calm, or moves as a whole; it draws in air from {onset} metre a second on, by which it \
-             moves past its surroundings (--foam N sets a Weber number; --unit, where lengths are no metres)"
+             moves past its surroundings (--surface-foam N sets a Weber number; --unit, where lengths are no metres)"
         ));
     }
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
@@ -871,15 +885,15 @@ fn look(
     let rate = fps.filter(|_| vectors);
     let fps = fps.filter(|_| remembers);
     let fullest = probes.frames.iter().map(|f| f.positions.len()).max().unwrap_or(0);
-    let diffuse = match made {
+    let whitewater = match made {
         true => {
             let probes = std::mem::take(&mut probes.frames);
             let seconds = fps.map(|_| seconds.last().copied().unwrap_or(0.0));
             let table = file.generate.clone();
             let generate = Generate::new(table, spacing, &bounds, seconds, probes)?;
-            Some(diffuse::Diffusing::Made(Box::new(generate)))
+            Some(whitewater_source::WhitewaterSource::Made(Box::new(generate)))
         }
-        false => files.map(diffuse::Diffusing::Files),
+        false => files.map(whitewater_source::WhitewaterSource::Files),
     };
     let matte = set == SetArg::None;
     Ok(Look {
@@ -892,7 +906,7 @@ fn look(
         matte,
         still: sequence.still,
         foam,
-        diffuse,
+        whitewater,
         bubbles: None,
         shores: None,
         exposure: stage::exposure(set),

@@ -5,31 +5,33 @@ use std::path::PathBuf;
 
 use whitewater::ash::vk;
 use whitewater::bubbles::BubbleConfig;
-use whitewater::foam::{DiffuseConfig, GenerateSettings};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Stepped};
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Display, Layers};
-use whitewater::water::{FoamSettings, Kernels, NoiseLook, Rule, Shading, WaterSettings};
+use whitewater::water::{
+    Kernels, Rule, Shading, SurfaceNoiseSettings, WaterSettings, WeberSettings,
+};
 use whitewater::{Config, Offer, Previous, Region, Settings};
+use whitewater::{GeneratorSettings, WhitewaterConfig};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg};
 use crate::blur::{self, Blur};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
-use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
 use crate::film::{self, Reel};
 use crate::films;
-use crate::foam;
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
 use crate::placing::Placing;
 use crate::progress::{Progress, Steps};
 use crate::settings::{FoamBy, Found, SettingsFile};
 use crate::shore::Shores;
+use crate::surface_foam;
 use crate::timings::Times;
+use crate::whitewater_source::{self, WhitewaterSource};
 
 /// What is the same in every frame.
 pub struct Look {
@@ -44,9 +46,9 @@ pub struct Look {
     /// All pictures are of this frame, from where the camera is in theirs.
     pub still: Option<u64>,
     /// When water foams; none: never.
-    pub foam: Option<FoamSettings>,
-    /// Diffuse particles beside the water.
-    pub diffuse: Option<Diffusing>,
+    pub foam: Option<WeberSettings>,
+    /// Whitewater particles beside the water.
+    pub whitewater: Option<WhitewaterSource>,
     /// Bubble foam, and how it is drawn.
     pub bubbles: Option<(Blobs, BubbleConfig)>,
     /// Shoreline and contact foam.
@@ -74,7 +76,7 @@ pub struct Look {
 struct Memory {
     passed: Option<u64>,
     stepped: Option<u64>,
-    /// By which diffuse particles were made.
+    /// By which whitewater particles were made.
     made: Option<u64>,
     /// To which bubble foam moved.
     heaped: u64,
@@ -94,9 +96,9 @@ pub struct Session<'a> {
     device: Option<Device>,
     headless: Option<Headless>,
     memory: Memory,
-    /// How diffuse particles are made, and how many at most.
-    making: Option<(GenerateSettings, u32)>,
-    /// How many diffuse particles were read for the frame drawn last; none where none are.
+    /// How whitewater particles are made, and how many at most.
+    making: Option<(GeneratorSettings, u32)>,
+    /// How many whitewater particles were read for the frame drawn last; none where none are.
     pub read: Option<usize>,
     /// It was said that there is no room for more of them.
     full: bool,
@@ -153,17 +155,17 @@ fn light_texels(width: u32) -> u32 {
 }
 
 /// How the baseline's noise looks where nothing is said.
-pub fn noise(args: &DrawArgs) -> NoiseLook {
+pub fn noise(args: &DrawArgs) -> SurfaceNoiseSettings {
     match args.noise {
-        NoiseArg::Foam => NoiseLook::SOURCE,
-        NoiseArg::None | NoiseArg::Surface => NoiseLook::default(),
+        NoiseArg::Foam => SurfaceNoiseSettings::SOURCE,
+        NoiseArg::None | NoiseArg::Surface => SurfaceNoiseSettings::default(),
     }
 }
 
 /// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
 const WARM_UP: u32 = 8;
 const WARM_STEP: f32 = 0.1;
-/// The same of diffuse particles that are made by a frame and move in it: a moment, for spray would fly out of a wave
+/// The same of whitewater particles that are made by a frame and move in it: a moment, for spray would fly out of a wave
 /// that stands still.
 const PRE_ROLL: u32 = 8;
 const PRE_STEP: f32 = 1.0 / 30.0;
@@ -259,20 +261,22 @@ impl<'a> Session<'a> {
         self.args.shadows.unwrap_or(if scene { ShadowArg::Scene } else { ShadowArg::All })
     }
 
-    fn make_room_with(&mut self, count: usize, diffuse: usize) -> Outcome<()> {
+    fn make_room_with(&mut self, count: usize, whitewater: usize) -> Outcome<()> {
         let supersample = self.supersample();
         let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
-        let diffuse = diffuse::counted(diffuse)?;
-        let made = match &self.look.diffuse {
-            Some(Diffusing::Made(made)) => Some(made),
+        let whitewater = whitewater_source::counted(whitewater)?;
+        let made = match &self.look.whitewater {
+            Some(WhitewaterSource::Made(made)) => Some(made),
             _ => None,
         };
         // It is looked at in frames of the whole sequence before any is drawn.
         let count = made.map_or(0, |made| made.probed() as u32).max(count);
         let there = self.headless.as_ref().map(|h| *h.renderer().config());
-        let most = |config: &Config| config.diffuse.map_or(0, |diffuse| diffuse.max_particles);
-        if there.is_some_and(|config| config.max_particles >= count && most(&config) >= diffuse) {
+        let most =
+            |config: &Config| config.whitewater.map_or(0, |whitewater| whitewater.max_particles);
+        if there.is_some_and(|config| config.max_particles >= count && most(&config) >= whitewater)
+        {
             return Ok(());
         }
         let device = match self.headless.take() {
@@ -288,7 +292,7 @@ impl<'a> Session<'a> {
         // Frames between those that were looked at may hold more: a quarter.
         let room = |count: u32| count.saturating_add(count / 4).max(1024);
         let before = there.as_ref();
-        let diffuse = room(diffuse).max(before.map_or(0, most));
+        let whitewater = room(whitewater).max(before.map_or(0, most));
         let room = room(count).max(before.map_or(0, |config| config.max_particles));
         let mut config = Config::new(extent, COLOR_FORMAT, room);
         config.max_stride = 12;
@@ -302,25 +306,25 @@ impl<'a> Session<'a> {
         // Of water alone the scene behind is another's: what leaves it goes straight on.
         config.exit = self.look.file.water.exit(thesis || self.look.matte);
         config.kernels = self.look.file.water.kernels(thesis);
-        config.foam = self.look.foam.is_some();
+        config.surface_foam = self.look.foam.is_some();
         config.spray = self.look.spray;
-        config.diffuse = self.look.diffuse.as_ref().map(|source| {
+        config.whitewater = self.look.whitewater.as_ref().map(|source| {
             let (most, max_stride) = match source {
-                Diffusing::Files(_) => (diffuse, 12),
-                Diffusing::Made(made) => (made.max_particles(), 16),
+                WhitewaterSource::Files(_) => (whitewater, 12),
+                WhitewaterSource::Made(made) => (made.max_particles(), 16),
             };
-            let table = &self.look.file.diffuse;
+            let table = &self.look.file.whitewater;
             let (occlusion, splat) = (table.occlusion(), table.splat());
-            DiffuseConfig::new(most).with(|it| {
+            WhitewaterConfig::new(most).with(|it| {
                 it.max_stride = max_stride;
                 it.occlusion = occlusion;
                 it.splat = splat;
             })
         });
         config.bubbles = self.look.bubbles.as_ref().map(|(blobs, bubbles)| {
-            let halvings = blobs.motion.as_ref().map_or(0, |motion| motion.halvings);
-            let own = (blobs.blobs.len() as u32).max(1) << halvings;
-            let max_blobs = if bubbles.hand_over { bubbles.max_blobs } else { own };
+            let max_splits = blobs.motion.as_ref().map_or(0, |motion| motion.max_splits);
+            let own = (blobs.blobs.len() as u32).max(1) << max_splits;
+            let max_blobs = if bubbles.crossfade { bubbles.max_blobs } else { own };
             bubbles.with(|it| it.max_blobs = max_blobs)
         });
         config.shore = self.look.shores.as_ref().map(|shores| shores.config);
@@ -363,9 +367,9 @@ impl<'a> Session<'a> {
         if shadows == ShadowArg::All {
             headless.region(self.look.region);
         }
-        if let Some((blobs, _)) = self.look.bubbles.as_ref().filter(|(_, own)| !own.hand_over) {
+        if let Some((blobs, _)) = self.look.bubbles.as_ref().filter(|(_, own)| !own.crossfade) {
             times.step("upload", number, || match &blobs.motion {
-                Some(own) => headless.heap(&blobs.blobs, own.field.as_ref(), own.halvings),
+                Some(own) => headless.heap(&blobs.blobs, own.field.as_ref(), own.max_splits),
                 None => headless.bubbles(&blobs.blobs),
             })?;
         }
@@ -389,15 +393,15 @@ impl<'a> Session<'a> {
         let content = self.look.still.unwrap_or(number);
         let time = self.time(content);
         (self.look.scene.frame, self.look.scene.time) = (content, time);
-        let files = match &self.look.diffuse {
-            Some(Diffusing::Files(files)) => Some(files),
+        let files = match &self.look.whitewater {
+            Some(WhitewaterSource::Files(files)) => Some(files),
             _ => None,
         };
-        let diffuse = self
+        let whitewater = self
             .times
             .step("read", number, || files.map(|files| files.open(content)).transpose())?;
-        let count = diffuse.as_ref().map_or(0, diffuse::Reading::total);
-        self.read = diffuse.as_ref().map(diffuse::Reading::read);
+        let count = whitewater.as_ref().map_or(0, whitewater_source::Reading::total);
+        self.read = whitewater.as_ref().map(whitewater_source::Reading::read);
         self.make_room_with(particles.positions.len(), count)?;
         let previous = match (before.filter(|_| self.motion), self.look.rate) {
             (Some(before), Some(rate)) => {
@@ -408,8 +412,8 @@ impl<'a> Session<'a> {
         };
         if let Some(headless) = &mut self.headless {
             headless.previous(previous);
-            if let Some(diffuse) = diffuse {
-                self.times.step("upload", number, || diffuse.upload(headless))?;
+            if let Some(whitewater) = whitewater {
+                self.times.step("upload", number, || whitewater.upload(headless))?;
             }
         }
         self.step(number, source, particles, true)
@@ -451,7 +455,7 @@ impl<'a> Session<'a> {
         self.step(number, "", particles, false)
     }
 
-    /// How many diffuse particles were made that are in the frame drawn last; none where none are made. Says so, once,
+    /// How many whitewater particles were made that are in the frame drawn last; none where none are made. Says so, once,
     /// when there was no room for more.
     pub fn made(&mut self) -> Outcome<Option<u32>> {
         let (Some((_, most)), Some(headless)) = (&self.making, &mut self.headless) else {
@@ -460,7 +464,7 @@ impl<'a> Session<'a> {
         let (made, lost) = headless.generated_count()?;
         if lost > 0 && !std::mem::replace(&mut self.full, true) {
             self.times.say(&format!(
-                "there is room for {most} diffuse particles, {lost} more were not made: raise max_particles of \
+                "there is room for {most} whitewater particles, {lost} more were not made: raise max_particles of \
                  table [generate], or lower its rates"
             ));
         }
@@ -474,7 +478,7 @@ impl<'a> Session<'a> {
 
     /// Foam goes by the frames before.
     pub fn remembers(&self) -> bool {
-        let made = matches!(self.look.diffuse, Some(Diffusing::Made(_)));
+        let made = matches!(self.look.whitewater, Some(WhitewaterSource::Made(_)));
         (self.look.foam.is_some() || made) && self.look.fps.is_some()
     }
 
@@ -501,7 +505,7 @@ impl<'a> Session<'a> {
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
-        if let Some(Diffusing::Made(made)) = &mut self.look.diffuse {
+        if let Some(WhitewaterSource::Made(made)) = &mut self.look.whitewater {
             let (settings, line) = times.step("limits", number, || made.settings(headless))?;
             if let Some(line) = line {
                 self.times.say(&line);
@@ -519,7 +523,7 @@ impl<'a> Session<'a> {
             if let Some(all) =
                 all.as_mut().filter(|_| self.look.spray && !self.look.file.is_thesis())
             {
-                let limit = self.look.settings.spray.densities[2] * water.rest_density;
+                let limit = self.look.settings.spray.no_spray_density * water.rest_density;
                 films::hold(&particles.positions, all.to_mut(), water.spacing, limit);
             }
             all
@@ -534,10 +538,11 @@ impl<'a> Session<'a> {
         if let (Some(settings), Some(_)) = (&self.look.foam, &particles.velocities) {
             let fps = self.look.fps.filter(|_| particles.ids.is_some());
             let (ids, spacing) = (particles.ids.as_deref(), self.look.settings.water.spacing);
-            let by_air = self.look.file.foam.by == Some(FoamBy::Air);
-            let drive = by_air
-                .then(|| times.step("trapped air", number, || foam::drive(particles, spacing)));
-            times.step("foam", number, || {
+            let by_air = self.look.file.surface_foam.by == Some(FoamBy::Air);
+            let drive = by_air.then(|| {
+                times.step("trapped air", number, || surface_foam::drive(particles, spacing))
+            });
+            times.step("surface_foam", number, || {
                 let drive = drive.flatten();
                 if let Some(drive) = &drive {
                     headless.motion(drive, ids)?;
@@ -617,7 +622,7 @@ impl<'a> Session<'a> {
             }
             self.staged = content;
         }
-        self.look.settings.foam.time = time;
+        self.look.settings.surface_foam.time = time;
         self.look.settings.shore.time = time;
         let background =
             if self.look.matte { Background::Color([0.0; 3]) } else { Background::Scene };
@@ -671,7 +676,7 @@ impl<'a> Session<'a> {
         times.step("write", number, || self.write(number, &layers))
     }
 
-    /// Writes the diffuse particles that were made; seconds left, as the longest life has them, so that they have
+    /// Writes the whitewater particles that were made; seconds left, as the longest life has them, so that they have
     /// the same ages where they are read.
     fn write_made(&mut self, number: u64) -> Outcome<()> {
         let times = self.times.clone();
@@ -687,7 +692,7 @@ impl<'a> Session<'a> {
             ids: Some(made.ids),
             kinds: Some(made.kinds),
             lifetimes: Some(
-                made.ages.iter().map(|age| (1.0 - age) * settings.lifetime[1]).collect(),
+                made.ages.iter().map(|age| (1.0 - age) * settings.max_lifetime).collect(),
             ),
             ..Particles::from_positions(made.positions)
         };

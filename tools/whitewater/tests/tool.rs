@@ -6,8 +6,6 @@ mod support;
 
 #[path = "tool/bench.rs"]
 mod bench;
-#[path = "tool/diffuse.rs"]
-mod diffuse;
 #[path = "tool/failures.rs"]
 mod failures;
 #[path = "tool/info_compare.rs"]
@@ -28,3 +26,5 @@ mod shore;
 mod skipped;
 #[path = "tool/temporal.rs"]
 mod temporal;
+#[path = "tool/whitewater.rs"]
+mod whitewater;

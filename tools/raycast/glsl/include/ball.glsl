@@ -1,4 +1,4 @@
-// A diffuse particle as a ray meets it: a ball that faces the eye, as its sprite does. Distances across the view
+// A whitewater particle as a ray meets it: a ball that faces the eye, as its sprite does. Distances across the view
 // are taken at the depth of its centre, those along it are depths: the integral of the kernel along a ray is
 // then the thickness of the sprite in that pixel (src/lib.rs derives the kernels).
 // Needs view.glsl. Reads: records.

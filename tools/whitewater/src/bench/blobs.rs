@@ -67,7 +67,7 @@ fn measure(
     let max_blobs = set.blobs.blobs.len().max(1) as u32;
     let bubbles = file.bubbles.config().with(|it| {
         it.max_blobs = max_blobs;
-        it.hand_over = false;
+        it.crossfade = false;
     });
     // There is no water, and room for it is not zero.
     let config = Config::new(extent, COLOR_FORMAT, 64).with(|it| it.bubbles = Some(bubbles));
@@ -122,7 +122,7 @@ fn sample(
                 Impostor::Ids => "ids",
                 Impostor::Distance => "distance",
             },
-            map: bubbles.map,
+            map: bubbles.map_size,
             steps: bubbles.steps,
         }),
         ..Row::of(headless)

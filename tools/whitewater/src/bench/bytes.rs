@@ -27,7 +27,7 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "depth" => 4 * full + 16 * front + 4 * drawn.covered,
         // Two words a particle in; of those with foam position and velocity in, the sprite out and in
         // twice; depth and thickness out, and two sums cleared and read where they are not blended.
-        "foam" => {
+        "surface_foam" => {
             let summed = drawn.config.thickness_splat != Some(Splat::Raster);
             let texel = if summed { 4 + 8 + 16 } else { 4 + 8 };
             8 * u64::from(drawn.particles) + (24 + 3 * 64) * drawn.foaming + texel * thick
@@ -59,9 +59,9 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "light" => 24 * u64::from(drawn.particles) + 20 * texels,
         // Four words a texel out and in again, front in, a texel of four halves out; positions, kinds, ages and ids in.
         // What atomics move is not counted. Without particles the map is cleared.
-        "diffuse" => match u64::from(drawn.diffuse) {
+        "whitewater_light" => match u64::from(drawn.whitewater) {
             0 => 8 * texels,
-            diffuse => (16 + 16 + 4 + 8) * texels + 24 * diffuse,
+            whitewater => (16 + 16 + 4 + 8) * texels + 24 * whitewater,
         },
         // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.
         "caustics" => (4 * 4 + 4 + 16 + 12 + 4 + 4) * texels,
@@ -97,13 +97,13 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "thickness" => {
             let apart = if drawn.config.sheets > 1 { 32 + 8 + 16 + 8 } else { 0 };
             // With foam a sum more, the channel of what is before it, and its depth in.
-            let foam = if drawn.config.foam { 16 + 4 + 4 } else { 0 };
+            let foam = if drawn.config.surface_foam { 16 + 4 + 4 } else { 0 };
             16 * visible + (24 + apart + foam) * thick
         }
         // Two depths in and eight words a pixel out, those in again, two images of four floats and one of halves
         // out; positions, kinds, ages and ids in at each go. What atomics move is not counted.
         "splat" => {
-            let read = drawn.goes * 24 * u64::from(drawn.diffuse);
+            let read = drawn.goes * 24 * u64::from(drawn.whitewater);
             (8 + 32 + 32 + 32 + 8) * full + read
         }
         // Depths in twice, the water's once, and light out; where there is foam its normal in. The samples are not
@@ -118,7 +118,7 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         // A copy of half-float colour.
         "scene" => 16 * full,
         // Depth, thickness and surface shares, scene colour and depth in, colour out; depth, thickness and light of
-        // diffuse foam in, and of pixels with nothing but that the scene in and colour out too.
+        // whitewater foam in, and of pixels with nothing but that the scene in and colour out too.
         "composite" => {
             let alone = foam.saturating_sub(drawn.covered);
             drawn.covered * (4 + 4 + 8 + 4 + 8)
@@ -141,15 +141,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn diffuse_particles_cast_by_particle_and_texel() {
+    fn whitewater_particles_cast_by_particle_and_texel() {
         let extent = vk::Extent2D { width: 64, height: 48 };
         let mut config = Config::new(extent, COLOR_FORMAT, 64);
         config.cast = Some(512);
         let none = Drawn::nothing(config);
         let map = 512 * 512;
-        assert_eq!(moved("diffuse", &none), Some(8 * map));
-        let some = Drawn { diffuse: 1000, ..none };
-        assert_eq!(moved("diffuse", &some), Some(44 * map + 24_000));
+        assert_eq!(moved("whitewater_light", &none), Some(8 * map));
+        let some = Drawn { whitewater: 1000, ..none };
+        assert_eq!(moved("whitewater_light", &some), Some(44 * map + 24_000));
         assert_eq!(moved("no such pass", &some), None);
     }
 }

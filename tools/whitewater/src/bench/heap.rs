@@ -136,11 +136,11 @@ impl CpuHeap {
             - other.spin.cross(other.radius * n)
             - own.spin.cross(own.radius * n);
         let (parting, near) = (slip.dot(n), part.min(1.0));
-        let across = s.damping[1] * near * (slip - parting * n);
+        let across = s.tangential_damping * near * (slip - parting * n);
         // The same force on both: by their masses.
         let [a, b] = [own.radius, other.radius].map(|r| r * r * r);
         let share = 2.0 * b / (a + b);
-        let push = (along + s.damping[0] * near * parting) * n + across;
+        let push = (along + s.normal_damping * near * parting) * n + across;
         (share * push, share * ROUND / own.radius * n.cross(across))
     }
 
@@ -226,7 +226,7 @@ fn solid_at(solid: &Solid, place: Vec3) -> (Vec3, f32) {
             let n = Vec3::from(normal);
             (n, n.dot(place) - distance)
         }
-        Solid::Box { center, half, turn } => {
+        Solid::Box { center, half_extents: half, rotation: turn } => {
             let turn = Quat::from_array(turn);
             let q = turn.inverse() * (place - Vec3::from(center));
             let d = q.abs() - Vec3::from(half);
@@ -257,7 +257,7 @@ mod tests {
         let Motion { settings, solids, .. } = blobs.motion.unwrap();
         let extent = vk::Extent2D { width: 16, height: 16 };
         let own = BubbleConfig::new(200).with(|it| {
-            it.templates = 1;
+            it.variants = 1;
             it.bubbles = 8;
         });
         let config = Config::new(extent, COLOR_FORMAT, 64).with(|it| it.bubbles = Some(own));

@@ -22,7 +22,8 @@ use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
 use whitewater::io::picture;
 use whitewater::water::{
-    Convolution, FoamLook, FoamSettings, Gate, NoiseLook, Rule, Shading, Shadows, Smoothing, Splat,
+    Convolution, Gate, Rule, Shading, Shadows, Smoothing, Splat, SurfaceFoamSettings,
+    SurfaceNoiseSettings, WeberSettings,
 };
 use whitewater::{Camera, Config, Error, Previous, Region, Settings};
 use whitewater_seas::Sea;
@@ -68,7 +69,10 @@ pub struct BenchArgs {
     cover: Vec<f64>,
     /// Whitewater particles of a sea: 20k, 0.8m, 29m or any number [default: the paper's 0.82m, 9m, 15m, 29m]
     #[arg(long, value_delimiter = ',', value_parser = sea::parse_count, requires = "sea")]
-    diffuse: Vec<u32>,
+    whitewater: Vec<u32>,
+    /// The former name of --whitewater
+    #[arg(long, hide = true, value_parser = was_diffuse)]
+    diffuse: Option<u32>,
     /// Sampling of the ambient occlusion of whitewater [default: fast]
     #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
     occlusion: Vec<sea::OcclusionArg>,
@@ -91,7 +95,7 @@ pub struct BenchArgs {
     /// Write the last frame of a sea or shore with one combination; an .exr has all layers of its foam
     #[arg(long, value_name = "FILE", requires = "pictured")]
     picture: Option<PathBuf>,
-    /// TOML settings: table [diffuse] for a sea, [bubbles] for bubble foam, [shore], [shoreline] and [contact]
+    /// TOML settings: table [whitewater] for a sea, [bubbles] for bubble foam, [shore], [shoreline] and [contact]
     /// for shores
     #[arg(long, value_name = "FILE.toml", requires = "instead")]
     settings: Option<PathBuf>,
@@ -113,6 +117,11 @@ pub struct BenchArgs {
     /// Device to draw on, by a part of its name
     #[arg(long)]
     device: Option<String>,
+}
+
+/// A flag that has another name now is refused, with that name.
+fn was_diffuse(_: &str) -> Result<u32, String> {
+    Err("--diffuse was renamed: use --whitewater".into())
 }
 
 /// A way to draw.
@@ -250,7 +259,7 @@ impl Path {
             Self::QueryPredicate => config.smoothing = query(Gate::Predicate),
             Self::QueryVertex | Self::ReadBack => config.smoothing = query(Gate::VertexCull),
             Self::OneSheet => config.sheets = 1,
-            Self::Foam => config.foam = true,
+            Self::Foam => config.surface_foam = true,
             Self::Spray => config.spray = true,
             Self::Motion => config.motion = true,
             Self::Noise => config.noise = Some(1),
@@ -281,8 +290,8 @@ pub struct Drawn {
     pub foaming: u64,
     /// Full-resolution pixels with water.
     pub covered: u64,
-    /// Diffuse particles, and full-resolution pixels with their foam.
-    pub diffuse: u32,
+    /// Whitewater particles, and full-resolution pixels with their foam.
+    pub whitewater: u32,
     /// How often they are gone through.
     pub goes: u64,
     pub foam: u64,
@@ -304,7 +313,7 @@ impl Drawn {
             counts: Counts::default(),
             foaming: 0,
             covered: 0,
-            diffuse: 0,
+            whitewater: 0,
             goes: 0,
             foam: 0,
             coat: 0,
@@ -480,15 +489,15 @@ fn sample(
     if config.shadow.is_some() {
         headless.scene(&plate(pool), false)?;
     }
-    settings.noise = NoiseLook::SOURCE;
+    settings.noise = SurfaceNoiseSettings::SOURCE;
     let densities = config.spray.then(|| densities(pool));
     headless.particles(&pool.positions, densities.as_deref())?;
     if config.cast.is_some() {
         headless.region(region(pool));
     }
     let mut foaming = 0;
-    if config.foam {
-        settings.foam = FoamLook::of_spacing(pool.spacing);
+    if config.surface_foam {
+        settings.surface_foam = SurfaceFoamSettings::of_spacing(pool.spacing);
         foaming = foam(headless, pool)?;
     }
     if config.motion {
@@ -621,7 +630,7 @@ fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let velocities: Vec<[f32; 3]> = heights.iter().map(|y| [20.0 * y, 0.0, 0.0]).collect();
     heights.sort_unstable_by(f32::total_cmp);
     let high = heights[heights.len() * 95 / 100];
-    let settings = FoamSettings::reduced(pool.spacing, 1.0);
+    let settings = WeberSettings::reduced(pool.spacing, 1.0);
     let threshold = settings.scale * settings.rest_density * (20.0 * high).powi(2);
     headless.motion(&velocities, None)?;
     headless.step(None, &settings.with(|it| it.threshold = threshold))?;

@@ -38,10 +38,10 @@ pub struct Row {
     pub calibration: f64,
     /// Most smoothing iterations of a pixel.
     pub most_iterations: u32,
-    /// Nanoseconds a diffuse particle, of the pass that is by particles.
+    /// Nanoseconds a whitewater particle, of the pass that is by particles.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub ns_per_diffuse: Option<f64>,
-    /// Bytes of the renderer, and of the diffuse particles.
+    pub ns_per_whitewater: Option<f64>,
+    /// Bytes of the renderer, and of the whitewater particles.
     pub memory: u64,
     pub inputs: u64,
     /// Of a sea.
@@ -59,8 +59,8 @@ pub struct Row {
 #[derive(Clone, Debug, Serialize)]
 pub struct SeaRow {
     pub sea: &'static str,
-    /// Diffuse particles.
-    pub diffuse: u32,
+    /// Whitewater particles.
+    pub whitewater: u32,
     pub occlusion: &'static str,
 }
 
@@ -112,7 +112,7 @@ impl Row {
         let memory = headless.renderer().memory();
         Self {
             memory: memory.images + memory.buffers,
-            inputs: headless.diffuse_memory(),
+            inputs: headless.whitewater_memory(),
             ..Self::default()
         }
     }
@@ -148,8 +148,8 @@ impl Report {
             Format::Table => out::print(format_args!("{adapter}, {driver}\n"))?,
             Format::Csv => out::print(format_args!(
                 "adapter,driver,version,particles,width,height,path,pass,median_ms,p10_ms,p90_ms,\
-                 bytes,calibration_ms,most_iterations,memory_bytes,sea,diffuse,occlusion,\
-                 input_bytes,ns_per_diffuse,bubble_scene,blobs,bubbles,layers,impostor,map,steps,\
+                 bytes,calibration_ms,most_iterations,memory_bytes,sea,whitewater,occlusion,\
+                 input_bytes,ns_per_whitewater,bubble_scene,blobs,bubbles,layers,impostor,map,steps,\
                  shore,way,edge,cover,covered,foam,water,ratio\n"
             ))?,
             Format::Json => {}
@@ -187,9 +187,11 @@ impl Report {
 
 fn csv(adapter: &str, driver: &str, r: &Row) -> String {
     let bytes = r.bytes.map_or_else(String::new, |b| b.to_string());
-    let each = r.ns_per_diffuse.map_or_else(String::new, |each| format!("{each:.3}"));
+    let each = r.ns_per_whitewater.map_or_else(String::new, |each| format!("{each:.3}"));
     let sea = match &r.sea {
-        Some(sea) => format!("{},{},{},{},{each}", sea.sea, sea.diffuse, sea.occlusion, r.inputs),
+        Some(sea) => {
+            format!("{},{},{},{},{each}", sea.sea, sea.whitewater, sea.occlusion, r.inputs)
+        }
         None => ",,,,".into(),
     };
     let blobs = r.blobs.as_ref().map_or_else(
@@ -230,15 +232,15 @@ fn table(rows: &[Row]) -> String {
     let mb = |bytes: u64| bytes as f64 * 1e-6;
     let mut text = match (&first.sea, &first.blobs, &first.shore) {
         (Some(sea), ..) => format!(
-            "\n{}, {} diffuse particles, {}x{}, {} occlusion; renderer {:.1} MB, particles {:.1} MB ({:.1} a million)",
+            "\n{}, {} whitewater particles, {}x{}, {} occlusion; renderer {:.1} MB, particles {:.1} MB ({:.1} a million)",
             sea.sea,
-            sea.diffuse,
+            sea.whitewater,
             first.width,
             first.height,
             sea.occlusion,
             mb(first.memory),
             mb(first.inputs),
-            first.inputs as f64 / f64::from(sea.diffuse.max(1))
+            first.inputs as f64 / f64::from(sea.whitewater.max(1))
         ),
         (None, Some(b), _) => format!(
             "\n{}, {} blobs of {} bubbles in all, {}x{}, {}, {} layers, {} of {} texels in {} steps; renderer {:.1} MB",
@@ -276,7 +278,7 @@ fn table(rows: &[Row]) -> String {
             "{:<wide$}{:>10.3}{:>10.3}{:>10.3}{moved:>11}{rate:>10}\n",
             r.pass, r.median, r.low, r.high
         );
-        if let Some(each) = r.ns_per_diffuse {
+        if let Some(each) = r.ns_per_whitewater {
             text += &format!("{:<wide$}{each:>10.2} ns a particle\n", "");
         }
         if r.pass == "frame" {

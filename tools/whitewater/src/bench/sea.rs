@@ -1,4 +1,4 @@
-//! The foam of a sea: diffuse particles by the million over its scene, without water particles.
+//! The foam of a sea: whitewater particles by the million over its scene, without water particles.
 
 use std::sync::Mutex;
 
@@ -6,12 +6,12 @@ use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::{Mat4, Vec3};
 use whitewater::ash::vk;
-use whitewater::foam::{DiffuseConfig, DiffuseLook, Occlusion, Reach};
 use whitewater::headless::scene::Scene;
-use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Diffuse, Headless};
+use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Whitewater};
 use whitewater::io::picture;
 use whitewater::water::Shadows;
 use whitewater::{Config, Error, Settings};
+use whitewater::{Occlusion, OcclusionReach, WhitewaterConfig, WhitewaterSettings};
 use whitewater_seas::{Foam, Sea};
 
 use super::report::{Report, Row, SeaRow};
@@ -25,8 +25,7 @@ use crate::settings::SettingsFile;
 const PART: u32 = 1 << 20;
 
 /// What of the foam is written beside its picture.
-const LAYERS: &str =
-    "foam,foam.radius,foam.normal,foam.thickness,foam.intensity,foam.shadow,foam.irradiance,scene";
+const LAYERS: &str = "whitewater,whitewater.radius,whitewater.normal,whitewater.thickness,whitewater.intensity,whitewater.shadow,whitewater.irradiance,scene";
 
 /// How the shadow is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -61,7 +60,7 @@ pub fn parser() -> impl TypedValueParser<Value = Sea> {
         .try_map(|name| Sea::from_name(&name).ok_or("no such sea"))
 }
 
-/// Of `--diffuse`: decimal, as the source counts.
+/// Of `--whitewater`: decimal, as the source counts.
 pub fn parse_count(text: &str) -> Result<u32, String> {
     let lower = text.to_lowercase();
     let (digits, scale) = match lower.strip_suffix('k') {
@@ -98,7 +97,7 @@ fn cases(args: &BenchArgs) -> Vec<Case> {
     let mut cases = Vec::new();
     for &sea in &args.sea {
         let (count, size) = sea.source();
-        let counts = if args.diffuse.is_empty() { vec![count] } else { args.diffuse.clone() };
+        let counts = if args.whitewater.is_empty() { vec![count] } else { args.whitewater.clone() };
         let sizes = if args.size.is_empty() { vec![size] } else { args.size.clone() };
         for &count in &counts {
             for &(width, height) in &sizes {
@@ -130,7 +129,7 @@ pub fn measure_all(
     for case in cases {
         let Case { sea, count, extent, occlusion } = case;
         let what = format!(
-            "{}, {count} diffuse particles, {}x{}, {}",
+            "{}, {count} whitewater particles, {}x{}, {}",
             sea.name(),
             extent.width,
             extent.height,
@@ -155,7 +154,7 @@ fn measure(args: &BenchArgs, options: &DeviceOptions, case: Case) -> Outcome<Vec
     let device = Device::new(options)?;
     // There are none, and it is not zero.
     let mut config = Config::new(case.extent, COLOR_FORMAT, 64);
-    config.diffuse = Some(DiffuseConfig::new(case.count).with(|it| {
+    config.whitewater = Some(WhitewaterConfig::new(case.count).with(|it| {
         it.occlusion = case.occlusion.into();
         it.packets = args.packets;
     }));
@@ -183,14 +182,14 @@ fn sample(
     upload(headless, sea, count, args.packets)?;
     let mut settings = Settings::default().with(|it| {
         // Of a scene of the source's size the source's reach.
-        it.diffuse = DiffuseLook::default().with(|it| {
+        it.whitewater = WhitewaterSettings::default().with(|it| {
             it.radius = sea.radius(count);
-            it.reach = Reach::Metres(5.0);
+            it.reach = OcclusionReach::Metres(5.0);
         });
         it.light = environment.light();
     });
     if let Some(path) = &args.settings {
-        SettingsFile::read(path)?.diffuse.put(&mut settings.diffuse);
+        SettingsFile::read(path)?.whitewater.put(&mut settings.whitewater);
     }
     let aspect = extent.width as f32 / extent.height as f32;
     let from = |distance| sea.camera_from(distance, aspect);
@@ -199,10 +198,10 @@ fn sample(
         .to_cols_array_2d();
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
-    let depth = headless.layer("foam")?;
+    let depth = headless.layer("whitewater")?;
     let foam = depth.map_or(0, |depth| depth.data.iter().filter(|z| **z < picture::EMPTY).count());
     let drawn = Drawn {
-        diffuse: count,
+        whitewater: count,
         goes: if headless.device().enabled.buffer_int64_atomics { 1 } else { 2 },
         foam: foam as u64,
         ..Drawn::nothing(config)
@@ -214,19 +213,19 @@ fn sample(
         width: extent.width,
         height: extent.height,
         path: "sea".into(),
-        sea: Some(SeaRow { sea: sea.name(), diffuse: count, occlusion: occlusion.name() }),
+        sea: Some(SeaRow { sea: sea.name(), whitewater: count, occlusion: occlusion.name() }),
         ..Row::of(headless)
     };
     let mut rows = times.rows(&template, &drawn);
     for row in rows.iter_mut().filter(|row| row.pass == "splat") {
-        row.ns_per_diffuse = Some(row.median * 1e6 / f64::from(count));
+        row.ns_per_whitewater = Some(row.median * 1e6 / f64::from(count));
     }
     Ok(rows)
 }
 
 /// A part after the other: never all are in the host's memory.
 fn upload(headless: &mut Headless, sea: Sea, count: u32, sorted: bool) -> Result<(), Error> {
-    let mut parts = headless.diffuse_parts(count as usize)?;
+    let mut parts = headless.whitewater_parts(count as usize)?;
     let mut first = 0;
     while first < count {
         let next = count.min(first.saturating_add(PART));
@@ -234,7 +233,7 @@ fn upload(headless: &mut Headless, sea: Sea, count: u32, sorted: bool) -> Result
         if sorted {
             foam = along_curve(&foam);
         }
-        parts.push(&Diffuse {
+        parts.push(&Whitewater {
             positions: &foam.positions,
             kinds: Some(&foam.kinds),
             ages: Some(&foam.ages),

@@ -9,7 +9,7 @@ use glam::Quat;
 use whitewater::ash::vk;
 use whitewater::headless::scene::{Ground, Material, Mesh, Scene};
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
-use whitewater::shore::{Edge, Noise, ShorelineLook, WebLayer};
+use whitewater::shore::{Edge, Noise, ShorelineSettings, WebLayer};
 use whitewater::water::Shadows;
 use whitewater::{Camera, Config, Error, Settings};
 
@@ -187,7 +187,7 @@ fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option
         Scenery::Isles | Scenery::Splash => {
             let mut own = Settings::default();
             file.apply(&mut own);
-            let reach = own.shore.shoreline.reach;
+            let reach = [own.shore.shoreline.sea_reach, own.shore.shoreline.land_reach];
             let (shown, one) = isles::isles(size, cover.unwrap_or(COVER), reach)?;
             part = Some(one);
             (shown, By::Map)
@@ -219,7 +219,7 @@ fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option
     }
     let mut file = file.clone();
     file.shore.by = Some(by);
-    let reach = settings.shore.shoreline.reach;
+    let reach = [settings.shore.shoreline.sea_reach, settings.shore.shoreline.land_reach];
     let shores = Shores::of(&file, &scene, level, strip, (reach, by))?;
     let camera = CameraFile {
         eye: Some(shown.eye),
@@ -287,7 +287,7 @@ fn splash(
 }
 
 /// All that a look can ask for.
-fn everything(look: &mut ShorelineLook) {
+fn everything(look: &mut ShorelineSettings) {
     let noise = |amplitude, metres: f32| Noise { amplitude, scale: 1.0 / metres };
     look.frequency_noise = noise(5.0, 90.0);
     look.speed_noise = noise(0.35, 70.0);
@@ -483,7 +483,7 @@ fn covered(headless: &mut Headless, setting: &Setting) -> Outcome<Option<f64>> {
     let Some(level) = setting.level.filter(|_| setting.way != By::None.name()) else {
         return Ok(None);
     };
-    let reach = setting.settings.shore.shoreline.reach[0];
+    let reach = setting.settings.shore.shoreline.sea_reach;
     let line = Waterline::new(&setting.scene, level, reach);
     band(&headless.scene_depth()?, &setting.camera, level, &line).map(Some)
 }

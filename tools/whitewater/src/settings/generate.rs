@@ -1,18 +1,19 @@
 //! Table `[generate]`: of `--whitewater generate`.
 
 use serde::{Deserialize, Serialize};
-use whitewater::foam::{GenerateSettings, Limits};
+use whitewater::{GeneratorSettings, PotentialRange};
 
 use super::table::table;
 
 table! {
     /// Table `[generate]`.
-    GenerateTable of GenerateSettings
+    GenerateTable of GeneratorSettings
     keys {
         trapped_air: Span,
         wave_crest: Span,
         energy: Span,
-        lifetime: [f32; 2],
+        min_lifetime: f32,
+        max_lifetime: f32,
         gravity: [f32; 3],
         buoyancy: f32,
         drag: f32,
@@ -31,21 +32,21 @@ table! {
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub struct Span([f32; 2]);
 
-impl From<Span> for Limits {
+impl From<Span> for PotentialRange {
     fn from(Span([least, most]): Span) -> Self {
-        Self { least, most }
+        Self { min: least, max: most }
     }
 }
 
-impl From<Limits> for Span {
-    fn from(Limits { least, most }: Limits) -> Self {
+impl From<PotentialRange> for Span {
+    fn from(PotentialRange { min: least, max: most }: PotentialRange) -> Self {
         Self([least, most])
     }
 }
 
 impl GenerateTable {
     /// Puts what the table says over settings.
-    pub fn apply(&self, settings: &mut GenerateSettings) {
+    pub fn apply(&self, settings: &mut GeneratorSettings) {
         self.put(settings);
         if let Some([trapped_air, wave_crest]) = self.rates {
             settings.trapped_air_rate = trapped_air;
@@ -54,7 +55,7 @@ impl GenerateTable {
     }
 
     /// The table that says all of settings and how many are made at most.
-    pub fn all(settings: &GenerateSettings, max_particles: u32) -> Self {
+    pub fn all(settings: &GeneratorSettings, max_particles: u32) -> Self {
         Self {
             max_particles: Some(max_particles),
             rates: Some([settings.trapped_air_rate, settings.wave_crest_rate]),

@@ -138,10 +138,10 @@ impl Liquid {
             settings.water.fresnel = Fresnel::of_index(index);
         }
         if let Some([much, little]) = self.foam {
-            settings.foam.front_color = much;
-            settings.foam.back_color = little;
+            settings.surface_foam.front_color = much;
+            settings.surface_foam.back_color = little;
             settings.spray.color = much;
-            settings.diffuse.albedo = much;
+            settings.whitewater.albedo = much;
         }
     }
 }
@@ -181,18 +181,19 @@ mod tests {
         let Fresnel::Schlick { f0 } = honey.water.fresnel else { panic!("{honey:?}") };
         assert!((f0 - 0.0387).abs() < 1.0e-4, "{f0}");
         // Cream, pink, dark.
-        let [r, g, b] = of("beer").foam.front_color;
+        let [r, g, b] = of("beer").surface_foam.front_color;
         assert!(r > g && g > b && b > 0.5);
-        let [r, g, b] = of("blood").foam.front_color;
+        let [r, g, b] = of("blood").surface_foam.front_color;
         assert!(r > 3.0 * g && g == b);
-        assert!(of("lava").foam.front_color.iter().all(|c| *c < 0.05));
+        assert!(of("lava").surface_foam.front_color.iter().all(|c| *c < 0.05));
         for (name, _) in WORDS {
             let settings = of(name);
-            let pairs = settings.foam.front_color.iter().zip(settings.foam.back_color);
+            let pairs =
+                settings.surface_foam.front_color.iter().zip(settings.surface_foam.back_color);
             assert!(pairs.into_iter().all(|(much, little)| *much >= little), "{name}");
             assert_eq!(
                 settings.spray.color == Settings::default().spray.color,
-                of(name).foam == Settings::default().foam
+                of(name).surface_foam == Settings::default().surface_foam
             );
         }
     }

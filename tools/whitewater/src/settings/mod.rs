@@ -1,19 +1,20 @@
 //! Settings from TOML and back. Every value is optional.
 
 mod bubbles;
-mod diffuse;
 pub mod generate;
 mod medium;
+mod renamed;
 pub mod shore;
 mod table;
 mod water;
+mod whitewater_table;
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use whitewater::foam::GenerateSettings;
-use whitewater::water::FoamSettings;
+use whitewater::GeneratorSettings;
 use whitewater::water::Shadows;
+use whitewater::water::WeberSettings;
 use whitewater::{Light, Settings};
 
 use crate::args::DrawArgs;
@@ -22,7 +23,7 @@ use crate::failure::{Failure, Outcome};
 pub use medium::MediumName;
 #[cfg(test)]
 pub use water::Weber;
-pub use water::{FoamBy, FoamTable};
+pub use water::{FoamBy, SurfaceFoamTable};
 
 /// The file.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
@@ -32,9 +33,9 @@ pub struct SettingsFile {
     pub look: Option<LookWord>,
     pub water: water::WaterTable,
     pub ellipsoids: water::EllipsoidTable,
-    pub foam: water::FoamTable,
+    pub surface_foam: water::SurfaceFoamTable,
     pub spray: water::SprayTable,
-    pub diffuse: diffuse::DiffuseTable,
+    pub whitewater: whitewater_table::WhitewaterTable,
     pub bubbles: bubbles::BubbleTable,
     pub generate: generate::GenerateTable,
     pub shore: shore::ShoreTable,
@@ -59,9 +60,9 @@ pub enum LookWord {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Found<'a> {
     /// By what water foams.
-    pub foam: Option<&'a FoamSettings>,
-    /// By what diffuse particles are made, and how many at most.
-    pub generate: Option<&'a (GenerateSettings, u32)>,
+    pub foam: Option<&'a WeberSettings>,
+    /// By what whitewater particles are made, and how many at most.
+    pub generate: Option<&'a (GeneratorSettings, u32)>,
 }
 
 impl SettingsFile {
@@ -72,6 +73,9 @@ impl SettingsFile {
     }
 
     fn parse(text: &str) -> Result<Self, String> {
+        if let Some(why) = renamed::find(text) {
+            return Err(why);
+        }
         toml::from_str(text).map_err(|error| {
             let line = error.span().map_or(0, |span| {
                 text.get(..span.start).unwrap_or_default().matches('\n').count() + 1
@@ -121,9 +125,9 @@ impl SettingsFile {
         }
         self.water.apply(&mut settings.water);
         self.ellipsoids.put(&mut settings.water.ellipsoids);
-        self.foam.put(&mut settings.foam);
+        self.surface_foam.put(&mut settings.surface_foam);
         self.spray.put(&mut settings.spray);
-        self.diffuse.put(&mut settings.diffuse);
+        self.whitewater.put(&mut settings.whitewater);
         self.bubbles.apply(&mut settings.bubbles);
         self.shore.put(&mut settings.shore);
         self.shoreline.put(&mut settings.shore.shoreline);
@@ -136,15 +140,25 @@ impl SettingsFile {
     /// The file that says all: of settings, of what was found, and of what chooses passes as this file does.
     pub fn all(&self, settings: &Settings, found: Found<'_>) -> Self {
         // The tool's worlds have y up; the ladder is of the layers that are written.
-        let Settings { water, foam, spray, diffuse, bubbles, shore, shadow, noise, light, .. } =
-            settings;
+        let Settings {
+            water,
+            surface_foam,
+            spray,
+            whitewater,
+            bubbles,
+            shore,
+            shadow,
+            noise,
+            light,
+            ..
+        } = settings;
         Self {
             look: self.look,
             water: self.water.all(water, self.is_thesis()),
             ellipsoids: water::EllipsoidTable::of(&water.ellipsoids),
-            foam: self.foam.all(foam, found.foam),
+            surface_foam: self.surface_foam.all(surface_foam, found.foam),
             spray: water::SprayTable::of(spray),
-            diffuse: self.diffuse.all(diffuse),
+            whitewater: self.whitewater.all(whitewater),
             bubbles: self.bubbles.all(bubbles),
             generate: found.generate.map_or_else(
                 || self.generate.clone(),

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use whitewater::shore::{
-    ContactLook, Edge, Measure, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
+    ContactSettings, Edge, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings, WebLayer,
 };
 
 use super::table::{table, words};
 
 table! {
     /// Table `[shore]`: what is the same in all frames.
-    ShoreTable of ShoreLook
+    ShoreTable of ShoreSettings
     keys {}
     // Seconds after which all repeats.
     optional { period: f32 }
@@ -67,7 +67,7 @@ impl ShoreTable {
     }
 
     /// The table that says all of a look, and of the passes and of what they read as this table does.
-    pub fn all(&self, look: &ShoreLook) -> Self {
+    pub fn all(&self, look: &ShoreSettings) -> Self {
         let ShoreConfig { edge, web_size, seed, .. } = self.config();
         Self {
             edge: Some(edge.into()),
@@ -84,20 +84,24 @@ impl ShoreTable {
 
 table! {
     /// Table `[shoreline]`.
-    ShorelineTable of ShorelineLook
+    ShorelineTable of ShorelineSettings
     keys {
-        reach: [f32; 2],
+        sea_reach: f32,
+        land_reach: f32,
         frequency: f32,
         speed: f32,
         swing: f32,
-        swing_by: [f32; 2],
+        swing_amplitude: f32,
+        swing_period: f32,
         frequency_noise: Pair,
         speed_noise: Pair,
         speed_period: f32,
-        wave_rise: [f32; 2],
+        wave_slope: f32,
+        wave_offset: f32,
         wave_ratio: f32,
         web_ratio: f32,
-        web_rise: [f32; 2],
+        web_slope: f32,
+        web_offset: f32,
         layers: Layers,
         web_warp: Pair,
         web_warp_speed: [f32; 2],
@@ -190,7 +194,7 @@ impl From<[WebLayer; LAYERS]> for Layers {
 
 table! {
     /// Table `[contact]`.
-    ContactTable of ContactLook
+    ContactTable of ContactSettings
     keys {
         depth: f32,
         measure: MeasureWord,
@@ -214,7 +218,7 @@ words!(MeasureWord of Measure { Distance, View, Vertical });
 
 impl ContactTable {
     /// The table that says all of a look, and of its picture as this table does.
-    pub fn all(&self, look: &ContactLook) -> Self {
+    pub fn all(&self, look: &ContactSettings) -> Self {
         Self { mask_picture: self.mask_picture.clone(), ..Self::of(look) }
     }
 

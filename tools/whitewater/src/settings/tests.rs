@@ -1,6 +1,6 @@
-use whitewater::foam::{DiffuseLook, Limits, Mixing, Reach, Submerged};
 use whitewater::water::{Amplitude, Convolution, Fresnel, Medium};
-use whitewater::water::{NoiseLook, SprayLook};
+use whitewater::water::{SpraySettings, SurfaceNoiseSettings};
+use whitewater::{OcclusionReach, PotentialRange, ShadowMixing, Submerged, WhitewaterSettings};
 
 use super::*;
 
@@ -40,9 +40,9 @@ fn media_are_read_by_name_and_by_numbers() {
     settings.water.fresnel = Fresnel::Schlick { f0: 0.25 };
     assert_eq!(applied(&written(&settings)), settings);
     // What the tables say goes before what the name brings.
-    let beer = applied("[water]\nmedium = 'beer'\n[foam]\nfront_color = [0.1, 0.2, 0.3]");
-    assert_eq!(beer.foam.front_color, [0.1, 0.2, 0.3]);
-    assert_ne!(beer.foam.back_color, Settings::default().foam.back_color);
+    let beer = applied("[water]\nmedium = 'beer'\n[surface_foam]\nfront_color = [0.1, 0.2, 0.3]");
+    assert_eq!(beer.surface_foam.front_color, [0.1, 0.2, 0.3]);
+    assert_ne!(beer.surface_foam.back_color, Settings::default().surface_foam.back_color);
 }
 
 #[test]
@@ -60,10 +60,10 @@ fn water_foams_as_asked() {
         let file = SettingsFile::parse(text).unwrap();
         let mut settings = Settings::default();
         file.apply(&mut settings);
-        file.foam.formation(&settings.water)
+        file.surface_foam.formation(&settings.water)
     };
-    let text = "[water]\nspacing = 0.02\nrest_density = 998.0\n[foam]\n";
-    let standard = FoamSettings::reduced(0.02, 1.0).with(|it| it.rest_density = 998.0);
+    let text = "[water]\nspacing = 0.02\nrest_density = 998.0\n[surface_foam]\n";
+    let standard = WeberSettings::reduced(0.02, 1.0).with(|it| it.rest_density = 998.0);
     assert_eq!(of(text), standard);
     // Section 3.2 of the thesis: ρ v² l / σ, of a particle's width l and a surface tension of 0.0728 N/m.
     let full = of(&format!("{text}weber = 'full'\nthreshold = 30.0"));
@@ -86,14 +86,14 @@ fn settings_go_out_and_come_back() {
     settings.water.medium = Medium::source(0.02);
     settings.water.shininess = 1.0e-7;
     settings.water.amplitude = Amplitude::Source;
-    settings.foam.veil = 0.25;
-    settings.foam.front_color = [0.1, 0.2, 0.3];
-    settings.spray = SprayLook::SOURCE.with(|it| it.size = 1.5);
-    settings.diffuse = DiffuseLook::of_spacing(0.1).with(|it| {
-        it.submerged = Submerged::Falloff { most: 0.3, n: 2.0, m: 4.0 };
-        it.reach = Reach::Metres(5.0);
-        it.mixing = Mixing::Source;
-        it.samples = [8, 64];
+    settings.surface_foam.min_thickness = 0.25;
+    settings.surface_foam.front_color = [0.1, 0.2, 0.3];
+    settings.spray = SpraySettings::SOURCE.with(|it| it.size = 1.5);
+    settings.whitewater = WhitewaterSettings::of_spacing(0.1).with(|it| {
+        it.submerged = Submerged::Falloff { depth: 0.3, n: 2.0, m: 4.0 };
+        it.reach = OcclusionReach::Metres(5.0);
+        it.mixing = ShadowMixing::Source;
+        (it.min_samples, it.max_samples) = (8, 64);
     });
     settings.bubbles.film = 450.0;
     settings.shore.period = Some(7.0);
@@ -101,7 +101,7 @@ fn settings_go_out_and_come_back() {
     settings.shore.shoreline.layers[2] = settings.shore.shoreline.layers[0];
     settings.shore.contact.particle_depth = Some(0.3);
     settings.shadow.width = 7.5;
-    settings.noise = NoiseLook::SOURCE.with(|it| it.cells = 0.7);
+    settings.noise = SurfaceNoiseSettings::SOURCE.with(|it| it.cells = 0.7);
     settings.light.irradiance = [1.0, 2.0, 3.0];
     assert_eq!(applied(&written(&settings)), settings);
 }
@@ -118,14 +118,14 @@ fn everything() -> SettingsFile {
     let text = "
         [water]
         medium = {absorption = [1.0, 2.0, 3.0], scattering = [4.0, 5.0, 6.0]}
-        [foam]
+        [surface_foam]
         threshold = 30.0
-        [diffuse]
+        [whitewater]
         radii = [0.1, 0.2, 0.3]
         copies = 3
         splat = 'raster'
         [bubbles]
-        hand_over = [3.0, 5.0]
+        crossfade = [3.0, 5.0]
         [shore]
         period = 7.0
         web = 'web.png'
@@ -140,8 +140,8 @@ fn everything() -> SettingsFile {
     let file = SettingsFile::parse(text).unwrap();
     let mut settings = Settings::default();
     file.apply(&mut settings);
-    let limits = Limits { least: 1.0, most: 2.0 };
-    let generate = (GenerateSettings::new(0.1, [limits; 3], 3.0), 1000);
+    let limits = PotentialRange { min: 1.0, max: 2.0 };
+    let generate = (GeneratorSettings::new(0.1, [limits; 3], 3.0), 1000);
     file.all(&settings, Found { foam: None, generate: Some(&generate) })
 }
 
@@ -207,10 +207,10 @@ fn every_value_arrives_and_is_written() {
         let mut settings = Settings::default();
         file.apply(&mut settings);
         let mut generate =
-            (GenerateSettings::new(0.1, [Limits { least: 0.0, most: 1.0 }; 3], 0.0), 1);
+            (GeneratorSettings::new(0.1, [PotentialRange { min: 0.0, max: 1.0 }; 3], 0.0), 1);
         file.generate.apply(&mut generate.0);
         generate.1 = file.generate.max_particles.unwrap();
-        let formation = file.foam.formation(&settings.water);
+        let formation = file.surface_foam.formation(&settings.water);
         let found = Found { foam: Some(&formation), generate: Some(&generate) };
         let back: toml::Table = file.all(&settings, found).text().unwrap().parse().unwrap();
         let back = toml::Value::Table(back);
@@ -243,7 +243,7 @@ fn mistakes_are_named() {
         ("[water]\nmedium = 'beer:x'", "'beer:0.05'"),
         ("[water]\nmedium = {absorption=[1.0,1.0,1.0], scatter=[0.0,0.0,0.0]}", "scattering"),
         ("[water]\namplitude = 'loud'", "`volume` or `source`"),
-        ("[foam]\nweber = 'half'", "`reduced` or `full`"),
+        ("[surface_foam]\nweber = 'half'", "`reduced` or `full`"),
         ("[shadow]\nfilter = 'soft'", "`pcf` or `convolution`"),
         (
             "[shoreline]\nlayers = [{weight=1,scale=1},{weight=1,scale=1},{weight=1,scale=1},{weight=1,scale=1},{weight=1,scale=1}]",
@@ -253,6 +253,36 @@ fn mistakes_are_named() {
     ] {
         let message = SettingsFile::parse(text).unwrap_err();
         assert!(message.contains(part) && !message.contains('\n'), "{message}");
+    }
+}
+
+/// Each old name is refused, and each name that a message names is known.
+#[test]
+fn old_names_are_refused_with_the_new_ones() {
+    for (text, says) in [
+        ("[foam]\nextinction = 1.0", "use [surface_foam]"),
+        ("[diffuse]\nradius = 1.0", "use [whitewater]"),
+        ("[whitewater]\nhalf = 1.0", "use half_intensity_thickness"),
+        ("[bubbles]\nhand_over = [1.0, 2.0]", "use crossfade"),
+        ("spray = {densities = [0.1, 0.2, 0.3]}", "all_spray_density, full_water_density"),
+    ] {
+        let message = SettingsFile::parse(text).unwrap_err();
+        assert!(message.contains("was renamed") && message.contains(says), "{message}");
+    }
+    let tables = known("");
+    for (table, key, new) in renamed::RENAMED {
+        let text =
+            if key.is_empty() { format!("[{table}]") } else { format!("[{table}]\n{key} = 0") };
+        assert!(SettingsFile::parse(&text).unwrap_err().contains(new), "{text}");
+        let (here, old) = match key.is_empty() {
+            true => (tables.clone(), table),
+            false => (known(&format!("[{table}]")), key),
+        };
+        assert!(!here.iter().any(|known| known == old), "[{table}] {key} is still known");
+        let names = new.split([',', ' ', '[', ']']).filter(|name| !["", "and"].contains(name));
+        for name in names {
+            assert!(here.iter().any(|known| known == name), "{new}");
+        }
     }
 }
 
@@ -276,9 +306,9 @@ fn no_field_is_forgotten() {
     let all = Settings::default();
     same(&all.water, water::WaterTable::FIELDS);
     same(&all.water.ellipsoids, water::EllipsoidTable::FIELDS);
-    same(&all.foam, water::FoamTable::FIELDS);
+    same(&all.surface_foam, water::SurfaceFoamTable::FIELDS);
     same(&all.spray, water::SprayTable::FIELDS);
-    same(&all.diffuse, diffuse::DiffuseTable::FIELDS);
+    same(&all.whitewater, whitewater_table::WhitewaterTable::FIELDS);
     same(&all.bubbles, bubbles::BubbleTable::FIELDS);
     same(&all.shore, shore::ShoreTable::FIELDS);
     same(&all.shore.shoreline, shore::ShorelineTable::FIELDS);
@@ -286,16 +316,17 @@ fn no_field_is_forgotten() {
     same(&all.shadow, water::ShadowTable::FIELDS);
     same(&all.noise, water::NoiseTable::FIELDS);
     same(&all.light, water::LightTable::FIELDS);
-    let limits = Limits { least: 0.0, most: 1.0 };
-    let generated = whitewater::foam::GenerateSettings::new(1.0, [limits; 3], 1.0);
+    let limits = PotentialRange { min: 0.0, max: 1.0 };
+    let generated = whitewater::GeneratorSettings::new(1.0, [limits; 3], 1.0);
     same(&generated, generate::GenerateTable::FIELDS);
     // Those that are taken apart by hand.
-    let parts = "up water foam spray diffuse bubbles shore shadow noise light ladder";
+    let parts = "up water surface_foam spray whitewater bubbles shore shadow noise light ladder";
     let words = |names: &'static str| names.split(' ').collect::<Vec<_>>();
     same(&all, &words(parts));
     let foams = "scale threshold foam_lifetime air rest_density seed";
-    same(&FoamSettings::weber(1.0, 1.0), &words(foams));
-    let bubbles = "max_blobs templates bubbles seed impostor map steps layers sort film hand_over";
+    same(&WeberSettings::weber(1.0, 1.0), &words(foams));
+    let bubbles =
+        "max_blobs variants bubbles seed impostor map_size steps layers sort film crossfade";
     same(&whitewater::bubbles::BubbleConfig::new(1), &words(bubbles));
     same(&whitewater::shore::ShoreConfig::default(), &words("edge web_size seed"));
 }

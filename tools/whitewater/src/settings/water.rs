@@ -1,11 +1,11 @@
-//! Tables `[water]`, `[foam]`, `[spray]`, `[shadow]`, `[noise]` and `[light]`.
+//! Tables `[water]`, `[surface_foam]`, `[spray]`, `[shadow]`, `[noise]` and `[light]`.
 
 use serde::{Deserialize, Serialize};
 use whitewater::water::{
     Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium,
     ShadowFilter, Shadows, WaterSettings,
 };
-use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
+use whitewater::water::{SpraySettings, SurfaceFoamSettings, SurfaceNoiseSettings, WeberSettings};
 use whitewater::{Config, Light};
 
 use super::medium::{Liquid, MediumName};
@@ -217,8 +217,8 @@ table! {
 }
 
 table! {
-    /// Table `[foam]`.
-    FoamTable of FoamLook
+    /// Table `[surface_foam]`.
+    SurfaceFoamTable of SurfaceFoamSettings
     keys {
         extinction: f32,
         front_extinction: f32,
@@ -234,8 +234,8 @@ table! {
         aeration: f32,
         aerated_color: [f32; 3],
         front_power: f32,
-        veil: f32,
-        relief: f32,
+        min_thickness: f32,
+        normal_strength: f32,
         shape: f32,
         shadow: f32,
         back_color: [f32; 3],
@@ -279,7 +279,7 @@ pub enum FoamBy {
     Speed,
 }
 
-impl FoamTable {
+impl SurfaceFoamTable {
     /// Whose speed water foams by: by trapped air, but where the table says otherwise, or a number that is of the particles'
     /// own speed through the wind is said.
     pub fn by(&self, wanted: Foaming, thesis: bool) -> FoamBy {
@@ -289,11 +289,11 @@ impl FoamTable {
     }
 
     /// Which water foams; the threshold is the table's, or 1.
-    pub fn formation(&self, water: &WaterSettings) -> FoamSettings {
+    pub fn formation(&self, water: &WaterSettings) -> WeberSettings {
         let threshold = self.threshold.unwrap_or(1.0);
         let standard = match self.weber {
-            Some(Weber::Full) => FoamSettings::weber(water.spacing, threshold),
-            Some(Weber::Reduced) | None => FoamSettings::reduced(water.spacing, threshold),
+            Some(Weber::Full) => WeberSettings::weber(water.spacing, threshold),
+            Some(Weber::Reduced) | None => WeberSettings::reduced(water.spacing, threshold),
         };
         standard.with(|it| {
             it.foam_lifetime = self.lifetime.unwrap_or(standard.foam_lifetime);
@@ -304,10 +304,10 @@ impl FoamTable {
     }
 
     /// The table that says all of a look, and by what water foams, as this table and `found` say.
-    pub fn all(&self, look: &FoamLook, found: Option<&FoamSettings>) -> Self {
+    pub fn all(&self, look: &SurfaceFoamSettings, found: Option<&WeberSettings>) -> Self {
         let said = self.formation(&WaterSettings::default());
         // The rest is found, or goes by the spacing.
-        let FoamSettings { foam_lifetime, air, seed, .. } = *found.unwrap_or(&said);
+        let WeberSettings { foam_lifetime, air, seed, .. } = *found.unwrap_or(&said);
         Self {
             by: Some(self.by.unwrap_or(FoamBy::Speed)),
             weber: Some(self.weber.unwrap_or(Weber::Reduced)),
@@ -322,19 +322,21 @@ impl FoamTable {
 
 table! {
     /// Table `[spray]`.
-    SprayTable of SprayLook
+    SprayTable of SpraySettings
     keys {
         opacity: f32,
         size: f32,
         droplets: u32,
-        densities: [f32; 3],
-        spread: f32,
+        all_spray_density: f32,
+        full_water_density: f32,
+        no_spray_density: f32,
+        scatter_radius: f32,
         stretch: f32,
         mist: f32,
         mist_size: f32,
         mist_contrast: f32,
         shade: f32,
-        shutter: f32,
+        exposure: f32,
         color: [f32; 3],
         additive: bool,
     }
@@ -397,7 +399,7 @@ impl ShadowTable {
 
 table! {
     /// Table `[noise]`.
-    NoiseTable of NoiseLook
+    NoiseTable of SurfaceNoiseSettings
     keys { weight: f32, falloff: f32, size: f32, cells: f32, foam: f32, color: [f32; 3] }
     optional {}
     not {}

@@ -289,7 +289,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let mut scene = shown.scene;
     scene.frame = frames.first().copied().unwrap_or(1);
     scene.sun = environment.sun_light();
-    let reach = settings.shore.shoreline.reach;
+    let reach = [settings.shore.shoreline.sea_reach, settings.shore.shoreline.land_reach];
     let shores = Shores::of(&file, &scene, shown.level, shown.strip, (reach, by))?;
     file.shore.by.get_or_insert(by);
     let (low, high) = scene.bounds();
@@ -303,7 +303,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         photograph: false,
         still: None,
         foam: None,
-        diffuse: None,
+        whitewater: None,
         bubbles: None,
         shores: Some(shores),
         exposure: shown.exposure,

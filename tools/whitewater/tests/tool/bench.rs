@@ -123,7 +123,7 @@ fn an_interrupt_loses_nothing_measured() {
 #[test]
 fn a_sea_says_what_its_foam_costs() {
     let folder = Folder::new();
-    let quick = "bench --sea wave --diffuse 20k --size 160x120 --frames 1 --warmup 0";
+    let quick = "bench --sea wave --whitewater 20k --size 160x120 --frames 1 --warmup 0";
     let run = folder.run(&format!("{quick} --occlusion fast,reference --format json")).ok();
     let all: Value = serde_json::from_str(&run.stdout()).unwrap();
     let rows = all["rows"].as_array().unwrap();
@@ -133,7 +133,7 @@ fn a_sea_says_what_its_foam_costs() {
             row.unwrap_or_else(|| panic!("{occlusion}, {pass}: {}", run.stdout()))
         };
         let frame = row("frame");
-        assert_eq!((&frame["sea"], &frame["diffuse"]), (&"wave".into(), &20_000.into()));
+        assert_eq!((&frame["sea"], &frame["whitewater"]), (&"wave".into(), &20_000.into()));
         // Positions, kinds, ages and ids, and what a device rounds up.
         let input = frame["inputs"].as_u64().unwrap();
         assert!((24 * 20_000..24 * 20_000 + 4096).contains(&input), "{input}");
@@ -141,12 +141,12 @@ fn a_sea_says_what_its_foam_costs() {
         // The words and images of a pixel and two times a particle's streams, as bytes.rs says.
         let bytes = row("splat")["bytes"].as_u64().unwrap() - 112 * 160 * 120;
         assert!([24, 48].contains(&(bytes / 20_000)) && bytes % 20_000 == 0, "{bytes}");
-        let each = row("splat")["ns_per_diffuse"].as_f64().unwrap();
+        let each = row("splat")["ns_per_whitewater"].as_f64().unwrap();
         let median = row("splat")["median"].as_f64().unwrap();
         assert!(each > 0.0 && (each * 20_000.0 / (median * 1e6) - 1.0).abs() < 1e-6);
         assert!(row("radiance")["bytes"].as_u64() >= Some(24 * 160 * 120));
         assert!(row("blur")["median"].as_f64() > Some(0.0));
-        assert!(row("radiance").get("ns_per_diffuse").is_none());
+        assert!(row("radiance").get("ns_per_whitewater").is_none());
     }
     let text = folder.run(&format!("{quick} --format csv --picture wave.png")).ok().stdout();
     let mut lines = text.lines();
@@ -156,16 +156,21 @@ fn a_sea_says_what_its_foam_costs() {
     let cells: Vec<_> = rest.trim_start_matches(',').split(',').collect();
     assert_eq!(cells.len(), head.len() - 2, "{text}");
     let cell = |name: &str| cells[head.iter().position(|h| *h == name).unwrap() - 2];
-    assert_eq!([cell("sea"), cell("diffuse"), cell("occlusion")], ["wave", "20000", "fast"]);
-    assert!(cell("ns_per_diffuse").parse::<f64>().unwrap() > 0.0);
+    assert_eq!([cell("sea"), cell("whitewater"), cell("occlusion")], ["wave", "20000", "fast"]);
+    assert!(cell("ns_per_whitewater").parse::<f64>().unwrap() > 0.0);
     // A look of its own, a tenth as light, and its layers.
-    folder.text("dim.toml", "[diffuse]\nalbedo = [0.09, 0.09, 0.09]\n");
+    folder.text("dim.toml", "[whitewater]\nalbedo = [0.09, 0.09, 0.09]\n");
     let table = folder.run(&format!("{quick} --settings dim.toml --picture dim.exr")).ok().stdout();
     let dim = folder.picture("dim.exr");
-    for layer in ["foam.Z", "foam.shadow", "foam.normal.X", "scene.Z"] {
+    for layer in [
+        "whitewater.Z",
+        "[whitewater.shadow_scale, whitewater.shadow_exponent, whitewater.shadow_offset]",
+        "whitewater.normal.X",
+        "scene.Z",
+    ] {
         assert!(dim.channel(layer).is_some(), "{layer}");
     }
-    let intensity = dim.channel("foam.intensity").unwrap();
+    let intensity = dim.channel("whitewater.intensity").unwrap();
     let red = dim.channel("R").unwrap();
     let thick: Vec<_> = intensity.iter().zip(red).filter(|(i, _)| **i > 0.7).collect();
     let mean = thick.iter().map(|(_, red)| **red).sum::<f32>() / thick.len() as f32;
@@ -180,7 +185,8 @@ fn a_sea_says_what_its_foam_costs() {
     let white = share(&|c| c.iter().all(|v| *v > 0.8));
     assert!((0.01..0.5).contains(&white), "{white} of the picture is white");
     assert!(share(&|c| c[2] < 0.55 && c[2] > c[0]) > 0.2);
-    for part in ["wave, 20000 diffuse particles, 160x120, fast occlusion", "(24.", "ns a particle"]
+    for part in
+        ["wave, 20000 whitewater particles, 160x120, fast occlusion", "(24.", "ns a particle"]
     {
         assert!(table.contains(part), "{part}: {table}");
     }
@@ -191,11 +197,11 @@ fn what_is_no_sea_is_an_error() {
     let folder = Folder::new();
     for (arguments, says) in [
         ("--sea pool", "pool"),
-        ("--sea wave --diffuse 0", "from 1 to 268m"),
-        ("--sea wave --diffuse 269m", "from 1 to 268m"),
-        ("--sea wave --diffuse nan", "from 1 to 268m"),
+        ("--sea wave --whitewater 0", "from 1 to 268m"),
+        ("--sea wave --whitewater 269m", "from 1 to 268m"),
+        ("--sea wave --whitewater nan", "from 1 to 268m"),
         ("--sea wave --particles 64k", "--particles"),
-        ("--diffuse 20k", "--sea"),
+        ("--whitewater 20k", "--sea"),
         ("--away 20", "--sea"),
         ("--sea wave --away 0.5", "from 1 to 100000"),
         ("--sea wave --away nan", "from 1 to 100000"),

@@ -81,11 +81,11 @@ fn water_is_told_before_and_behind_foam() {
     let torn = |p| if [4, 5].contains(&layer(p)) { [3.0, 0.0, 0.0] } else { [0.0; 3] };
     water.velocities = Some(water.positions.iter().map(torn).collect());
     folder.write("a.vtu", &water);
-    let look = "--foam 1 --spray none --sheets 1 --supersample 1 --thickness-level 0";
+    let look = "--surface-foam 1 --spray none --sheets 1 --supersample 1 --thickness-level 0";
     folder.run(&format!("render a.vtu -o a.exr {GROUND} {FRONT} {look} --validate")).ok();
     let exr = folder.picture("a.exr");
     let of = |name: &str| exr.channel(&format!("water.{name}")).unwrap();
-    let (all, foam) = (of("thickness"), of("foam.Z"));
+    let (all, foam) = (of("thickness"), of("whitewater.Z"));
     let [front, back] = ["thickness.front", "thickness.back"].map(of);
     assert!(exr.channel("water.sheet.front").is_none());
     let mut before_and_behind = 0;
@@ -133,7 +133,7 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
     water.velocities = Some(vec![[2.0, 0.0, 0.0]; water.positions.len()]);
     folder.write("a.vtu", &water);
     let of = |more: &str| {
-        let view = "--eye 0,0,4 --target 0,0,0 --fov 30 --radius 0.05 --set none --medium milk --foam none --spray none";
+        let view = "--eye 0,0,4 --target 0,0,0 --fov 30 --radius 0.05 --set none --medium milk --surface-foam none --spray none";
         let command = format!("render a.vtu -o a.exr --size 120x80 {view} --supersample 2 {more}");
         folder.run(&command).ok();
         covered(&folder.picture("a.exr"))
@@ -167,7 +167,7 @@ fn single_pngs_are_photographs() {
     folder.write("a_1.vtu", &water);
     folder.write("a_2.vtu", &water);
     let look = format!(
-        "--size 96x64 --supersample 1 {FRONT} --foam none --spray none --scene ground --sheets 1"
+        "--size 96x64 --supersample 1 {FRONT} --surface-foam none --spray none --scene ground --sheets 1"
     );
     let png = |command: &str| {
         folder.run(&format!("{command} {look}")).ok();
@@ -195,7 +195,8 @@ fn the_ladder_has_its_rungs() {
     let at = |name: &str, x: usize, y: usize| {
         ["R", "G", "B"].map(|c| exr.channel(&format!("{name}{c}")).unwrap()[y * 96 + x])
     };
-    let rungs = ["background", "back_water", "foam", "front_water"].map(|r| format!("ladder.{r}."));
+    let rungs =
+        ["background", "back_water", "surface_foam", "front_water"].map(|r| format!("ladder.{r}."));
     for rung in &rungs {
         assert_eq!(at(rung, 48, 60), at("", 48, 60), "{rung}: the ground before the water");
     }
@@ -509,7 +510,7 @@ fn times_and_traces_are_written() {
 fn what_forms_foam_is_timed() {
     let folder = Folder::new();
     folder.text("a.csv", &rows());
-    let more = format!("{SMALL} --foam 1 --timings t.csv --repeat 3");
+    let more = format!("{SMALL} --surface-foam 1 --timings t.csv --repeat 3");
     folder.run(&format!("render a.csv -o a.png {more}")).ok();
     let csv = std::fs::read_to_string(folder.path("t.csv")).unwrap();
     let count = |pass: &str| csv.lines().filter(|l| l.contains(&format!(",{pass},"))).count();
@@ -530,7 +531,7 @@ fn a_pictures_settings_draw_it_again() {
     folder.text("a.csv", &rows());
     folder.text(
         "own.toml",
-        "look = 'thesis'\n[water]\nshininess = 200\n[foam]\nweber = 'full'\nthreshold = 20\nair = [1, 0, 0]\n\
+        "look = 'thesis'\n[water]\nshininess = 200\n[surface_foam]\nweber = 'full'\nthreshold = 20\nair = [1, 0, 0]\n\
          [contact]\nparticle_opacity = 1.0\nmeasure = 'view'\n[bubbles]\nfilm = 500.0",
     );
     folder.run(&format!("render a.csv -o a.exr {SMALL} --settings own.toml")).ok();

@@ -50,7 +50,7 @@ fn files_in_millimetres_are_told_and_drawn_in_metres() {
     folder.text("m.csv", &csv(&slope(), |p| p));
     folder.text("mm.csv", &csv(&slope(), |p| p.map(|c| 1000.0 * c)));
     let run = |file: &str, out: &str, more: &str| {
-        let common = format!("{GROUND} --radius 0.025 --foam none");
+        let common = format!("{GROUND} --radius 0.025 --surface-foam none");
         folder.run(&format!("render {file}.csv -o {out}.png {common} {more}")).ok().stderr()
     };
     let plain = run("m", "m", "");
@@ -68,7 +68,7 @@ fn files_in_millimetres_are_told_and_drawn_in_metres() {
     folder.run("render m.csv -o a.exr --scale 0").fails_at_once();
 }
 
-/// Diffuse particles of other numbers than the water's are an error, those of some frames are told, and how many are drawn.
+/// Whitewater particles of other numbers than the water's are an error, those of some frames are told, and how many are drawn.
 #[test]
 fn whitewater_files_that_do_not_fit_are_told() {
     let folder = Folder::new();
@@ -78,14 +78,16 @@ fn whitewater_files_that_do_not_fit_are_told() {
     for (name, count) in [("a_0", 1), ("a_1", 1), ("b_10", 3), ("b_12", 1)] {
         folder.particles(&format!("{name}.ply"), vec![[0.5, 0.5, 0.2]; count]);
     }
-    let common = format!("render f_%d.csv {SMALL} --layers none --foam none --whitewater");
+    let common = format!("render f_%d.csv {SMALL} --layers none --surface-foam none --whitewater");
     folder
         .run(&format!("{common} foam=a_*.ply -o a.png"))
         .fails(3, &["frames 10 to 11", "2 files of the numbers 0 to 1", "a_0.ply"]);
     let said = folder.run(&format!("{common} foam=b_*.ply -o b.png")).ok().stderr();
-    for part in
-        ["1 of 2 frames, from 11 on", "particles, 3 diffuse particles", "particles, 0 diffuse"]
-    {
+    for part in [
+        "1 of 2 frames, from 11 on",
+        "particles, 3 whitewater particles",
+        "particles, 0 whitewater",
+    ] {
         assert!(said.contains(part), "{part}: {said}");
     }
     // A pattern of another program, and one that is padded as the files are not.
@@ -249,7 +251,7 @@ fn frames_in_one_file_and_files_of_one_frame() {
     for (i, time) in [0.0, 0.04, 0.08].into_iter().enumerate() {
         folder.text(&format!("f_{i}.csv"), &format!("{head}{}", rows(time)));
     }
-    let common = format!("{SMALL} --layers motion --foam none");
+    let common = format!("{SMALL} --layers motion --surface-foam none");
     let said = folder.run(&format!("render all.csv -o a_%d.exr {common}")).ok().stderr();
     assert!(said.contains("25 frames a second (found"), "{said}");
     folder.run(&format!("render f_*.csv -o b_%d.exr {common}")).ok();

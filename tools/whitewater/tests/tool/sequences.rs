@@ -97,7 +97,7 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
         }
         folder.text(&format!("f_{frame}.csv"), &rows);
     }
-    let common = format!("{SMALL} --foam 1 --fps 4 --layers water.foam.thickness");
+    let common = format!("{SMALL} --surface-foam 1 --fps 4 --layers surface_foam.thickness");
     folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok();
     folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 3-4")).ok();
     folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 4 --overwrite")).ok();
@@ -109,7 +109,7 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
     assert!(folder.path("e_2.exr").exists() && !folder.path("e_3.exr").exists());
     let foam = |name: &str| -> f32 {
         let picture = folder.picture(name);
-        let layer = picture.channels.iter().find(|c| c.name == "water.foam.thickness");
+        let layer = picture.channels.iter().find(|c| c.name == "surface_foam.thickness");
         layer.expect("the layer").data.iter().sum()
     };
     let [first, second, third, fourth] = [1, 2, 3, 4].map(|n| foam(&format!("a_{n}.exr")));
@@ -146,7 +146,7 @@ fn motion_is_what_moved_in_a_frame() {
     folder.text("follows.json", &of(&[1, 2, 3].map(keys).join(",")));
     for (camera, supersample) in [("rests", 1), ("follows", 2)] {
         let common = format!(
-            "{GROUND} --layers motion,water.depth,scene --camera {camera}.json --foam none \
+            "{GROUND} --layers motion,water.depth,scene --camera {camera}.json --surface-foam none \
              --supersample {supersample} --overwrite"
         );
         let run = folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok();
@@ -270,7 +270,7 @@ fn a_turntable_goes_round_a_sequence() {
             camera["eye"][axis].as_f64().unwrap() - camera["target"][axis].as_f64().unwrap()
         })
     };
-    let common = format!("render f_*.ply {SMALL} {FRONT} --layers none --foam none");
+    let common = format!("render f_*.ply {SMALL} {FRONT} --layers none --surface-foam none");
     folder.run(&format!("{common} -o a.exr --turntable")).ok();
     for (frame, expected) in
         [[0.0, 2.35], [2.35, 0.0], [0.0, -2.35], [-2.35, 0.0]].iter().enumerate()
@@ -304,7 +304,7 @@ fn what_is_missing_is_told() {
     let text = said("a.ply -o a.png");
     assert_eq!(text.matches("no velocities and no ids: no foam").count(), 1, "{text}");
     // Where no foam is wanted nothing is amiss.
-    let text = said("a.ply -o a.png --foam none");
+    let text = said("a.ply -o a.png --surface-foam none");
     assert!(!text.contains("velocities"), "{text}");
     // Of a sequence whose order changes none are found.
     for frame in 1..=3_usize {
@@ -332,7 +332,7 @@ fn a_frame_that_lacks_what_others_have_is_told() {
         }
         folder.text(&format!("f_{frame}.csv"), &rows);
     }
-    let common = format!("{SMALL} --foam 1 --layers water.foam.thickness");
+    let common = format!("{SMALL} --surface-foam 1 --layers surface_foam.thickness");
     let said = folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok().stderr();
     let expected =
         "f_3.csv: no velocities and ids, which other frames have; velocities and ids are found";
@@ -341,7 +341,7 @@ fn a_frame_that_lacks_what_others_have_is_told() {
     assert!(!said.contains("velocities are not in the files"), "{said}");
     let foam = |frame: u8| -> f32 {
         let picture = folder.picture(&format!("a_{frame}.exr"));
-        picture.channel("water.foam.thickness").unwrap().iter().sum()
+        picture.channel("surface_foam.thickness").unwrap().iter().sum()
     };
     let [before, here, after] = [2, 3, 4].map(foam);
     assert!(here > 0.7 * before && here > 0.7 * after, "{before} {here} {after}");

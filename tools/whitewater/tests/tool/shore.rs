@@ -37,7 +37,7 @@ fn foam_goes_round_a_hill_of_ones_own() {
     let bad = common.replace("map.toml", "bad.toml");
     folder.run(&format!("{bad} -o none.png")).fails(3, &["strip", "map"]);
     folder.text("bad.toml", "[shoreline]\nfade = 0.0\n");
-    folder.run(&format!("{bad} -o none.png")).fails(3, &["ShorelineLook.fade"]);
+    folder.run(&format!("{bad} -o none.png")).fails(3, &["Settings.shore.shoreline.fade"]);
     assert!(!folder.exists("none.png"));
 }
 

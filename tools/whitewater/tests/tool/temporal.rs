@@ -34,8 +34,8 @@ fn bilinear(data: &[f32], x: f32, y: f32) -> f32 {
 fn changes(now: &Layers, before: &Layers) -> ([f32; 4], usize) {
     let channel = |of: &Layers, name: &str| of.channel(name).unwrap().to_vec();
     let [x_by, y_by] = ["motion.X", "motion.Y"].map(|name| channel(now, name));
-    let foam = [now, before].map(|of| channel(of, "water.foam.Z"));
-    let thickness = [now, before].map(|of| channel(of, "water.foam.thickness"));
+    let foam = [now, before].map(|of| channel(of, "surface_foam.Z"));
+    let thickness = [now, before].map(|of| channel(of, "surface_foam.thickness"));
     let colors = ["R", "G", "B"].map(|name| {
         [now, before].map(|of| channel(of, name).into_iter().map(display).collect::<Vec<_>>())
     });
@@ -76,10 +76,10 @@ fn foam_of_a_simulation_does_not_flicker() {
     let folder = Folder::new();
     let spray = "[spray]\ndensities = [0.6, 0.7, 0.85]\n";
     // Droplets at an instant are sharp, and no foam.
-    let streaks = "[spray]\nshutter = 0.0167\n";
+    let streaks = "[spray]\nexposure = 0.0167\n";
     folder.text(
         "speed.toml",
-        &format!("{RELIEF}{WHITE}by = 'speed'\n{spray}shutter = 0.0167\n{STRAIGHT}"),
+        &format!("{RELIEF}{WHITE}by = 'speed'\n{spray}exposure = 0.0167\n{STRAIGHT}"),
     );
     // A plain set: what stands still behind the holes of foam is no foam either.
     let view = "--eye 2.871,2.567,5.094 --target 0.193,1.177,0.058 --set studio";
@@ -97,7 +97,7 @@ fn foam_of_a_simulation_does_not_flicker() {
 const STRAIGHT: &str = "[water]\nexit = 'straight'\nkernels = 'spheres'\n";
 
 /// As much shape as a change can be told by, and white threads that are wide enough: how foam moves is asked, not how it looks.
-const RELIEF: &str = "[foam]\nrelief = 0.35\n";
+const RELIEF: &str = "[surface_foam]\nnormal_strength = 0.35\n";
 const WHITE: &str = "back_color = [0.78, 0.78, 0.78]\nfront_extinction = 10.0\nlace_size = 2.5\n";
 
 /// A slab of water that drifts past at four metres a second, all of it foam: what is seen of it drifts along.
@@ -117,7 +117,7 @@ fn foam_of_water_that_drifts_does_not_flicker() {
         folder.text(&format!("drifts_{frame}.csv"), &rows);
     }
     folder.text("look.toml", RELIEF);
-    let view = "--eye 0,2.4,2 --target 0,0.2,0 --radius 0.05 --foam 1 --scene ground";
+    let view = "--eye 0,2.4,2 --target 0,0.2,0 --radius 0.05 --surface-foam 1 --scene ground";
     does_not_flicker(&folder, &format!("drifts_*.csv {view} --settings look.toml"), 0.85);
 }
 
@@ -127,7 +127,7 @@ fn does_not_flicker(folder: &Folder, what: &str, most: f32) -> Vec<f32> {
     folder
         .run(&format!(
             "render {what} -o a_%d.exr --size {WIDTH}x{HEIGHT} --fps 50 --frames 52-57 \
-             --layers motion,water.foam,water.foam.thickness"
+             --layers motion,surface_foam,surface_foam.thickness"
         ))
         .ok();
     let frames: Vec<_> = (52..=57).map(|n| folder.picture(&format!("a_{n}.exr"))).collect();

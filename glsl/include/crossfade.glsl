@@ -1,0 +1,21 @@
+// Which whitewater particles are drawn as blobs of bubble foam. Needs frame.glsl, whitewater.glsl. Reads: crossfade.
+
+#include "crossfade_rings.glsl"
+
+// Not read without blobs.
+layout(set = 0, binding = 11, std430) readonly buffer Over { Crossfade crossfade; };
+
+// RINGS or more: too far for blobs.
+uint ring_of(float distance_) {
+    return distance_ < frame.whitewater.z ? min(uint(distance_ / frame.whitewater.z * float(RINGS)), RINGS - 1u) : RINGS;
+}
+
+// Fraction of a particle that its sprite shows: less for foam near the eye.
+float kept_of(Whitewater p) {
+    if (frame.whitewater.z > 0.0 && p.kind == FOAM) {
+        float near = crossfade.near;
+        float far = crossfade.far;
+        return far > 0.0 ? smoothstep(near, far, length(p.centre)) : 1.0;
+    }
+    return 1.0;
+}

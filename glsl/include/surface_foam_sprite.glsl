@@ -1,0 +1,98 @@
+// A foam sprite as it is drawn, by quads or by invocations. Needs frame.glsl, random.glsl, whole_steps.glsl,
+// gradient_noise.glsl, surface_foam.glsl, pattern.glsl, kernel.glsl.
+
+// Over the foam, the depth's part of the half-axes: whole before there is enough foam to be seen, for what
+// is behind the frontmost foam and what is before it changes at its outline.
+const float DEPTH_GROWTH = 8.0;
+
+struct FoamPlane {
+    vec3 centre;
+    vec3 e1;     // unit vectors along its axes
+    vec3 e2;
+    vec2 axes;   // half-axes, metres
+    vec3 normal;
+    float texel; // width of a texel at its centre
+};
+
+// The noise that tears the sprite: its own, or the finest octave of the pattern.
+struct FoamNoise {
+    vec3 place;  // at its centre
+    vec3 along;  // change to the end of its half-axes
+    vec3 across;
+    vec3 coarse; // logarithm of the pattern at its centre, and its change to the end of the half-axes
+    vec2 torn;   // strength of the noise; visibility of the sun
+    uint chance; // for stochastic rounding
+};
+
+FoamPlane foam_plane(FoamSprite sprite, bool thick) {
+    FoamPlane plane;
+    plane.centre = sprite.centre.xyz;
+    float stretch = foam_axes(sprite, plane.e1, plane.e2);
+    plane.normal = cross(plane.e1, plane.e2);
+    plane.texel = -sprite.centre.z * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
+    float b = frame.particle.x * FOAM_AXIS;
+    float part = thick ? 1.0 : min(DEPTH_GROWTH * sprite.centre.w, 1.0);
+    plane.axes = max(vec2(b * (1.0 + stretch), b), vec2(LEAST_FOAM_AXIS * plane.texel)) * part;
+    return plane;
+}
+
+// Metres along z at its centre. As for thickness sprites, the integral over the image plane is the volume.
+// The square of a slope contains z^2 / (n . (slope, 1)) of the sprite's area: n . centre / z, which off the
+// axis is not n.z.
+float foam_amount(FoamSprite sprite, FoamPlane plane) {
+    float facing = max(abs(dot(plane.normal, plane.centre) / plane.centre.z), LEAST_FACING);
+    float volume = frame.particle.w * frame.particle.z * frame.particle.z;
+    return sprite.centre.w * volume / (plane.axes.x * plane.axes.y * facing);
+}
+
+bool has_pattern() {
+    return frame.foam_pattern.x > 0.0;
+}
+
+FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
+    uint id = floatBitsToUint(sprite.rest.x);
+    FoamNoise noise;
+    if (has_pattern()) {
+        // Each of the two phases has half of the sprites, so that each texel has some of both.
+        uint phase = pcg(id) >> 31;
+        float width = frame.particle.y * frame.foam_octaves.x * OCTAVES[2];
+        mat3 turn = mat3(frame.world);
+        noise.place = pattern_place((frame.world * vec4(plane.centre, 1.0)).xyz, turn * sprite.velocity.xyz, phase, 2u);
+        noise.along = turn * plane.e1 * (plane.axes.x / width);
+        noise.across = turn * plane.e2 * (plane.axes.y / width);
+        float strength = frame.foam_pattern.x * HEIGHTS[2] * told_apart(width, plane.texel);
+        noise.torn.x = strength * frame.foam_phases[phase];
+        vec2 rise = vec2(dot(sprite.pattern.xyz, plane.e1), dot(sprite.pattern.xyz, plane.e2)) * plane.axes;
+        noise.coarse = vec3(sprite.pattern.w, clamp(rise, -MOST_PATTERN, MOST_PATTERN));
+        noise.coarse.x -= 0.5 * VARIANCE * noise.torn.x * noise.torn.x;
+    } else {
+        noise.place = noise_phase(id) * 64.0 + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y);
+        noise.along = vec3(NOISE_CELLS, 0.0, 0.0);
+        noise.across = vec3(0.0, NOISE_CELLS, 0.0);
+        noise.coarse = vec3(0.0);
+        float cell = frame.particle.x * FOAM_AXIS / NOISE_CELLS;
+        noise.torn.x = frame.foam_noise.x * told_apart(cell, plane.texel);
+    }
+    noise.torn.y = sprite.rest.y;
+    noise.chance = chance_of(id, 0u);
+    return noise;
+}
+
+// What the sprite adds at a ray: to all foam; to the layer right behind the frontmost; to the sunlit part of
+// that; and weighted by the distance behind the frontmost. All in whole steps, so that sums are exact in any
+// order, and rounded with the same number, so that a part is never more than the whole. before: metres to the
+// scene.
+vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
+    float noise = own.torn.x * gradient_noise(own.place + own.along * place.x + own.across * place.y);
+    amount *= thickness_kernel(dot(place, place));
+    amount *= has_pattern() ? exp(own.coarse.x + dot(own.coarse.yz, place) + noise) : max(1.0 + noise, 0.0);
+    // The sprite fades into the scene: a hard cut would show the texels as steps.
+    amount *= min(before / (0.5 * frame.particle.y), 1.0);
+    // The layer ends softly within a spacing, so that foam does not pop when it passes the end.
+    float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
+    float first = front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0;
+    // Bounded, so that steps can hold the sum, and weighted towards near foam, which hides the rest.
+    float behind = max(depth - front - frame.particle.y, 0.0);
+    float far = behind / (behind + frame.particle.y);
+    return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + rounding_up(own.chance, texel));
+}

@@ -1,0 +1,96 @@
+// Traversal of whitewater particles: one invocation per particle, or a group per host packet; then a group per large
+// particle, which the first dispatch left in a list. There are no barriers, which are expensive on a CPU. The includer
+// defines a particle (a Sprite with a Whitewater p and a Footprint f, by sprite_at), the pixels of a box that exist
+// (inside), the operation on a pixel (splat), and whether a sphere can contribute at all (shows); it binds arguments.
+// Needs whitewater_streams.glsl. Reads: arguments, packets, list. Writes: list.
+
+// 1: a group for each packet.
+layout(constant_id = 1) const uint PACKETS = 0;
+// 1: one workgroup per particle in the list of large ones.
+layout(constant_id = 2) const uint LARGE = 0;
+
+layout(set = 0, binding = 9, std430) readonly buffer HostPackets { uint packets[]; };
+// For each chunk: workgroups to dispatch (4 words, the last is the number of large particles), then the
+// particles that fit.
+layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
+
+#include "packets.glsl"
+
+// Largest number of pixels of a box that one invocation handles alone; it also does so when the list is full.
+const int SMALL = 256;
+const uint ROOM = 16384u;
+const uint LIST = ROOM + 4u; // words per chunk
+
+// A particle of the chunk, if it lies before `past`.
+void cover_one(uint i, uint past) {
+    if (i >= past) {
+        return;
+    }
+    Sprite s = sprite_at(i);
+    ivec4 box = s.p.life > 0.0 ? inside(s.f.box) : ivec4(0, 0, -1, -1);
+    ivec2 size = max(box.zw - box.xy + 1, ivec2(0));
+    bool small = is_small(s.f.box);
+    uint covered = 0u;
+    if (small) {
+        // Columns of the box as four bits per row, and its rows.
+        ivec2 first = clamp(box.xy - s.f.box.xy, 0, COVERED);
+        ivec2 past = clamp(box.zw - s.f.box.xy + 1, first, ivec2(COVERED));
+        uint columns = (1u << past.x) - (1u << first.x);
+        uint rows = (1u << 4 * past.y) - (1u << 4 * first.y);
+        covered = s.f.covered & columns * 0x1111u & rows;
+    }
+    int left = small ? bitCount(covered) : size.x * size.y;
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
+    for (bool done = left <= SMALL; !done; done = true) {
+        uint head = LIST * push.chunk;
+        uint slot = atomicAdd(list[head + 3u], 1u);
+        if (slot < ROOM) {
+            // An atomic, because synchronization validation takes a plain store as one of the dispatch for large
+            // particles too: that shares the shader, but not this branch.
+            atomicExchange(list[head + 4u + slot], i);
+            atomicMax(list[head], slot + 1u);
+            left = 0;
+        }
+    }
+    // One loop: lanes with boxes of different shapes finish with the largest box, not with the widest and the
+    // highest. For small boxes only covered pixels are visited: mostly one or two of four.
+    ivec2 at = box.xy;
+    for (; left > 0; --left) {
+        int bit = findLSB(covered);
+        splat(small ? s.f.box.xy + ivec2(bit & 3, bit >> 2) : at, s);
+        covered &= covered - 1u;
+        bool last = at.x == box.z;
+        at = ivec2(last ? box.x : at.x + 1, last ? at.y + 1 : at.y);
+    }
+}
+
+// A large particle, with all invocations of the workgroup.
+void cover_large(uint i) {
+    Sprite s = sprite_at(i);
+    ivec4 box = inside(s.f.box);
+    ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
+    for (int y = box.y + lane.y; y <= box.w; y += 8) {
+        for (int x = box.x + lane.x; x <= box.z; x += 8) {
+            splat(ivec2(x, y), s);
+        }
+    }
+}
+
+void cover() {
+    if (LARGE == 1u) {
+        cover_large(list[LIST * push.chunk + 4u + gl_WorkGroupID.x]);
+        return;
+    }
+    uint count = arguments[push.chunk].w;
+    if (PACKETS == 0u) {
+        cover_one(gl_GlobalInvocationID.x, count);
+        return;
+    }
+    Packet packet = packet_at(gl_WorkGroupID.x, push.chunk_first, count);
+    if (!shows(packet.middle, packet.reach)) {
+        return;
+    }
+    for (uint i = packet.first; i < packet.past; i += gl_WorkGroupSize.x) {
+        cover_one(i + gl_LocalInvocationIndex, packet.past);
+    }
+}

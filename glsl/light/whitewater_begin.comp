@@ -1,0 +1,26 @@
+#version 460
+// Pass `whitewater_light`, first part: the dispatches that the particles need. Not in the paper.
+// Reads: count. Writes: arguments.
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 1, std430) readonly buffer Count { uint count; };
+// For each chunk its workgroups and its number of particles.
+layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint count;      // number from the host, or the capacity
+    uint from_gpu;
+    uint chunks;
+    uint chunk_size;
+    uint group_size;
+} push;
+
+#include "whitewater_chunks.glsl"
+
+void main() {
+    uint chunk = gl_GlobalInvocationID.x;
+    if (chunk < push.chunks) {
+        uint own = own_of(chunk);
+        arguments[chunk] = uvec4((own + push.group_size - 1u) / push.group_size, 1u, 1u, own);
+    }
+}

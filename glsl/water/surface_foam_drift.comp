@@ -1,0 +1,47 @@
+#version 460
+// Pass `surface_foam`: velocity of the foam on the screen, which advects the lace (not in the thesis). Each sprite adds its
+// velocity to the four nodes around its centre.
+// Reads: Counts, sprites. Writes: drift.
+
+#include "frame.glsl"
+#include "counts.glsl"
+#include "surface_foam.glsl"
+#include "surface_foam_drift.glsl"
+
+layout(local_size_x = FOAM_GROUP) in;
+layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprites[]; };
+layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 5, std430) buffer Drift { int drift[]; };
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= counts.foam) {
+        return;
+    }
+    FoamSprite sprite = sprites[index];
+    vec3 centre = sprite.centre.xyz;
+    vec2 pixel = (centre.xy / -centre.z - frame.slope.zw) / frame.slope.xy;
+    vec2 at = pixel / DRIFT_CELL;
+    ivec2 last = drift_nodes() - 1;
+    // Sprites more than half a cell outside the grid add to no node. If one is visible, there are others inside.
+    if (!(all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, vec2(last) + 0.5)))) {
+        return;
+    }
+    at = clamp(at, vec2(0.0), vec2(last));
+    vec2 base = min(floor(at), vec2(last) - 1.0);
+    vec2 f = at - base;
+    vec3 velocity = mat3(frame.world) * sprite.velocity.xyz * (DRIFT_STEPS / frame.particle.y);
+    ivec3 steps = ivec3(round(clamp(velocity, vec3(-DRIFT_MOST), vec3(DRIFT_MOST))));
+    for (int i = 0; i < 4; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1);
+        vec2 part = mix(1.0 - f, f, vec2(side));
+        int weight = int(round(DRIFT_WHOLE * sprite.centre.w * part.x * part.y));
+        uint word = drift_word(ivec2(base) + side);
+        if (weight > 0 && drift[word] < DRIFT_FULL) {
+            atomicAdd(drift[word], weight);
+            atomicAdd(drift[word + 1u], weight * steps.x);
+            atomicAdd(drift[word + 2u], weight * steps.y);
+            atomicAdd(drift[word + 3u], weight * steps.z);
+        }
+    }
+}

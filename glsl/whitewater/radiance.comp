@@ -1,0 +1,162 @@
+#version 460
+// Pass `radiance`: ambient occlusion and environment light of the foam of each pixel (Akinci et al. 2013, Sec. 2.4;
+// pass 6). Occlusion is sampled in one sphere per pass, each larger, with points that all pixels share.
+// Not in the paper: the sun's light and shadows, and the normal of particles smaller than a pixel. A pixel's centre
+// hits an arbitrary point of such a sphere, and shading by its normal makes far foam look like salt and pepper.
+// Instead the normal is where the same samples find open space, so a plume is lit as one body.
+// Reads: tiles with foam, foam depth and intensity beside the depths of fluid and scene, foam normal, points,
+// irradiance, environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
+
+#include "frame.glsl"
+#include "falloff.glsl"
+#include "whitewater.glsl"
+#include "convolution.glsl"
+#include "intensity.glsl"
+#include "sunlight.glsl"
+#include "octahedral.glsl"
+#include "whitewater_tiles.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+// 1: look up the environment in the directions of the points, as in the paper; 0: look it up once,
+// prefiltered.
+layout(constant_id = 0) const uint SAMPLED = 0;
+// 1: each pixel of a 4x4 block uses a sixteenth of the points, and `blur` combines them. Each sixteenth by
+// itself finds half of a half space hidden, whatever its slope, because isolated foam gets no help from its
+// neighbours' points. The number does not depend on the size of the spheres, so that foam does not change
+// with the distance.
+layout(constant_id = 1) const uint FAST = 0;
+// Points of all sixteen pixels.
+const float FAST_SAMPLES = 320.0;
+
+layout(set = 0, binding = 1) uniform sampler2D occluders;
+// xyz: normal; w: search radius.
+layout(set = 0, binding = 2, rgba16f) uniform image2D normals;
+// Points of a unit sphere, and their weights. FAST: one of each pair of opposite points.
+layout(set = 0, binding = 3, std430) readonly buffer Points { vec4 points[]; };
+// Octahedral, with a border of one texel.
+layout(set = 0, binding = 4) uniform sampler2D irradiance;
+layout(set = 0, binding = 5) uniform samplerCube environment;
+// rgb: light; a: shadow.
+layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D radiance;
+
+// Weight of the direction to the eye beside the open direction. Haze has no open direction.
+const float TO_EYE = 0.02;
+
+// x: occlusion of a sample, at most 1, without occluders that are too far before it. y: the same with
+// occluders at any distance.
+vec2 hidden(vec4 there, float depth, float reach) {
+    vec3 opacity = vec3(there.y, frame.whitewater_opacity.xy);
+    vec3 before = depth - there.xzw;
+    // Clamped to 1: an empty layer is so far behind that the square overflows.
+    vec3 near = clamp(1.0 - before / reach, 0.0, 1.0);
+    opacity = mix(vec3(0.0), opacity, greaterThan(before, vec3(0.0)));
+    return min(vec2(dot(near * near, opacity), dot(vec3(1.0), opacity)), 1.0);
+}
+
+vec4 point_of(uint i) {
+    if (FAST == 0u) {
+        return points[i];
+    }
+    vec4 one = points[i >> 1];
+    return vec4((i & 1u) == 0u ? one.xyz : -one.xyz, one.w);
+}
+
+// First point of a pass, and the end, for a sphere with this radius in pixels.
+uvec2 samples_of(float pixels, ivec2 pixel, uint pass) {
+    if (FAST == 1u) {
+        uint count = 2u * max(uint(min(frame.whitewater_samples.y, FAST_SAMPLES)) / 32u, 1u);
+        // Runs of the sequence, each of which fills the sphere. The runs of neighbouring pixels, and those of a
+        // pixel's passes, are far apart in the sequence, so that three spheres have three times the points.
+        uvec2 p = uvec2(pixel);
+        uint x = p.x ^ p.y;
+        uint run = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
+        run = run + 5u * pass & 15u;
+        return uvec2(run, run + 1u) * count;
+    }
+    float count = 4.0 / 3.0 * 3.14159265 * pixels * pixels * pixels * frame.whitewater_search.w;
+    return uvec2(0u, uint(clamp(count, frame.whitewater_samples.x, frame.whitewater_samples.y) + 0.5));
+}
+
+// Search radius of a pass in half heights of the picture.
+float search_of(float foam, uint pass) {
+    return foam * (frame.whitewater_search.x + frame.whitewater_search.y * float(pass));
+}
+
+// Environment light over the hemisphere of a normal: 1/2 for an environment of 1. With few directions the sum
+// is normalized by their own cosines.
+vec3 gathered(vec3 normal, uvec2 run) {
+    if (SAMPLED == 0u) {
+        vec2 at = octahedral_texture_place(normal, textureSize(irradiance, 0));
+        return textureLod(irradiance, at, 0.0).rgb;
+    }
+    vec3 sum = vec3(0.0);
+    float cosines = 0.0;
+    for (uint i = run.x; i < run.y; ++i) {
+        vec3 direction = mat3(frame.world) * normalize(point_of(i).xyz);
+        float cosine = dot(direction, normal);
+        direction -= 2.0 * min(cosine, 0.0) * normal;
+        sum += abs(cosine) * textureLod(environment, direction, 0.0).rgb;
+        cosines += abs(cosine);
+    }
+    return sum / (FAST == 1u ? max(2.0 * cosines, 1.0e-6) : float(run.y - run.x));
+}
+
+void main() {
+    ivec2 pixel;
+    if (!tile_pixel(pixel)) {
+        return;
+    }
+    float depth = texelFetch(occluders, pixel, 0).x;
+    if (depth >= EMPTY) {
+        return;
+    }
+    vec4 with = imageLoad(normals, pixel);
+    vec3 position = vec3(ray_slope(vec2(pixel) + 0.5, frame.slope) * depth, -depth);
+    float metres = depth / abs(frame.projection.y); // per half height of the picture
+    uint passes = uint(frame.whitewater_search.z);
+    vec3 sum = vec3(0.0);
+    // Sums of the points' vectors: weighted by occlusion at any distance, and unweighted.
+    vec3 dark = vec3(0.0);
+    vec3 whole = vec3(0.0);
+    for (uint pass = 1u; pass <= passes; ++pass) {
+        float search = search_of(with.w, pass);
+        float radius = search * metres;
+        float reach = frame.whitewater_samples.z > 0.0 ? frame.whitewater_samples.z * radius : -frame.whitewater_samples.z;
+        uvec2 run = samples_of(0.5 * search * frame.extent.y, pixel, pass);
+        for (uint i = run.x; i < run.y; ++i) {
+            vec4 point = point_of(i);
+            vec3 s = position + radius * point.xyz;
+            vec2 at = (s.xy / -s.z - frame.slope.zw) / frame.slope.xy;
+            bool seen = -s.z > frame.depth.z && all(greaterThanEqual(at, vec2(0.0)))
+                && all(lessThan(at, frame.extent.xy));
+            if (seen) {
+                vec4 there = texelFetch(occluders, ivec2(at), 0);
+                vec2 parts = hidden(there, -s.z, reach);
+                sum += point.w * vec3(parts, 1.0);
+                dark += point.w * parts.y * point.xyz;
+                whole += point.w * point.xyz;
+            }
+        }
+    }
+    vec2 parts = sum.z > 0.0 ? sum.xy / sum.z : vec2(0.0);
+    // The open direction: the direction in which there is less occlusion than in the mean.
+    vec3 open = parts.y * whole - dark + vec3(0.0, 0.0, max(TO_EYE * sum.z, 1.0e-6));
+    float told = told_of(0.5 * with.w * frame.extent.y);
+    vec3 facing = mix(mat3(frame.world) * normalize(open), with.xyz, told);
+    // Two opposite vectors have no mean.
+    vec3 normal = dot(facing, facing) > 1.0e-6 ? normalize(facing) : with.xyz;
+    if (told < 1.0) {
+        imageStore(normals, pixel, vec4(normal, with.w));
+    }
+    // The environment does not contain the sun. Foam scatters light: it is lit also where it is turned away a
+    // little.
+    float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
+    vec3 sun = frame.whitewater_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
+    // The directions of the first sphere's points, even if there are no passes.
+    uvec2 first = samples_of(0.5 * search_of(with.w, 1u) * frame.extent.y, pixel, 1u);
+    vec3 light = gathered(normal, first) + sun;
+    float share = parts.x * frame.whitewater_opacity.z;
+    // pow() of 0 is NaN with some drivers.
+    float shadow = (share > 0.0 ? pow(share, frame.whitewater_opacity.w) : 0.0) + frame.whitewater_shadow.w;
+    imageStore(radiance, pixel, vec4(light, clamp(shadow, 0.0, 1.0)));
+}

@@ -1,0 +1,275 @@
+//! Whitewater emission for a fluid that has none: spray, foam and bubbles where the water traps air, where its
+//! waves break and where it is fast (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for
+//! particle-based fluids, 2012).
+//!
+//! A step finds the fluid's neighbours with a hashed grid, advances the whitewater particles, and emits new
+//! ones. Emission is summed in fixed-point steps, slots come from prefix sums, and random numbers depend on
+//! ids. A sequence therefore gives the same particles in every run, however it is cut into jobs
+//! ([`Generator::record_save`]). The exception: if more than 256 fluid particles share a grid bucket, thirty
+//! times what water holds in a cell, the device decides which of them are visited. For a single frame a
+//! snapshot ([`Generator::record_snapshot`]) gives what a steady flow would have left, by tracing each fluid
+//! particle back along the flow.
+//! Reads: the fluid's positions, velocities and ids. Writes: whitewater particles, potentials.
+
+mod passes;
+pub mod settings;
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use crate::check;
+use crate::context::Context;
+use crate::contract::{Count, GeneratorStep, Slot, Stream, WhitewaterParticles};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::COMPUTE_READ;
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Descriptors;
+use crate::gpu::timing::{Timer, Timing};
+use passes::{DRIFT, KIND, PARTICLE, Passes};
+pub use settings::{GeneratorConfig, GeneratorSettings, PotentialRange};
+
+struct GeneratorSlot {
+    descriptors: Descriptors,
+    timer: Timer,
+}
+
+/// Whitewater of one body of water, emitted from its particles step by step. Views share it.
+pub struct Generator {
+    gpu: Arc<Gpu>,
+    config: GeneratorConfig,
+    passes: Passes,
+    slots: Vec<GeneratorSlot>,
+    /// Nothing was recorded yet: the buffers hold anything.
+    fresh: bool,
+    /// The last step, until it is abandoned: its slot, and whether it was the first.
+    last: Option<(Slot, bool)>,
+}
+
+impl Generator {
+    /// Makes pipelines and memory: 76 to 80 bytes per fluid particle, 44 per whitewater particle.
+    ///
+    /// # Errors
+    /// Bad configuration; no memory; Vulkan errors.
+    pub fn new(context: &Context, config: &GeneratorConfig) -> Result<Self, Error> {
+        config.check()?;
+        let gpu = Gpu::new(context);
+        let made = Passes::new(&gpu, config).and_then(|passes| {
+            let slot = |_| {
+                let descriptors = Descriptors::new(&gpu, passes.sets())?;
+                Ok(GeneratorSlot { descriptors, timer: Timer::new(&gpu)? })
+            };
+            let slots = (0..gpu.slots).map(slot).collect::<Result<Vec<_>, Error>>()?;
+            Ok((passes, slots))
+        });
+        match made {
+            Ok((passes, slots)) => {
+                Ok(Self { gpu, config: *config, passes, slots, fresh: true, last: None })
+            }
+            Err(error) => {
+                // Nothing was submitted with what was made before the failure.
+                gpu.destroy();
+                Err(error)
+            }
+        }
+    }
+
+    /// Records one step: whitewater particles advance, and the fluid emits new ones. Never submits, waits or
+    /// allocates device memory.
+    ///
+    /// # Errors
+    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the
+    /// command buffer and call [`abandon`](Self::abandon).
+    ///
+    /// # Safety
+    /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
+    /// recorded, before the frames that show them.
+    pub unsafe fn record_step(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        step: &GeneratorStep<'_>,
+    ) -> Result<(), Error> {
+        self.record_any(cmd, step, false)
+    }
+
+    /// Records a snapshot instead of a step: the whitewater that there would be if the fluid had always moved
+    /// as it does now, whatever was before. The fluid is traced back along the flow to 15 moments of the
+    /// longest lifetime; what was emitted then is aged accordingly. [`GeneratorStep::dt`] has no effect. Steps
+    /// may follow.
+    ///
+    /// # Errors
+    /// As [`record_step`](Self::record_step).
+    ///
+    /// # Safety
+    /// As [`record_step`](Self::record_step).
+    pub unsafe fn record_snapshot(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        step: &GeneratorStep<'_>,
+    ) -> Result<(), Error> {
+        self.record_any(cmd, step, true)
+    }
+
+    fn record_any(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        step: &GeneratorStep<'_>,
+        snapshot: bool,
+    ) -> Result<(), Error> {
+        // A step that fails below leaves nothing to take back.
+        self.last = None;
+        self.check(step)?;
+        self.last = Some((step.slot, self.fresh));
+        let slot = &mut self.slots[step.slot.0 as usize];
+        slot.descriptors.reset(&self.gpu)?;
+        self.gpu.begin_label(cmd, c"whitewater/generate");
+        slot.timer.reset(&self.gpu, cmd);
+        if std::mem::take(&mut self.fresh) && !snapshot {
+            self.passes.record_clear(&self.gpu, cmd);
+        }
+        let (gpu, timer) = (&self.gpu, &mut slot.timer);
+        self.passes.record(gpu, cmd, &slot.descriptors, timer, step, snapshot)?;
+        self.gpu.end_label(cmd);
+        Ok(())
+    }
+
+    /// Records a reset to no whitewater particles.
+    ///
+    /// # Safety
+    /// As [`record_step`](Self::record_step).
+    pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
+        self.fresh = false;
+        self.passes.record_clear(&self.gpu, cmd);
+    }
+
+    /// The whitewater particles after the last step, for [`Frame::whitewater`](crate::Frame::whitewater) of renderers
+    /// on the same queue whose [`WhitewaterConfig::max_stride`](super::WhitewaterConfig) is at least 16. Their
+    /// buffers also have transfer-source usage.
+    pub fn particles(&self) -> WhitewaterParticles {
+        let buffers = &self.passes.buffers;
+        let [particles, drifts, kinds] =
+            [(&buffers.particles, PARTICLE), (&buffers.drifts, DRIFT), (&buffers.kinds, KIND)]
+                .map(|(own, stride)| self.stream(own, stride));
+        WhitewaterParticles {
+            positions: particles,
+            kinds: Some(kinds),
+            radii: None,
+            ages: Some(Stream { offset: 12, ..particles }),
+            ids: Some(Stream { offset: 12, ..drifts }),
+            count: Count::Gpu { buffer: buffers.counts.handle, offset: 0 },
+            packets: None,
+            fluid_depth: None,
+            before: COMPUTE_READ,
+            after: COMPUTE_READ,
+        }
+    }
+
+    /// Their velocities (3×f32, scene units per second), in the same order.
+    pub fn velocities(&self) -> Stream {
+        self.stream(&self.passes.buffers.drifts, DRIFT)
+    }
+
+    fn stream(&self, own: &Buffer, stride: u64) -> Stream {
+        let size = stride * u64::from(self.config.max_particles);
+        Stream { buffer: own.handle, size, offset: 0, stride: stride as u32 }
+    }
+
+    /// Potentials of each fluid particle of the last step, in its order, four `f32`: trapped air, wave crest,
+    /// energy, number of neighbours, in the units of [`GeneratorSettings`]; zeros for particles that take no
+    /// part. Transfer source.
+    pub fn potentials(&self) -> vk::Buffer {
+        self.passes.buffers.potentials.handle
+    }
+
+    /// Six `u32`: slots in the streams of [`particles`](Self::particles) that were ever used; fluid particles
+    /// of the last step; those of them that took part; free slots before the step's emission; emitted
+    /// particles, including those lost for lack of slots; all particles ever emitted. Transfer source; like the
+    /// potentials last written by a compute shader, then free to be read.
+    pub fn counts(&self) -> vk::Buffer {
+        self.passes.buffers.counts.handle
+    }
+
+    /// Bytes of a saved state.
+    pub fn size(&self) -> u64 {
+        self.passes.size()
+    }
+
+    /// Records a copy of the state after the last step into a buffer of the host.
+    /// [`record_restore`](Self::record_restore) restores it, here or in another run with the same
+    /// configuration, and the sequence continues as if it had not been interrupted.
+    ///
+    /// # Safety
+    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of
+    /// 4) on, and is ready; else as [`record_step`](Self::record_step).
+    pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
+        if std::mem::take(&mut self.fresh) {
+            self.passes.record_clear(&self.gpu, cmd);
+        }
+        self.passes.record_copy(&self.gpu, cmd, (to, offset), true);
+    }
+
+    /// Records a copy of a saved state back.
+    ///
+    /// # Safety
+    /// As [`record_save`](Self::record_save), with transfer-source usage.
+    pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
+        self.fresh = false;
+        self.passes.record_copy(&self.gpu, cmd, (from, offset), false);
+    }
+
+    /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
+    pub fn timings(&mut self, slot: Slot) -> &[Timing] {
+        match self.slots.get_mut(slot.0 as usize) {
+            Some(own) => own.timer.timings(&self.gpu),
+            None => &[],
+        }
+    }
+
+    /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before
+    /// it. Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore).
+    pub fn abandon(&mut self, slot: Slot) {
+        if let Some(own) = self.slots.get_mut(slot.0 as usize) {
+            own.timer.abandon();
+        }
+        if let Some((_, first)) = self.last.take_if(|(last, _)| *last == slot) {
+            self.fresh = first;
+        }
+    }
+
+    /// Bytes of device memory in use.
+    pub fn memory(&self) -> u64 {
+        self.passes.memory()
+    }
+
+    /// Frees everything. A plain drop is safe, but leaks.
+    ///
+    /// # Safety
+    /// All recorded work is complete, or will never be submitted.
+    pub unsafe fn destroy(self) {
+        let gpu = self.gpu.clone();
+        drop(self);
+        gpu.destroy();
+    }
+
+    /// Everything that can be wrong with a step.
+    fn check(&self, step: &GeneratorStep<'_>) -> Result<(), Error> {
+        check::step(
+            ["GeneratorStep.slot", "GeneratorStep.dt"],
+            step.slot,
+            self.slots.len(),
+            step.dt,
+        )?;
+        step.settings.check()?;
+        let fields = ["GeneratorStep.count", "GeneratorStep.count.offset"];
+        let most = ("GeneratorConfig.max_fluid", self.config.max_fluid);
+        let count = check::count(fields, step.count, most, &self.gpu.limits)?;
+        let most = ("GeneratorConfig.max_stride", self.config.max_stride);
+        step.positions.check("GeneratorStep.positions", 12, count, most)?;
+        step.velocities.check("GeneratorStep.velocities", 12, count, most)?;
+        if let Some(ids) = &step.ids {
+            ids.check("GeneratorStep.ids", 4, count, most)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,160 @@
+//! Settings of whitewater emission (Ihmsen et al. 2012).
+
+use crate::error::Error;
+use crate::water::settings::{GREATEST, range};
+
+crate::contract::with!(GeneratorConfig, GeneratorSettings);
+
+/// Configuration of a [`Generator`](super::Generator): what fixes its memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct GeneratorConfig {
+    /// Maximum number of fluid particles per step, at least 1.
+    pub max_fluid: u32,
+    /// Maximum stride of their streams in bytes, a multiple of 4, default 16.
+    pub max_stride: u32,
+    /// Maximum number of whitewater particles alive at a time, at least 1. Excess ones are not emitted, and are
+    /// counted.
+    pub max_particles: u32,
+}
+
+impl GeneratorConfig {
+    /// The defaults for these maximum numbers of fluid and whitewater particles.
+    pub fn new(max_fluid: u32, max_particles: u32) -> Self {
+        Self { max_fluid, max_stride: 16, max_particles }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        for (field, value) in [
+            ("GeneratorConfig.max_fluid", self.max_fluid),
+            ("GeneratorConfig.max_particles", self.max_particles),
+        ] {
+            if value == 0 {
+                return Err(Error::bad(field, "zero; it sizes the buffers"));
+            }
+        }
+        if self.max_stride < 12 || !self.max_stride.is_multiple_of(4) {
+            let why = format!("{}: a multiple of 4 from 12 on expected", self.max_stride);
+            return Err(Error::bad("GeneratorConfig.max_stride", why));
+        }
+        Ok(())
+    }
+}
+
+/// Range of a potential over which emission rises from none to the full rate (`τmin`, `τmax` of Eq. 1). Limits
+/// do not transfer between simulations. The paper's are an artist's choice. Good values are the 99.9th
+/// percentile of a sequence's potentials ([`Generator::potentials`](super::Generator::potentials)) for the
+/// maximum, and a tenth of it for the minimum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PotentialRange {
+    /// Potential up to which nothing is emitted, [0, max).
+    pub min: f32,
+    /// Potential from which the full rate applies, (min, ∞).
+    pub max: f32,
+}
+
+/// How a fluid emits spray, foam and bubbles, and how these move and age.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct GeneratorSettings {
+    /// Spacing of the fluid's particles, scene units, (0, ∞). Particles nearer than two spacings are
+    /// neighbours.
+    pub spacing: f32,
+    /// Limits of the trapped-air potential: the weighted sum of the speeds at which neighbours approach (Sec.
+    /// 3.1.1), scene units per second.
+    pub trapped_air: PotentialRange,
+    /// Limits of the wave-crest potential: the curvature of a surface that moves outwards (Sec. 3.1.2), no
+    /// unit.
+    pub wave_crest: PotentialRange,
+    /// Limits of the kinetic energy per mass, half the squared speed (Sec. 3.1.3), squared scene units per
+    /// second.
+    pub energy: PotentialRange,
+    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. The total of a
+    /// fluid particle is limited to 64 per step.
+    pub trapped_air_rate: f32,
+    /// Maximum emission of one fluid particle from wave crests, particles per second.
+    pub wave_crest_rate: f32,
+    /// Minimum lifetime of foam, seconds, (0, max_lifetime], default 2. Spray and bubbles do not age.
+    pub min_lifetime: f32,
+    /// Maximum lifetime of foam, seconds, [min_lifetime, ∞), default 5.
+    pub max_lifetime: f32,
+    /// Acceleration, scene units per second squared, default (0, −9.81, 0).
+    pub gravity: [f32; 3],
+    /// Buoyancy of a bubble relative to gravity, [0, 64], default 2 (k_b of Eq. 7).
+    pub buoyancy: f32,
+    /// Share of the water's velocity that a bubble takes on in a step, [0, 1], default 0.8 (k_d of Eq. 7).
+    pub drag: f32,
+    /// Box (minimum and maximum corner) outside which particles die. Default `None`: spray, which does not age,
+    /// then falls forever and keeps its slot.
+    pub bounds: Option<[[f32; 3]; 2]>,
+    /// Seed of the random numbers.
+    pub seed: u32,
+}
+
+impl GeneratorSettings {
+    /// Replaces gravity by the earth's, for a number of scene units per metre and an up direction of unit length.
+    #[must_use]
+    pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
+        Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
+    }
+
+    /// The defaults, with limits of trapped air, wave crests and energy (in this order), and one rate for both sources.
+    pub fn new(spacing: f32, limits: [PotentialRange; 3], rate: f32) -> Self {
+        let [trapped_air, wave_crest, energy] = limits;
+        Self {
+            spacing,
+            trapped_air,
+            wave_crest,
+            energy,
+            trapped_air_rate: rate,
+            wave_crest_rate: rate,
+            min_lifetime: 2.0,
+            max_lifetime: 5.0,
+            gravity: [0.0, -9.81, 0.0],
+            buoyancy: 2.0,
+            drag: 0.8,
+            bounds: None,
+            seed: 0,
+        }
+    }
+
+    /// Checks the ranges, as each step does.
+    ///
+    /// # Errors
+    /// [`Error::BadInput`] with the field that is out of its documented range.
+    pub fn check(&self) -> Result<(), Error> {
+        let most = 1.0e18;
+        range("GeneratorSettings.spacing", self.spacing, 1.0e-18, 1.0e18)?;
+        for (field, limits) in [
+            ("GeneratorSettings.trapped_air", self.trapped_air),
+            ("GeneratorSettings.wave_crest", self.wave_crest),
+            ("GeneratorSettings.energy", self.energy),
+        ] {
+            let PotentialRange { min: least, max: most } = limits;
+            if !(least >= 0.0 && most > least && most.is_finite() && (most - least) > 1.0e-30) {
+                let why = format!("{least} to {most}: from 0 on, the second more than the first");
+                return Err(Error::bad(field, why));
+            }
+        }
+        range("GeneratorSettings.trapped_air_rate", self.trapped_air_rate, 0.0, most)?;
+        range("GeneratorSettings.wave_crest_rate", self.wave_crest_rate, 0.0, most)?;
+        let (short, long) = (self.min_lifetime, self.max_lifetime);
+        if !(short > 0.0 && long >= short && long <= GREATEST) {
+            let why = format!("{short} to {long}: seconds expected, the second no less");
+            return Err(Error::bad("GeneratorSettings.max_lifetime", why));
+        }
+        range("GeneratorSettings.buoyancy", self.buoyancy, 0.0, 64.0)?;
+        range("GeneratorSettings.drag", self.drag, 0.0, 1.0)?;
+        if !self.gravity.iter().all(|v| v.is_finite()) {
+            let why = format!("{:?}: not finite", self.gravity);
+            return Err(Error::bad("GeneratorSettings.gravity", why));
+        }
+        if let Some([low, high]) = self.bounds
+            && !low.iter().zip(high).all(|(low, high)| *low <= high)
+        {
+            let why = format!("{low:?} to {high:?}: the least corner first");
+            return Err(Error::bad("GeneratorSettings.bounds", why));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,116 @@
+//! The sun of a map, which the light tells of as well.
+
+use whitewater::{EnvironmentSource, Equirectangular, Recorded, Slot};
+
+use super::*;
+
+/// Foam gathers what the map without the sun gives, to the last bit, though the map shows it: in both ways.
+#[test]
+fn the_sun_of_a_map_is_not_gathered() {
+    let gpu = Gpu::shared();
+    for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
+        let whitewater = Some(WhitewaterConfig::new(4096).with(|it| it.irradiance = irradiance));
+        let mut rig =
+            Rig::new(&gpu, &whitewater_config(SIZE).with(|it| it.whitewater = whitewater));
+        let mut cloud = Whitewater::new(Lens::Standard);
+        // The light's own sun apart.
+        cloud.shot.settings.light.shade = cloud.shot.settings.light.irradiance;
+        let gathered = |rig: &mut Rig<'_>| {
+            let light = cloud.draw(rig).whitewater.expect("whitewater particles").light;
+            light.data.iter().map(|texel| texel.map(f32::to_bits)).collect::<Vec<_>>()
+        };
+        let size = extent(16, 8);
+        let grey = [[0.7, 0.6, 0.5, 1.0]; 128];
+        let mut sunny = grey;
+        sunny[2 * 16 + 5] = [400.0, 300.0, 200.0, 1.0];
+        rig.environment(size, &grey);
+        let without = gathered(&mut rig);
+        rig.environment(size, &sunny);
+        let with = gathered(&mut rig);
+        assert_ne!(without, with, "{irradiance:?}: the sun adds something");
+        rig.environment_with_sun(size, [&sunny, &grey]);
+        assert!(without == gathered(&mut rig), "{irradiance:?}: the sun of the map is gathered");
+    }
+}
+
+/// A configuration that begins to sample the environment has it made anew: what it had was not for that.
+#[test]
+fn to_sample_the_environment_makes_it_anew() {
+    let gpu = Gpu::shared();
+    let of = |irradiance| {
+        let whitewater = Some(WhitewaterConfig::new(4096).with(|it| it.irradiance = irradiance));
+        whitewater_config(SIZE).with(|it| it.whitewater = whitewater)
+    };
+    let mut rig = Rig::new(&gpu, &of(Irradiance::Prefiltered));
+    let before = rig.renderer().memory().images;
+    // Six faces of 8 bytes a texel, and their mips. A driver may keep a border round each, and align the whole.
+    let size = rig.config.environment_size;
+    let faces = |border: u32| -> u64 {
+        let edges = (0..=size.ilog2()).map(|mip| u64::from((size >> mip) + 2 * border));
+        edges.map(|edge| 48 * edge * edge).sum()
+    };
+    let cube = faces(0)..=faces(1) + 4096;
+    for (irradiance, anew, more) in
+        [(Irradiance::Prefiltered, false, 0..=0), (Irradiance::Sampled, true, cube)]
+    {
+        assert_eq!(rig.renderer().reconfigure(&of(irradiance)).expect("reconfigure"), anew);
+        let found = rig.renderer().memory().images - before;
+        assert!(more.contains(&found), "{irradiance:?}: {found} bytes more");
+    }
+}
+
+/// An environment that changes while a frame is in flight is to that frame what it was when the frame was recorded.
+#[test]
+fn the_environment_changes_between_frames_in_flight() {
+    let gpu = Gpu::shared();
+    let size = extent(16, 8);
+    let maps = [[0.7, 0.6, 0.5, 1.0], [0.1, 0.9, 0.3, 1.0]].map(|color| [color; 128]);
+    for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
+        let whitewater = Some(WhitewaterConfig::new(4096).with(|it| it.irradiance = irradiance));
+        let config = whitewater_config(SIZE).with(|it| it.whitewater = whitewater);
+        let mut cloud = Whitewater::new(Lens::Standard);
+        cloud.shot.settings.light.shade = cloud.shot.settings.light.irradiance;
+        let alone = maps.each_ref().map(|map| {
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            rig.environment(size, map);
+            cloud.draw(&mut rig).output
+        });
+        assert!(alone[0].data != alone[1].data, "{irradiance:?}: the environment shows");
+        let mut rig = Rig::lit(&gpu, &config, 2);
+        let maps = maps.each_ref().map(|map| rig.map(size, map));
+        for round in 0..3 {
+            let flights = [0, 1].map(|slot| {
+                let (color, depth) = rig.scene(&cloud.shot);
+                let (water, foam) = (rig.particles(&cloud.shot), rig.whitewater(&cloud.input()));
+                let frame = cloud
+                    .shot
+                    .frame(color.host_image(), depth.host_image(), water.particles())
+                    .with(|it| {
+                        it.slot = Slot(slot);
+                        it.whitewater = Some(foam.particles());
+                    });
+                let source = EnvironmentSource::Equirectangular(Equirectangular::new(
+                    maps[slot as usize].host_image(),
+                ));
+                let cmd = rig.stub.begin(slot);
+                let renderer = rig.renderer();
+                // SAFETY: cmd is recording, the slot was waited for, the handles live to the end of the round.
+                let recorded = unsafe {
+                    renderer
+                        .record_environment(cmd, Slot(slot), &source)
+                        .and_then(|()| renderer.record(cmd, &frame))
+                };
+                recorded.expect("record");
+                rig.stub.end(slot);
+                (color, (depth, water, foam))
+            });
+            for (slot, (color, _)) in (0..).zip(&flights) {
+                rig.stub.wait(slot);
+                rig.collect(Slot(slot));
+                let found = rig.read(&color.host_image(), &Recorded::default()).output;
+                let name = format!("environment-{irradiance:?}-{round}-{slot}");
+                compare::same_color(&name, &found, &alone[slot as usize]);
+            }
+        }
+    }
+}

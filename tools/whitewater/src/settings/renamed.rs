@@ -1,0 +1,44 @@
+//! Tables and keys that had another name before: refused, with the name that they have now.
+
+/// A table, the key in it (none: the table itself), and the new name.
+pub const RENAMED: &[(&str, &str, &str)] = &[
+    ("foam", "", "[surface_foam]"),
+    ("diffuse", "", "[whitewater]"),
+    ("surface_foam", "veil", "min_thickness"),
+    ("surface_foam", "relief", "normal_strength"),
+    ("spray", "densities", "all_spray_density, full_water_density and no_spray_density"),
+    ("spray", "spread", "scatter_radius"),
+    ("spray", "shutter", "exposure"),
+    ("whitewater", "half", "half_intensity_thickness"),
+    ("whitewater", "search", "search_radius and search_radius_step"),
+    ("whitewater", "density", "sample_density"),
+    ("whitewater", "samples", "min_samples and max_samples"),
+    ("whitewater", "opacity", "fluid_opacity and scene_opacity"),
+    ("whitewater", "shadow", "shadow_scale, shadow_exponent and shadow_offset"),
+    ("bubbles", "core", "core_opaque_radius and core_outer_radius"),
+    ("bubbles", "plug", "fill_holes"),
+    ("bubbles", "merge", "min_pixels"),
+    ("bubbles", "templates", "variants"),
+    ("bubbles", "map", "map_size"),
+    ("bubbles", "hand_over", "crossfade"),
+    ("bubbles", "hand_over_size", "crossfade_size"),
+    ("bubbles", "hand_over_blobs", "crossfade_blobs"),
+    ("generate", "lifetime", "min_lifetime and max_lifetime"),
+    ("shoreline", "reach", "sea_reach and land_reach"),
+    ("shoreline", "swing_by", "swing_amplitude and swing_period"),
+    ("shoreline", "wave_rise", "wave_slope and wave_offset"),
+    ("shoreline", "web_rise", "web_slope and web_offset"),
+];
+
+/// The message for the first table or key of a text that has another name now.
+pub fn find(text: &str) -> Option<String> {
+    let file: toml::Table = text.parse().ok()?;
+    RENAMED.iter().find_map(|(table, key, new)| {
+        let found = file.get(*table)?;
+        if key.is_empty() {
+            return Some(format!("table [{table}] was renamed: use {new}"));
+        }
+        found.get(*key)?;
+        Some(format!("[{table}] {key} was renamed: use {new}"))
+    })
+}

@@ -1,0 +1,424 @@
+//! The Weber number from which water foams, found from the data.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+use whitewater::Settings;
+use whitewater::io::particles::Particles;
+use whitewater::water::WeberSettings;
+
+use crate::air;
+use crate::args::Foaming;
+use crate::settings::{FoamBy, SurfaceFoamTable};
+
+/// Share of the water that does not foam.
+const CALM: f64 = 0.95;
+/// Most of a frame's water that foams or has not yet stopped to: what is foam all over shows no water.
+const MOST: f64 = 0.3;
+/// Of trapped air no less than the speed of water that falls through an eighth of a spacing: twice what the particles of
+/// calm water tremble by. So water at rest, and what flows or falls as a whole, stay clear.
+const FALL: f32 = 0.125;
+/// Acceleration of a fall, m/s².
+const GRAVITY: f32 = 9.81;
+/// Speed relative to its surroundings from which on water draws in air, m/s: a plunging jet does from 0.8 (rough) to 2.5 m/s
+/// (smooth) on, about 1 m/s where it is as turbulent as most are (Ervine et al. 1980, "Effect of turbulence intensity on the
+/// rate of air entrainment by plunging water jets"; Chanson 1996, "Air bubble entrainment in free-surface turbulent shear
+/// flows").
+pub const ONSET: f32 = 1.0;
+/// Share of a frame's water that is so fast, below which all of it is calm.
+const STIRRED: f64 = 0.001;
+/// Water flows as a whole where its speed is so many times what half of it deviates by.
+const UNIFORM: f32 = 2.0;
+
+/// The settings for frames of a sequence and their seconds, where they have velocities. A threshold does not
+/// transfer from one simulation to another: where neither `wanted` nor the table says one it is taken from the frames.
+pub fn settings(
+    wanted: Foaming,
+    (table, by): (&SurfaceFoamTable, FoamBy),
+    frames: &[Particles],
+    seconds: &[f32],
+    settings: &Settings,
+) -> Option<WeberSettings> {
+    let spacing = settings.water.spacing;
+    let mut foam = table.formation(&settings.water);
+    let (driven, floor): (Vec<Particles>, _) = match by {
+        FoamBy::Speed if wanted == Foaming::Auto && table.threshold.is_none() => {
+            let flows: Vec<_> = frames.iter().filter_map(Flow::of).collect();
+            if flows.iter().all(|flow| flow.fast < ONSET) {
+                return None;
+            }
+            // What goes with the water round it does not foam, however fast that is.
+            let flow = Flow::together(&flows);
+            if table.air.is_none() && flow.mean.length() > UNIFORM * flow.deviation {
+                foam.air = flow.mean.to_array();
+            }
+            (Vec::new(), foam.scale * foam.rest_density * ONSET * ONSET)
+        }
+        FoamBy::Speed => (Vec::new(), 0.0),
+        FoamBy::Air => {
+            // Of neighbours: the wind does not matter.
+            foam.air = [0.0; 3];
+            let floor = foam.scale * foam.rest_density * 2.0 * GRAVITY * FALL * spacing;
+            (frames.iter().map(|frame| driven(frame, spacing)).collect(), floor)
+        }
+    };
+    let frames = if by == FoamBy::Air { &driven } else { frames };
+    let wanted = match (wanted, table.threshold) {
+        (Foaming::Auto, Some(threshold)) => Foaming::From(threshold),
+        (wanted, _) => wanted,
+    };
+    let mut moving = frames.iter().filter(|frame| frame.velocities.is_some());
+    let threshold = match wanted {
+        Foaming::None => return None,
+        Foaming::From(threshold) => moving.next().map(|_| threshold)?,
+        Foaming::Auto => {
+            let spray = settings.spray.all_spray_density * settings.water.rest_density;
+            let all = moving.flat_map(|frame| numbers(frame, &foam, spray)).map(|(_, n)| n);
+            let calm = quantile(all.collect(), CALM)?;
+            let calm = calm.max(of_lifetimes(frames, seconds, &foam, spray).unwrap_or(0.0));
+            // Nothing will come: a frame by itself foams from half of it on, and between frames at rest nothing does.
+            let least = if frames.len() == 1 { 0.5 * floor } else { 0.0 };
+            let some = |frame| numbers(frame, &foam, spray).iter().any(|(_, n)| *n > least);
+            if by == FoamBy::Air && !frames.iter().any(some) {
+                return None;
+            }
+            calm.max(floor)
+        }
+    };
+    // Water at rest does not foam.
+    (threshold > 0.0).then_some(foam.with(|it| it.threshold = threshold))
+}
+
+/// How the water of a frame moves.
+#[derive(Clone, Copy, Debug)]
+struct Flow {
+    mean: Vec3,
+    /// From the mean: of half of the water, and of what is faster than nearly all.
+    deviation: f32,
+    fast: f32,
+}
+
+impl Flow {
+    fn of(frame: &Particles) -> Option<Self> {
+        let velocities = frame.velocities.iter().flatten().map(|v| Vec3::from(*v));
+        let velocities: Vec<Vec3> = velocities.filter(|v| v.is_finite()).collect();
+        // The middle one, which a few that fly off do not move.
+        let middle = |axis: usize| quantile(velocities.iter().map(|v| v[axis]).collect(), 0.5);
+        let mean = Vec3::new(middle(0)?, middle(1)?, middle(2)?);
+        let off: Vec<f32> = velocities.iter().map(|v| v.distance(mean)).collect();
+        let fast = quantile(off.clone(), 1.0 - STIRRED)?;
+        Some(Self { mean, deviation: quantile(off, 0.5)?, fast })
+    }
+
+    /// Of several frames, of which each may flow another way.
+    fn together(flows: &[Self]) -> Self {
+        let share = (flows.len().max(1) as f32).recip();
+        let mean = flows.iter().map(|flow| flow.mean * share).sum();
+        let off = |flow: &Self| flow.deviation.max(flow.mean.distance(mean));
+        let deviation = flows.iter().map(off).fold(0.0, f32::max);
+        Self { mean, deviation, fast: flows.iter().map(|flow| flow.fast).fold(0.0, f32::max) }
+    }
+}
+
+/// What water foams by in the place of its velocities, as fast as neighbours run into it.
+pub fn drive(particles: &Particles, spacing: f32) -> Option<Vec<[f32; 3]>> {
+    let speeds = air::trapped(&particles.positions, particles.velocities.as_ref()?, spacing);
+    Some(speeds.into_iter().map(|speed| [speed, 0.0, 0.0]).collect())
+}
+
+/// A frame with that, and without places.
+fn driven(frame: &Particles, spacing: f32) -> Particles {
+    Particles {
+        velocities: drive(frame, spacing),
+        densities: frame.densities.clone(),
+        ids: frame.ids.clone(),
+        ..Particles::from_positions(Vec::new())
+    }
+}
+
+/// The number that a share of them is below.
+pub fn quantile(mut numbers: Vec<f32>, share: f64) -> Option<f32> {
+    let at = (numbers.len() as f64 * share) as usize;
+    (at < numbers.len()).then(|| *numbers.select_nth_unstable_by(at, f32::total_cmp).1)
+}
+
+/// The number that no more than [`MOST`] of any frame's particles have passed within the lifetime of foam, as far
+/// as the frames say; none without ids.
+fn of_lifetimes(
+    frames: &[Particles],
+    seconds: &[f32],
+    foam: &WeberSettings,
+    spray: f32,
+) -> Option<f32> {
+    let each: Vec<HashMap<u32, f32>> = frames
+        .iter()
+        .map(|frame| {
+            let id = |(i, number): (usize, f32)| Some((*frame.ids.as_ref()?.get(i)?, number));
+            numbers(frame, foam, spray).into_iter().filter_map(id).collect()
+        })
+        .collect();
+    let lasts = |now: usize, then: usize| seconds[now] - seconds[then] < foam.foam_lifetime;
+    let of_frame = |now: usize| {
+        let most = |(id, number): (&u32, &f32)| {
+            let before = (0..now).filter(|&then| lasts(now, then));
+            before.filter_map(|then| each[then].get(id).copied()).fold(*number, f32::max)
+        };
+        quantile(each[now].iter().map(most).collect(), 1.0 - MOST)
+    };
+    (0..frames.len().min(seconds.len())).filter_map(of_frame).reduce(f32::max)
+}
+
+/// Weber numbers of the particles that are no spray, and which those are.
+fn numbers(frame: &Particles, foam: &WeberSettings, spray: f32) -> Vec<(usize, f32)> {
+    // 0 marks a particle that was just emitted and has no sum yet.
+    let known = |i: usize| frame.densities.as_ref().map(|d| d[i]).filter(|d| *d > 0.0);
+    let density = |i: usize| known(i).unwrap_or(foam.rest_density);
+    let velocities = frame.velocities.iter().flatten().enumerate();
+    velocities
+        .filter(|(i, _)| density(*i) >= spray)
+        .map(|(i, v)| {
+            let wind = Vec3::from(*v) - Vec3::from(foam.air);
+            (i, foam.scale * density(i) * wind.length_squared())
+        })
+        .filter(|(_, number)| number.is_finite())
+        .collect()
+}
+
+/// Seconds from one frame to another: by how far particles with the same ids went, and how fast they are.
+pub fn seconds(first: &Particles, second: &Particles) -> Option<f32> {
+    let (ids, velocities) = (first.ids.as_ref()?, first.velocities.as_ref()?);
+    let later = second.ids.as_ref()?.iter().zip(&second.positions);
+    let later = later.zip(second.velocities.as_ref()?);
+    let later: HashMap<u32, (Vec3, Vec3)> =
+        later.map(|((id, p), v)| (*id, (Vec3::from(*p), Vec3::from(*v)))).collect();
+    let now = ids.iter().zip(&first.positions).zip(velocities);
+    let mut found: Vec<f32> = now
+        .filter_map(|((id, p), v)| {
+            let (position, velocity) = later.get(id)?;
+            let mean = 0.5 * (Vec3::from(*v) + velocity);
+            let seconds = (position - Vec3::from(*p)).dot(mean) / mean.length_squared();
+            (seconds.is_finite() && seconds > 0.0).then_some(seconds)
+        })
+        .collect();
+    let middle = found.len() / 2;
+    let (_, median, _) =
+        (!found.is_empty()).then(|| found.select_nth_unstable_by(middle, f32::total_cmp))?;
+    Some(*median)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Weber;
+    use whitewater::io::particles::Extension;
+    use whitewater::io::particles::read_bytes;
+
+    /// A hundred particles, each faster than the one before.
+    fn csv() -> Particles {
+        let rows = (0..100).map(|i| format!("0,{i},0,{i},0,0\n"));
+        let text = format!("x,y,z,vx,vy,vz\n{}", rows.collect::<String>());
+        read_bytes(text.as_bytes(), Extension::Csv).unwrap()
+    }
+
+    #[test]
+    fn time_is_found_by_how_far_they_went() {
+        let mut first = csv();
+        first.ids = Some((0..100).collect());
+        let mut second = first.clone();
+        assert_eq!(seconds(&first, &first), None, "nothing moved");
+        for (p, v) in second.positions.iter_mut().zip(second.velocities.iter().flatten()) {
+            *p = [p[0] + 0.04 * v[0], p[1] + 0.04 * v[1], p[2] + 0.04 * v[2]];
+        }
+        second.positions.reverse();
+        second.velocities.as_mut().unwrap().reverse();
+        second.ids.as_mut().unwrap().reverse();
+        let found = seconds(&first, &second).unwrap();
+        assert!((found - 0.04).abs() < 1.0e-5, "{found}");
+        second.ids = Some((1000..1100).collect());
+        assert_eq!(seconds(&first, &second), None, "others");
+        assert_eq!(seconds(&csv(), &second), None, "no ids");
+    }
+
+    #[test]
+    fn the_fastest_twentieth_foams() {
+        let mut frame = csv();
+        let look = Settings::default();
+        let of = |wanted, frame: &Particles| {
+            settings(
+                wanted,
+                (&SurfaceFoamTable::default(), FoamBy::Speed),
+                std::slice::from_ref(frame),
+                &[0.0],
+                &look,
+            )
+        };
+        let found = of(Foaming::Auto, &frame).unwrap();
+        let number = |speed: f32| found.scale * 1000.0 * speed * speed;
+        assert!((found.threshold / number(95.0) - 1.0).abs() < 1.0e-5, "{found:?}");
+        assert_eq!(of(Foaming::From(7.0), &frame).unwrap().threshold, 7.0);
+        assert!(of(Foaming::None, &frame).is_none());
+        // Spray is no water: then it is the particle before.
+        frame.densities = Some((0..100).map(|i| if i > 95 { 1.0 } else { 1000.0 }).collect());
+        let without = of(Foaming::Auto, &frame).unwrap();
+        assert!((without.threshold / number(91.0) - 1.0).abs() < 1.0e-5, "{without:?}");
+        // One that was just emitted has no density yet, and is water as any other.
+        frame.densities = Some(vec![0.0; 100]);
+        assert_eq!(of(Foaming::Auto, &frame), Some(found));
+        frame.velocities = Some(vec![[0.0; 3]; 100]);
+        assert!(of(Foaming::Auto, &frame).is_none(), "water at rest");
+        frame.velocities = None;
+        assert!(of(Foaming::Auto, &frame).is_none() && of(Foaming::From(7.0), &frame).is_none());
+    }
+
+    /// What goes with the wind does not foam, and what is at rest in it does: by the number of the relative velocity
+    /// (Eq. 3.1 of the thesis), whatever its unit.
+    #[test]
+    fn water_foams_by_its_speed_through_the_air() {
+        let frame = csv();
+        let of = |air: [f32; 3], weber| {
+            let table = SurfaceFoamTable { air: Some(air), weber, ..SurfaceFoamTable::default() };
+            let look = Settings::default();
+            settings(
+                Foaming::Auto,
+                (&table, FoamBy::Speed),
+                std::slice::from_ref(&frame),
+                &[0.0],
+                &look,
+            )
+            .unwrap()
+        };
+        for weber in [None, Some(Weber::Full)] {
+            let against = of([-10.0, 0.0, 0.0], weber);
+            let with = of([200.0, 0.0, 0.0], weber);
+            let speed = |foam: WeberSettings| (foam.threshold / (foam.scale * 1000.0)).sqrt();
+            assert!((speed(against) - 105.0).abs() < 1.0e-3, "{against:?}");
+            // The slowest are now the fastest, from 101 to 200.
+            assert!((speed(with) - 196.0).abs() < 1.0e-3, "{with:?}");
+        }
+        let said = SurfaceFoamTable { threshold: Some(7.0), ..SurfaceFoamTable::default() };
+        let of = |wanted| {
+            let look = Settings::default();
+            settings(wanted, (&said, FoamBy::Speed), std::slice::from_ref(&frame), &[0.0], &look)
+        };
+        assert_eq!(of(Foaming::Auto).unwrap().threshold, 7.0);
+        assert_eq!(of(Foaming::From(8.0)).unwrap().threshold, 8.0, "the command line goes first");
+        assert!(of(Foaming::None).is_none());
+    }
+
+    /// Two blocks that run into each other foam where they meet; one that flows, however fast, or that trembles, does not.
+    #[test]
+    fn water_foams_where_it_traps_air() {
+        let spacing = Settings::default().water.spacing;
+        let at = |i: u16| [i % 16, i / 16 % 16, i / 256].map(|i| spacing * (f32::from(i) - 7.5));
+        let mut frame = Particles::from_positions((0..4096).map(at).collect());
+        let mut of = |velocity: &dyn Fn(usize, [f32; 3]) -> [f32; 3]| {
+            let each = frame.positions.iter().enumerate().map(|(i, p)| velocity(i, *p));
+            frame.velocities = Some(each.collect());
+            let table = SurfaceFoamTable::default();
+            let by = (&table, FoamBy::Air);
+            let frames = std::slice::from_ref(&frame);
+            settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()).map(|found| {
+                let numbers = numbers(&driven(&frame, spacing), &found, 0.0);
+                let foam = numbers.iter().filter(|(_, n)| *n >= found.threshold);
+                (
+                    foam.clone().count(),
+                    foam.map(|(i, _)| frame.positions[*i][1].abs()).fold(0.0, f32::max),
+                )
+            })
+        };
+        assert_eq!(of(&|_, _| [0.0; 3]), None, "at rest");
+        assert_eq!(of(&|_, _| [20.0, -7.0, 3.0]), None, "flows");
+        let tremble = |i: usize, _| {
+            [0.05 * ((i * 7919) as f32).sin(), 0.05 * ((i * 104_729) as f32).cos(), 0.0]
+        };
+        assert_eq!(of(&tremble), None, "trembles");
+        let (count, farthest) = of(&|_, p| [0.0, -2.0 * p[1].signum(), 0.0]).unwrap();
+        // Of two layers of 256 on either side those that have neighbours all round.
+        assert!((100..=512).contains(&count) && farthest < 1.6 * spacing, "{count} {farthest}");
+        frame.velocities = None;
+        let by = (&SurfaceFoamTable::default(), FoamBy::Air);
+        let frames = std::slice::from_ref(&frame);
+        assert_eq!(settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()), None);
+    }
+
+    /// Water that trembles, that flows as a whole and that is slow does not foam in a sequence; what is faster than the flow by
+    /// as much as draws in air does, and nothing else.
+    #[test]
+    fn air_is_not_drawn_in_by_calm_water() {
+        let noise = |i: usize, seed: usize| ((i * 7919 + seed * 104_729) as f32).sin();
+        let of = |velocity: &dyn Fn(usize) -> [f32; 3]| {
+            let mut frame = Particles::from_positions(vec![[0.0; 3]; 2000]);
+            frame.velocities = Some((0..2000).map(velocity).collect());
+            let by = (&SurfaceFoamTable::default(), FoamBy::Speed);
+            let frames = [frame.clone(), frame];
+            settings(Foaming::Auto, by, &frames, &[0.0, 0.1], &Settings::default())
+        };
+        let trembles = |size: f32| move |i| [1, 2, 3].map(|seed| size * noise(i, seed));
+        assert_eq!(of(&trembles(0.003)), None, "millimetres a second");
+        assert_eq!(of(&trembles(0.5)), None, "less than a metre a second");
+        assert_eq!(of(&|_| [3.0, 0.0, 0.0]), None, "uniform");
+        assert_eq!(of(&|i| [3.0 + 0.01 * noise(i, 1), 0.0, 0.01 * noise(i, 2)]), None, "a river");
+        assert!(of(&trembles(3.0)).is_some());
+        // A jet into a pool at rest, of one in a hundred: slower water does not foam though that is a twentieth.
+        let jet = of(&|i| [0.0, if i % 100 == 0 { -4.0 } else { 0.2 * noise(i, 1) }, 0.0]).unwrap();
+        assert!((jet.threshold / (jet.scale * 1000.0) - ONSET * ONSET).abs() < 1.0e-4, "{jet:?}");
+        assert_eq!(jet.air, [0.0; 3]);
+        // Behind a stone in a river.
+        let wake = of(&|i| [if i % 50 == 0 { -1.0 } else { 3.0 }, 0.0, 0.0]).unwrap();
+        assert_eq!(wake.air, [3.0, 0.0, 0.0], "the water's own speed does not count");
+        // A number that is said is taken as it is.
+        let mut frame = Particles::from_positions(vec![[0.0; 3]; 10]);
+        frame.velocities = Some(vec![[0.001; 3]; 10]);
+        let by = (&SurfaceFoamTable::default(), FoamBy::Speed);
+        let said = Foaming::From(1.0e-6);
+        assert!(settings(said, by, &[frame], &[0.0], &Settings::default()).is_some());
+    }
+
+    #[test]
+    fn numbers_that_are_said_are_of_the_own_speed() {
+        let of = |table: SurfaceFoamTable, wanted| table.by(wanted, false);
+        assert_eq!(of(SurfaceFoamTable::default(), Foaming::Auto), FoamBy::Air);
+        assert_eq!(
+            SurfaceFoamTable::default().by(Foaming::Auto, true),
+            FoamBy::Speed,
+            "as in the thesis"
+        );
+        assert_eq!(of(SurfaceFoamTable::default(), Foaming::From(80.0)), FoamBy::Speed);
+        let threshold =
+            || SurfaceFoamTable { threshold: Some(80.0), ..SurfaceFoamTable::default() };
+        assert_eq!(of(threshold(), Foaming::Auto), FoamBy::Speed);
+        let wind = SurfaceFoamTable { air: Some([3.0, 0.0, 0.0]), ..SurfaceFoamTable::default() };
+        assert_eq!(of(wind, Foaming::Auto), FoamBy::Speed);
+        assert_eq!(
+            of(SurfaceFoamTable { by: Some(FoamBy::Air), ..threshold() }, Foaming::Auto),
+            FoamBy::Air
+        );
+    }
+
+    /// Other four of a hundred are fast in each of ten frames: less than a twentieth. All that were within a
+    /// lifetime are more than three tenths.
+    #[test]
+    fn no_more_than_three_tenths_foam_at_a_time() {
+        let mut frames: Vec<Particles> = (0..10)
+            .map(|frame| {
+                let speed = |i: usize| if i / 4 == frame { 9.0 } else { 0.04 * i as f32 };
+                let mut particles = csv();
+                particles.velocities = Some((0..100).map(|i| [speed(i), 0.0, 0.0]).collect());
+                particles.ids = Some((0..100).collect());
+                particles
+            })
+            .collect();
+        let of = |frames: &[Particles], apart: f32| {
+            let seconds: Vec<f32> = (0..10_u8).map(|i| apart * f32::from(i)).collect();
+            let table = SurfaceFoamTable::default();
+            let look = Settings::default();
+            let found =
+                settings(Foaming::Auto, (&table, FoamBy::Speed), frames, &seconds, &look).unwrap();
+            (found.threshold / (found.scale * 1000.0)).sqrt()
+        };
+        assert!((of(&frames, 0.1) - 9.0).abs() < 1.0e-3, "{}", of(&frames, 0.1));
+        assert!(of(&frames, 0.2) < 4.0, "five frames to a lifetime: two tenths");
+        frames.iter_mut().for_each(|frame| frame.ids = None);
+        assert!(of(&frames, 0.1) < 4.0, "nobody knows who they are");
+    }
+}

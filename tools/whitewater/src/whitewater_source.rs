@@ -1,0 +1,574 @@
+//! Whitewater particles from files of the same frames.
+
+use std::collections::{BTreeMap, HashMap};
+use std::f32::consts::PI;
+use std::iter;
+use std::path::PathBuf;
+
+use glam::Vec3;
+use whitewater::Settings;
+use whitewater::WhitewaterSettings;
+use whitewater::headless::{self, Headless};
+use whitewater::io::particles::{Particles, Parts};
+
+use crate::args::{Up, Whitewater};
+use crate::bubbles::Random;
+use crate::failure::{Failure, Outcome};
+use crate::frames;
+use crate::generate::Generate;
+use crate::placing::Placing;
+use crate::settings::SettingsFile;
+
+/// Frames in which the longest life is looked for, and how close together particles lie.
+const PROBES: usize = 16;
+
+/// Where the whitewater particles come from.
+pub enum WhitewaterSource {
+    Files(Files),
+    Made(Box<Generate>),
+}
+
+/// The files of a sequence, by frame.
+pub struct Files {
+    frames: BTreeMap<u64, Vec<(PathBuf, Option<u32>)>>,
+    placing: Placing,
+    /// The longest life: none where no file says how long they live.
+    life: Option<f32>,
+    /// Of each kind, how many a column holds that holds any; none where there are none of it.
+    columns: [Option<f32>; 3],
+    /// The most particles of a frame.
+    most: usize,
+    /// How each is drawn, where that is found.
+    drawn: Option<Drawn>,
+}
+
+/// How the particles of files are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Drawn {
+    /// Of foam, spray and bubbles.
+    radii: [f32; 3],
+    /// So many in the place of one.
+    copies: u32,
+    /// The water's.
+    spacing: f32,
+}
+
+/// The whitewater particles of a frame, in files that are open. Nothing needs all of them at once: of the frames before
+/// nothing is known of them, camera and light are found by the water. So no more than a part is in memory.
+pub struct Reading {
+    files: Vec<(Parts<'static>, Option<u32>)>,
+    placing: Placing,
+    life: Option<f32>,
+    drawn: Option<Drawn>,
+}
+
+/// A part of them, as it is uploaded.
+struct Part {
+    positions: Vec<[f32; 3]>,
+    kinds: Vec<u32>,
+    radii: Option<Vec<f32>>,
+    ages: Vec<f32>,
+    ids: Option<Vec<u32>>,
+}
+
+/// Kinds: foam, spray and bubbles. What has another number is foam.
+const KINDS: usize = 3;
+
+fn kind_of(number: u32) -> usize {
+    usize::try_from(number).ok().filter(|kind| *kind < KINDS).unwrap_or(0)
+}
+
+/// Thickness that foam of one particle a column adds to it on average, with a radius as long as the column is wide: its
+/// disc, by its mean size squared (a radius is divided by 1 to 5; Akinci et al. 2013, Sec. 2.1) and its mean shape
+/// (1 - x^2.25).
+const SHARE: f32 =
+    PI * (1.0 + 1.0 / 4.0 + 1.0 / 9.0 + 1.0 / 16.0 + 1.0 / 25.0) / 5.0 * (1.0 - 2.0 / 4.25);
+/// What a column of the mean number of particles hides where they lie evenly, and radii can be chosen so. Few that lie
+/// anyhow leave gaps, and hide less on average.
+const HIDDEN: f32 = 0.8;
+/// `half` of few particles: the middle of one alone hides 1 / 1.12, as a drop of white water does.
+const FEW: f32 = 0.12;
+/// So many particles a column that holds any are drawn at least, of foam or spray, where there are fewer: each as several,
+/// no more than the second number and no more of all than the third.
+const COPIES: (f32, u32, usize) = (60.0, 24, 3_000_000);
+/// Copies lie so many spacings from their particle at most, of foam, spray and bubbles; foam a third of that above and below.
+const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
+/// Shortest and longest radius in spacings: in smaller spheres their own shadow is not found, larger ones look like balls.
+const RADII: [f32; 2] = [0.1, 0.25];
+
+/// How large and how opaque whitewater particles are. Files hold ten thousand or ten million for the same splash: Akinci's
+/// numbers are for millions, and make a few a haze.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sizes {
+    /// Of foam, spray and bubbles.
+    pub radii: [f32; 3],
+    /// ρ_mod of the intensity.
+    pub half: f32,
+}
+
+impl Sizes {
+    /// By how many a column of one spacing squared holds that holds any. Thickness of a column of `n` with a radius of `r`
+    /// spacings is `SHARE n r^2`; the radius is such that the mean column hides [`HIDDEN`] with `half` of [`FEW`], within
+    /// [`RADII`]. Where that is more, as the least radius makes it of many, `half` rises so that it hides as much, to the
+    /// source's 3 at most: from there on many hide more. By foam and spray: bubbles are seen through water.
+    pub fn of_columns(columns: [Option<f32>; 3], spacing: f32) -> Self {
+        let WhitewaterSettings { half_intensity_thickness: most, exponent, .. } =
+            WhitewaterSettings::of_spacing(spacing);
+        let odds = HIDDEN / (1.0 - HIDDEN);
+        let thickness = (FEW * odds).powf(exponent.recip());
+        let least = RADII[0];
+        let radius = |n: f32| (thickness / (SHARE * n)).sqrt().clamp(least, RADII[1]);
+        let radii = columns.map(|n| n.map_or(RADII[1], radius));
+        let thickest =
+            columns.iter().zip(radii).take(2).filter_map(|(n, r)| Some(SHARE * (*n)? * r * r));
+        let half = thickest.fold(0.0, f32::max).powf(exponent) / odds;
+        Self { radii: radii.map(|r| r * spacing), half: half.clamp(FEW, most) }
+    }
+}
+
+/// How many of each kind lie in columns of one spacing squared.
+#[derive(Default)]
+pub struct Columns {
+    /// Of the frame that is looked at.
+    here: HashMap<[i64; 2], [u32; KINDS]>,
+    /// Of all: particles, and columns with any.
+    sums: [[u64; 2]; KINDS],
+}
+
+impl Columns {
+    /// Those of a frame, or a part of them.
+    pub fn add(&mut self, part: &Particles, kind: Option<u32>, placing: Placing, spacing: f32) {
+        for (i, &[x, y, z]) in part.positions.iter().enumerate() {
+            let gone =
+                part.lifetimes.as_ref().is_some_and(|left| left[i].is_nan() || left[i] <= 0.0);
+            let across = if placing.up == Up::Z { y } else { z };
+            if gone || !(x.is_finite() && across.is_finite()) {
+                continue;
+            }
+            let column = [x, across].map(|c| (c * placing.scale / spacing).floor() as i64);
+            let kind = kind.or_else(|| Some(part.kinds.as_ref()?[i])).map_or(0, kind_of);
+            self.here.entry(column).or_default()[kind] += 1;
+        }
+    }
+
+    pub fn end_frame(&mut self) {
+        for counts in self.here.drain().map(|(_, counts)| counts) {
+            for (sums, count) in self.sums.iter_mut().zip(counts).filter(|(_, count)| *count > 0) {
+                *sums = [sums[0] + u64::from(count), sums[1] + 1];
+            }
+        }
+    }
+
+    /// Particles to a column of those that hold any, of each kind.
+    pub fn means(&self) -> [Option<f32>; KINDS] {
+        self.sums.map(|[all, columns]| (columns > 0).then(|| all as f32 / columns as f32))
+    }
+}
+
+impl Files {
+    /// Finds them; none where none are named. `single`: one frame is drawn, whose file may have any number. `spacing`: of
+    /// the water.
+    pub fn find(
+        named: &[Whitewater],
+        placing: Placing,
+        single: Option<u64>,
+        spacing: f32,
+    ) -> Outcome<Option<Self>> {
+        if named.is_empty() {
+            return Ok(None);
+        }
+        let mut frames: BTreeMap<u64, Vec<_>> = BTreeMap::new();
+        for named in named {
+            let Whitewater::Files { kind, files } = named else {
+                let why =
+                    "--whitewater: expected 'generate' or files, found both or one of it twice";
+                return Err(Failure::usage(why));
+            };
+            let found = frames::files(std::slice::from_ref(files), false)?;
+            let alone = single.filter(|_| found.len() == 1);
+            for frame in found {
+                let number = alone.unwrap_or(frame.number);
+                frames.entry(number).or_default().push((frame.path, *kind));
+            }
+        }
+        let mut files =
+            Self { frames, placing, life: None, columns: [None; 3], most: 0, drawn: None };
+        files.look(spacing);
+        Ok(Some(files))
+    }
+
+    /// At some frames of the whole sequence, so that what is found is the same however it is cut into jobs.
+    fn look(&mut self, spacing: f32) {
+        let step = self.frames.len().div_ceil(PROBES).max(1);
+        let (mut longest, mut columns, mut here) = (None, Columns::default(), 0);
+        for (path, kind, last) in self.frames.values().step_by(step).flat_map(|files| {
+            let last = files.len() - 1;
+            files.iter().enumerate().map(move |(i, (path, kind))| (path, *kind, i == last))
+        }) {
+            let mut most: Option<f32> = None;
+            let read = Parts::open_with(path, Parts::USUAL, |part| {
+                let lifetimes = part.lifetimes.iter().flatten().copied();
+                most = lifetimes.filter(|l| l.is_finite()).chain(most).reduce(f32::max);
+                columns.add(part, kind, self.placing, spacing);
+                here += part.positions.len();
+            });
+            // One that can't be read is said when its frame is drawn.
+            if read.is_ok() {
+                longest = most.into_iter().chain(longest).reduce(f32::max);
+            }
+            if last {
+                columns.end_frame();
+                self.most = self.most.max(std::mem::take(&mut here));
+            }
+        }
+        self.life = longest.filter(|life| *life > 0.0);
+        self.columns = columns.means();
+    }
+
+    /// Chooses radii and opacity by how close together they lie, where the file of settings does not say them. The thesis'
+    /// look has none of its own: it is left as it is.
+    pub fn choose(&mut self, file: &SettingsFile, settings: &mut Settings) {
+        if file.is_thesis() {
+            return;
+        }
+        let table = &file.whitewater;
+        let said = table.radii.is_some() || table.radius.is_some();
+        let spacing = settings.water.spacing;
+        let few = || if said { 1 } else { copies(self.columns, self.most) };
+        let copies = table.copies.map_or_else(few, |copies| copies.clamp(1, 64));
+        let columns = self.columns.map(|n| n.map(|n| n * copies as f32));
+        let found = Sizes::of_columns(columns, spacing);
+        let radii = table.radii.or((!said).then_some(found.radii));
+        if let Some(radii) = radii {
+            self.drawn = Some(Drawn { radii, copies, spacing });
+            settings.whitewater.radius = radii.into_iter().fold(0.0, f32::max);
+        }
+        settings.whitewater.half_intensity_thickness =
+            table.half_intensity_thickness.unwrap_or(found.half);
+    }
+
+    /// Radii of foam, spray and bubbles, where they are not all alike.
+    pub fn radii(&self) -> Option<[f32; 3]> {
+        self.drawn.map(|drawn| drawn.radii)
+    }
+
+    /// As how many each is drawn.
+    pub fn copies(&self) -> u32 {
+        self.drawn.map_or(1, |drawn| drawn.copies)
+    }
+
+    /// What to say where some of the frames have no file of their number; fails where none has.
+    pub fn missing(&self, frames: &[u64]) -> Outcome<Option<String>> {
+        let without = frames.iter().filter(|frame| !self.frames.contains_key(frame));
+        let without: Vec<_> = without.collect();
+        let Some(first) = without.first() else { return Ok(None) };
+        if without.len() == frames.len()
+            && let (Some((low, files)), Some((high, _))) =
+                (self.frames.first_key_value(), self.frames.last_key_value())
+        {
+            let file = files.first().map_or(String::new(), |(path, _)| path.display().to_string());
+            let range = |low: &u64, high: &u64| match low == high {
+                true => format!("{low}"),
+                false => format!("{low} to {high}"),
+            };
+            let last = frames.last().unwrap_or(first);
+            return Err(Failure::input(format!(
+                "--whitewater: expected files of the frames {}, found {} files of the numbers {}, the first {file}: the \
+                 last number in the name is the frame; rename one of the sequences",
+                range(frames.first().unwrap_or(first), last),
+                self.frames.len(),
+                range(low, high),
+            )));
+        }
+        let (count, total) = (without.len(), frames.len());
+        Ok(Some(format!(
+            "--whitewater: {count} of {total} frames, from {first} on, have no file of their number and are drawn without \
+             whitewater particles"
+        )))
+    }
+
+    /// Opens those of a frame; none where there is no file of its number.
+    pub fn open(&self, frame: u64) -> Outcome<Reading> {
+        let named = self.frames.get(&frame).into_iter().flatten();
+        let open =
+            |(path, kind): &(PathBuf, _)| Outcome::Ok((Parts::open(path, Parts::USUAL)?, *kind));
+        let files = named.map(open).collect::<Outcome<_>>()?;
+        Ok(Reading { files, placing: self.placing, life: self.life, drawn: self.drawn })
+    }
+}
+
+impl Reading {
+    /// Particles of all files.
+    pub fn read(&self) -> usize {
+        self.files.iter().map(|(parts, _)| parts.total()).sum()
+    }
+
+    /// Particles of all files, as they are drawn.
+    pub fn total(&self) -> usize {
+        let copies = self.drawn.map_or(1, |drawn| drawn.copies as usize);
+        self.files.iter().map(|(parts, _)| parts.total() * copies).sum()
+    }
+
+    /// Reads them and makes them those of the frames to come.
+    pub fn upload(self, headless: &mut Headless) -> Outcome<()> {
+        let mut upload = headless.whitewater_parts(self.total())?;
+        let mut first = 0;
+        // All files have them, or they are of no use.
+        let identified = self.files.iter().all(|(parts, _)| parts.about().ids.is_some());
+        for (parts, kind) in self.files {
+            for part in parts {
+                let part = Part::new(part?, kind, (self.placing, self.life, self.drawn), first);
+                first = first.wrapping_add(part.positions.len() as u32);
+                upload.push(&headless::Whitewater {
+                    positions: &part.positions,
+                    kinds: Some(&part.kinds),
+                    radii: part.radii.as_deref(),
+                    ages: Some(&part.ages),
+                    ids: part.ids.as_deref().filter(|_| identified),
+                })?;
+            }
+        }
+        Ok(upload.finish()?)
+    }
+}
+
+impl Part {
+    fn new(
+        mut read: Particles,
+        kind: Option<u32>,
+        (placing, life, drawn): (Placing, Option<f32>, Option<Drawn>),
+        first: u32,
+    ) -> Self {
+        placing.place(&mut read);
+        let count = read.positions.len();
+        let kinds = kind.map(|kind| vec![kind; count]).or(read.kinds);
+        let age = |left: f32| match life {
+            // What is left is less than nothing: gone.
+            Some(life) if left > 0.0 => (1.0 - left / life).max(0.0),
+            _ => 1.0,
+        };
+        let ages = read.lifetimes.map(|left| left.into_iter().map(age).collect());
+        let kinds = kinds.unwrap_or_else(|| vec![0; count]);
+        let mut part = Self {
+            positions: read.positions,
+            radii: None,
+            kinds,
+            ages: ages.unwrap_or_else(|| vec![0.0; count]),
+            ids: read.ids,
+        };
+        if let Some(drawn) = drawn {
+            part.scatter(&drawn, first);
+            let of_kind = |kind: &u32| drawn.radii[kind_of(*kind)];
+            part.radii = Some(part.kinds.iter().map(of_kind).collect());
+        }
+        part
+    }
+
+    /// Puts several round each, the first in its place, by its id, or by its number where it has none.
+    fn scatter(&mut self, drawn: &Drawn, first: u32) {
+        let copies = drawn.copies as usize;
+        if copies < 2 {
+            return;
+        }
+        let known = |i: usize| self.ids.as_ref().map_or(first.wrapping_add(i as u32), |ids| ids[i]);
+        let mut positions = Vec::with_capacity(self.positions.len() * copies);
+        for (i, &p) in self.positions.iter().enumerate() {
+            positions.push(p);
+            let kind = kind_of(self.kinds[i]);
+            // A ball has more outside than in its middle; these are denser there.
+            let reach = SCATTER[kind] * drawn.spacing;
+            let high = if kind == 0 { reach / 3.0 } else { reach };
+            // The golden ratio's bits: neighbours' numbers are far apart.
+            let mut random = Random((u64::from(known(i)) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            positions.extend((1..copies).map(|_| {
+                let away = Vec3::from([(); 3].map(|()| 2.0 * random.next() - 1.0));
+                let away = away.normalize_or_zero() * random.next();
+                (Vec3::from(p) + away * Vec3::new(reach, high, reach)).to_array()
+            }));
+        }
+        let each =
+            |values: &[f32]| values.iter().flat_map(|v| iter::repeat_n(*v, copies)).collect();
+        self.positions = positions;
+        self.ages = each(&self.ages);
+        self.kinds = self.kinds.iter().flat_map(|v| iter::repeat_n(*v, copies)).collect();
+        self.ids = self.ids.take().map(|ids| {
+            let number =
+                |id: u32| (0..drawn.copies).map(move |k| id.wrapping_mul(drawn.copies) + k);
+            ids.into_iter().flat_map(number).collect()
+        });
+    }
+}
+
+/// As how many particles each is drawn: by the kind of foam and spray that has the fewest a column.
+fn copies(columns: [Option<f32>; KINDS], most: usize) -> u32 {
+    let (wanted, copies, all) = COPIES;
+    let fewest = columns.into_iter().take(2).flatten().fold(f32::INFINITY, f32::min);
+    let room = (all / most.max(1)).clamp(1, copies as usize) as u32;
+    ((wanted / fewest).ceil() as u32).clamp(1, room)
+}
+
+/// `generate` or `[KIND=]FILES`.
+pub fn named(text: &str) -> Result<Whitewater, String> {
+    if text == "generate" {
+        return Ok(Whitewater::Generate);
+    }
+    let kinds = [("foam=", 0), ("spray=", 1), ("bubble=", 2)];
+    let found = kinds.into_iter().find_map(|(name, kind)| Some((text.strip_prefix(name)?, kind)));
+    let (files, kind) = match found {
+        Some((files, kind)) => (files, Some(kind)),
+        None => (text, None),
+    };
+    if files.is_empty() {
+        return Err("expected files, as in whitewater_%04d.bgeo or bubble=bubbles_*.bgeo".into());
+    }
+    Ok(Whitewater::Files { kind, files: files.into() })
+}
+
+/// Their number, where it is one that the renderer takes.
+pub fn counted(count: usize) -> Outcome<u32> {
+    u32::try_from(count)
+        .map_err(|_| Failure::input("expected fewer than 2^32 whitewater particles, found more"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_without_a_file_are_told() {
+        let frames = [2, 4].map(|frame| (frame, vec![(PathBuf::new(), None)])).into();
+        let columns = [None; 3];
+        let placing = Placing::default();
+        let files = Files { frames, placing, life: None, columns, most: 0, drawn: None };
+        assert_eq!(files.missing(&[2, 4]).unwrap(), None);
+        let said = files.missing(&[2, 3, 4, 5]).unwrap().expect("a warning");
+        assert!(said.contains("2 of 4 frames, from 3 on"), "{said}");
+        let failure = files.missing(&[10, 11]).unwrap_err();
+        for part in ["frames 10 to 11", "2 files of the numbers 2 to 4"] {
+            assert!(failure.message.contains(part), "{}", failure.message);
+        }
+    }
+
+    /// Opacity of a column of `n` particles of foam (Akinci et al. 2013, Sec. 2.3).
+    fn hidden(n: f32, radius: f32, half: f32) -> f32 {
+        let power = (SHARE * n * radius * radius).powf(1.25);
+        power / (half + power)
+    }
+
+    /// The same patch of 40 by 40 columns, resolved by a thousand to ten million particles. With the library's numbers it
+    /// is a hundredth as opaque, or less, where they are ten thousand.
+    #[test]
+    fn ten_thousand_and_ten_million_read_as_foam() {
+        let of = |n: f32, spacing: f32| {
+            let Sizes { radii, half } = Sizes::of_columns([Some(n), None, None], spacing);
+            (hidden(n, radii[0] / spacing, half), radii[0] / spacing, half)
+        };
+        let of_count = |count: f32| of(count / 1600.0, 0.02);
+        let all = [1.0e3, 1.0e4, 1.0e5, 1.0e6, 3.0e6, 1.0e7].map(of_count);
+        assert!(
+            all.windows(2).all(|two| two[0].0 < two[1].0 + 1.0e-5),
+            "more hides no less: {all:?}"
+        );
+        let [thousand, ten, hundred, million, _, most] = all;
+        // Less than one a column: a ball of the longest radius here and there.
+        assert!(thousand.1 == RADII[1] && thousand.2 == FEW, "{thousand:?}");
+        assert!((0.45..0.8).contains(&ten.0) && ten.1 == RADII[1] && ten.2 == FEW, "{ten:?}");
+        assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 < 0.2, "{hundred:?}");
+        assert!((million.0 / HIDDEN - 1.0).abs() < 1.0e-4 && million.2 > FEW, "{million:?}");
+        assert!(most.0 > HIDDEN && most.2 == 3.0, "{most:?}");
+        assert!([million, most].iter().all(|of| (of.1 - RADII[0]).abs() < 1.0e-6));
+        assert!(hidden(1.0e4 / 1600.0, 0.15, 3.0) < 0.02, "as the source's numbers have it");
+        // Whatever the unit.
+        assert!((of(30.0, 0.02).1 - of(30.0, 5.0).1).abs() < 1.0e-6);
+        // Spray is sparse where foam is dense; of what is not there anything may do.
+        let Sizes { radii, .. } = Sizes::of_columns([Some(200.0), Some(2.0), None], 1.0);
+        assert_eq!(radii, [RADII[0], RADII[1], RADII[1]]);
+    }
+
+    #[test]
+    fn few_are_drawn_as_several_where_each_lies() {
+        assert_eq!(copies([Some(120.0), Some(60.0), Some(1.0)], 1_000_000), 1, "bubbles need none");
+        assert_eq!(copies([Some(120.0), Some(10.0), None], 10_000), 6);
+        assert_eq!(copies([Some(0.5), None, None], 10_000), COPIES.1);
+        assert_eq!(copies([Some(0.5), None, None], 1_000_000), 3, "no more of all");
+        assert_eq!(copies([None; 3], 0), 1);
+        let mut read = Particles::from_positions((0..6_u8).map(|i| [f32::from(i); 3]).collect());
+        read.kinds = Some(vec![0, 1, 2, 0, 1, 2]);
+        read.lifetimes = Some(vec![1.0, 2.0, 0.5, 1.0, 2.0, 0.5]);
+        read.ids = Some((10..16).collect());
+        let radii = [0.01, 0.02, 0.03];
+        let drawn = Drawn { radii, copies: 5, spacing: 0.1 };
+        let of = |read: Particles, drawn| {
+            Part::new(read, None, (Placing::default(), Some(2.0), drawn), 0)
+        };
+        let (one, all) = (of(read.clone(), None), of(read.clone(), Some(drawn)));
+        assert_eq!((all.positions.len(), all.radii.as_ref().map(Vec::len)), (30, Some(30)));
+        for (i, copies) in all.positions.chunks(5).enumerate() {
+            assert_eq!(copies[0], one.positions[i]);
+            let reach = 0.1 * SCATTER[i % 3];
+            let off = |p: &[f32; 3]| Vec3::from(*p) - Vec3::from(one.positions[i]);
+            let tall = if i % 3 == 0 { reach / 3.0 } else { reach };
+            let near =
+                |p: &[f32; 3]| off(p).length() <= 1.001 * reach && off(p).y.abs() <= 1.001 * tall;
+            assert!(copies.iter().all(near), "{copies:?}");
+            assert!(copies[1..].iter().all(|p| off(p).length() > 0.0), "{copies:?}");
+            assert_eq!(all.ages[5 * i..][..5], [one.ages[i]; 5]);
+            assert_eq!(all.radii.as_ref().unwrap()[5 * i + 4], radii[i % 3]);
+        }
+        let mut ids = all.ids.clone().unwrap();
+        ids.sort_unstable();
+        ids.dedup();
+        assert_eq!(ids.len(), 30);
+        // In another place of the file the same particle has the same copies.
+        read.positions.reverse();
+        read.ids.as_mut().unwrap().reverse();
+        read.kinds.as_mut().unwrap().reverse();
+        read.lifetimes.as_mut().unwrap().reverse();
+        let turned = of(read, Some(drawn));
+        assert_eq!(turned.positions[25..], all.positions[..5]);
+    }
+
+    #[test]
+    fn columns_are_counted_by_kind() {
+        let mut part = Particles::from_positions(vec![
+            [0.1, 5.0, 0.2],
+            [0.3, -9.0, 0.4],
+            [0.1, 0.0, 0.9],
+            [1.5, 0.0, 0.5],
+            [-0.1, 0.0, 0.5],
+            [0.5, 0.0, f32::NAN],
+            [9.5, 0.0, 0.0],
+        ]);
+        part.kinds = Some(vec![0, 0, 1, 9, 0, 0, 0]);
+        part.lifetimes = Some(vec![1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -2.0]);
+        let mut columns = Columns::default();
+        let counted = |columns: &mut Columns, kind, up| {
+            columns.add(&part, kind, Placing { up, ..Placing::default() }, 1.0);
+            columns.end_frame();
+            columns.means()
+        };
+        // Four of foam in three columns; what is no number and what is gone in none.
+        assert_eq!(counted(&mut columns, None, Up::Y), [Some(4.0 / 3.0), Some(1.0), None]);
+        assert_eq!(counted(&mut columns, None, Up::Y), [Some(4.0 / 3.0), Some(1.0), None]);
+        let mut columns = Columns::default();
+        assert_eq!(counted(&mut columns, Some(2), Up::Y), [None, None, Some(5.0 / 3.0)]);
+        // Of z-up files the second axis is across: of five four lie at y = 0 (one has no z), in four columns with the rest.
+        let mut columns = Columns::default();
+        assert_eq!(counted(&mut columns, Some(0), Up::Z)[0], Some(6.0 / 5.0));
+        // Two files of one frame are in the same columns.
+        let mut columns = Columns::default();
+        columns.add(&part, Some(0), Placing::default(), 1.0);
+        assert_eq!(counted(&mut columns, Some(0), Up::Y)[0], Some(10.0 / 3.0));
+    }
+
+    #[test]
+    fn files_are_named_with_their_kind() {
+        let of = |kind, files: &str| Ok(Whitewater::Files { kind, files: files.into() });
+        assert_eq!(named("a_%d.bgeo"), of(None, "a_%d.bgeo"));
+        assert_eq!(named("bubble=b*.ply"), of(Some(2), "b*.ply"));
+        assert_eq!(named("oil=b.ply"), of(None, "oil=b.ply"));
+        assert_eq!(named("generate"), Ok(Whitewater::Generate));
+        assert_eq!(named("./generate"), of(None, "./generate"));
+        assert!(named("spray=").is_err() && named("").is_err());
+    }
+}

@@ -1,0 +1,410 @@
+//! Whitewater particles beside the fluid's.
+
+use whitewater::io::particles::{Particles, read};
+
+use super::support::{FRONT, Folder, GROUND, SMALL, block};
+
+/// Foam before the block's middle, a bubble in it; one that is gone.
+const FOAM: &str =
+    "x,y,z,type,lifetime,id\n0,0.35,0.5,0,2,7\n0.2,0.35,0.2,2,1,8\n-0.2,0.35,0.5,1,-1,9\n";
+/// Particles as large as a few pixels.
+const LOOK: &str = "[whitewater]\nradius = 0.1\nhalf = 0.3\n";
+
+/// Foam near the eye as blobs; bubbles in the water stay what they are.
+#[test]
+fn near_foam_becomes_blobs() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    folder.text("foam.csv", FOAM);
+    let bubbles =
+        "[bubbles]\nhand_over = [8.0, 9.0]\nhand_over_blobs = 16\nhand_over_size = 2.0\nmap = 16\n";
+    folder.text("near.toml", &format!("{LOOK}{bubbles}"));
+    let common = format!("render a.ply {SMALL} {FRONT} --settings near.toml --validate");
+    folder.run(&format!("{common} -o near.exr --layers all --whitewater foam.csv")).ok();
+    let near = folder.picture("near.exr");
+    let at = |name: &str, x: usize| near.channel(name).unwrap()[32 * 96 + x];
+    assert!((1.7..1.82).contains(&at("bubbles.Z", 48)), "{}", at("bubbles.Z", 48));
+    assert!(at("whitewater.thickness", 48) == 0.0, "no sprite where a blob is");
+    let bubble = near.channel("whitewater.submerged").unwrap().iter().any(|v| *v > 0.0);
+    assert!(bubble, "the bubble is one still");
+    let text =
+        folder.run(&format!("{common} -o none.png")).fails(2, &["crossfade", "--whitewater"]);
+    assert!(!text.stderr().is_empty() && !folder.exists("none.png"));
+}
+
+#[test]
+fn whitewater_particles_are_drawn_before_and_in_the_water() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    folder.text("foam.csv", FOAM);
+    folder.text("look.toml", LOOK);
+    let common = format!("render a.ply {SMALL} {FRONT} --settings look.toml --validate");
+    folder.run(&format!("{common} -o without.exr")).ok();
+    folder.run(&format!("{common} -o with.exr --whitewater foam.csv")).ok();
+    let (without, with) = (folder.picture("without.exr"), folder.picture("with.exr"));
+    assert!(without.channel("whitewater.Z").is_none());
+    for name in [
+        "whitewater.Z",
+        "whitewater.normal.Y",
+        "whitewater.irradiance.B",
+        "whitewater.radius",
+        "[whitewater.shadow_scale, whitewater.shadow_exponent, whitewater.shadow_offset]",
+    ] {
+        assert!(with.channel(name).is_some(), "{name}");
+    }
+    // They take the place of the water's own.
+    assert!(without.channel("water.spray").is_some() && with.channel("water.spray").is_none());
+    let at = |name: &str, x: usize| with.channel(name).unwrap()[32 * 96 + x];
+    // An id of 7 makes it a third as large.
+    assert!((1.81..1.82).contains(&at("whitewater.Z", 48)), "{}", at("whitewater.Z", 48));
+    assert!(at("whitewater.thickness", 48) > 0.5 && at("whitewater.submerged", 48) == 0.0);
+    let row = |name: &str| -> Vec<f32> { (0..96).map(|x| at(name, x)).collect() };
+    let submerged = row("whitewater.submerged").iter().rposition(|v| *v > 0.0).unwrap();
+    assert!(submerged > 52, "the bubble is right of the middle: {submerged}");
+    assert!(row("whitewater.thickness")[..40].iter().all(|v| *v == 0.0), "one is gone");
+    let light = |layers: &whitewater::io::picture::Layers, x: usize| {
+        ["R", "G", "B"].map(|c| layers.channel(c).unwrap()[32 * 96 + x])
+    };
+    assert!(light(&with, 48)[0] > 1.3 * light(&without, 48)[0], "foam is white before blue water");
+}
+
+#[test]
+fn files_of_one_kind_are_that_kind() {
+    let folder = Folder::new();
+    folder.particles("water_1.ply", block(4));
+    folder.particles("water_2.ply", block(4));
+    folder.particles("bubbles_1.ply", vec![[0.0, 0.0, 0.4]]);
+    folder.particles("bubbles_2.ply", vec![[0.0, 0.0, 0.4], [0.1, 0.1, 0.4]]);
+    folder.particles("drops_2.ply", vec![[0.0, 0.3, 0.4]]);
+    folder.text("look.toml", LOOK);
+    let common = format!("render water_%d.ply {SMALL} {FRONT} --settings look.toml --spray auto");
+    let kinds = "--whitewater bubble=bubbles_%d.ply --whitewater spray=drops_%d.ply";
+    folder.run(&format!("{common} {kinds} -o a_%d.exr --layers foam.thickness,water.spray")).ok();
+    let sum = |name: &str| {
+        folder.picture(name).channel("whitewater.thickness").unwrap().iter().sum::<f32>()
+    };
+    assert!(sum("a_2.exr") > 1.5 * sum("a_1.exr") && sum("a_1.exr") > 0.0);
+    assert!(folder.picture("a_1.exr").channel("water.spray").is_some(), "as it was asked for");
+}
+
+/// Foam that fills a box, by few particles and by many: it is drawn as thick as radii say that are found by how many there
+/// are, and hides what is behind it. What a picture was drawn with draws it again; what the file of settings says holds.
+#[test]
+fn few_particles_and_many_read_as_foam() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(2));
+    let unit = |i: u32, salt: u32| {
+        (i.wrapping_mul(2_654_435_761).rotate_left(salt) >> 8) as f32 / 16_777_216.0
+    };
+    // 20 by 10 columns.
+    for (name, count) in [("few", 2_000), ("many", 200_000)] {
+        let at = |i: u32| [2.0 * unit(i, 0) - 1.0, unit(i, 11) - 0.15, unit(i, 22) - 0.5];
+        let mut foam = Particles::from_positions((0..count).map(at).collect());
+        foam.ids = Some((0..count).collect());
+        folder.write(&format!("{name}.ply"), &foam);
+    }
+    let common = format!("render a.ply {GROUND} {FRONT} --supersample 1");
+    let middle = |name: &str, channel: &str| {
+        let picture = folder.picture(name);
+        let data = picture.channel(channel).unwrap();
+        let inside = (24..40).flat_map(|y| (30..66).map(move |x| y * 96 + x));
+        inside.map(|i| data[i]).sum::<f32>() / (16.0 * 36.0)
+    };
+    let setting = |name: &str, key: &str| {
+        let attributes = folder.picture(name).attributes;
+        let text = attributes.into_iter().find(|(name, _)| name == "settings").unwrap().1;
+        let table = text.parse::<toml::Table>().unwrap();
+        table["whitewater"].as_table().unwrap().get(key).cloned()
+    };
+    // Discs of the longest radius, ten a column of which 0.293 is the mean square of 1 to 1/5, cover 1 - exp(-0.57) = 0.44;
+    // their rims hide less. Many small ones are a field, of which Sizes speaks.
+    for (name, hides) in [("few", 0.33), ("many", 0.7)] {
+        let run =
+            folder.run(&format!("{common} -o {name}.exr --whitewater {name}.ply --validate")).ok();
+        assert!(run.stderr().contains("whitewater particles with radii of"), "{}", run.stderr());
+        let exr = format!("{name}.exr");
+        let intensity = middle(&exr, "whitewater.intensity");
+        assert!(intensity > hides, "{name}: {intensity}");
+        // The mean over the discs that Sizes goes by, of what is seen from 1.85 to 2.85 away; a few at the borders.
+        let radius = setting(&exr, "radii").unwrap()[0].as_float().unwrap() as f32;
+        // Few are drawn as six each, so that there are sixty a column.
+        let n = if name == "few" { 60.0 } else { 1000.0 };
+        let expected = 0.486_7 * n * (radius / 0.1).powi(2);
+        let thickness = middle(&exr, "whitewater.thickness") + middle(&exr, "whitewater.submerged");
+        assert!((thickness / expected - 1.0).abs() < 0.1, "{name}: {thickness} {expected}");
+        let attributes = folder.picture(&exr).attributes;
+        let settings = attributes.into_iter().find(|(name, _)| name == "settings").unwrap().1;
+        folder.text("again.toml", &settings);
+        let again = "--settings again.toml -o again.exr";
+        folder.run(&format!("{common} {again} --whitewater {name}.ply")).ok();
+        folder.run(&format!("compare {exr} again.exr --tolerance 0")).ok();
+    }
+    folder.text("own.toml", "[whitewater]\nradius = 0.02\nhalf = 2.0\n");
+    folder.run(&format!("{common} --settings own.toml -o own.exr --whitewater few.ply")).ok();
+    assert_eq!(setting("own.exr", "radii"), None);
+    for (key, value) in [("radius", 0.02), ("half", 2.0)] {
+        let found = setting("own.exr", key).unwrap().as_float().unwrap();
+        assert!((found - value).abs() < 1.0e-6, "{key} {found}");
+    }
+}
+
+/// More than a part of them, in formats that are read in parts and in one that is not: the same pictures. One of the
+/// files has no ids, or all have, and the kinds are those of the files or of their names.
+#[test]
+fn what_is_read_in_parts_is_what_is_read_at_once() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    folder.text("look.toml", "[whitewater]\nradius = 0.01\n");
+    let count: u32 = 140_000;
+    let unit =
+        |i: u32, salt: u32| (i.wrapping_mul(2_654_435_761).rotate_left(salt) >> 22) as f32 / 1024.0;
+    let mut particles = Particles::from_positions(
+        (0..count).map(|i| [0, 9, 21].map(|salt| unit(i, salt) - 0.5)).collect(),
+    );
+    particles.kinds = Some((0..count).map(|i| i / 7 % 3).collect());
+    particles.lifetimes = Some((0..count).map(|i| (i % 64) as f32 / 16.0 - 0.25).collect());
+    let lifetimes = particles.lifetimes.clone().unwrap();
+    let rows = |ids: bool, range: std::ops::Range<usize>| {
+        let of = |i: usize| {
+            let ([x, y, z], life) = (particles.positions[i], lifetimes[i]);
+            let id = if ids { format!(",{}", 3 * i) } else { String::new() };
+            format!("{x},{y},{z},{},{life}{id}\n", i / 7 % 3)
+        };
+        let head = if ids { "x,y,z,type,lifetime,id\n" } else { "x,y,z,type,lifetime\n" };
+        head.to_string() + &range.map(of).collect::<String>()
+    };
+    let whole = |ids: bool, range: std::ops::Range<usize>| {
+        let list = |of: &dyn Fn(usize) -> String| {
+            format!("[{}]", range.clone().map(of).collect::<Vec<_>>().join(","))
+        };
+        let positions = list(&|i| format!("{:?}", particles.positions[i]));
+        let (kinds, life) =
+            (list(&|i| (i / 7 % 3).to_string()), list(&|i| lifetimes[i].to_string()));
+        let ids = if ids { list(&|i| (3 * i).to_string()) } else { "0".into() };
+        format!("{{\"position\":{positions},\"type\":{kinds},\"lifetime\":{life},\"id\":{ids}}}")
+    };
+    for (name, ids) in [("plain", false), ("named", true)] {
+        for (part, range) in [(1, 0..70_000), (2, 70_000..count as usize)] {
+            folder.text(&format!("{name}_{part}.csv"), &rows(ids, range.clone()));
+            folder.text(&format!("{name}_{part}.json"), &whole(ids, range));
+        }
+    }
+    for name in ["plain.bgeo.gz", "plain.npz"] {
+        folder.write(name, &particles);
+    }
+    particles.ids = Some((0..count).map(|i| 3 * i).collect());
+    for name in ["named.bgeo.gz", "named.ply", "named.vtu"] {
+        folder.write(name, &particles);
+    }
+    let draw = |files: &str, out: &str| {
+        let files = files.replace('+', "--whitewater ");
+        let look = format!("{SMALL} {FRONT} --settings look.toml");
+        folder.run(&format!("render a.ply {look} -o {out} {files}")).ok();
+        folder.picture(out).channels
+    };
+    for (what, whole, parts) in [
+        (
+            "one",
+            "+named_1.json +named_2.json",
+            &["+named.bgeo.gz", "+named_1.csv +named_2.csv"][..],
+        ),
+        (
+            "all",
+            "+named_1.json +named_2.json +bubble=named_1.json +bubble=named_2.json",
+            &["+named.ply +bubble=named.vtu"],
+        ),
+        (
+            "some",
+            "+plain_1.json +plain_2.json +spray=named_1.json +spray=named_2.json",
+            &["+plain.npz +spray=named.vtu"],
+        ),
+    ] {
+        let whole = draw(whole, &format!("{what}_whole.exr"));
+        assert!(whole.iter().any(|c| c.name == "whitewater.thickness"));
+        for parts in parts {
+            let read = draw(parts, &format!("{what}_parts.exr"));
+            assert_eq!(whole.len(), read.len());
+            let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+            for (a, b) in whole.iter().zip(&read) {
+                assert!(a.name == b.name && bits(&a.data) == bits(&b.data), "{parts}: {}", a.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn mistakes_in_whitewater_files_are_named() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    folder.text("cut.csv", "x,y,z,type\n0,0,0,0\n1,1\n");
+    let run = |more: &str| folder.run(&format!("render a.ply -o a.png {SMALL} {more}"));
+    run("--whitewater none_%d.bgeo").fails(3, &["none_%d.bgeo"]);
+    run("--whitewater cut.csv").fails(3, &["cut.csv", "line 3"]);
+    assert!(!folder.exists("a.png"));
+}
+
+#[test]
+fn a_bad_whitewater_file_loses_its_frame_alone() {
+    let folder = Folder::new();
+    for frame in 1..=2 {
+        folder.particles(&format!("water_{frame}.ply"), block(4));
+    }
+    folder.text("foam_1.csv", FOAM);
+    folder.text("foam_2.csv", "x,y,z,type\n0,0,0,0\n1,1\n");
+    let files = "water_%d.ply --whitewater foam_%d.csv -o a_%d.png";
+    folder.run(&format!("render {files} {SMALL}")).fails(1, &["1 of 2 frames", "foam_2.csv"]);
+    assert!(folder.exists("a_1.png") && !folder.exists("a_2.png"));
+}
+
+/// A block of water whose upper half goes over the lower one; frames of a thirtieth of a second.
+fn torn(folder: &Folder, frames: u32) {
+    torn_at(folder, frames, 4.0);
+}
+
+fn torn_at(folder: &Folder, frames: u32, speed: f32) {
+    for frame in 1..=frames {
+        let rows = block(8).into_iter().enumerate().map(|(id, [x, y, z])| {
+            let sign = if y > 0.0 { 1.0 } else { -1.0 };
+            let way = speed * sign * (frame - 1) as f32 / 30.0;
+            let up = 0.5 * speed * f32::from(y > 0.2);
+            format!("{},{y},{z},{},{up},0,{id}\n", x + way, speed * sign)
+        });
+        let text = format!("x,y,z,vx,vy,vz,id\n{}", rows.collect::<String>());
+        folder.text(&format!("torn_{frame}.csv"), &text);
+    }
+}
+
+#[test]
+fn whitewater_particles_are_made_of_the_water() {
+    let folder = Folder::new();
+    torn(&folder, 4);
+    folder.text(
+        "look.toml",
+        "[whitewater]\nradius = 0.1\nhalf = 0.3\n[generate]\nmax_particles = 3000\n",
+    );
+    let common =
+        format!("render torn_%d.csv {SMALL} {FRONT} --settings look.toml --fps 30 --overwrite");
+    let made = "--whitewater generate --write-whitewater made_%d.bgeo.gz";
+    let run = folder.run(&format!("{common} {made} -o a_%d.exr -o a_%d.png --validate")).ok();
+    assert!(run.stderr().contains("trapped air") && run.stderr().contains("whitewater particles"));
+    assert!(!run.stderr().contains("there is room for"), "{}", run.stderr());
+    let amount = |name: &str| {
+        folder.picture(name).channel("whitewater.thickness").unwrap().iter().sum::<f32>()
+    };
+    let amounts = [1, 2, 3, 4].map(|frame| amount(&format!("a_{frame}.exr")));
+    assert!(amounts.iter().all(|amount| *amount > 0.0), "{amounts:?} {}", run.stderr());
+    // However the sequence is cut it is the same, and so it is read again.
+    folder.run(&format!("{common} {made} --frames 4 -o b_%d.png")).ok();
+    let file = |name: &str| std::fs::read(folder.path(name)).unwrap();
+    assert_eq!(file("a_4.png"), file("b_4.png"));
+    folder.run(&format!("{common} --whitewater made_%d.bgeo.gz --frames 4 -o c_%d.exr")).ok();
+    let (made, read) = (amount("a_4.exr"), amount("c_4.exr"));
+    assert!((made / read - 1.0).abs() < 1.0e-3, "{made} {read}");
+    // Pictures that are there are not all that was asked for.
+    let keep = "--whitewater generate --write-whitewater kept_%d.ply -o b_%d.png --frames 4";
+    let again = common.replace("--overwrite", "");
+    folder.run(&format!("{again} {keep}")).ok();
+    assert!(folder.exists("kept_4.ply"));
+    // What there is no room for is told, once.
+    let rates = "[generate]\nmax_particles = 50\nrates = [4000.0, 4000.0]\n";
+    folder.text("full.toml", rates);
+    let full = common.replace("look.toml", "full.toml");
+    let run = folder.run(&format!("{full} --whitewater generate -o f_%d.png")).ok();
+    assert_eq!(run.stderr().matches("there is room for 50 whitewater particles").count(), 1);
+    // A frame by itself.
+    let alone = format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate");
+    let run = folder.run(&format!("{alone} -o d.exr")).ok();
+    // How large and how opaque they are is found by how many there are, where it is not said.
+    assert!(run.stderr().contains(" of them (found; table [whitewater]"), "{}", run.stderr());
+    folder.text("half.toml", "[whitewater]\nhalf = 3.0\nradius = 0.002\n");
+    folder.run(&format!("{alone} --settings half.toml -o e.exr")).ok();
+    assert!(amount("d.exr") > 2.0 * amount("e.exr") && amount("e.exr") > 0.0);
+}
+
+/// At the same rates a frame by itself has what its water brings, beside what the first of a sequence makes in a moment.
+#[test]
+fn a_frame_by_itself_has_foam_of_before() {
+    let folder = Folder::new();
+    // Slow: what was in the water a moment ago still is.
+    torn_at(&folder, 2, 0.5);
+    let limits = "trapped_air = [0.1, 1.0]\nwave_crest = [1.0, 4.0]\nenergy = [0.01, 0.1]";
+    folder.text("look.toml", &format!("[generate]\n{limits}\nrates = [200.0, 200.0]\n"));
+    let made = |files: &str, name: &str| {
+        let look = format!("{SMALL} {FRONT} --settings look.toml --whitewater generate");
+        let keep = format!("--write-whitewater {name}_%d.ply -o {name}_%d.png");
+        folder.run(&format!("render {files} {look} {keep}")).ok();
+        read(&folder.path(&format!("{name}_1.ply"))).unwrap().positions.len()
+    };
+    let first = made("torn_%d.csv --fps 30 --frames 1", "first");
+    let alone = made("torn_1.csv", "alone");
+    assert!(first > 500 && 2 * alone > 3 * first, "{first} {alone}");
+}
+
+/// The same water without its velocities, with its ids or in its order: they are found, and what is made of it is
+/// much the same.
+#[test]
+fn velocities_are_found_from_frame_to_frame() {
+    let folder = Folder::new();
+    torn(&folder, 3);
+    for frame in 1..=3 {
+        let text = std::fs::read_to_string(folder.path(&format!("torn_{frame}.csv"))).unwrap();
+        let columns = |which: &'static [usize]| {
+            let row = move |line: &str| {
+                let all: Vec<_> = line.split(',').collect();
+                which.iter().map(|i| all[*i]).collect::<Vec<_>>().join(",") + "\n"
+            };
+            text.lines().map(row).collect::<String>()
+        };
+        folder.text(&format!("id_{frame}.csv"), &columns(&[0, 1, 2, 6]));
+        folder.text(&format!("order_{frame}.csv"), &columns(&[0, 1, 2]));
+    }
+    // A speed up that is not in the positions counts little.
+    let limits = "trapped_air = [1.0, 10.0]\nwave_crest = [1.0, 4.0]\nenergy = [1.0, 8.0]";
+    folder.text(
+        "look.toml",
+        &format!("[whitewater]\nradius = 0.1\n[generate]\n{limits}\nrates = [500.0, 500.0]\n"),
+    );
+    let amount = |name: &str| {
+        let look = format!("{SMALL} {FRONT} --settings look.toml --fps 30 --whitewater generate");
+        let run =
+            folder.run(&format!("render {name}_%d.csv {look} --frames 3 -o {name}_%d.exr")).ok();
+        let told = run.stderr().contains("velocities are not in the files");
+        assert_eq!(told, name != "torn", "{}", run.stderr());
+        folder
+            .picture(&format!("{name}_3.exr"))
+            .channel("whitewater.thickness")
+            .unwrap()
+            .iter()
+            .sum::<f32>()
+    };
+    let [own, by_id, by_order] = ["torn", "id", "order"].map(amount);
+    assert!(own > 0.0 && (by_id / own - 1.0).abs() < 0.5, "{own} {by_id}");
+    assert!((by_order / by_id - 1.0).abs() < 0.1, "{by_id} {by_order}");
+    // One that is alone has none.
+    folder
+        .run(&format!("render id_1.csv {SMALL} --whitewater generate -o alone.png"))
+        .fails(3, &["velocities", "ids"]);
+}
+
+#[test]
+fn mistakes_in_making_whitewater_particles_are_named() {
+    let folder = Folder::new();
+    torn(&folder, 1);
+    folder.particles("still.ply", block(4));
+    folder.text("foam.csv", FOAM);
+    folder.text("bad.toml", "[generate]\nrate = 3\n");
+    folder.text("limits.toml", "[generate]\nenergy = [3.0, 1.0]\n");
+    let run = |more: &str| folder.run(&format!("render {more} {SMALL} -o a.png"));
+    run("still.ply --whitewater generate").fails(3, &["velocities"]);
+    run("torn_1.csv --whitewater generate --whitewater foam.csv").fails(2, &["generate", "both"]);
+    run("torn_1.csv --write-whitewater a.ply").fails(2, &["--whitewater generate"]);
+    run("torn_1.csv --whitewater generate --write-whitewater a.obj").fails(2, &[".bgeo", "a.obj"]);
+    run("torn_1.csv --whitewater generate --write-whitewater no/a.ply").fails(5, &["no/a.ply"]);
+    run("torn_1.csv --whitewater generate --settings bad.toml").fails(3, &["rate"]);
+    folder.text("none.toml", "[generate]\nmax_particles = 0\n");
+    run("torn_1.csv --whitewater generate --settings none.toml").fails(3, &["max_particles"]);
+    let over = "still.ply --whitewater generate --write-whitewater still.ply";
+    run(over).fails(2, &["still.ply is read"]);
+    run("torn_1.csv --whitewater generate --settings limits.toml").fails(3, &["energy"]);
+    assert!(!folder.exists("a.png"));
+}
