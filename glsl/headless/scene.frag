@@ -445,7 +445,10 @@ void main() {
         bool backdrop = push.pattern.z > 0.5;
         vec3 lifted = position + n * 1.5 * (backdrop ? 0.0 : max(around.w, 0.0));
         sun = scene.sun_color.rgb * n_l * sunlight(lifted, face);
-        sun *= backdrop ? clamp(around.w, 0.0, 1.0) : 1.0;
+        float open = clamp(around.w, 0.0, 1.0);
+        // Crowns let some light through, between the leaves and through them: yellow-green.
+        vec3 through = PATTERN == FOLIAGE ? mix(vec3(0.36, 0.42, 0.20), vec3(1.0), open) : vec3(open);
+        sun *= backdrop ? through : vec3(1.0);
     }
     vec3 up = sky_irradiance(vec3(0.0, 1.0, 0.0));
     // Where a pixel's centre lies outside of its triangle, interpolation may extrapolate the baked light

@@ -62,7 +62,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         foam_of_caches(&mut settings.surface_foam, SPACING);
         let speed = impact_speed(std::slice::from_ref(&particles));
         spray_of_caches(&mut settings.spray, SPACING, speed);
-        // Its particles are so large that whole ones would be no drops.
+        // Its particles are so large that whole ones would be no drops, and many drops each a star.
+        (settings.spray.droplets, settings.spray.size) = (40, 0.12);
         [
             settings.spray.all_spray_density,
             settings.spray.full_water_density,

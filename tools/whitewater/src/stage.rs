@@ -186,8 +186,8 @@ pub fn basin_round(
     let [ground, tiles, stone] = materials(set, wide);
     let glass = material([0.20, 0.30, 0.27], 0.15, Pattern::Plain);
     let steel = material([0.30, 0.31, 0.32], 0.3, Pattern::Plain);
-    // Inner faces, where the drawn spheres end.
-    let reach = 0.66 * spacing;
+    // Inner faces: within the drawn spheres, so that water reaches its walls.
+    let reach = 0.25 * spacing;
     let face = |side: &Side| side.at + side.sign * reach;
     let [left, right, back, front] = &sides;
     let (low, high) = (
@@ -313,7 +313,7 @@ pub fn basin_round(
 pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
     let level = glam::Vec3::new(towards_eye.x, 0.0, towards_eye.z).normalize_or(glam::Vec3::Z);
     let turned = glam::Quat::from_rotation_y(-122.0_f32.to_radians()) * level;
-    (0.55 * turned + 0.835 * glam::Vec3::Y).to_array()
+    (0.36 * turned + 0.933 * glam::Vec3::Y).to_array()
 }
 
 /// Stops by which the pictures of a set are brighter: where its stone is dark, as photographers do.
