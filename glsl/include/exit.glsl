@@ -8,7 +8,7 @@
 // Weight of the sky seen through the far surface. Water in the air has ripples finer than its particles, so
 // the rest of the light comes straight through. With weight 1 there are saturated blue blots on every crown
 // and drop.
-const float BENT = 0.3;
+const float BENT = 0.5;
 
 // Light that enters the front sheet from behind.
 struct Exit {
@@ -117,7 +117,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers)
     float sky = BENT * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     float thrown = total ? 0.0 : fresnel(outer);
     // The far surface of a film is parallel to its front one, and water on the scene has no air behind it.
-    float air = (1.0 - sheet.wet) * smoothstep(0.5 * frame.particle.x, 2.0 * frame.particle.x, sheet.thick);
+    float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);
     vec3 seen = met.share * scene_at(met.at) + (1.0 - met.share - sky) * behind;
     result.free = air * ((1.0 - thrown) * sky * textureLod(environment, world, 0.0).rgb
                          + thrown * sheet.mirrored);

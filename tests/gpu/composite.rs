@@ -652,10 +652,7 @@ fn what_comes_through_both_surfaces_is_the_twins() {
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
             for wall in [Some(12.0), Some(5.1), None] {
-                // Of two particles each: single ones are hardly thicker than films.
-                let points =
-                    [[-0.9, 0.2, 5.0], [-0.9, 0.2, 5.4], [0.9, -0.4, 5.5], [0.9, -0.4, 5.9]];
-                let mut drops = Shot::new(size, lens, 0.6, &points);
+                let mut drops = Shot::new(size, lens, 0.6, &[[-0.9, 0.2, 5.0], [0.9, -0.4, 5.5]]);
                 drops.settings.water.spacing = 1.6;
                 let shots = [("drops", drops), ("block", shot(size, lens))];
                 for (kind, mut shot) in shots {

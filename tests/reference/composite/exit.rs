@@ -152,11 +152,11 @@ pub fn exit(
         march_from(inputs, view, (position + inside * path, seen.along, 1.0 + off.stretch), STEPS);
     let world = view.view.inverse().transform_vector3(seen.along);
     let met = seen.met.share;
-    // Of what the far surface bends to the sky most comes straight on.
-    let sky = 0.3 * (1.0 - met) * smoothstep(-0.3, 0.0, world.y);
+    // Half of what the far surface bends to the sky comes straight on.
+    let sky = 0.5 * (1.0 - met) * smoothstep(-0.3, 0.0, world.y);
     let of_scene = if met > 0.0 { scene_at(inputs, seen.met.at) } else { DVec3::ZERO };
     let out = met * of_scene + sky * env(world) + (1.0 - met - sky) * behind;
-    let air = (1.0 - under.wet) * smoothstep(0.5 * settings.radius, 2.0 * settings.radius, t);
+    let air = (1.0 - under.wet) * smoothstep(0.0, settings.radius, t);
     seen.light = behind.lerp(out.lerp(mirrored, thrown), air);
     seen.path += air * (path - under.path);
     seen
