@@ -711,10 +711,10 @@ fn mistakes_are_named() {
         }),
         ("Settings.whitewater.exponent", |look| look.exponent = -1.0),
         ("Settings.whitewater.passes", |look| look.passes = 9),
-        ("Settings.[whitewater.min_samples, whitewater.max_samples]", |look| {
+        ("Settings.whitewater.max_samples", |look| {
             [look.min_samples, look.max_samples] = [16, 513]
         }),
-        ("Settings.[whitewater.min_samples, whitewater.max_samples]", |look| {
+        ("Settings.whitewater.max_samples", |look| {
             [look.min_samples, look.max_samples] = [32, 16]
         }),
         ("Settings.whitewater.reach", |look| look.reach = OcclusionReach::Metres(0.0)),

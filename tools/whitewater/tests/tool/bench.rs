@@ -164,7 +164,7 @@ fn a_sea_says_what_its_foam_costs() {
     let dim = folder.picture("dim.exr");
     for layer in [
         "whitewater.Z",
-        "[whitewater.shadow_scale, whitewater.shadow_exponent, whitewater.shadow_offset]",
+        "whitewater.shadow",
         "whitewater.normal.X",
         "scene.Z",
     ] {

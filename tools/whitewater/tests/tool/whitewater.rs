@@ -48,7 +48,7 @@ fn whitewater_particles_are_drawn_before_and_in_the_water() {
         "whitewater.normal.Y",
         "whitewater.irradiance.B",
         "whitewater.radius",
-        "[whitewater.shadow_scale, whitewater.shadow_exponent, whitewater.shadow_offset]",
+        "whitewater.shadow",
     ] {
         assert!(with.channel(name).is_some(), "{name}");
     }
