@@ -359,7 +359,7 @@ fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
     }
 }
 
-/// Validates a configuration by itself. [`Offer`](crate::Offer) says what the device lacks for it.
+/// Validates a configuration by itself. [`DeviceSupport`](crate::DeviceSupport) says what the device lacks for it.
 pub fn config(config: &Config) -> Result<(), Error> {
     let bad = |field, why: String| Err(Error::bad(field, why));
     if config.extent.width == 0 || config.extent.height == 0 {

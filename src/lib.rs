@@ -7,8 +7,8 @@
 //! # Embedding
 //!
 //! 1. Before you create the device (Vulkan 1.2 or newer; no feature is required), ask [`requirements`] and
-//!    [`Offer::check`], and enable the optional features that you want: [`Offer::optional`] is what the device supports,
-//!    [`Enabled::device_features`] makes the structures for `vkCreateDevice`. Report truthfully in [`Enabled`] what you
+//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what the device supports,
+//!    [`EnabledFeatures::device_features`] makes the structures for `vkCreateDevice`. Report truthfully in [`EnabledFeatures`] what you
 //!    enabled.
 //! 2. Create one [`Context`] per device from a [`Host`], then a [`Renderer`] from the context and a [`Config`]. This
 //!    allocates all memory, and creates all pipelines that the context does not have yet.
@@ -25,9 +25,9 @@
 //! State that outlives a frame is kept in objects of its own, which several views share. Each is updated once per
 //! simulation step:
 //!
-//! - [`State`] holds which of the water's particles are foam ([`State::record_step`]).
+//! - [`SurfaceFoamState`] holds which of the water's particles are foam ([`SurfaceFoamState::record_step`]).
 //! - [`Generator`] emits, moves and ages whitewater: spray, foam and bubbles that are particles of their own.
-//! - [`bubbles::Heap`] simulates blobs of bubble foam.
+//! - [`bubbles::BlobSimulation`] simulates blobs of bubble foam.
 //! - [`shore::ShoreMap`] holds the distance to the shore. It is updated only where the land has changed.
 //!
 //! # What `record` takes
@@ -46,7 +46,7 @@
 //! | `particles.packets` | the host's own groups with bounding boxes, for culling | storage buffer, aligned offset | as above |
 //! | `particles.velocities` | 3×f32, world space; with `Config.surface_foam`, `Config.spray` or `Config.motion` | as above | as above |
 //! | `particles.ids` | u32, the same for a particle in every frame; as velocities, and with `Config.noise` | as above | as above |
-//! | `particles.surface_foam` | with `Config.surface_foam`: foam amount and age (2×f32, as [`State::foam`]) | as above | as above |
+//! | `particles.surface_foam` | with `Config.surface_foam`: foam amount and age (2×f32, as [`SurfaceFoamState::foam`]) | as above | as above |
 //! | `whitewater.positions` | with `Config.whitewater`: 3×f32, whitewater particles; NaN, infinite and huge ones are not drawn | as above | as above |
 //! | `whitewater.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 per particle; all optional | as above | as above |
 //! | `whitewater.count` | as `particles.count` | as above | as above |
@@ -141,7 +141,7 @@
 //! | ellipsoids: grid, shapes, lists (`kernels`) | 92 to 96 n | 5.8 MiB for 65 536 | 960 MB for 10 million |
 //! | spheres: all, and the visible ones | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
-//! A [`State`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per
+//! A [`SurfaceFoamState`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per
 //! whitewater particle. A [`shore::ShoreMap`] takes 16 bytes per texel.
 //!
 //! # Where it differs from its sources
@@ -200,11 +200,13 @@ pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;
 pub use gpu::features::DeviceFeatures;
 pub use gpu::memory::{Allocate, Memory, MemoryLocation, MemoryRequest};
-pub use gpu::requirements::{Limit, Need, Offer, Requirements, requirements};
+pub use gpu::requirements::{DeviceSupport, Limit, Requirement, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;
-pub use state::{State, StateConfig};
+pub use state::{SurfaceFoamState, SurfaceFoamStateConfig};
 pub use whitewater::{
-    Generator, GeneratorConfig, GeneratorSettings, Irradiance, Occlusion, OcclusionReach,
-    PotentialRange, ShadowMixing, Submerged, WhitewaterConfig, WhitewaterSettings, WhitewaterSplat,
+    Generator, GeneratorConfig, GeneratorSettings, PotentialRange, Submerged, WhitewaterConfig,
+    WhitewaterSettings,
 };
+#[cfg(feature = "diagnostics")]
+pub use whitewater::{Irradiance, Occlusion, OcclusionReach, ShadowMixing, WhitewaterSplat};

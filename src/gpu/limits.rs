@@ -126,7 +126,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
     let of = |parts: &[&str]| parts.iter().any(|part| name.starts_with(part));
     let whitewater = config.whitewater;
     match folder {
-        "water" if of(&["classify"]) => false, // a `State`'s
+        "water" if of(&["classify"]) => false, // a `SurfaceFoamState`'s
         "water" if of(&["surface_foam"]) => config.surface_foam,
         "water" if of(&["spray"]) => config.spray,
         "water" if of(&["noise"]) => config.noise.is_some(),
@@ -146,7 +146,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
             None => false,
         },
         "whitewater" => whitewater.is_some(),
-        "bubbles" if of(&["heap"]) => false, // a `Heap`'s
+        "bubbles" if of(&["heap"]) => false, // a `BlobSimulation`'s
         "bubbles" if of(&["near"]) => config.bubbles.is_some_and(|own| own.crossfade),
         "bubbles" => config.bubbles.is_some(),
         "gpu" => config.bubbles.is_some() || config.kernels == Kernels::Ellipsoids,

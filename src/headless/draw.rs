@@ -6,7 +6,7 @@ use super::inputs::{Foamed, WhitewaterBuffers};
 use super::submit::Parts;
 use super::transfer::staging;
 use super::{COLOR_REST, DEPTH_REST, Headless};
-use crate::bubbles::Heap;
+use crate::bubbles::BlobSimulation;
 use crate::contract::{
     Access, Camera, Frame, HostImage, Particles, Previous, Region, Settings, Slot, Sun,
 };
@@ -143,7 +143,7 @@ impl Headless {
         let whitewater =
             whitewater.or_else(|| self.whitewater.as_ref().map(WhitewaterBuffers::streams));
         let drawn = self.renderer.config().bubbles.is_some();
-        let heap = self.heap.as_ref().filter(|_| drawn).map(Heap::blobs);
+        let heap = self.heap.as_ref().filter(|_| drawn).map(BlobSimulation::blobs);
         let bubbles = heap.or_else(|| self.bubbles.as_ref().map(Foamed::streams));
         let frame = Frame {
             slot: Slot(0),

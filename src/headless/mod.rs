@@ -37,7 +37,7 @@ use shore::Shores;
 use stage::Stage;
 use submit::{Commands, begin, submit};
 
-use crate::bubbles::Heap;
+use crate::bubbles::BlobSimulation;
 use crate::composite::way;
 use crate::context::Context;
 use crate::contract::{Access, Config, Layer, Previous, Region, Slot};
@@ -83,7 +83,7 @@ pub enum Stepped {
     /// Whitewater emission ([`Headless::generate`]).
     Generate,
     /// Blob dynamics ([`Headless::heap_step`]).
-    Heap,
+    BlobSimulation,
     /// The distance to the shore ([`Headless::shore_map_step`]).
     ShoreMap,
 }
@@ -103,7 +103,7 @@ pub struct Headless {
     ids: Option<Buffer>,
     whitewater: Option<WhitewaterBuffers>,
     bubbles: Option<Foamed>,
-    heap: Option<Heap>,
+    heap: Option<BlobSimulation>,
     shores: Shores,
     generating: Option<Generating>,
     foam: Option<Foaming>,
@@ -263,7 +263,7 @@ impl Headless {
         let times = match which {
             Stepped::Foam => self.foam.as_mut().map(|own| own.state.timings(slot)),
             Stepped::Generate => self.generating.as_mut().map(|own| own.generator.timings(slot)),
-            Stepped::Heap => self.heap.as_mut().map(|own| own.timings(slot)),
+            Stepped::BlobSimulation => self.heap.as_mut().map(|own| own.timings(slot)),
             Stepped::ShoreMap => self.shores.map_timings(slot),
         };
         times.unwrap_or_default().to_vec()

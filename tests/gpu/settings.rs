@@ -8,7 +8,7 @@ use glam::{Mat4, Vec3};
 use whitewater::bubbles::{BubbleConfig, Crossfade};
 use whitewater::headless::{Bubble, Whitewater};
 use whitewater::water::{
-    Amplitude, Convolution, Fresnel, Ladder, Medium, Rule, Shadows, SpraySettings,
+    Amplitude, Convolution, DebugView, Fresnel, Medium, Rule, Shadows, SpraySettings,
     SurfaceNoiseSettings,
 };
 use whitewater::{Occlusion, OcclusionReach, ShadowMixing, Submerged, WhitewaterConfig};
@@ -165,10 +165,10 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("light.ambient", |s| s.light.ambient = [1.0; 3]),
         ("light.irradiance", |s| s.light.irradiance = [PI; 3]),
         ("light.shade", |s| s.light.shade = [0.1; 3]),
-        ("ladder 0", |s| s.ladder = Ladder::Background),
-        ("ladder 1", |s| s.ladder = Ladder::BackWater),
-        ("ladder 2", |s| s.ladder = Ladder::SurfaceFoam),
-        ("ladder 3", |s| s.ladder = Ladder::FrontWater),
+        ("ladder 0", |s| s.ladder = DebugView::Background),
+        ("ladder 1", |s| s.ladder = DebugView::BackWater),
+        ("ladder 2", |s| s.ladder = DebugView::SurfaceFoam),
+        ("ladder 3", |s| s.ladder = DebugView::FrontWater),
         ("fresnel", |s| {
             s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
         }),

@@ -152,7 +152,9 @@ fn spoils() -> Vec<Spoil> {
         ("opacity", "Settings.spray.opacity", |g| g.settings.spray.opacity = 1.0),
         ("size", "Settings.spray.size", |g| g.settings.spray.size = 0.0),
         ("droplets", "Settings.spray.droplets", |g| g.settings.spray.droplets = 65),
-        ("densities", "Settings.spray.full_water_density", |g| g.settings.spray.full_water_density = 0.1),
+        ("densities", "Settings.spray.full_water_density", |g| {
+            g.settings.spray.full_water_density = 0.1
+        }),
         ("spread", "Settings.spray.scatter_radius", |g| g.settings.spray.scatter_radius = f32::NAN),
         ("shutter", "Settings.spray.exposure", |g| g.settings.spray.exposure = -1.0),
         ("weight", "Settings.noise.weight", |g| g.settings.noise.weight = f32::NAN),

@@ -714,9 +714,7 @@ fn mistakes_are_named() {
         ("Settings.whitewater.max_samples", |look| {
             [look.min_samples, look.max_samples] = [16, 513]
         }),
-        ("Settings.whitewater.max_samples", |look| {
-            [look.min_samples, look.max_samples] = [32, 16]
-        }),
+        ("Settings.whitewater.max_samples", |look| [look.min_samples, look.max_samples] = [32, 16]),
         ("Settings.whitewater.reach", |look| look.reach = OcclusionReach::Metres(0.0)),
         ("Settings.whitewater.scene_opacity", |look| look.scene_opacity = 1.5),
         ("Settings.whitewater.albedo", |look| look.albedo[2] = 1.01),

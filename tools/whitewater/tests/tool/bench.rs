@@ -162,12 +162,7 @@ fn a_sea_says_what_its_foam_costs() {
     folder.text("dim.toml", "[whitewater]\nalbedo = [0.09, 0.09, 0.09]\n");
     let table = folder.run(&format!("{quick} --settings dim.toml --picture dim.exr")).ok().stdout();
     let dim = folder.picture("dim.exr");
-    for layer in [
-        "whitewater.Z",
-        "whitewater.shadow",
-        "whitewater.normal.X",
-        "scene.Z",
-    ] {
+    for layer in ["whitewater.Z", "whitewater.shadow", "whitewater.normal.X", "scene.Z"] {
         assert!(dim.channel(layer).is_some(), "{layer}");
     }
     let intensity = dim.channel("whitewater.intensity").unwrap();
