@@ -1,6 +1,6 @@
 //! Every type that crosses the border between host and library, in the order of use: what fixes a renderer
 //! ([`Host`], [`EnabledFeatures`], [`Config`]); what a frame takes ([`Frame`] and everything in it: [`HostImage`],
-//! [`Particles`], [`Camera`], [`Previous`], [`Sun`], [`Settings`]), and a step of the foam ([`SurfaceFoamStep`]); what a
+//! [`Particles`], [`Camera`], [`Previous`], [`Settings`]), and a step of the foam ([`SurfaceFoamStep`]); what a
 //! record leaves ([`Recorded`], [`Layer`], [`MemoryUse`]).
 //!
 //! `check` validates a frame, `frame` derives numbers from it.
@@ -51,7 +51,6 @@ with!(
     Shore,
     SurfaceFoamStep<'_>,
     GeneratorStep<'_>,
-    Sun,
     Shadow,
     Frame<'_>,
     Settings,
@@ -150,7 +149,7 @@ pub struct EnabledFeatures {
     /// the termination.
     pub precise_occlusion_queries: bool,
     /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater takes two passes over
-    /// its particles ([`WhitewaterSplat`](crate::WhitewaterSplat)).
+    /// its particles (`WhitewaterSplat`).
     pub buffer_int64_atomics: bool,
 }
 
@@ -208,7 +207,7 @@ pub struct Config {
     /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first is a 128th of
     /// the picture's height long, and lengths grow geometrically (by 2.2 on a wide picture), so that the last
     /// ends at the picture's edge. A ray that hits nothing on the screen shows the environment. With 0, as in
-    /// the thesis, and with [`Compositing::Source`](crate::water::Compositing), only the environment is
+    /// the thesis, and with `Compositing::Source`, only the environment is
     /// reflected.
     pub mirror_steps: u32,
     /// What is visible through water with air behind it. Default [`Exit::TwoInterfaces`]. With
@@ -230,7 +229,7 @@ pub struct Config {
     /// Number of levels coarser than [`smoothing_level`](Self::smoothing_level) at which near water, which
     /// would exceed the maximum number of iterations, is smoothed: 0 to 3 (default 3: water stays smooth down
     /// to an eighth of the distance). Each pixel chooses its level by its distance, and blends between two. For
-    /// [`Rule::ConstantWidth`] only. 0 saves up to a third of the smoothing's memory.
+    /// the rule of constant width (default) only. 0 saves up to a third of the smoothing's memory.
     pub coarsening: u32,
     /// Number of water layers that are separated where one stands in front of another with air between, such as
     /// a drop in front of a pool: 1 as in the thesis, or 2 (default). Each has its own thickness, and the
@@ -240,7 +239,7 @@ pub struct Config {
     /// subtracted from its water. 68 bytes per particle more.
     pub surface_foam: bool,
     /// Whether spray is drawn (default false): the pass `spray`, for particles selected by
-    /// [`SpraySettings::densities`], which then also apply to water and foam. 32 bytes per particle more.
+    /// [`SpraySettings::all_spray_density`] and the like, which then also apply to water and foam. 32 bytes per particle more.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own,
     /// [`Frame::whitewater`]): the passes `splat`, `radiance`, `blur`. `None` (default): it is not. 88 bytes per
@@ -259,15 +258,15 @@ pub struct Config {
     pub noise: Option<u32>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) noise: Option<u32>,
-    /// Whether the host hands in a shadow map or mask ([`Sun::shadow`]), and how the map is filtered. `None`
+    /// Whether the host hands in a shadow map or mask ([`Frame::shadow`]), and how the map is filtered. `None`
     /// (default): the sun reaches everything.
     pub shadow: Option<Shadows>,
     /// Whether water and foam cast shadows and caustics on the scene, and foam on itself: the passes `light`,
-    /// `caustics` and `lit`. The value is the side length of the light maps over [`Sun::region`] in texels, a
+    /// `caustics` and `lit`. The value is the side length of the light maps over [`Frame::light_volume`] in texels, a
     /// multiple of 16 from 16 to 4096. 36 bytes per texel, and a lit copy of the scene. With
     /// [`whitewater`](Self::whitewater) whitewater also casts shadows on the scene, the water, foam and itself: the
     /// pass `whitewater_light`, 24 bytes per texel more. `None` (default): nothing casts.
-    pub cast: Option<u32>,
+    pub light_map_size: Option<u32>,
     /// Whether motion vectors are made (default false): the pass `motion` and the layer `motion`, from
     /// [`Frame::previous`] and the particles' velocities. 12.5 bytes per pixel more (48, 26, 12.5 or 9.1 for a
     /// [`thickness_level`](Self::thickness_level) of 0 to 3).
@@ -309,7 +308,7 @@ impl Config {
             shore: None,
             noise: None,
             shadow: None,
-            cast: None,
+            light_map_size: None,
             motion: false,
             environment_size: 256,
             in_place: true,
@@ -486,7 +485,7 @@ pub struct Particles {
     /// rest.
     pub velocities: Option<Stream>,
     /// Numbers that stay with their particle from frame to frame (u32), for the noise in foam and the droplets
-    /// of spray. Read as the velocities, and with [`Config::noise`] for the surface noise. `None`: the index is
+    /// of spray. Read as the velocities, and with `Config.noise` for the surface noise. `None`: the index is
     /// used.
     pub ids: Option<Stream>,
     /// Number of particles.
@@ -578,7 +577,7 @@ pub struct WhitewaterParticles {
     /// Packets of these particles, with [`WhitewaterConfig::packets`](crate::whitewater::WhitewaterConfig::packets).
     /// Packets outside the view, and for shadows outside the light's region, are not read. If the particles
     /// have [`radii`](Self::radii), boxes enclose the spheres, otherwise the centres.
-    /// [`WhitewaterSplat::Raster`](crate::WhitewaterSplat::Raster) reads all packets. `None`: each particle is culled on its
+    /// The raster path reads all packets. `None`: each particle is culled on its
     /// own.
     pub packets: Option<Packets>,
     /// Depth of a fluid surface of the host, such as a sea, in the camera's convention. The nearer of it and
@@ -1005,16 +1004,6 @@ pub struct Previous {
     pub dt: f32,
 }
 
-/// Shadow information of the sun.
-#[derive(Clone, Copy, Debug, Default)]
-#[non_exhaustive]
-pub struct Sun {
-    /// The scene's shadow on the fluid, with [`Config::shadow`].
-    pub shadow: Option<Shadow>,
-    /// The sphere that contains the fluid that casts and the scene that receives, with [`Config::cast`].
-    pub region: Option<Region>,
-}
-
 /// The host's shadow map or mask, only sampled.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -1053,14 +1042,14 @@ impl Shadow {
 
 /// A sphere in the world. The light's maps are fitted to it; outside of it nothing is cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Region {
+pub struct LightVolume {
     /// Centre, world space.
     pub center: [f32; 3],
     /// Radius, metres.
     pub radius: f32,
 }
 
-impl Region {
+impl LightVolume {
     /// World to the light's maps: place 0 to 1, metres along the light.
     pub(crate) fn to_map(self, light: &Light, up: Vec3) -> Mat4 {
         let sun = light.toward();
@@ -1100,8 +1089,11 @@ pub struct Frame<'a> {
     pub shore: Option<Shore>,
     /// The view.
     pub camera: Camera,
-    /// Shadow information of the sun, with [`Config::shadow`] and [`Config::cast`].
-    pub sun: Sun,
+    /// The scene's shadow on the fluid, with [`Config::shadow`]. `None` (default): there is none.
+    pub shadow: Option<Shadow>,
+    /// The sphere that contains the fluid that casts and the scene that receives, with
+    /// [`Config::light_map_size`]. `None` (default): there is none.
+    pub light_volume: Option<LightVolume>,
     /// The previous frame, with [`Config::motion`]. `None`, as for the first frame: nothing moved.
     pub previous: Option<Previous>,
     /// Settings that are uniforms.
@@ -1129,7 +1121,8 @@ impl<'a> Frame<'a> {
             bubbles: None,
             shore: None,
             camera,
-            sun: Sun::default(),
+            shadow: None,
+            light_volume: None,
             previous: None,
             settings,
         }
@@ -1162,13 +1155,13 @@ impl<'a> Frame<'a> {
     /// Adds the host's shadows, for [`Config::shadow`].
     #[must_use]
     pub fn with_shadow(self, shadow: Shadow) -> Self {
-        Self { sun: Sun { shadow: Some(shadow), ..self.sun }, ..self }
+        Self { shadow: Some(shadow), ..self }
     }
 
-    /// Adds the sphere in which water and foam cast shadows, for [`Config::cast`].
+    /// Adds the sphere in which water and foam cast shadows, for [`Config::light_map_size`].
     #[must_use]
-    pub fn with_region(self, region: Region) -> Self {
-        Self { sun: Sun { region: Some(region), ..self.sun }, ..self }
+    pub fn with_light_volume(self, light_volume: LightVolume) -> Self {
+        Self { light_volume: Some(light_volume), ..self }
     }
 
     /// Adds the previous frame, for [`Config::motion`].
@@ -1273,9 +1266,9 @@ impl Settings {
     }
 
     /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of
-    /// thickness, foam, spray and light on foam. It belongs with [`Rule::Source`](crate::water::Rule) as
-    /// [`Config::rule`], [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
-    /// [`Exit::Straight`], [`Config::kernels`] of [`Kernels::Spheres`], [`Config::cast`] of `None` and
+    /// thickness, foam, spray and light on foam. It belongs with `Rule::Source` as
+    /// `Config.rule`, [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
+    /// [`Exit::Straight`], [`Config::kernels`] of [`Kernels::Spheres`], [`Config::light_map_size`] of `None` and
     /// [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {
         Self {

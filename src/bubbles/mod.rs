@@ -172,7 +172,7 @@ impl Bubbles {
         self.near.as_ref().map(|near| (near.blobs(), near.over()))
     }
 
-    /// Passes `blobs` and `cast`, before any pass that needs sunlight.
+    /// Passes `blobs` and `light_map_size`, before any pass that needs sunlight.
     pub fn record_lists(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"blobs");
         self.lists.record(r, blobs)?;

@@ -211,7 +211,7 @@ pub struct BubbleSettings {
     pub reflection: f32,
     /// Exponent of the sun's highlight on films, 1 to 10 000, default 800.
     pub shininess: f32,
-    /// Whether the walls between bubbles are drawn, with [`Impostor::Ids`]. Default true.
+    /// Whether the walls between bubbles are drawn. Default true.
     pub walls: bool,
     /// Whether blobs behind the last layer fill the holes (Sec. 5). Default true.
     pub fill_holes: bool,

@@ -139,7 +139,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
         }
         "light" if of(&["convolution"]) => crate::light::convolution(config).is_some(),
         "light" if of(&["whitewater"]) => whitewater.is_some(),
-        "light" => config.cast.is_some(),
+        "light" => config.light_map_size.is_some(),
         "whitewater" if of(&["splat64"]) => match whitewater.map(|own| own.splat) {
             Some(None) => int64_atomics,
             Some(Some(way)) => way == WhitewaterSplat::Compute64,

@@ -286,10 +286,10 @@ impl DeviceSupport {
             }
             _ => {}
         }
-        if !self.blend_floats && config.cast.is_some() {
+        if !self.blend_floats && config.light_map_size.is_some() {
             return missing(
                 "blending of R32_SFLOAT and R32G32B32A32_SFLOAT".into(),
-                "Config.cast needs it; leave it off",
+                "Config.light_map_size needs it; leave it off",
             );
         }
         if !self.blend_floats && !self.foam_floats && config.noise.is_some() {

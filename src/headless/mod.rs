@@ -40,7 +40,7 @@ use submit::{Commands, begin, submit};
 use crate::bubbles::BlobSimulation;
 use crate::composite::way;
 use crate::context::Context;
-use crate::contract::{Access, Config, Layer, Previous, Region, Slot};
+use crate::contract::{Access, Config, Layer, LightVolume, Previous, Slot};
 use crate::diagnostics::{ParticleCounts, SmoothingLevels};
 use crate::environment::{Environment, Sky};
 use crate::error::{Error, VkContext};
@@ -107,7 +107,7 @@ pub struct Headless {
     shores: Shores,
     generating: Option<Generating>,
     foam: Option<Foaming>,
-    region: Option<Region>,
+    region: Option<LightVolume>,
     previous: Option<Previous>,
     count: u32,
     /// The particles that are drawn, by index; `None`: all.

@@ -23,7 +23,7 @@ pub enum Shading {
     Compute,
 }
 
-/// Which shadow information the host hands in ([`Sun::shadow`](crate::Sun::shadow)), and how it is filtered.
+/// Which shadow information the host hands in ([`Frame::shadow`](crate::Frame::shadow)), and how it is filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shadows {
     /// A screen-space mask, 1 where the sun shines.
@@ -150,8 +150,8 @@ pub struct WaterSettings {
     /// Fraction of the rest density from which a particle has its full radius. Default 0.45.
     pub density_full: f32,
     /// Width of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. At 0.7 the particle
-    /// lattice shows; 2.5 looks like silk. For [`Rule::ConstantWidth`]; [`Rule::Source`] has its own width of
-    /// 4.8.
+    /// lattice shows; 2.5 looks like silk. (The thesis' rule has its own
+    /// width of 4.8.)
     pub smoothing_width: f32,
     /// Depth steps larger than this are silhouettes and are not smoothed across. Drawn radii, default 5.3.
     pub depth_falloff: f32,
@@ -273,7 +273,7 @@ pub enum Bed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exit {
     /// Light refracts at both surfaces, or is totally reflected at the second, by the slopes of both and the
-    /// index of refraction that [`Bed`] describes. The exit ray is intersected with the scene on the screen in
+    /// index of refraction of [`WaterSettings::fresnel`] (1.333 if that has none). The exit ray is intersected with the scene on the screen in
     /// 4 steps; rays that miss see the environment (Wyman 2005).
     TwoInterfaces,
     /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis). Where the scene is
@@ -368,7 +368,7 @@ pub enum Medium {
     /// milk multiply it by `1 - g` with the mean cosine g; for natural waters, whose reflectance depends on backscattering,
     /// use twice the backscattering coefficient. The reflectance of a half space is van de Hulst's
     /// `(1 - s)(1 - 0.139 s)/(1 + 1.17 s)`, `s = √(absorption/(absorption + scattering))` (Multiple Light Scattering, 1980),
-    /// plus the internal reflection that [`Bed::Submerged`] describes. The surface is shaded as a matte one by the sun, the
+    /// plus the reflection back inside at its surface. The surface is shaded as a matte one by the sun, the
     /// scene's shadows and [`Light::shade`](crate::Light::shade). The fluid does not shadow itself.
     Turbid {
         /// Absorption per metre, linear RGB, [0, ∞).
@@ -772,7 +772,7 @@ pub struct SpraySettings {
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
     /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. No effect
-    /// without a map of the sunlight in the water ([`Config::cast`](crate::Config)).
+    /// without a map of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
     /// Whether its light is added to the light from behind (the thesis) instead of composited over it (default
     /// false).

@@ -158,10 +158,10 @@ pub struct WhitewaterSettings {
     /// By how much the sphere of each further pass is larger, in particle radii, [0, 100], default 7
     /// (AO_SRIncFac).
     pub search_radius_step: f32,
-    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). For [`Occlusion::Reference`];
-    /// [`Occlusion::Fast`] uses a fixed share of the samples at any size.
+    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). For the paper's way (`Occlusion::Reference`);
+    /// the default way uses a fixed share of the samples at any size.
     pub sample_density: f32,
-    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. For [`Occlusion::Reference`] only.
+    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. For the paper's way only.
     pub min_samples: u32,
     /// Maximum number of samples per sphere, `min_samples` to 512, default 512.
     pub max_samples: u32,

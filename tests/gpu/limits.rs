@@ -333,7 +333,7 @@ fn limits_are_what_the_shaders_use() {
             it.thickness_splat = Some(Splat::Raster);
         }),
         fluid.with(|it| {
-            it.cast = Some(32);
+            it.light_map_size = Some(32);
             it.whitewater = whitewater;
         }),
         base.with(|it| it.whitewater = own(WhitewaterSplat::Compute)),

@@ -63,7 +63,7 @@ fn a_device_of_vulkan_1_2_draws_the_same() {
             it.noise = Some(1);
         }),
         plain.with(|it| {
-            it.cast = Some(64);
+            it.light_map_size = Some(64);
             it.shadow = convolved(8, 8);
             it.composite = Some(Shading::Compute);
             it.depth_splat = Some(whitewater::water::Splat::Raster);
@@ -331,7 +331,7 @@ fn memory_is_as_documented() {
         for (cast, foam) in ways.into_iter().step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config = Config::new(extent(width, height), format, count).with(|it| {
-                it.cast = cast;
+                it.light_map_size = cast;
                 it.surface_foam = foam;
             });
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
@@ -500,7 +500,7 @@ fn timings_name_every_pass() {
         assert!(!falls, "{timings:?}");
     }
     assert!(rig.renderer().timings(Slot(1)).is_empty(), "a slot without a frame");
-    let mut rig = Rig::new(&gpu, &config.with(|it| it.cast = Some(16)));
+    let mut rig = Rig::new(&gpu, &config.with(|it| it.light_map_size = Some(16)));
     sunny(&rig, &mut shot);
     rig.draw(&shot);
     let names: Vec<&str> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();

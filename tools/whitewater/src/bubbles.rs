@@ -8,7 +8,7 @@ use whitewater::bubbles::{BlobSimulationSettings, DistanceField, Solid};
 use whitewater::headless::Bubble;
 use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::io::particles::sequence;
-use whitewater::{Region, Settings};
+use whitewater::{LightVolume, Settings};
 
 use crate::args::RenderArgs;
 use crate::bounds::Bounds;
@@ -399,7 +399,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     scene.sun = environment.sun_light();
     let mut settings = Settings::default().with(|it| it.light = environment.light());
     file.apply(&mut settings);
-    let Region { center, radius } = lit.region();
+    let LightVolume { center, radius } = lit.region();
     let count = blobs.blobs.len();
     let bubbles = file.bubbles.config().with(|it| it.crossfade = false);
     let look = Look {
@@ -417,7 +417,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         shores: None,
         exposure: 0.0,
         spray: false,
-        region: Region { center, radius: 1.5 * radius },
+        region: LightVolume { center, radius: 1.5 * radius },
         fps: Some(args.fps.unwrap_or(FPS)),
         rate: None,
         film: args.fps.unwrap_or(FPS) / args.every.get() as f32,
