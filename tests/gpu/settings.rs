@@ -407,7 +407,7 @@ fn every_setting_of_bubble_foam_shows() {
 }
 
 #[test]
-fn every_setting_of_the_hand_over_shows() {
+fn every_setting_of_the_crossfade_shows() {
     let gpu = Gpu::shared();
     let bubbles = BubbleConfig::new(600).with(|it| {
         it.variants = 3;

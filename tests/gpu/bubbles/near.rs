@@ -369,7 +369,7 @@ fn it_takes_the_memory_it_says() {
 }
 
 #[test]
-fn bad_hand_overs_are_errors() {
+fn bad_crossfades_are_errors() {
     let gpu = Gpu::shared();
     let cloud = Cloud::new(4, |_| 2.0);
     let over = bubbles(8).with(|it| it.crossfade = true);

@@ -52,7 +52,7 @@ fn check(format: &str, text: &str) {
 #[test]
 fn bubble_foam_is_timed() {
     let folder = Folder::new();
-    folder.text("few.toml", "[bubbles]\ntemplates = 1\nbubbles = 8\nlayers = 2\nsort = \"peel\"\n");
+    folder.text("few.toml", "[bubbles]\nvariants = 1\nbubbles = 8\nlayers = 2\nsort = \"peel\"\n");
     let command =
         "bench --bubbles box:20,one --settings few.toml --frames 2 --warmup 0 --size 64x48";
     let json = folder.run(&format!("{command} --format json")).ok();
