@@ -1,6 +1,7 @@
 //! The contract: frames in flight, resize, retired objects, bad input, abandoned frames, every kind of
 //! host image, and what the renderer says of itself.
 
+mod allocate;
 mod bad;
 mod device;
 mod flight;
