@@ -7,9 +7,11 @@
 //! # Embedding
 //!
 //! 1. Before you create the device (Vulkan 1.2 or newer; no feature is required), ask [`requirements`] and
-//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what the device supports,
-//!    [`EnabledFeatures::device_features`] makes the structures for `vkCreateDevice`. Report truthfully in [`EnabledFeatures`] what you
-//!    enabled.
+//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what
+//!    the device supports, [`EnabledFeatures::device_features`] makes the structures for `vkCreateDevice`,
+//!    [`DeviceSupport::with_enabled`] says what a selection of them leaves. Report truthfully in [`EnabledFeatures`]
+//!    what you enabled. On a Vulkan 1.2 device surface foam, motion vectors and [`Shading::Compute`](water::Shading)
+//!    need [`EnabledFeatures::storage_image_write_without_format`].
 //! 2. Create one [`Context`] per device from a [`Host`], then a [`Renderer`] from the context and a [`Config`]. This
 //!    allocates all memory, and creates all pipelines that the context does not have yet.
 //! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Earlier frames

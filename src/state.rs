@@ -164,10 +164,13 @@ impl SurfaceFoamState {
         self.classify.record_copy(&self.gpu, cmd, self.odd, (from, offset), false);
     }
 
-    /// Foam amount (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its order.
-    /// Transfer source; last written by a compute shader, then free to be read.
-    pub fn foam(&self) -> vk::Buffer {
-        self.classify.foam.handle
+    /// Foam amount (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its order: for
+    /// [`Particles::surface_foam`](crate::Particles::surface_foam). The step leaves it ready to be read by shaders and
+    /// copies; the next step waits for frames recorded in between. Nothing has to be said of it in
+    /// [`Particles::before`](crate::Particles::before) and `after`. The buffer stays the same as long as the state.
+    pub fn foam(&self) -> Stream {
+        let buffer = &self.classify.foam;
+        Stream { buffer: buffer.handle, size: buffer.size, offset: 0, stride: 8 }
     }
 
     /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).

@@ -114,6 +114,8 @@ pub struct DeviceSupport {
     pub optional: EnabledFeatures,
     /// Limits.
     pub limits: vk::PhysicalDeviceLimits,
+    /// A device of Vulkan 1.2 that supports `shaderStorageImageWriteWithoutFormat`, which the host did not enable.
+    not_enabled: bool,
 }
 
 impl DeviceSupport {
@@ -193,6 +195,7 @@ impl DeviceSupport {
             output_attachment: offers(output_format, vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
             output_storage: offers(output_format, stored),
             limits: properties.limits,
+            not_enabled: false,
         }
     }
 
@@ -208,12 +211,27 @@ impl DeviceSupport {
             output_storage: false,
             optional: EnabledFeatures::default(),
             limits,
+            not_enabled: false,
         }
+    }
+
+    /// What the device gives a host that creates its instance for this Vulkan version, and enables these features and
+    /// no others. Below Vulkan 1.3 formats support storing only with
+    /// [`storage_image_write_without_format`](EnabledFeatures::storage_image_write_without_format).
+    #[must_use]
+    pub fn with_enabled(mut self, api_version: u32, enabled: EnabledFeatures) -> Self {
+        self.api_version = self.api_version.min(api_version);
+        if self.api_version < vk::API_VERSION_1_3 {
+            self = self.before_1_3(&enabled);
+        }
+        self.optional = enabled;
+        self
     }
 
     /// The same for a device of Vulkan 1.2 with these features enabled.
     pub(crate) fn before_1_3(mut self, enabled: &EnabledFeatures) -> Self {
         if !enabled.storage_image_write_without_format {
+            self.not_enabled = self.optional.storage_image_write_without_format;
             self.foam_floats = false;
             self.basis = [false; 2];
             self.motion_floats = false;
@@ -232,7 +250,14 @@ impl DeviceSupport {
     /// # Errors
     /// [`Error::Missing`] with what is missing, and what to do.
     pub fn check(&self, config: &crate::contract::Config) -> Result<(), Error> {
-        let missing = |what: String, why: &str| Err(Error::Missing { what, why: why.into() });
+        let missing = |what: String, why: &str| {
+            let mut why = why.to_owned();
+            if self.not_enabled && what.contains("storage use") {
+                why += "; or enable shaderStorageImageWriteWithoutFormat \
+                        (EnabledFeatures::storage_image_write_without_format), which the device supports";
+            }
+            Err(Error::Missing { what, why })
+        };
         if self.api_version < vk::API_VERSION_1_2 {
             return missing(
                 format!(

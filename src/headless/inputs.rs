@@ -515,14 +515,8 @@ impl Headless {
         let count = end.min(self.count).saturating_sub(first);
         let some = |all: Stream| Stream { offset: u64::from(first) * u64::from(all.stride), ..all };
         let of = |buffer: &Buffer, stride| some(stream(buffer, stride));
-        let foam = self.foam.as_ref().filter(|foam| foam.stepped).map(|foam| {
-            some(Stream {
-                buffer: foam.state.foam(),
-                size: 8 * u64::from(self.renderer.config().max_particles),
-                offset: 0,
-                stride: 8,
-            })
-        });
+        let stepped = self.foam.as_ref().filter(|foam| foam.stepped);
+        let foam = stepped.map(|foam| some(foam.state.foam()));
         Ok(Particles {
             densities: self.densities.as_ref().map(|buffer| of(buffer, 4)),
             velocities: self.velocities.as_ref().map(|buffer| of(buffer, 12)),

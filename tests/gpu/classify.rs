@@ -61,7 +61,7 @@ impl<'g> Body<'g> {
     fn foam(&mut self, count: usize) -> Foam {
         let size = 8 * count.max(1) as u64;
         let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
-        let foam = self.state().foam();
+        let foam = self.state().foam().buffer;
         self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, foam, &back));
         bytemuck::cast_slice(&back.bytes()[..8 * count]).to_vec()
     }
@@ -295,7 +295,7 @@ fn tables_in_parts_hold_the_same_state() {
             let step = if i % 9 == 8 { step.with(|it| it.ids = None) } else { step };
             body.record(&step).expect("a step");
             let bytes = (cloud.data.buffer, cloud.data.size);
-            let foamed = (body.state().foam(), 8 * 700);
+            let foamed = (body.state().foam().buffer, 8 * 700);
             for bound in spy::take_bound() {
                 let table = bound.range == vk::WHOLE_SIZE && bound.buffer != bytes.0;
                 assert!(!table, "of a buffer of unknown size: {bound:?}");

@@ -4,7 +4,7 @@ use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::water::{Gate, Shading, Smoothing};
 use whitewater::{
-    Config, Context, EnabledFeatures, Error, Renderer, Slot, SurfaceFoamState,
+    Config, Context, DeviceSupport, EnabledFeatures, Error, Renderer, Slot, SurfaceFoamState,
     SurfaceFoamStateConfig,
 };
 
@@ -477,7 +477,7 @@ fn timings_name_every_pass() {
             "cull",
             "front",
             "depth",
-            "foam",
+            "surface_foam",
             "spray",
             "gaps",
             "thickness",
@@ -508,4 +508,22 @@ fn timings_name_every_pass() {
     let (light, caustics, lit) = (at("light"), at("caustics"), at("lit"));
     assert!(light.is_some() && light < caustics && caustics < lit, "{names:?}");
     assert!(lit < at("composite"), "{names:?}");
+}
+
+/// A host of Vulkan 1.2 that leaves out a feature is told which one, before it creates the device.
+#[test]
+fn what_a_selection_of_features_lacks_is_named() {
+    let gpu = Gpu::shared();
+    let config = config(extent(64, 64)).with(|it| it.surface_foam = true);
+    let support = DeviceSupport::of(&gpu.instance, gpu.physical, config.output_format);
+    let none = EnabledFeatures::default();
+    let stores = none.with(|it| it.storage_image_write_without_format = true);
+    support.with_enabled(vk::API_VERSION_1_3, none).check(&config).expect("of 1.3");
+    if !support.optional.storage_image_write_without_format {
+        return crate::support::skipped::skipped("no shaderStorageImageWriteWithoutFormat");
+    }
+    support.with_enabled(vk::API_VERSION_1_2, stores).check(&config).expect("it is enabled");
+    let bare = support.with_enabled(vk::API_VERSION_1_2, none);
+    let error = bare.check(&config).expect_err("it is not enabled").to_string();
+    assert!(error.contains("enable shaderStorageImageWriteWithoutFormat"), "{error}");
 }
