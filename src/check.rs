@@ -50,7 +50,7 @@ pub fn frame(
             format!("{:?} is not Config.output_format", frame.output.format),
         ));
     }
-    let shadow = frame.sun.shadow.as_ref().map(|s| (fields!("Frame.sun.shadow.image"), &s.image));
+    let shadow = frame.shadow.as_ref().map(|s| (fields!("Frame.shadow.image"), &s.image));
     let images = [
         (fields!("Frame.output"), &frame.output),
         (fields!("Frame.scene_color"), &frame.scene_color),
@@ -330,36 +330,36 @@ fn previous(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
 
 fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
     let bad = |field, why: &str| Err(Error::bad(field, why));
-    match (config.shadow, &frame.sun.shadow) {
-        (Some(_), None) => return bad("Frame.sun.shadow", "none, but Config.shadow asks for it"),
-        (None, Some(_)) => return bad("Frame.sun.shadow", "given, but Config.shadow is None"),
+    match (config.shadow, &frame.shadow) {
+        (Some(_), None) => return bad("Frame.shadow", "none, but Config.shadow asks for it"),
+        (None, Some(_)) => return bad("Frame.shadow", "given, but Config.shadow is None"),
         (Some(Shadows::Map | Shadows::Convolution(_)), Some(shadow)) => {
             let clip = shadow.clip();
             if !clip.is_finite() || clip.determinant().abs() < 1e-30 {
-                return bad("Frame.sun.shadow.view_projection", "not finite, or singular");
+                return bad("Frame.shadow.view_projection", "not finite, or singular");
             }
             if !shadow.bias.is_finite() {
-                return bad("Frame.sun.shadow.bias", "not finite");
+                return bad("Frame.shadow.bias", "not finite");
             }
         }
         _ => {}
     }
-    match (config.cast, &frame.sun.region) {
-        (Some(_), None) => bad("Frame.sun.region", "none, but Config.cast asks for it"),
-        (None, Some(_)) => bad("Frame.sun.region", "given, but Config.cast is None"),
+    match (config.light_map_size, &frame.light_volume) {
+        (Some(_), None) => bad("Frame.light_volume", "none, but Config.light_map_size asks for it"),
+        (None, Some(_)) => bad("Frame.light_volume", "given, but Config.light_map_size is None"),
         (Some(_), Some(region)) => {
             let finite = region.center.iter().all(|c| c.is_finite());
             if finite && region.radius.is_finite() && region.radius > 0.0 {
                 Ok(())
             } else {
-                bad("Frame.sun.region", "a finite centre and a radius over 0 expected")
+                bad("Frame.light_volume", "a finite centre and a radius over 0 expected")
             }
         }
         (None, None) => Ok(()),
     }
 }
 
-/// Validates a configuration by itself. [`Offer`](crate::Offer) says what the device lacks for it.
+/// Validates a configuration by itself. [`DeviceSupport`](crate::DeviceSupport) says what the device lacks for it.
 pub fn config(config: &Config) -> Result<(), Error> {
     let bad = |field, why: String| Err(Error::bad(field, why));
     if config.extent.width == 0 || config.extent.height == 0 {
@@ -409,11 +409,11 @@ pub fn config(config: &Config) -> Result<(), Error> {
     {
         return bad("Config.noise", format!("{level} of 0 to 3"));
     }
-    if let Some(edge) = config.cast
+    if let Some(edge) = config.light_map_size
         && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))
     {
         let why = format!("{edge}: a multiple of 16 from 16 to 4096 expected");
-        return bad("Config.cast", why);
+        return bad("Config.light_map_size", why);
     }
     let size = config.environment_size;
     if !size.is_power_of_two() || !(16..=2048).contains(&size) {

@@ -9,16 +9,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
-use crate::contract::{Enabled, Host};
+use crate::contract::{EnabledFeatures, Host};
 use crate::error::{Error, VkContext};
 use crate::gpu::access::Synchronization;
 use crate::gpu::loaded;
 use crate::gpu::memory::Allocate;
 use crate::gpu::pass::Attachments;
 use crate::gpu::pipeline::{self, Made};
-use crate::gpu::requirements::Offer;
+use crate::gpu::requirements::DeviceSupport;
 
-/// What all objects of one device share: [`Renderer`](crate::Renderer)s, a [`State`](crate::State) and so on
+/// What all objects of one device share: [`Renderer`](crate::Renderer)s, a [`SurfaceFoamState`](crate::SurfaceFoamState) and so on
 /// are made from a context. A pipeline is created once for all of them and kept for the next that needs it, for
 /// example when [`reconfigure`](crate::Renderer::reconfigure) switches back and forth.
 ///
@@ -39,7 +39,7 @@ impl Context {
     ///
     /// # Safety
     /// The host's handles are alive, belong together, and outlive the context and everything made from it. What
-    /// [`Enabled`] claims and [`requirements`](crate::requirements) demands is enabled.
+    /// [`EnabledFeatures`] claims and [`requirements`](crate::requirements) demands is enabled.
     pub unsafe fn new(host: &Host<'_>) -> Result<Self, Error> {
         check_slots(host.frames_in_flight)?;
         let shared = Arc::new(Shared::new(host)?);
@@ -102,7 +102,7 @@ pub struct Shared {
     /// Device functions.
     pub device: ash::Device,
     /// What the host enabled.
-    pub enabled: Enabled,
+    pub enabled: EnabledFeatures,
     /// Limits of the physical device.
     pub limits: vk::PhysicalDeviceLimits,
     /// Maximum size of a buffer, bytes.
@@ -236,8 +236,8 @@ impl Shared {
     }
 
     /// What the device supports for an output format, as the host created it.
-    pub fn offer(&self, output: vk::Format) -> Offer {
-        let offer = Offer::of(&self.instance, self.physical_device, output);
+    pub fn offer(&self, output: vk::Format) -> DeviceSupport {
+        let offer = DeviceSupport::of(&self.instance, self.physical_device, output);
         match loaded::is_1_3(&self.device) {
             true => offer,
             false => offer.before_1_3(&self.enabled),

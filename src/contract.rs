@@ -1,6 +1,6 @@
 //! Every type that crosses the border between host and library, in the order of use: what fixes a renderer
-//! ([`Host`], [`Enabled`], [`Config`]); what a frame takes ([`Frame`] and everything in it: [`HostImage`],
-//! [`Particles`], [`Camera`], [`Previous`], [`Sun`], [`Settings`]), and a step of the foam ([`Step`]); what a
+//! ([`Host`], [`EnabledFeatures`], [`Config`]); what a frame takes ([`Frame`] and everything in it: [`HostImage`],
+//! [`Particles`], [`Camera`], [`Previous`], [`Settings`]), and a step of the foam ([`SurfaceFoamStep`]); what a
 //! record leaves ([`Recorded`], [`Layer`], [`MemoryUse`]).
 //!
 //! `check` validates a frame, `frame` derives numbers from it.
@@ -18,8 +18,8 @@ pub use crate::gpu::access::Access;
 use crate::gpu::memory::Allocate;
 use crate::shore::settings::{ShoreConfig, ShoreSettings};
 use crate::water::settings::{
-    Exit, Kernels, Ladder, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SpraySettings,
-    SurfaceFoamSettings, SurfaceNoiseSettings, WaterSettings, WeberSettings,
+    DebugView, Exit, Kernels, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat,
+    SpraySettings, SurfaceFoamSettings, SurfaceNoiseSettings, WaterSettings, WeberSettings,
 };
 use crate::whitewater::generate::settings::GeneratorSettings;
 use crate::whitewater::settings::{WhitewaterConfig, WhitewaterSettings};
@@ -42,16 +42,15 @@ pub(crate) use with;
 
 with!(
     Host<'_>,
-    Enabled,
+    EnabledFeatures,
     Config,
     HostImage,
     Particles,
     WhitewaterParticles,
     Blobs,
     Shore,
-    Step<'_>,
+    SurfaceFoamStep<'_>,
     GeneratorStep<'_>,
-    Sun,
     Shadow,
     Frame<'_>,
     Settings,
@@ -79,7 +78,7 @@ pub struct Host<'a> {
     /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
     pub frames_in_flight: u32,
     /// What the host actually enabled on the device.
-    pub enabled: Enabled,
+    pub enabled: EnabledFeatures,
     /// A pipeline cache, or null.
     pub pipeline_cache: vk::PipelineCache,
 }
@@ -102,14 +101,14 @@ impl<'a> Host<'a> {
             allocator: None,
             queue_family,
             frames_in_flight,
-            enabled: Enabled::default(),
+            enabled: EnabledFeatures::default(),
             pipeline_cache: vk::PipelineCache::null(),
         }
     }
 
     /// Sets the optional features and extensions that are enabled on the device.
     #[must_use]
-    pub fn with_enabled(self, enabled: Enabled) -> Self {
+    pub fn with_enabled(self, enabled: EnabledFeatures) -> Self {
         Self { enabled, ..self }
     }
 
@@ -130,7 +129,7 @@ impl<'a> Host<'a> {
 /// correct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Enabled {
+pub struct EnabledFeatures {
     /// `synchronization2` of Vulkan 1.3 or VK_KHR_synchronization2: barriers with their own stages. Without it
     /// barriers of Vulkan 1.0 are recorded, which wait for slightly more; the picture is the same.
     pub synchronization2: bool,
@@ -150,7 +149,7 @@ pub struct Enabled {
     /// the termination.
     pub precise_occlusion_queries: bool,
     /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater takes two passes over
-    /// its particles ([`WhitewaterSplat`](crate::WhitewaterSplat)).
+    /// its particles (`WhitewaterSplat`).
     pub buffer_int64_atomics: bool,
 }
 
@@ -162,7 +161,7 @@ pub struct Config {
     /// Maximum size of the output's part in pixels, 1 to the device's limit for 2D images, framebuffers and
     /// viewports. Images are made for it; a frame may be smaller ([`HostImage::rect`]).
     ///
-    /// Some sizes exceed a device's other limits, which [`Offer::check`](crate::Offer::check) reports. At a
+    /// Some sizes exceed a device's other limits, which [`DeviceSupport::check`](crate::DeviceSupport::check) reports. At a
     /// [`smoothing_level`](Self::smoothing_level) of 0 all smoothing levels have to fit in one image, beside or
     /// below each other (for a square up to two thirds of the limit, for a narrow one any length). Buffers that
     /// are bound at once have to fit in the storage-buffer range: 32 bytes per pixel with
@@ -185,21 +184,30 @@ pub struct Config {
     pub thickness_level: u32,
     /// Path of the depth splats. `None`: [`Splat::Compute`], the fastest on lavapipe and an H200 at every size
     /// tested.
+    #[cfg(feature = "diagnostics")]
     pub depth_splat: Option<Splat>,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) depth_splat: Option<Splat>,
     /// Path of the splats of thickness and surface foam. `None`: as `depth_splat`.
+    #[cfg(feature = "diagnostics")]
     pub thickness_splat: Option<Splat>,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) thickness_splat: Option<Splat>,
     /// Implementation of the smoothing. `None`: [`Smoothing::Tiles`] on CPUs, where it was measured fastest,
     /// [`Smoothing::Fused`] on GPUs (on an H200 half the time of tiles).
+    #[cfg(feature = "diagnostics")]
     pub smoothing: Option<Smoothing>,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) smoothing: Option<Smoothing>,
     /// How water is shaded. `None`: [`Shading::Raster`] on every device. GPUs built for computing rasterize
     /// slowly; there [`Shading::Compute`] is faster (14 times on an H200). It writes the output as a storage
     /// image, whose usage has to allow that and whose format has to support storing without a format qualifier.
-    /// R16G16B16A16_SFLOAT nearly always does, sRGB formats do not. [`Offer`](crate::Offer) knows.
+    /// R16G16B16A16_SFLOAT nearly always does, sRGB formats do not. [`DeviceSupport`](crate::DeviceSupport) knows.
     pub composite: Option<Shading>,
     /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first is a 128th of
     /// the picture's height long, and lengths grow geometrically (by 2.2 on a wide picture), so that the last
     /// ends at the picture's edge. A ray that hits nothing on the screen shows the environment. With 0, as in
-    /// the thesis, and with [`Compositing::Source`](crate::water::Compositing), only the environment is
+    /// the thesis, and with `Compositing::Source`, only the environment is
     /// reflected.
     pub mirror_steps: u32,
     /// What is visible through water with air behind it. Default [`Exit::TwoInterfaces`]. With
@@ -212,13 +220,16 @@ pub struct Config {
     /// and `centred` of 0.
     pub kernels: Kernels,
     /// Iteration rule of the smoothing.
+    #[cfg(feature = "diagnostics")]
     pub rule: Rule,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) rule: Rule,
     /// Maximum number of smoothing iterations, 1 to 256 (default 256, as in the thesis).
     pub max_iterations: u32,
     /// Number of levels coarser than [`smoothing_level`](Self::smoothing_level) at which near water, which
     /// would exceed the maximum number of iterations, is smoothed: 0 to 3 (default 3: water stays smooth down
     /// to an eighth of the distance). Each pixel chooses its level by its distance, and blends between two. For
-    /// [`Rule::ConstantWidth`] only. 0 saves up to a third of the smoothing's memory.
+    /// the rule of constant width (default) only. 0 saves up to a third of the smoothing's memory.
     pub coarsening: u32,
     /// Number of water layers that are separated where one stands in front of another with air between, such as
     /// a drop in front of a pool: 1 as in the thesis, or 2 (default). Each has its own thickness, and the
@@ -228,7 +239,7 @@ pub struct Config {
     /// subtracted from its water. 68 bytes per particle more.
     pub surface_foam: bool,
     /// Whether spray is drawn (default false): the pass `spray`, for particles selected by
-    /// [`SpraySettings::densities`], which then also apply to water and foam. 32 bytes per particle more.
+    /// [`SpraySettings::all_spray_density`] and the like, which then also apply to water and foam. 32 bytes per particle more.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own,
     /// [`Frame::whitewater`]): the passes `splat`, `radiance`, `blur`. `None` (default): it is not. 88 bytes per
@@ -243,16 +254,19 @@ pub struct Config {
     pub shore: Option<ShoreConfig>,
     /// Resolution of the baseline's surface noise, for comparison: 0 full, 1 half, 2 quarter, 3 eighth; adds
     /// the pass `noise`. `None` (default): it is not drawn. 16 bytes per particle more, and 4 per texel.
+    #[cfg(feature = "diagnostics")]
     pub noise: Option<u32>,
-    /// Whether the host hands in a shadow map or mask ([`Sun::shadow`]), and how the map is filtered. `None`
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) noise: Option<u32>,
+    /// Whether the host hands in a shadow map or mask ([`Frame::shadow`]), and how the map is filtered. `None`
     /// (default): the sun reaches everything.
     pub shadow: Option<Shadows>,
     /// Whether water and foam cast shadows and caustics on the scene, and foam on itself: the passes `light`,
-    /// `caustics` and `lit`. The value is the side length of the light maps over [`Sun::region`] in texels, a
+    /// `caustics` and `lit`. The value is the side length of the light maps over [`Frame::light_volume`] in texels, a
     /// multiple of 16 from 16 to 4096. 36 bytes per texel, and a lit copy of the scene. With
     /// [`whitewater`](Self::whitewater) whitewater also casts shadows on the scene, the water, foam and itself: the
     /// pass `whitewater_light`, 24 bytes per texel more. `None` (default): nothing casts.
-    pub cast: Option<u32>,
+    pub light_map_size: Option<u32>,
     /// Whether motion vectors are made (default false): the pass `motion` and the layer `motion`, from
     /// [`Frame::previous`] and the particles' velocities. 12.5 bytes per pixel more (48, 26, 12.5 or 9.1 for a
     /// [`thickness_level`](Self::thickness_level) of 0 to 3).
@@ -294,7 +308,7 @@ impl Config {
             shore: None,
             noise: None,
             shadow: None,
-            cast: None,
+            light_map_size: None,
             motion: false,
             environment_size: 256,
             in_place: true,
@@ -471,7 +485,7 @@ pub struct Particles {
     /// rest.
     pub velocities: Option<Stream>,
     /// Numbers that stay with their particle from frame to frame (u32), for the noise in foam and the droplets
-    /// of spray. Read as the velocities, and with [`Config::noise`] for the surface noise. `None`: the index is
+    /// of spray. Read as the velocities, and with `Config.noise` for the surface noise. `None`: the index is
     /// used.
     pub ids: Option<Stream>,
     /// Number of particles.
@@ -479,7 +493,7 @@ pub struct Particles {
     /// Groups to cull, instead of each particle.
     pub packets: Option<Packets>,
     /// Foam amount (0 water to 1 foam; NaN: water) and age (seconds) of each particle, 2×f32: the content of
-    /// [`State::foam`](crate::State::foam), at a stride of 8. With [`Config::surface_foam`]. `None`: there is no foam.
+    /// [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam), at a stride of 8. With [`Config::surface_foam`]. `None`: there is no foam.
     pub surface_foam: Option<Stream>,
     /// Last use of all these buffers before `record`; the layout is ignored. For buffers that the
     /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
@@ -529,7 +543,7 @@ impl Particles {
         Self { packets: Some(packets), ..self }
     }
 
-    /// Adds the foam fraction of each particle, as in [`State::foam`](crate::State::foam).
+    /// Adds the foam fraction of each particle, as in [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam).
     #[must_use]
     pub fn with_surface_foam(self, foam: Stream) -> Self {
         Self { surface_foam: Some(foam), ..self }
@@ -563,7 +577,7 @@ pub struct WhitewaterParticles {
     /// Packets of these particles, with [`WhitewaterConfig::packets`](crate::whitewater::WhitewaterConfig::packets).
     /// Packets outside the view, and for shadows outside the light's region, are not read. If the particles
     /// have [`radii`](Self::radii), boxes enclose the spheres, otherwise the centres.
-    /// [`WhitewaterSplat::Raster`](crate::WhitewaterSplat::Raster) reads all packets. `None`: each particle is culled on its
+    /// The raster path reads all packets. `None`: each particle is culled on its
     /// own.
     pub packets: Option<Packets>,
     /// Depth of a fluid surface of the host, such as a sea, in the camera's convention. The nearer of it and
@@ -729,7 +743,7 @@ pub enum Shoreline {
     /// A mesh of the host with v per vertex.
     Strip(Strip),
     /// Distances in the world, for islands that move or change.
-    Map(Coast),
+    Map(ShoreDistances),
     /// The scene's depth alone: the water's depth divided by the slope of the ground below. Shores that are
     /// hidden or off the screen have no foam.
     Screen,
@@ -788,7 +802,7 @@ pub struct Strip {
 
 /// Distances to the shore, as returned by [`ShoreMap::coast`](crate::shore::ShoreMap::coast).
 #[derive(Clone, Copy, Debug)]
-pub struct Coast {
+pub struct ShoreDistances {
     pub(crate) view: vk::ImageView,
     /// Corner, edge in metres, texels each way.
     pub(crate) corner: [f32; 2],
@@ -796,11 +810,11 @@ pub struct Coast {
     pub(crate) size: u32,
 }
 
-/// One simulation step, for [`State::record_step`](crate::State::record_step): the particles after it, in any
+/// One simulation step, for [`SurfaceFoamState::record_step`](crate::SurfaceFoamState::record_step): the particles after it, in any
 /// order. Only read.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub struct Step<'a> {
+pub struct SurfaceFoamStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
     /// World-space velocities (3×f32, scene units per second).
@@ -812,7 +826,7 @@ pub struct Step<'a> {
     /// share an id, only one (unspecified) keeps its state. 0xffff_ffff is never foam. `None`: no state is
     /// kept, and the foam amount is a ramp of the Weber number, from half the threshold to one and a half.
     pub ids: Option<Stream>,
-    /// Number of particles, at most [`StateConfig::max_particles`](crate::StateConfig).
+    /// Number of particles, at most [`SurfaceFoamStateConfig::max_particles`](crate::SurfaceFoamStateConfig).
     pub count: Count,
     /// Seconds since the previous step, [0, ∞).
     pub dt: f32,
@@ -824,7 +838,7 @@ pub struct Step<'a> {
     pub after: Access,
 }
 
-impl<'a> Step<'a> {
+impl<'a> SurfaceFoamStep<'a> {
     /// A step with velocities only, in buffers that the CPU wrote before the submit.
     pub fn new(
         slot: Slot,
@@ -990,16 +1004,6 @@ pub struct Previous {
     pub dt: f32,
 }
 
-/// Shadow information of the sun.
-#[derive(Clone, Copy, Debug, Default)]
-#[non_exhaustive]
-pub struct Sun {
-    /// The scene's shadow on the fluid, with [`Config::shadow`].
-    pub shadow: Option<Shadow>,
-    /// The sphere that contains the fluid that casts and the scene that receives, with [`Config::cast`].
-    pub region: Option<Region>,
-}
-
 /// The host's shadow map or mask, only sampled.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -1038,14 +1042,14 @@ impl Shadow {
 
 /// A sphere in the world. The light's maps are fitted to it; outside of it nothing is cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Region {
+pub struct LightVolume {
     /// Centre, world space.
     pub center: [f32; 3],
     /// Radius, metres.
     pub radius: f32,
 }
 
-impl Region {
+impl LightVolume {
     /// World to the light's maps: place 0 to 1, metres along the light.
     pub(crate) fn to_map(self, light: &Light, up: Vec3) -> Mat4 {
         let sun = light.toward();
@@ -1085,8 +1089,11 @@ pub struct Frame<'a> {
     pub shore: Option<Shore>,
     /// The view.
     pub camera: Camera,
-    /// Shadow information of the sun, with [`Config::shadow`] and [`Config::cast`].
-    pub sun: Sun,
+    /// The scene's shadow on the fluid, with [`Config::shadow`]. `None` (default): there is none.
+    pub shadow: Option<Shadow>,
+    /// The sphere that contains the fluid that casts and the scene that receives, with
+    /// [`Config::light_map_size`]. `None` (default): there is none.
+    pub light_volume: Option<LightVolume>,
     /// The previous frame, with [`Config::motion`]. `None`, as for the first frame: nothing moved.
     pub previous: Option<Previous>,
     /// Settings that are uniforms.
@@ -1114,7 +1121,8 @@ impl<'a> Frame<'a> {
             bubbles: None,
             shore: None,
             camera,
-            sun: Sun::default(),
+            shadow: None,
+            light_volume: None,
             previous: None,
             settings,
         }
@@ -1147,13 +1155,13 @@ impl<'a> Frame<'a> {
     /// Adds the host's shadows, for [`Config::shadow`].
     #[must_use]
     pub fn with_shadow(self, shadow: Shadow) -> Self {
-        Self { sun: Sun { shadow: Some(shadow), ..self.sun }, ..self }
+        Self { shadow: Some(shadow), ..self }
     }
 
-    /// Adds the sphere in which water and foam cast shadows, for [`Config::cast`].
+    /// Adds the sphere in which water and foam cast shadows, for [`Config::light_map_size`].
     #[must_use]
-    pub fn with_region(self, region: Region) -> Self {
-        Self { sun: Sun { region: Some(region), ..self.sun }, ..self }
+    pub fn with_light_volume(self, light_volume: LightVolume) -> Self {
+        Self { light_volume: Some(light_volume), ..self }
     }
 
     /// Adds the previous frame, for [`Config::motion`].
@@ -1193,11 +1201,17 @@ pub struct Settings {
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
     /// The baseline's surface noise.
+    #[cfg(feature = "diagnostics")]
     pub noise: SurfaceNoiseSettings,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) noise: SurfaceNoiseSettings,
     /// Sun and sky light.
     pub light: Light,
     /// How many layers the composite contains, for debug views. Default: all.
-    pub ladder: Ladder,
+    #[cfg(feature = "diagnostics")]
+    pub ladder: DebugView,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) ladder: DebugView,
 }
 
 /// Defaults for a particle spacing of 0.05 metres, in metres, under the default [`Sky`](crate::Sky).
@@ -1214,7 +1228,7 @@ impl Default for Settings {
             shadow: ShadowFilter::default(),
             noise: SurfaceNoiseSettings::default(),
             light: Light::default(),
-            ladder: Ladder::default(),
+            ladder: DebugView::default(),
         }
     }
 }
@@ -1226,7 +1240,7 @@ impl Settings {
     /// [`with_light`](Self::with_light).
     ///
     /// The host sets what belongs to a frame or step: radii of whitewater particles, [`Shore::bias`], gravity of
-    /// [`HeapSettings`](crate::bubbles::HeapSettings) and [`GeneratorSettings`], and [`WeberSettings::weber_in`].
+    /// [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and [`GeneratorSettings`], and [`WeberSettings::weber_in`].
     pub fn new(spacing: f32, units_per_metre: f32) -> Self {
         let mut settings = Self::default();
         settings.water.spacing = spacing;
@@ -1252,9 +1266,9 @@ impl Settings {
     }
 
     /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of
-    /// thickness, foam, spray and light on foam. It belongs with [`Rule::Source`](crate::water::Rule) as
-    /// [`Config::rule`], [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
-    /// [`Exit::Straight`], [`Config::kernels`] of [`Kernels::Spheres`], [`Config::cast`] of `None` and
+    /// thickness, foam, spray and light on foam. It belongs with `Rule::Source` as
+    /// `Config.rule`, [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
+    /// [`Exit::Straight`], [`Config::kernels`] of [`Kernels::Spheres`], [`Config::light_map_size`] of `None` and
     /// [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {
         Self {

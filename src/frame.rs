@@ -5,7 +5,7 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{DMat4, Mat4, Vec3, Vec4};
 
-use crate::contract::{Camera, Config, Frame, Light, Region, Settings};
+use crate::contract::{Camera, Config, Frame, Light, LightVolume, Settings};
 use crate::error::Error;
 use crate::gpu::shader;
 use crate::water::settings::{
@@ -308,12 +308,12 @@ impl FrameUniforms {
         };
         // The copy that stands in for an output that is its own scene begins with the view, as does the
         // lit scene.
-        let own = frame.in_place() || config.cast.is_some();
+        let own = frame.in_place() || config.light_map_size.is_some();
         let scene_color = if own { full.into() } else { frame.scene_color.rect };
         let to_world = lens.view.inverse();
-        let shadow = frame.sun.shadow.as_ref();
-        let region = frame.sun.region.unwrap_or(Region { center: [0.0; 3], radius: 1.0 });
-        let edge = config.cast.unwrap_or(1) as f32;
+        let shadow = frame.shadow.as_ref();
+        let region = frame.light_volume.unwrap_or(LightVolume { center: [0.0; 3], radius: 1.0 });
+        let edge = config.light_map_size.unwrap_or(1) as f32;
         let convolved = crate::light::Convolved::new(frame, config).unwrap_or_default();
         let lit = frame.scene_color.rect;
         let [depth_at, color_at, target_at] =

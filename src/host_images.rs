@@ -93,7 +93,7 @@ pub fn sunlight(
     gpu: &Gpu,
     (depth, uniforms): (Resource, Resource),
 ) -> Sunlight {
-    let map = frame.sun.shadow.as_ref().filter(|_| convolving.is_none());
+    let map = frame.shadow.as_ref().filter(|_| convolving.is_none());
     Sunlight {
         shadow: map.map_or(depth, |shadow| shadow_map(shadow, gpu)),
         thickness: light.map_or(depth, |light| light.thickness(gpu)),
@@ -112,7 +112,7 @@ pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     if !uses.in_place {
         all.push(barrier(&frame.scene_color, uses.scene_first()));
     }
-    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
+    let shadow = frame.shadow.iter().map(|shadow| &shadow.image);
     all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
     all.extend(
         fluid(frame).into_iter().chain(shore(frame)).map(|(image, used)| barrier(image, used)),
@@ -129,7 +129,7 @@ pub fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     if !uses.in_place {
         all.push(barrier(&frame.scene_color, uses.scene_first()));
     }
-    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
+    let shadow = frame.shadow.iter().map(|shadow| &shadow.image);
     all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
     all.extend(
         fluid(frame).into_iter().chain(shore(frame)).map(|(image, used)| barrier(image, used)),

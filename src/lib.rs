@@ -7,9 +7,11 @@
 //! # Embedding
 //!
 //! 1. Before you create the device (Vulkan 1.2 or newer; no feature is required), ask [`requirements`] and
-//!    [`Offer::check`], and enable the optional features that you want: [`Offer::optional`] is what the device supports,
-//!    [`Enabled::device_features`] makes the structures for `vkCreateDevice`. Report truthfully in [`Enabled`] what you
-//!    enabled.
+//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what
+//!    the device supports, [`EnabledFeatures::device_features`] makes the structures for `vkCreateDevice`,
+//!    [`DeviceSupport::with_enabled`] says what a selection of them leaves. Report truthfully in [`EnabledFeatures`]
+//!    what you enabled. On a Vulkan 1.2 device surface foam, motion vectors and [`Shading::Compute`](water::Shading)
+//!    need [`EnabledFeatures::storage_image_write_without_format`].
 //! 2. Create one [`Context`] per device from a [`Host`], then a [`Renderer`] from the context and a [`Config`]. This
 //!    allocates all memory, and creates all pipelines that the context does not have yet.
 //! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Earlier frames
@@ -25,9 +27,9 @@
 //! State that outlives a frame is kept in objects of its own, which several views share. Each is updated once per
 //! simulation step:
 //!
-//! - [`State`] holds which of the water's particles are foam ([`State::record_step`]).
+//! - [`SurfaceFoamState`] holds which of the water's particles are foam ([`SurfaceFoamState::record_step`]).
 //! - [`Generator`] emits, moves and ages whitewater: spray, foam and bubbles that are particles of their own.
-//! - [`bubbles::Heap`] simulates blobs of bubble foam.
+//! - [`bubbles::BlobSimulation`] simulates blobs of bubble foam.
 //! - [`shore::ShoreMap`] holds the distance to the shore. It is updated only where the land has changed.
 //!
 //! # What `record` takes
@@ -46,7 +48,7 @@
 //! | `particles.packets` | the host's own groups with bounding boxes, for culling | storage buffer, aligned offset | as above |
 //! | `particles.velocities` | 3×f32, world space; with `Config.surface_foam`, `Config.spray` or `Config.motion` | as above | as above |
 //! | `particles.ids` | u32, the same for a particle in every frame; as velocities, and with `Config.noise` | as above | as above |
-//! | `particles.surface_foam` | with `Config.surface_foam`: foam amount and age (2×f32, as [`State::foam`]) | as above | as above |
+//! | `particles.surface_foam` | with `Config.surface_foam`: foam amount and age (2×f32, as [`SurfaceFoamState::foam`]) | as above | as above |
 //! | `whitewater.positions` | with `Config.whitewater`: 3×f32, whitewater particles; NaN, infinite and huge ones are not drawn | as above | as above |
 //! | `whitewater.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 per particle; all optional | as above | as above |
 //! | `whitewater.count` | as `particles.count` | as above | as above |
@@ -57,8 +59,8 @@
 //! | `bubbles.count` | as `particles.count` | as above | as above |
 //! | `shore.surface`, `mask` | with `Config.shore`: the height of your water, or its depth in the camera's convention; a single-channel mask that suppresses contact foam; any size | sampled (a depth: and depth attachment), single-sampled | `before` → `after` |
 //! | `shore.shoreline` | a mesh strip: 3×f32 position and f32 shore coordinate per vertex, u32 indices; or the distances of a [`shore::ShoreMap`] | storage buffers | as above |
-//! | `sun.shadow` | with `Config.shadow`: the sun's depth map with its matrix, any size in any frame, or a mask over the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
-//! | `sun.region` | with `Config.cast`: the sphere in which water and foam cast shadows and caustics | | |
+//! | `shadow` | with `Config.shadow`: the sun's depth map with its matrix, any size in any frame, or a mask over the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
+//! | `light_volume` | with `Config.light_map_size`: the sphere in which water and foam cast shadows and caustics | | |
 //! | `previous` | with `Config.motion`: the camera of the previous frame and the seconds since | | |
 //! | `camera` | view and projection: perspective, standard or reversed depth, finite or infinite, off-axis, looking down −z or +z | | |
 //!
@@ -76,15 +78,15 @@
 //! - `record` only records: it never submits, waits, creates pipelines or allocates device memory.
 //! - Each host image gets one acquire and one release barrier. The output gets more in between if it is copied first, or if
 //!   the lit scene is drawn. Core and synchronization validation report nothing.
-//! - Pixels outside the fluid are unchanged, and zero particles change nothing. With `Config.cast` the whole view is
+//! - Pixels outside the fluid are unchanged, and zero particles change nothing. With `Config.light_map_size` the whole view is
 //!   written: the scene with shadows and caustics.
 //! - Every [`Error::BadInput`] is found before the first command. After any other error discard the command buffer and call
 //!   [`Renderer::abandon`].
 //! - `resize` and `reconfigure` are legal with frames in flight. `collect` frees what they replaced as soon as every slot
 //!   that used it has come back. Only construction, `resize`, `reconfigure`, `collect` and `destroy` call the allocator.
 //! - Equal inputs give equal pictures on one device, in any order of the particles. Sums are of integers, or of steps that
-//!   floats represent exactly. There are three exceptions: the additive blending of [`Splat::Raster`](water::Splat); light
-//!   maps some hundred spacings from the centre of their region, which are nearly exact; and [`WhitewaterSplat::Raster`], which
+//!   floats represent exactly. There are three exceptions: the additive blending of splats by raster; light
+//!   maps some hundred spacings from the centre of their region, which are nearly exact; and whitewater by raster, which
 //!   rounds sums beyond 256 and, of two whitewater particles at one depth, shows the first.
 //!
 //! # Demands
@@ -120,7 +122,7 @@
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
 //! | environment without the sun (`WhitewaterConfig::irradiance` of `Sampled`) | | 4.0 MiB | 4.0 MiB |
 //! | foam: depth, thickness and its sums, water in front of it (`surface_foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
-//! | foam: its sunlit part (`surface_foam` with `cast` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
+//! | foam: its sunlit part (`surface_foam` with `light_map_size` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | foam: sprites and shares (`surface_foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |
 //! | spray: optical depth and its sunlit part (`spray`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
@@ -131,17 +133,17 @@
 //! | bubble foam: depth, colour, three layers and lists (`bubbles`) | 30½ w h | 26.8 MiB | 60.3 MiB |
 //! | bubble foam: blobs (`bubbles`) | 64 per blob | 0.3 MiB for 5000 | |
 //! | bubble foam: blobs made of whitewater foam (`bubbles.crossfade`) | 36 per blob | 2.3 MiB for 65 536 | |
-//! | bubble foam: shadow map of N texels a side (`cast` = N with `bubbles`) | N² | 1 MiB for 1024 | |
+//! | bubble foam: shadow map of N texels a side (`light_map_size` = N with `bubbles`) | N² | 1 MiB for 1024 | |
 //! | shoreline and contact foam (`shore`), and 8.7 MiB for the textures | 4 w h | 3.5 MiB | 7.9 MiB |
-//! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
-//! | sunlight: map of whitewater (`cast` with `whitewater`) | 24 N² | 24 MiB for 1024 | |
+//! | sunlight: maps of `light_map_size` = N texels a side | 36 N² | 36 MiB for 1024 | |
+//! | sunlight: map of whitewater (`light_map_size` with `whitewater`) | 24 N² | 24 MiB for 1024 | |
 //! | filtered host shadow map (`Shadows::Convolution`), N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, instead of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
-//! | which particles are in a packet (`surface_foam`, `spray`, `motion`, `noise` or `cast`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
+//! | which particles are in a packet (`surface_foam`, `spray`, `motion`, `noise` or `light_map_size`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
 //! | ellipsoids: grid, shapes, lists (`kernels`) | 92 to 96 n | 5.8 MiB for 65 536 | 960 MB for 10 million |
 //! | spheres: all, and the visible ones | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
-//! A [`State`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per
+//! A [`SurfaceFoamState`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per
 //! whitewater particle. A [`shore::ShoreMap`] takes 16 bytes per texel.
 //!
 //! # Where it differs from its sources
@@ -200,11 +202,13 @@ pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;
 pub use gpu::features::DeviceFeatures;
 pub use gpu::memory::{Allocate, Memory, MemoryLocation, MemoryRequest};
-pub use gpu::requirements::{Limit, Need, Offer, Requirements, requirements};
+pub use gpu::requirements::{DeviceSupport, Limit, Requirement, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;
-pub use state::{State, StateConfig};
+pub use state::{SurfaceFoamState, SurfaceFoamStateConfig};
 pub use whitewater::{
-    Generator, GeneratorConfig, GeneratorSettings, Irradiance, Occlusion, OcclusionReach,
-    PotentialRange, ShadowMixing, Submerged, WhitewaterConfig, WhitewaterSettings, WhitewaterSplat,
+    Generator, GeneratorConfig, GeneratorSettings, PotentialRange, Submerged, WhitewaterConfig,
+    WhitewaterSettings,
 };
+#[cfg(feature = "diagnostics")]
+pub use whitewater::{Irradiance, Occlusion, OcclusionReach, ShadowMixing, WhitewaterSplat};

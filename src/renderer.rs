@@ -306,7 +306,7 @@ impl Renderer {
             read_back,
         };
         if let (Some(convolving), Some(shadow), Some(convolution)) =
-            (&self.convolving, &frame.sun.shadow, convolution(&self.config))
+            (&self.convolving, &frame.shadow, convolution(&self.config))
         {
             convolving.record(&mut r, &convolution, shadow, shadow_map(shadow, gpu))?;
         }
@@ -651,7 +651,7 @@ impl Parts {
     }
 
     fn light(gpu: &Gpu, config: &Config) -> Result<Option<Light>, Error> {
-        config.cast.map(|edge| Light::new(gpu, config, edge)).transpose()
+        config.light_map_size.map(|edge| Light::new(gpu, config, edge)).transpose()
     }
 
     fn convolving(gpu: &Gpu, config: &Config) -> Result<Option<Convolving>, Error> {
@@ -660,7 +660,7 @@ impl Parts {
 
     fn scene_copy(gpu: &Gpu, config: &Config) -> Result<Option<Image>, Error> {
         // A lit one takes its place.
-        if !config.in_place || config.cast.is_some() {
+        if !config.in_place || config.light_map_size.is_some() {
             return Ok(None);
         }
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;

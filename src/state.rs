@@ -6,26 +6,26 @@ use ash::vk;
 
 use crate::check;
 use crate::context::Context;
-use crate::contract::{Slot, Step, Stream};
+use crate::contract::{Slot, Stream, SurfaceFoamStep};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::descriptors::Descriptors;
 use crate::gpu::timing::{Timer, Timing};
 use crate::water::Classify;
 
-crate::contract::with!(StateConfig);
+crate::contract::with!(SurfaceFoamStateConfig);
 
-/// Configuration of a [`State`]: what fixes its memory.
+/// Configuration of a [`SurfaceFoamState`]: what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct StateConfig {
+pub struct SurfaceFoamStateConfig {
     /// Maximum number of particles per step.
     pub max_particles: u32,
     /// Maximum stride of the streams in bytes, a multiple of 4 (default 16).
     pub max_stride: u32,
 }
 
-impl StateConfig {
+impl SurfaceFoamStateConfig {
     /// The defaults for a number of particles.
     pub fn new(max_particles: u32) -> Self {
         Self { max_particles, max_stride: 16 }
@@ -39,9 +39,9 @@ struct StateSlot {
 
 /// Surface-foam state of one body of water: foam phases by particle id. Views share it; each simulation step
 /// advances it once.
-pub struct State {
+pub struct SurfaceFoamState {
     gpu: Arc<Gpu>,
-    config: StateConfig,
+    config: SurfaceFoamStateConfig,
     classify: Classify,
     slots: Vec<StateSlot>,
     /// Whether the odd table holds the state.
@@ -52,18 +52,21 @@ pub struct State {
     last: Option<(Slot, bool)>,
 }
 
-impl State {
+impl SurfaceFoamState {
     /// Makes pipelines and memory: 60 bytes per particle, and 8 for its foam.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
-    pub fn new(context: &Context, config: &StateConfig) -> Result<Self, Error> {
+    pub fn new(context: &Context, config: &SurfaceFoamStateConfig) -> Result<Self, Error> {
         if config.max_particles == 0 {
-            return Err(Error::bad("StateConfig.max_particles", "zero; it sizes the buffers"));
+            return Err(Error::bad(
+                "SurfaceFoamStateConfig.max_particles",
+                "zero; it sizes the buffers",
+            ));
         }
         if config.max_stride < 4 || !config.max_stride.is_multiple_of(4) {
             let why = format!("{} is no multiple of 4", config.max_stride);
-            return Err(Error::bad("StateConfig.max_stride", why));
+            return Err(Error::bad("SurfaceFoamStateConfig.max_stride", why));
         }
         let gpu = Gpu::new(context);
         let made = Classify::new(&gpu, config.max_particles, config.max_stride).and_then(|c| {
@@ -104,7 +107,7 @@ impl State {
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
-        step: &Step<'_>,
+        step: &SurfaceFoamStep<'_>,
     ) -> Result<(), Error> {
         // A step that fails below leaves nothing to take back.
         self.last = None;
@@ -161,10 +164,13 @@ impl State {
         self.classify.record_copy(&self.gpu, cmd, self.odd, (from, offset), false);
     }
 
-    /// Foam amount (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its order.
-    /// Transfer source; last written by a compute shader, then free to be read.
-    pub fn foam(&self) -> vk::Buffer {
-        self.classify.foam.handle
+    /// Foam amount (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its order: for
+    /// [`Particles::surface_foam`](crate::Particles::surface_foam). The step leaves it ready to be read by shaders and
+    /// copies; the next step waits for frames recorded in between. Nothing has to be said of it in
+    /// [`Particles::before`](crate::Particles::before) and `after`. The buffer stays the same as long as the state.
+    pub fn foam(&self) -> Stream {
+        let buffer = &self.classify.foam;
+        Stream { buffer: buffer.handle, size: buffer.size, offset: 0, stride: 8 }
     }
 
     /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
@@ -204,21 +210,31 @@ impl State {
     }
 
     /// Validates a step.
-    fn check(&self, step: &Step<'_>) -> Result<(), Error> {
-        check::step(["Step.slot", "Step.dt"], step.slot, self.slots.len(), step.dt)?;
+    fn check(&self, step: &SurfaceFoamStep<'_>) -> Result<(), Error> {
+        check::step(
+            ["SurfaceFoamStep.slot", "SurfaceFoamStep.dt"],
+            step.slot,
+            self.slots.len(),
+            step.dt,
+        )?;
         step.settings.check()?;
-        let fields = ["Step.count", "Step.count.offset"];
-        let most = ("StateConfig.max_particles", self.config.max_particles);
+        let fields = ["SurfaceFoamStep.count", "SurfaceFoamStep.count.offset"];
+        let most = ("SurfaceFoamStateConfig.max_particles", self.config.max_particles);
         let count = check::count(fields, step.count, most, &self.gpu.limits)?;
         let stream = |field, stream: &Stream, bytes| {
-            stream.check(field, bytes, count, ("StateConfig.max_stride", self.config.max_stride))
+            stream.check(
+                field,
+                bytes,
+                count,
+                ("SurfaceFoamStateConfig.max_stride", self.config.max_stride),
+            )
         };
-        stream("Step.velocities", &step.velocities, 12)?;
+        stream("SurfaceFoamStep.velocities", &step.velocities, 12)?;
         if let Some(densities) = &step.densities {
-            stream("Step.densities", densities, 4)?;
+            stream("SurfaceFoamStep.densities", densities, 4)?;
         }
         if let Some(ids) = &step.ids {
-            stream("Step.ids", ids, 4)?;
+            stream("SurfaceFoamStep.ids", ids, 4)?;
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Pass `cast`: the blobs' shadow map, so that they shadow each other, the scene and the water (not in the
+//! Pass `light_map_size`: the blobs' shadow map, so that they shadow each other, the scene and the water (not in the
 //! paper).
 //!
 //! Reads: blobs. Writes: metres along the light to the first of them, from the near side of the light's region
@@ -32,7 +32,7 @@ pub struct Cast {
 impl Cast {
     /// `None` if nothing casts shadows.
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Option<Self>, Error> {
-        let Some(edge) = config.cast else { return Ok(None) };
+        let Some(edge) = config.light_map_size else { return Ok(None) };
         let usage = vk::ImageUsageFlags::STORAGE
             | vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_DST;

@@ -28,14 +28,18 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::{Recording, WaterLayers};
+#[cfg(feature = "diagnostics")]
 pub use blob::Blob;
-pub use heap::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
+pub use heap::{
+    BlobSimulation, BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep,
+    DistanceField, Solid,
+};
 pub(crate) use lists::buffers_of;
 pub(crate) use near::sets as near_sets;
 use settings::MOST_FILM;
-pub use settings::{
-    BubbleConfig, BubbleSettings, BubbleSort, Crossfade, Film, FilmFresnel, Impostor, Spectrum,
-};
+pub use settings::{BubbleConfig, BubbleSettings, Crossfade};
+#[cfg(feature = "diagnostics")]
+pub use settings::{BubbleSort, Film, FilmFresnel, Impostor, Spectrum};
 use templates::Templates;
 
 /// How the host's streams are read.
@@ -168,7 +172,7 @@ impl Bubbles {
         self.near.as_ref().map(|near| (near.blobs(), near.over()))
     }
 
-    /// Passes `blobs` and `cast`, before any pass that needs sunlight.
+    /// Passes `blobs` and `light_map_size`, before any pass that needs sunlight.
     pub fn record_lists(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"blobs");
         self.lists.record(r, blobs)?;

@@ -24,19 +24,34 @@ pub struct BubbleConfig {
     /// Seed of the variants, default 1.
     pub seed: u32,
     /// How the first bubble along a ray is found.
+    #[cfg(feature = "diagnostics")]
     pub impostor: Impostor,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) impostor: Impostor,
     /// Side length of a face of the impostor's cube map in texels, a multiple of 4 from 8 to 512. Default: the
     /// impostor's.
+    #[cfg(feature = "diagnostics")]
     pub map_size: u32,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) map_size: u32,
     /// Maximum steps of the search along a ray, 1 to 64. Default: the impostor's.
+    #[cfg(feature = "diagnostics")]
     pub steps: u32,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) steps: u32,
     /// Number of blobs per pixel that are composited, 1 to 8, default 3. Blobs behind these only contribute
     /// opacity to the holes between them.
     pub layers: u32,
     /// How the blobs of a pixel are sorted.
+    #[cfg(feature = "diagnostics")]
     pub sort: BubbleSort,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) sort: BubbleSort,
     /// The soap film.
+    #[cfg(feature = "diagnostics")]
     pub film: Film,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) film: Film,
     /// Whether whitewater foam near the camera turns into blobs ([`BubbleSettings::crossfade`]), at most
     /// `max_blobs` of them; frames then have no other blobs. Default false. Needs
     /// [`Config::whitewater`](crate::Config::whitewater). 36 bytes per blob more; adds the pass `near`.
@@ -84,6 +99,7 @@ impl BubbleConfig {
 
 /// Precomputed representation of a blob's bubbles (Sec. 4.2, 4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Impostor {
     /// Distance from the centre to the surface in each direction: 64 texels per side, at most 20 steps. No
     /// walls.
@@ -113,6 +129,7 @@ impl Impostor {
 
 /// How the nearest blobs of a pixel are found. Both give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum BubbleSort {
     /// Each pixel walks the blobs of its tile once, front to back, and keeps the nearest. Default. The lists
     /// have room for 128 blobs per 16×16 tile on average, plus four tiles per blob; when full, they drop the
@@ -125,6 +142,7 @@ pub enum BubbleSort {
 
 /// The soap film (Sec. 3.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub struct Film {
     /// Refractive index of the soapy water, 1 to 3, default 1.4.
     pub index: f32,
@@ -142,6 +160,7 @@ impl Default for Film {
 
 /// Reflectance of one face of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum FilmFresnel {
     /// Fresnel's equations for both polarisations, with Airy's sum for each. Default.
     Exact,
@@ -154,6 +173,7 @@ pub enum FilmFresnel {
 
 /// Wavelengths at which a film's interference is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Spectrum {
     /// One each for red, green and blue, as in the paper.
     Three,
@@ -191,7 +211,7 @@ pub struct BubbleSettings {
     pub reflection: f32,
     /// Exponent of the sun's highlight on films, 1 to 10 000, default 800.
     pub shininess: f32,
-    /// Whether the walls between bubbles are drawn, with [`Impostor::Ids`]. Default true.
+    /// Whether the walls between bubbles are drawn. Default true.
     pub walls: bool,
     /// Whether blobs behind the last layer fill the holes (Sec. 5). Default true.
     pub fill_holes: bool,

@@ -4,9 +4,9 @@ use std::ffi::CStr;
 
 use ash::vk;
 
-use crate::contract::Enabled;
+use crate::contract::EnabledFeatures;
 
-/// The structures for [`Enabled`], to be chained into `VkDeviceCreateInfo`; see [`Enabled::device_features`].
+/// The structures for [`EnabledFeatures`], to be chained into `VkDeviceCreateInfo`; see [`EnabledFeatures::device_features`].
 pub struct DeviceFeatures {
     core: vk::PhysicalDeviceFeatures,
     vulkan12: vk::PhysicalDeviceVulkan12Features<'static>,
@@ -24,7 +24,7 @@ impl DeviceFeatures {
     /// Adds everything that is enabled to the create info: `pEnabledFeatures`, and in the `pNext` chain
     /// VkPhysicalDeviceVulkan12Features and the structures of extensions. A host that has one of these structures
     /// itself, or single ones instead of VkPhysicalDeviceVulkan12Features, fills its own with
-    /// [`Enabled::set_core`] and the functions beside it.
+    /// [`EnabledFeatures::set_core`] and the functions beside it.
     pub fn chain<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
         let mut info = info.enabled_features(&self.core).push_next(&mut self.vulkan12);
         if self.synchronization2.synchronization2 == vk::TRUE {
@@ -37,12 +37,12 @@ impl DeviceFeatures {
     }
 }
 
-impl Enabled {
-    /// The structures that enable these features, for example [`Offer::optional`](crate::Offer), on a device.
+impl EnabledFeatures {
+    /// The structures that enable these features, for example [`DeviceSupport::optional`](crate::DeviceSupport), on a device.
     ///
     /// ```
     /// use ash::vk;
-    /// let enabled = whitewater::Enabled::default().with(|it| it.synchronization2 = true);
+    /// let enabled = whitewater::EnabledFeatures::default().with(|it| it.synchronization2 = true);
     /// let mut features = enabled.device_features();
     /// let names: Vec<_> =
     ///     enabled.device_extensions(vk::API_VERSION_1_3).iter().map(|name| name.as_ptr()).collect();

@@ -126,7 +126,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
     let of = |parts: &[&str]| parts.iter().any(|part| name.starts_with(part));
     let whitewater = config.whitewater;
     match folder {
-        "water" if of(&["classify"]) => false, // a `State`'s
+        "water" if of(&["classify"]) => false, // a `SurfaceFoamState`'s
         "water" if of(&["surface_foam"]) => config.surface_foam,
         "water" if of(&["spray"]) => config.spray,
         "water" if of(&["noise"]) => config.noise.is_some(),
@@ -139,14 +139,14 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
         }
         "light" if of(&["convolution"]) => crate::light::convolution(config).is_some(),
         "light" if of(&["whitewater"]) => whitewater.is_some(),
-        "light" => config.cast.is_some(),
+        "light" => config.light_map_size.is_some(),
         "whitewater" if of(&["splat64"]) => match whitewater.map(|own| own.splat) {
             Some(None) => int64_atomics,
             Some(Some(way)) => way == WhitewaterSplat::Compute64,
             None => false,
         },
         "whitewater" => whitewater.is_some(),
-        "bubbles" if of(&["heap"]) => false, // a `Heap`'s
+        "bubbles" if of(&["heap"]) => false, // a `BlobSimulation`'s
         "bubbles" if of(&["near"]) => config.bubbles.is_some_and(|own| own.crossfade),
         "bubbles" => config.bubbles.is_some(),
         "gpu" => config.bubbles.is_some() || config.kernels == Kernels::Ellipsoids,

@@ -5,7 +5,7 @@ use std::ffi::CStr;
 use ash::vk;
 
 use crate::bubbles::bytes_bound as bubble_bytes;
-use crate::contract::Enabled;
+use crate::contract::EnabledFeatures;
 use crate::error::Error;
 use crate::gpu::{limits, loaded};
 use crate::shore::bytes_bound as shore_bytes;
@@ -18,12 +18,12 @@ use crate::whitewater::splat::word_bytes;
 
 pub use limits::Limit;
 
-crate::contract::with!(Offer);
+crate::contract::with!(DeviceSupport);
 
 /// One feature or extension that the host has to or may enable, and why.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub struct Need {
+pub struct Requirement {
     /// Feature or extension.
     pub what: &'static str,
     /// Its purpose; for optional ones, what happens without it.
@@ -37,49 +37,49 @@ pub struct Requirements {
     /// Vulkan version of the device.
     pub api_version: u32,
     /// Features that must be enabled.
-    pub features: &'static [Need],
+    pub features: &'static [Requirement],
     /// Recommended features and extensions.
-    pub optional: &'static [Need],
+    pub optional: &'static [Requirement],
     /// Names of the optional device extensions.
     pub optional_extensions: &'static [&'static CStr],
 }
 
-/// What the library needs. Call it before creating the device. [`Offer::limits`] returns the device limits that
+/// What the library needs. Call it before creating the device. [`DeviceSupport::limits`] returns the device limits that
 /// a configuration needs.
 pub fn requirements() -> Requirements {
     Requirements {
         api_version: vk::API_VERSION_1_2,
         features: &[],
         optional: &[
-            Need {
+            Requirement {
                 what: "synchronization2",
                 why: "barriers of one stage each; without it those of Vulkan 1.0",
             },
-            Need {
+            Requirement {
                 what: "shaderStorageImageWriteWithoutFormat",
                 why: "below Vulkan 1.3 alone: Config.surface_foam, Config.motion, Shadows::Convolution, Shading::Compute",
             },
-            Need {
+            Requirement {
                 what: "VK_EXT_conditional_rendering, conditionalRendering",
                 why: "Smoothing::Query(Gate::Predicate); without it the other gates",
             },
-            Need {
+            Requirement {
                 what: "drawIndirectCount",
                 why: "Smoothing::Query(Gate::DrawCount); without it the other gates",
             },
-            Need {
+            Requirement {
                 what: "occlusionQueryPrecise",
                 why: "exact sample counts; without it zero and non-zero, which is enough to stop",
             },
-            Need {
+            Requirement {
                 what: "largePoints",
                 why: "sprites as points; without it all sprites are quads",
             },
-            Need {
+            Requirement {
                 what: "shaderBufferInt64Atomics, shaderInt64",
                 why: "whitewater in one pass, WhitewaterSplat::Compute64; without them in two",
             },
-            Need { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
+            Requirement { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
         ],
         optional_extensions: &[
             ash::ext::conditional_rendering::NAME,
@@ -91,7 +91,7 @@ pub fn requirements() -> Requirements {
 /// What a device supports. A plain struct, so that tests can mock it.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub struct Offer {
+pub struct DeviceSupport {
     /// Vulkan version of the device, at most that of the instance where this can be found: 1.0 if the instance is
     /// 1.0, where newer versions cannot be queried, 1.2 if it is 1.1 or 1.2.
     pub api_version: u32,
@@ -111,12 +111,14 @@ pub struct Offer {
     pub output_storage: bool,
     /// Optional features that the device supports. A host that enables all of them passes this on as
     /// [`Host::enabled`](crate::Host::enabled).
-    pub optional: Enabled,
+    pub optional: EnabledFeatures,
     /// Limits.
     pub limits: vk::PhysicalDeviceLimits,
+    /// A device of Vulkan 1.2 that supports `shaderStorageImageWriteWithoutFormat`, which the host did not enable.
+    not_enabled: bool,
 }
 
-impl Offer {
+impl DeviceSupport {
     /// Queries a physical device.
     pub fn of(
         instance: &ash::Instance,
@@ -167,7 +169,7 @@ impl Offer {
         let stored = vk::FormatFeatureFlags2::STORAGE_IMAGE
             | vk::FormatFeatureFlags2::STORAGE_WRITE_WITHOUT_FORMAT;
         Self {
-            optional: Enabled {
+            optional: EnabledFeatures {
                 synchronization2: second.synchronization2 == vk::TRUE,
                 storage_image_write_without_format: stores,
                 // Of the instance, not of a device.
@@ -193,6 +195,7 @@ impl Offer {
             output_attachment: offers(output_format, vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
             output_storage: offers(output_format, stored),
             limits: properties.limits,
+            not_enabled: false,
         }
     }
 
@@ -206,14 +209,29 @@ impl Offer {
             motion_floats: false,
             output_attachment: false,
             output_storage: false,
-            optional: Enabled::default(),
+            optional: EnabledFeatures::default(),
             limits,
+            not_enabled: false,
         }
     }
 
+    /// What the device gives a host that creates its instance for this Vulkan version, and enables these features and
+    /// no others. Below Vulkan 1.3 formats support storing only with
+    /// [`storage_image_write_without_format`](EnabledFeatures::storage_image_write_without_format).
+    #[must_use]
+    pub fn with_enabled(mut self, api_version: u32, enabled: EnabledFeatures) -> Self {
+        self.api_version = self.api_version.min(api_version);
+        if self.api_version < vk::API_VERSION_1_3 {
+            self = self.before_1_3(&enabled);
+        }
+        self.optional = enabled;
+        self
+    }
+
     /// The same for a device of Vulkan 1.2 with these features enabled.
-    pub(crate) fn before_1_3(mut self, enabled: &Enabled) -> Self {
+    pub(crate) fn before_1_3(mut self, enabled: &EnabledFeatures) -> Self {
         if !enabled.storage_image_write_without_format {
+            self.not_enabled = self.optional.storage_image_write_without_format;
             self.foam_floats = false;
             self.basis = [false; 2];
             self.motion_floats = false;
@@ -232,7 +250,14 @@ impl Offer {
     /// # Errors
     /// [`Error::Missing`] with what is missing, and what to do.
     pub fn check(&self, config: &crate::contract::Config) -> Result<(), Error> {
-        let missing = |what: String, why: &str| Err(Error::Missing { what, why: why.into() });
+        let missing = |what: String, why: &str| {
+            let mut why = why.to_owned();
+            if self.not_enabled && what.contains("storage use") {
+                why += "; or enable shaderStorageImageWriteWithoutFormat \
+                        (EnabledFeatures::storage_image_write_without_format), which the device supports";
+            }
+            Err(Error::Missing { what, why })
+        };
         if self.api_version < vk::API_VERSION_1_2 {
             return missing(
                 format!(
@@ -286,10 +311,10 @@ impl Offer {
             }
             _ => {}
         }
-        if !self.blend_floats && config.cast.is_some() {
+        if !self.blend_floats && config.light_map_size.is_some() {
             return missing(
                 "blending of R32_SFLOAT and R32G32B32A32_SFLOAT".into(),
-                "Config.cast needs it; leave it off",
+                "Config.light_map_size needs it; leave it off",
             );
         }
         if !self.blend_floats && !self.foam_floats && config.noise.is_some() {

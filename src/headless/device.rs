@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex};
 use ash::{khr, vk};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
-use crate::contract::{Enabled, Host};
+use crate::contract::{EnabledFeatures, Host};
 use crate::error::{Error, VkContext};
-use crate::gpu::requirements::Offer;
+use crate::gpu::requirements::DeviceSupport;
 
 /// Options for creating a [`Device`].
 #[derive(Clone, Debug, Default)]
@@ -38,8 +38,8 @@ pub struct Device {
     pub queue: vk::Queue,
     /// The allocator the renderer shares.
     pub allocator: Arc<Mutex<Allocator>>,
-    /// Enabled optional features.
-    pub enabled: Enabled,
+    /// EnabledFeatures optional features.
+    pub enabled: EnabledFeatures,
     /// Name of the adapter.
     pub adapter: String,
     /// Name and version of its driver.
@@ -309,8 +309,8 @@ fn make_device(
     physical: vk::PhysicalDevice,
     queue_family: u32,
     options: &DeviceOptions,
-) -> Result<(ash::Device, Enabled), Error> {
-    let offer = Offer::of(instance, physical, super::COLOR_FORMAT);
+) -> Result<(ash::Device, EnabledFeatures), Error> {
+    let offer = DeviceSupport::of(instance, physical, super::COLOR_FORMAT);
     // SAFETY: live handles.
     let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }
         .context(|| "vkEnumerateDeviceExtensionProperties".into())?;
@@ -318,12 +318,12 @@ fn make_device(
     let mut enabled = offer.optional;
     if options.bare {
         // What is no path of its own stays.
-        enabled = Enabled {
+        enabled = EnabledFeatures {
             synchronization2: enabled.synchronization2,
             storage_image_write_without_format: (options.vulkan_1_2
                 || offer.api_version < vk::API_VERSION_1_3)
                 && enabled.storage_image_write_without_format,
-            ..Enabled::default()
+            ..EnabledFeatures::default()
         };
     }
     let synchronization2 =

@@ -6,9 +6,9 @@ use super::inputs::{Foamed, WhitewaterBuffers};
 use super::submit::Parts;
 use super::transfer::staging;
 use super::{COLOR_REST, DEPTH_REST, Headless};
-use crate::bubbles::Heap;
+use crate::bubbles::BlobSimulation;
 use crate::contract::{
-    Access, Camera, Frame, HostImage, Particles, Previous, Region, Settings, Slot, Sun,
+    Access, Camera, Frame, HostImage, LightVolume, Particles, Previous, Settings, Slot,
 };
 use crate::error::Error;
 use crate::frame::Lens;
@@ -35,9 +35,9 @@ pub enum Background<'a> {
 
 impl Headless {
     /// Sets the sphere in which water and foam cast shadows and caustics, with
-    /// [`Config::cast`](crate::Config::cast). With [`Shadows::Map`] or [`Shadows::Convolution`] the scene's
+    /// [`Config::light_map_size`](crate::Config::light_map_size). With [`Shadows::Map`] or [`Shadows::Convolution`] the scene's
     /// shadows on them come from the scene's own map.
-    pub fn region(&mut self, region: Region) {
+    pub fn region(&mut self, region: LightVolume) {
         self.region = Some(region);
     }
 
@@ -131,10 +131,7 @@ impl Headless {
         let maps = |kind| matches!(kind, Shadows::Map | Shadows::Convolution(_));
         let shadowed = self.renderer.config().shadow.is_some_and(maps);
         let stage = self.scene.as_ref().filter(|_| shadowed);
-        let sun = Sun {
-            shadow: stage.map(|stage| stage.renderer.shadow(settings.water.spacing)),
-            region: self.region,
-        };
+        let shadow = stage.map(|stage| stage.renderer.shadow(settings.water.spacing));
         let made = self
             .generating
             .as_ref()
@@ -143,7 +140,7 @@ impl Headless {
         let whitewater =
             whitewater.or_else(|| self.whitewater.as_ref().map(WhitewaterBuffers::streams));
         let drawn = self.renderer.config().bubbles.is_some();
-        let heap = self.heap.as_ref().filter(|_| drawn).map(Heap::blobs);
+        let heap = self.heap.as_ref().filter(|_| drawn).map(BlobSimulation::blobs);
         let bubbles = heap.or_else(|| self.bubbles.as_ref().map(Foamed::streams));
         let frame = Frame {
             slot: Slot(0),
@@ -155,7 +152,8 @@ impl Headless {
             bubbles,
             shore: self.shores.shore(),
             camera: *camera,
-            sun,
+            shadow,
+            light_volume: self.region,
             previous: self.previous,
             settings,
         };

@@ -2,17 +2,20 @@
 
 use super::Headless;
 use super::inputs::{Bubble, Foamed};
-use crate::bubbles::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
+use crate::bubbles::{
+    BlobSimulation, BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep,
+    DistanceField, Solid,
+};
 use crate::contract::{Slot, Stream};
 use crate::error::Error;
 
 impl Headless {
-    /// Hands blobs to a [`Heap`], at rest. The next frames show them as [`heap_step`](Self::heap_step) moves
+    /// Hands blobs to a [`BlobSimulation`], at rest. The next frames show them as [`heap_step`](Self::heap_step) moves
     /// them. [`Config::bubbles`](crate::Config::bubbles) needs room for their number times 2^`max_splits`, where
     /// `max_splits` is how often a blob may split.
     ///
     /// # Errors
-    /// As [`Heap::new`] and [`Heap::record_set`]; then there is no heap.
+    /// As [`BlobSimulation::new`] and [`BlobSimulation::record_set`]; then there is no heap.
     pub fn heap(
         &mut self,
         blobs: &[Bubble],
@@ -21,8 +24,8 @@ impl Headless {
     ) -> Result<(), Error> {
         self.drop_heap();
         let count = u32::try_from(blobs.len()).unwrap_or(u32::MAX).max(1);
-        let config = HeapConfig { max_splits, ..HeapConfig::new(count) };
-        let mut heap = Heap::new(&self.context, &config, field)?;
+        let config = BlobSimulationConfig { max_splits, ..BlobSimulationConfig::new(count) };
+        let mut heap = BlobSimulation::new(&self.context, &config, field)?;
         let staged = match Foamed::new(&self.gpu, blobs) {
             Ok(staged) => staged,
             Err(error) => {
@@ -50,17 +53,17 @@ impl Headless {
     /// Simulates one step and waits for it.
     ///
     /// # Errors
-    /// No heap, and as [`Heap::record_step`].
+    /// No heap, and as [`BlobSimulation::record_step`].
     pub fn heap_step(
         &mut self,
         dt: f32,
-        settings: &HeapSettings,
+        settings: &BlobSimulationSettings,
         solids: &[Solid],
     ) -> Result<(), Error> {
         let Some(mut heap) = self.heap.take() else {
             return Err(Error::bad("heap", "none: call heap first"));
         };
-        let step = HeapStep { slot: Slot(0), dt, settings, solids };
+        let step = BlobSimulationStep { slot: Slot(0), dt, settings, solids };
         // SAFETY: submitted at once, and waited for.
         let result = self.run(|_, cmd| unsafe { heap.record_step(cmd, &step) });
         self.heap = Some(heap);

@@ -9,19 +9,19 @@ use bytemuck::{Pod, Zeroable};
 
 use super::Headless;
 use crate::contract::{
-    Access, Blobs, Count, Packets, Particles, Slot, Step, Stream, WhitewaterParticles,
+    Access, Blobs, Count, Packets, Particles, Slot, Stream, SurfaceFoamStep, WhitewaterParticles,
 };
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::COPY_WRITE;
 use crate::gpu::buffer::Buffer;
 use crate::gpu::graveyard::Destroy;
-use crate::state::{State, StateConfig};
+use crate::state::{SurfaceFoamState, SurfaceFoamStateConfig};
 use crate::water::settings::WeberSettings;
 
 /// State of surface foam.
 pub(super) struct Foaming {
-    pub state: State,
+    pub state: SurfaceFoamState,
     /// By the particles that are here now.
     stepped: bool,
 }
@@ -461,12 +461,12 @@ impl Headless {
         Ok(())
     }
 
-    /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a [`State`] from the
+    /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a [`SurfaceFoamState`] from the
     /// particles' [`motion`](Self::motion). `dt`: seconds since the previous step. Without it, or without ids,
     /// each frame is independent.
     ///
     /// # Errors
-    /// No motion, no memory, and as [`State::record_step`].
+    /// No motion, no memory, and as [`SurfaceFoamState::record_step`].
     pub fn step(&mut self, dt: Option<f32>, settings: &WeberSettings) -> Result<(), Error> {
         let Some(velocities) = &self.velocities else {
             return Err(Error::bad("velocities", "none uploaded"));
@@ -476,11 +476,11 @@ impl Headless {
         let mut state = match self.foam.take() {
             Some(old) => old.state,
             None => {
-                let config = StateConfig::new(self.renderer.config().max_particles);
-                State::new(&self.context, &config)?
+                let config = SurfaceFoamStateConfig::new(self.renderer.config().max_particles);
+                SurfaceFoamState::new(&self.context, &config)?
             }
         };
-        let step = Step {
+        let step = SurfaceFoamStep {
             slot: Slot(0),
             velocities,
             densities: self.densities.as_ref().map(|buffer| stream(buffer, 4)),
@@ -515,14 +515,8 @@ impl Headless {
         let count = end.min(self.count).saturating_sub(first);
         let some = |all: Stream| Stream { offset: u64::from(first) * u64::from(all.stride), ..all };
         let of = |buffer: &Buffer, stride| some(stream(buffer, stride));
-        let foam = self.foam.as_ref().filter(|foam| foam.stepped).map(|foam| {
-            some(Stream {
-                buffer: foam.state.foam(),
-                size: 8 * u64::from(self.renderer.config().max_particles),
-                offset: 0,
-                stride: 8,
-            })
-        });
+        let stepped = self.foam.as_ref().filter(|foam| foam.stepped);
+        let foam = stepped.map(|foam| some(foam.state.foam()));
         Ok(Particles {
             densities: self.densities.as_ref().map(|buffer| of(buffer, 4)),
             velocities: self.velocities.as_ref().map(|buffer| of(buffer, 12)),

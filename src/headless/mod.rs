@@ -37,10 +37,10 @@ use shore::Shores;
 use stage::Stage;
 use submit::{Commands, begin, submit};
 
-use crate::bubbles::Heap;
+use crate::bubbles::BlobSimulation;
 use crate::composite::way;
 use crate::context::Context;
-use crate::contract::{Access, Config, Layer, Previous, Region, Slot};
+use crate::contract::{Access, Config, Layer, LightVolume, Previous, Slot};
 use crate::diagnostics::{ParticleCounts, SmoothingLevels};
 use crate::environment::{Environment, Sky};
 use crate::error::{Error, VkContext};
@@ -83,7 +83,7 @@ pub enum Stepped {
     /// Whitewater emission ([`Headless::generate`]).
     Generate,
     /// Blob dynamics ([`Headless::heap_step`]).
-    Heap,
+    BlobSimulation,
     /// The distance to the shore ([`Headless::shore_map_step`]).
     ShoreMap,
 }
@@ -103,11 +103,11 @@ pub struct Headless {
     ids: Option<Buffer>,
     whitewater: Option<WhitewaterBuffers>,
     bubbles: Option<Foamed>,
-    heap: Option<Heap>,
+    heap: Option<BlobSimulation>,
     shores: Shores,
     generating: Option<Generating>,
     foam: Option<Foaming>,
-    region: Option<Region>,
+    region: Option<LightVolume>,
     previous: Option<Previous>,
     count: u32,
     /// The particles that are drawn, by index; `None`: all.
@@ -263,7 +263,7 @@ impl Headless {
         let times = match which {
             Stepped::Foam => self.foam.as_mut().map(|own| own.state.timings(slot)),
             Stepped::Generate => self.generating.as_mut().map(|own| own.generator.timings(slot)),
-            Stepped::Heap => self.heap.as_mut().map(|own| own.timings(slot)),
+            Stepped::BlobSimulation => self.heap.as_mut().map(|own| own.timings(slot)),
             Stepped::ShoreMap => self.shores.map_timings(slot),
         };
         times.unwrap_or_default().to_vec()

@@ -130,7 +130,7 @@ pub struct Convolved {
 impl Convolved {
     /// `None` if the pass is disabled.
     pub fn new(frame: &Frame<'_>, config: &Config) -> Option<Self> {
-        let (convolution, shadow) = (convolution(config)?, frame.sun.shadow.as_ref()?);
+        let (convolution, shadow) = (convolution(config)?, frame.shadow.as_ref()?);
         let settings = &frame.settings.shadow;
         let (edge, size) = convolution.size(shadow.image.rect.extent);
         let ramp = ramp(convolution.terms, settings);

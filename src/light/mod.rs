@@ -35,7 +35,7 @@ pub fn constants(config: &Config) -> [(u32, u32); 5] {
         Some(Shadows::Map) => (2, 2),
         Some(Shadows::Convolution(convolution)) => (3, convolution.terms),
     };
-    let cast = config.cast.is_some();
+    let cast = config.light_map_size.is_some();
     let has_whitewater = cast && config.whitewater.is_some();
     let soaped = cast && config.bubbles.is_some();
     [
@@ -184,7 +184,7 @@ pub use lit::Output;
 
 /// Number of descriptor sets per frame for whitewater that casts.
 pub fn whitewater_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
-    match (config.cast, &config.whitewater) {
+    match (config.light_map_size, &config.whitewater) {
         (Some(edge), Some(whitewater)) => whitewater::sets(limits, whitewater, edge),
         _ => 0,
     }

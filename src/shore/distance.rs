@@ -17,7 +17,7 @@ use glam::{Mat4, Vec2, Vec3, Vec4};
 
 use crate::check;
 use crate::context::Context;
-use crate::contract::{Access, Coast, HostImage, Slot, Triangles};
+use crate::contract::{Access, HostImage, ShoreDistances, Slot, Triangles};
 use crate::error::Error;
 use crate::frame::level_axes;
 use crate::gpu::Gpu;
@@ -521,10 +521,10 @@ impl ShoreMap {
     }
 
     /// The map of the last step, for [`Shoreline::Map`](crate::Shoreline::Map). `None` before the first step.
-    pub fn coast(&self) -> Option<Coast> {
+    pub fn coast(&self) -> Option<ShoreDistances> {
         let area = self.area?;
         let size = self.config.size;
-        Some(Coast {
+        Some(ShoreDistances {
             view: self.grid.distances.view,
             corner: area.corner(size),
             edge: area.edge,

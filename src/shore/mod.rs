@@ -16,7 +16,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, Mat3, Vec3, Vec4};
 
 use crate::contract::{
-    Coast, Config, Frame, HostImage, Layer, Settings, Shoreline, Strip, Surface,
+    Config, Frame, HostImage, Layer, Settings, ShoreDistances, Shoreline, Strip, Surface,
 };
 use crate::error::Error;
 use crate::frame::{Lens, level_axes};
@@ -29,8 +29,10 @@ use crate::gpu::shader;
 use crate::host_images::depth_layout;
 use crate::water::{Recording, WaterLayers};
 pub use distance::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
+#[cfg(feature = "diagnostics")]
+pub use settings::Edge;
 pub use settings::{
-    ContactSettings, Edge, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings, WebLayer,
+    ContactSettings, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings, WebLayer,
 };
 use textures::Textures;
 pub(crate) use tiles::COAT_DISPATCH;
@@ -172,7 +174,7 @@ impl ShoreUniforms {
         let (way, map) = match &own.shoreline {
             None => (0.0, [0.0; 4]),
             Some(Shoreline::Strip(_)) => (1.0, [0.0; 4]),
-            Some(Shoreline::Map(Coast { corner, edge, size, .. })) => {
+            Some(Shoreline::Map(ShoreDistances { corner, edge, size, .. })) => {
                 (2.0, [corner[0], corner[1], *size as f32 / edge, *size as f32])
             }
             Some(Shoreline::Screen) => (3.0, [0.0; 4]),

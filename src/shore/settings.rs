@@ -17,7 +17,10 @@ pub const LAYERS: usize = 4;
 #[non_exhaustive]
 pub struct ShoreConfig {
     /// How the edge of foam within a pixel is computed.
+    #[cfg(feature = "diagnostics")]
     pub edge: Edge,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) edge: Edge,
     /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. 25⅓ bytes per
     /// texel.
     pub web_size: u32,
@@ -44,6 +47,7 @@ impl ShoreConfig {
 
 /// How the edge of shoreline foam within a pixel is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Edge {
     /// The fraction of the pixel that foam covers, from the foam's derivatives and the variance of detail finer
     /// than the pixel. Default: it neither crawls nor sparkles.

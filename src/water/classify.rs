@@ -11,7 +11,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 
 use super::cull::{Window, capacity, each_once};
-use crate::contract::{Count, Step};
+use crate::contract::{Count, SurfaceFoamStep};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
@@ -152,7 +152,7 @@ impl Classify {
         let parts = Parts::new(max_particles, range).ok_or_else(|| {
             let why =
                 format!("{max_particles}: more than a table has rows for, 2.8 thousand millions");
-            Error::bad("StateConfig.max_particles", why)
+            Error::bad("SurfaceFoamStateConfig.max_particles", why)
         })?;
         type Usage = vk::BufferUsageFlags;
         let usage = Usage::STORAGE_BUFFER | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
@@ -216,7 +216,7 @@ impl Classify {
         cmd: vk::CommandBuffer,
         descriptors: &Descriptors,
         timer: &mut Timer,
-        step: &Step<'_>,
+        step: &SurfaceFoamStep<'_>,
         odd: bool,
     ) -> Result<(), Error> {
         let scope = timer.begin(gpu, cmd, c"classify");
@@ -303,7 +303,12 @@ impl Classify {
     }
 
     /// Push constants of a dispatch, except for its range of particles.
-    fn push(&self, step: &Step<'_>, [velocity, density, id]: [Window; 3], part: u32) -> Push {
+    fn push(
+        &self,
+        step: &SurfaceFoamStep<'_>,
+        [velocity, density, id]: [Window; 3],
+        part: u32,
+    ) -> Push {
         let settings = step.settings;
         let [air_x, air_y, air_z] = settings.air;
         Push {

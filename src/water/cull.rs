@@ -144,7 +144,7 @@ fn goes_over_particles(config: &Config) -> bool {
         || config.spray
         || config.motion
         || config.noise.is_some()
-        || config.cast.is_some()
+        || config.light_map_size.is_some()
 }
 
 /// Bytes of a chunk's members: whole words, at offsets that every device can bind.

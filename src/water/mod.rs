@@ -45,10 +45,13 @@ pub(crate) use cull::{
 };
 pub(crate) use depth::DEFAULT_SPLAT;
 pub(crate) use level::{MOST_COARSENING, coarsening};
+#[cfg(feature = "diagnostics")]
 pub use settings::{
-    Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, Fresnel, Gate, Kernels, Ladder,
-    Medium, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SpraySettings,
-    SurfaceFoamSettings, SurfaceNoiseSettings, WaterSettings, WeberSettings,
+    Amplitude, Bed, Compositing, DebugView, Gate, Rule, Smoothing, Splat, SurfaceNoiseSettings,
+};
+pub use settings::{
+    Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium, Shading, ShadowFilter, Shadows,
+    SpraySettings, SurfaceFoamSettings, WaterSettings, WeberSettings,
 };
 pub(crate) use shape::{bytes_bound as shape_bytes, sets as shape_sets};
 pub(crate) use surface_foam::word_bytes as foam_bytes;

@@ -6,6 +6,7 @@ pub const RADIUS_PER_SPACING: f32 = 0.656;
 
 /// How particles are rasterized. Both paths give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Splat {
     /// Point sprites with fixed-function blending, and quads where a point sprite does not fit.
     Raster,
@@ -22,7 +23,7 @@ pub enum Shading {
     Compute,
 }
 
-/// Which shadow information the host hands in ([`Sun::shadow`](crate::Sun::shadow)), and how it is filtered.
+/// Which shadow information the host hands in ([`Frame::shadow`](crate::Frame::shadow)), and how it is filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shadows {
     /// A screen-space mask, 1 where the sun shines.
@@ -41,9 +42,10 @@ crate::contract::with!(
     WeberSettings,
     SurfaceFoamSettings,
     SpraySettings,
-    ShadowFilter,
-    SurfaceNoiseSettings
+    ShadowFilter
 );
+#[cfg(feature = "diagnostics")]
+crate::contract::with!(SurfaceNoiseSettings);
 
 /// Filter of the host's shadow map for [`Shadows::Convolution`] (Annen et al. 2007).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +82,8 @@ impl ShadowFilter {
 
 /// How many layers the composite contains, as in the thesis' debug views. Each value includes those before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Ladder {
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
+pub enum DebugView {
     /// The refracted scene.
     Background,
     /// Adds the water behind the frontmost foam.
@@ -96,6 +99,7 @@ pub enum Ladder {
 
 /// How many smoothing iterations a pixel gets, and how large its steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Rule {
     /// The thesis' rule: r_w / (C d) iterations of curvature-proportional steps (Sec. 3.1).
     Source,
@@ -107,6 +111,7 @@ pub enum Rule {
 
 /// Implementation of the smoothing. All give the same surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Smoothing {
     /// Raster passes. An occlusion query every fifth iteration stops the rest on the GPU.
     Query(Gate),
@@ -119,6 +124,7 @@ pub enum Smoothing {
 /// How the GPU skips the remaining iterations once the query has found no active pixel. None waits for the
 /// host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Gate {
     /// An indirect draw count (`drawIndirectCount`).
     DrawCount,
@@ -144,23 +150,32 @@ pub struct WaterSettings {
     /// Fraction of the rest density from which a particle has its full radius. Default 0.45.
     pub density_full: f32,
     /// Width of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. At 0.7 the particle
-    /// lattice shows; 2.5 looks like silk. For [`Rule::ConstantWidth`]; [`Rule::Source`] has its own width of
-    /// 4.8.
+    /// lattice shows; 2.5 looks like silk. (The thesis' rule has its own
+    /// width of 4.8.)
     pub smoothing_width: f32,
     /// Depth steps larger than this are silhouettes and are not smoothed across. Drawn radii, default 5.3.
     pub depth_falloff: f32,
     /// Shape of the particles with [`Kernels::Ellipsoids`].
     pub ellipsoids: Ellipsoids,
     /// Thickness that one particle adds.
+    #[cfg(feature = "diagnostics")]
     pub amplitude: Amplitude,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) amplitude: Amplitude,
     /// Optical properties.
     pub medium: Medium,
     /// Fresnel reflectance.
     pub fresnel: Fresnel,
     /// How reflection and highlight combine with the light from behind. Default [`Compositing::Mixed`].
+    #[cfg(feature = "diagnostics")]
     pub compositing: Compositing,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) compositing: Compositing,
     /// Appearance of the scene under water. Default [`Bed::Submerged`].
+    #[cfg(feature = "diagnostics")]
     pub bed: Bed,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) bed: Bed,
     /// Strength of the refraction's displacement, [0, ∞), default 0.25. The displacement approaches a sixteenth
     /// of the picture's height at most.
     pub refraction: f32,
@@ -224,6 +239,7 @@ const SOURCE_VOLUMES: f32 = 3.86;
 
 /// How reflection and the sun's highlight combine with the light from behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Compositing {
     /// Reflection replaces its share of the light from behind; the highlight is added. Both fade where water is
     /// thinner than a quarter of the drawn radius. The shaded surface is that of the water in front of the
@@ -240,6 +256,7 @@ pub enum Compositing {
 /// Appearance of the scene where it lies under water: where water fills seven tenths or more of the space in
 /// front of it, fading out to a half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Bed {
     /// Darkened as a wet surface is (Lekner and Dorf 1988). Light enters through the surface's Fresnel
     /// transmittance, leaves with its radiance divided by n², and is reflected back inside in between. The
@@ -256,7 +273,7 @@ pub enum Bed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exit {
     /// Light refracts at both surfaces, or is totally reflected at the second, by the slopes of both and the
-    /// index of refraction that [`Bed`] describes. The exit ray is intersected with the scene on the screen in
+    /// index of refraction of [`WaterSettings::fresnel`] (1.333 if that has none). The exit ray is intersected with the scene on the screen in
     /// 4 steps; rays that miss see the environment (Wyman 2005).
     TwoInterfaces,
     /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis). Where the scene is
@@ -323,6 +340,7 @@ pub(crate) const WATER_INDEX: f32 = 1.333;
 
 /// Height of a particle's thickness sprite `√(1 − ρ²)·exp(−2ρ²)` at its centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Amplitude {
     /// The sprite's integral is the particle's volume, spacing³. Thickness is then metres of water, independent
     /// of the number of particles. Default.
@@ -350,7 +368,7 @@ pub enum Medium {
     /// milk multiply it by `1 - g` with the mean cosine g; for natural waters, whose reflectance depends on backscattering,
     /// use twice the backscattering coefficient. The reflectance of a half space is van de Hulst's
     /// `(1 - s)(1 - 0.139 s)/(1 + 1.17 s)`, `s = √(absorption/(absorption + scattering))` (Multiple Light Scattering, 1980),
-    /// plus the internal reflection that [`Bed::Submerged`] describes. The surface is shaded as a matte one by the sun, the
+    /// plus the reflection back inside at its surface. The surface is shaded as a matte one by the sun, the
     /// scene's shadows and [`Light::shade`](crate::Light::shade). The fluid does not shadow itself.
     Turbid {
         /// Absorption per metre, linear RGB, [0, ∞).
@@ -754,7 +772,7 @@ pub struct SpraySettings {
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
     /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. No effect
-    /// without a map of the sunlight in the water ([`Config::cast`](crate::Config)).
+    /// without a map of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
     /// Whether its light is added to the light from behind (the thesis) instead of composited over it (default
     /// false).
@@ -831,6 +849,7 @@ impl SpraySettings {
 /// Each particle has its own gradient noise, which moves with it. Their sum is a height on the front surface of
 /// the water, which turns its normals. It is also the baseline's foam: grey where the height is large or small.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 #[non_exhaustive]
 pub struct SurfaceNoiseSettings {
     /// Height of a noise value of 1, in drawn radii, [0, 16], default 0.336, 0 = flat. (The publication gives
@@ -856,6 +875,7 @@ impl Default for SurfaceNoiseSettings {
 }
 
 impl SurfaceNoiseSettings {
+    #[cfg(feature = "diagnostics")]
     /// The baseline, with its foam. The paper gives no foam strength; this value makes it visible.
     pub const SOURCE: Self =
         Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 1.0, color: [0.5; 3] };

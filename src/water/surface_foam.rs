@@ -170,7 +170,7 @@ impl Blended {
 
 /// Whether sprites have shadows; a mask applies per pixel instead.
 fn lit(config: &Config) -> bool {
-    config.cast.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
+    config.light_map_size.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
 }
 
 /// Words per texel of the compute path. The first two are depth bits: of the frontmost foam, or of the scene if

@@ -17,10 +17,11 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::water::{Recording, WaterLayers};
 pub use generate::{Generator, GeneratorConfig, GeneratorSettings, PotentialRange};
-pub use settings::{
-    Irradiance, Occlusion, OcclusionReach, ShadowMixing, Submerged, WhitewaterConfig,
-    WhitewaterSettings, WhitewaterSplat,
-};
+#[cfg(feature = "diagnostics")]
+pub use settings::{Irradiance, Occlusion, OcclusionReach, ShadowMixing, WhitewaterSplat};
+#[cfg(not(feature = "diagnostics"))]
+pub(crate) use settings::{Irradiance, WhitewaterSplat};
+pub use settings::{Submerged, WhitewaterConfig, WhitewaterSettings};
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Whitewater {

@@ -17,11 +17,20 @@ pub struct WhitewaterConfig {
     pub packets: bool,
     /// How they are rasterized. `None`: the fastest as measured on lavapipe, [`WhitewaterSplat::Compute64`] where its
     /// feature is enabled, otherwise [`WhitewaterSplat::Compute`]. Not yet measured on GPUs.
+    #[cfg(feature = "diagnostics")]
     pub splat: Option<WhitewaterSplat>,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) splat: Option<WhitewaterSplat>,
     /// How the environment lights them.
+    #[cfg(feature = "diagnostics")]
     pub irradiance: Irradiance,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) irradiance: Irradiance,
     /// How their ambient occlusion is sampled.
+    #[cfg(feature = "diagnostics")]
     pub occlusion: Occlusion,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) occlusion: Occlusion,
 }
 
 impl WhitewaterConfig {
@@ -55,6 +64,7 @@ impl WhitewaterConfig {
 /// How whitewater particles are rasterized. All paths give the same picture, the two compute paths to the last
 /// bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum WhitewaterSplat {
     /// One quad per particle with depth test and blending. 12 bytes per pixel more.
     Raster,
@@ -62,12 +72,13 @@ pub enum WhitewaterSplat {
     /// frontmost.
     Compute,
     /// One invocation per particle with 64-bit atomics, in one pass. Needs
-    /// [`buffer_int64_atomics`](crate::Enabled::buffer_int64_atomics).
+    /// [`buffer_int64_atomics`](crate::EnabledFeatures::buffer_int64_atomics).
     Compute64,
 }
 
 /// How ambient occlusion of foam by foam, water and scene is sampled (Sec. 2.4.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Occlusion {
     /// As printed: as many samples as the spheres have pixels, the same in every pixel.
     Reference,
@@ -79,6 +90,7 @@ pub enum Occlusion {
 
 /// How light of the environment reaches foam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Irradiance {
     /// One look-up per pixel in an irradiance map that is filtered once per environment, which the paper names
     /// as the faster way. Default.
@@ -106,6 +118,7 @@ pub enum Submerged {
 
 /// Maximum distance between an occluder and the point that it occludes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum OcclusionReach {
     /// In search radii, (0, ∞), default 1.
     Radii(f32),
@@ -115,6 +128,7 @@ pub enum OcclusionReach {
 
 /// How light and shadow combine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum ShadowMixing {
     /// light × (1 − shadow): never negative, and independent of exposure. Default.
     Scaled,
@@ -144,15 +158,18 @@ pub struct WhitewaterSettings {
     /// By how much the sphere of each further pass is larger, in particle radii, [0, 100], default 7
     /// (AO_SRIncFac).
     pub search_radius_step: f32,
-    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). For [`Occlusion::Reference`];
-    /// [`Occlusion::Fast`] uses a fixed share of the samples at any size.
+    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). For the paper's way (`Occlusion::Reference`);
+    /// the default way uses a fixed share of the samples at any size.
     pub sample_density: f32,
-    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. For [`Occlusion::Reference`] only.
+    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. For the paper's way only.
     pub min_samples: u32,
     /// Maximum number of samples per sphere, `min_samples` to 512, default 512.
     pub max_samples: u32,
     /// Maximum distance between an occluder and the point behind it (AO_MaxOcclDist).
+    #[cfg(feature = "diagnostics")]
     pub reach: OcclusionReach,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) reach: OcclusionReach,
     /// Opacity of the fluid's surface as an occluder, 0 to 1, default 0.5.
     pub fluid_opacity: f32,
     /// Opacity of the scene as an occluder, 0 to 1, default 1.
@@ -191,7 +208,10 @@ pub struct WhitewaterSettings {
     /// each side.
     pub blur: f32,
     /// How light and shadow combine.
+    #[cfg(feature = "diagnostics")]
     pub mixing: ShadowMixing,
+    #[cfg(not(feature = "diagnostics"))]
+    pub(crate) mixing: ShadowMixing,
 }
 
 impl WhitewaterSettings {

@@ -2,7 +2,9 @@
 
 use ash::vk;
 use whitewater::water::WeberSettings;
-use whitewater::{Access, Count, Error, Slot, State, StateConfig, Step, Stream};
+use whitewater::{
+    Access, Count, Error, Slot, Stream, SurfaceFoamState, SurfaceFoamStateConfig, SurfaceFoamStep,
+};
 
 use crate::hostile::spoil;
 use crate::reference::classify::{self as twin, Entry, NO_ID, Particle, Phase, Phases};
@@ -20,7 +22,7 @@ const SLOTS: u32 = 2;
 struct Body<'g> {
     gpu: &'g Gpu,
     stub: Stub,
-    state: Option<State>,
+    state: Option<SurfaceFoamState>,
     steps: u32,
 }
 
@@ -28,17 +30,17 @@ struct Body<'g> {
 type Foam = Vec<[f32; 2]>;
 
 impl<'g> Body<'g> {
-    fn new(gpu: &'g Gpu, config: StateConfig) -> Self {
-        let state = State::new(&gpu.context(SLOTS), &config).expect("a state");
+    fn new(gpu: &'g Gpu, config: SurfaceFoamStateConfig) -> Self {
+        let state = SurfaceFoamState::new(&gpu.context(SLOTS), &config).expect("a state");
         Self { gpu, stub: Stub::new(gpu, SLOTS), state: Some(state), steps: 0 }
     }
 
-    fn state(&mut self) -> &mut State {
+    fn state(&mut self) -> &mut SurfaceFoamState {
         self.state.as_mut().expect("only drop takes it")
     }
 
     /// A step of streams, in the slots' turn.
-    fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
+    fn record(&mut self, step: &SurfaceFoamStep<'_>) -> Result<(), Error> {
         let slot = self.steps % SLOTS;
         self.steps += 1;
         let cmd = self.stub.begin(slot);
@@ -59,7 +61,7 @@ impl<'g> Body<'g> {
     fn foam(&mut self, count: usize) -> Foam {
         let size = 8 * count.max(1) as u64;
         let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
-        let foam = self.state().foam();
+        let foam = self.state().foam().buffer;
         self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, foam, &back));
         bytemuck::cast_slice(&back.bytes()[..8 * count]).to_vec()
     }
@@ -113,15 +115,20 @@ impl Cloud {
         Self { data: stub.data(bytemuck::cast_slice(&words), usage), count: particles.len() as u32 }
     }
 
-    fn step<'a>(&self, settings: &'a WeberSettings, dt: f32) -> Step<'a> {
-        Step::new(Slot(0), stream(&self.data, 0, 20), Count::Cpu(self.count), dt, settings).with(
-            |it| {
-                it.densities = Some(stream(&self.data, 12, 20));
-                it.ids = Some(stream(&self.data, 16, 20));
-                it.before = HOST_WRITE;
-                it.after = HOST_WRITE;
-            },
+    fn step<'a>(&self, settings: &'a WeberSettings, dt: f32) -> SurfaceFoamStep<'a> {
+        SurfaceFoamStep::new(
+            Slot(0),
+            stream(&self.data, 0, 20),
+            Count::Cpu(self.count),
+            dt,
+            settings,
         )
+        .with(|it| {
+            it.densities = Some(stream(&self.data, 12, 20));
+            it.ids = Some(stream(&self.data, 16, 20));
+            it.before = HOST_WRITE;
+            it.after = HOST_WRITE;
+        })
     }
 }
 
@@ -226,7 +233,7 @@ impl Sea {
 #[test]
 fn phases_are_the_twins_over_hundreds_of_steps() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig::new(700).with(|it| it.max_stride = 20));
+    let mut body = Body::new(&gpu, SurfaceFoamStateConfig::new(700).with(|it| it.max_stride = 20));
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(700));
     let mut most = [0_usize; 4];
     for step in 0..400 {
@@ -252,7 +259,7 @@ fn phases_are_the_twins_over_hundreds_of_steps() {
 #[test]
 fn a_saved_state_goes_on_as_if_uncut() {
     let gpu = Gpu::shared();
-    let config = StateConfig::new(300).with(|it| it.max_stride = 20);
+    let config = SurfaceFoamStateConfig::new(300).with(|it| it.max_stride = 20);
     let settings = settings();
     let mut whole = Body::new(&gpu, config);
     let mut part = Body::new(&gpu, config);
@@ -274,7 +281,7 @@ fn a_saved_state_goes_on_as_if_uncut() {
 fn tables_in_parts_hold_the_same_state() {
     let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
-    let config = StateConfig::new(700).with(|it| it.max_stride = 20);
+    let config = SurfaceFoamStateConfig::new(700).with(|it| it.max_stride = 20);
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(700));
     let steps: Vec<Vec<Particle>> = (0..40).map(|_| sea.step().to_vec()).collect();
     let run = |gpu: &Gpu, looks: &dyn Fn(u64)| -> (Vec<Foam>, Vec<u8>) {
@@ -288,7 +295,7 @@ fn tables_in_parts_hold_the_same_state() {
             let step = if i % 9 == 8 { step.with(|it| it.ids = None) } else { step };
             body.record(&step).expect("a step");
             let bytes = (cloud.data.buffer, cloud.data.size);
-            let foamed = (body.state().foam(), 8 * 700);
+            let foamed = (body.state().foam().buffer, 8 * 700);
             for bound in spy::take_bound() {
                 let table = bound.range == vk::WHOLE_SIZE && bound.buffer != bytes.0;
                 assert!(!table, "of a buffer of unknown size: {bound:?}");
@@ -331,7 +338,7 @@ fn a_step_of_millions_of_ids() {
     }
     const COUNT: usize = 4_800_000;
     let gpu = Gpu::shared();
-    let config = StateConfig::new(COUNT as u32).with(|it| it.max_stride = 20);
+    let config = SurfaceFoamStateConfig::new(COUNT as u32).with(|it| it.max_stride = 20);
     let mut body = Body::new(&gpu, config);
     assert!(body.state().size() > 128 << 20, "{} bytes of state", body.state().size());
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(COUNT));
@@ -353,7 +360,7 @@ fn a_step_of_millions_of_ids() {
 #[test]
 fn an_abandoned_step_leaves_the_state_before_it() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig::new(100).with(|it| it.max_stride = 20));
+    let mut body = Body::new(&gpu, SurfaceFoamStateConfig::new(100).with(|it| it.max_stride = 20));
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(100));
     for _ in 0..9 {
         let particles = sea.step().to_vec();
@@ -377,7 +384,7 @@ fn an_abandoned_step_leaves_the_state_before_it() {
 #[test]
 fn an_abandoned_first_step_leaves_an_empty_state() {
     let gpu = Gpu::shared();
-    let config = StateConfig::new(100).with(|it| it.max_stride = 20);
+    let config = SurfaceFoamStateConfig::new(100).with(|it| it.max_stride = 20);
     let settings = settings();
     // What the allocator hands out next.
     let mut before = Body::new(&gpu, config);
@@ -402,7 +409,7 @@ fn an_abandoned_first_step_leaves_an_empty_state() {
 #[test]
 fn an_abandoned_step_does_not_undo_a_reset_or_a_restore() {
     let gpu = Gpu::shared();
-    let config = StateConfig::new(100).with(|it| it.max_stride = 20);
+    let config = SurfaceFoamStateConfig::new(100).with(|it| it.max_stride = 20);
     let (settings, mut sea) = (settings(), Sea::new(100));
     for restored in [true, false] {
         let mut body = Body::new(&gpu, config);
@@ -434,7 +441,7 @@ fn an_abandoned_step_does_not_undo_a_reset_or_a_restore() {
 #[test]
 fn every_kind_of_input() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig::new(400));
+    let mut body = Body::new(&gpu, SurfaceFoamStateConfig::new(400));
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(400));
     let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
     for step in 0..40 {
@@ -455,11 +462,12 @@ fn every_kind_of_input() {
             false => Count::Cpu(particles.len() as u32),
         };
         let whole =
-            Step::new(Slot(0), stream(&velocity_data, 0, 12), count, 0.03, &settings).with(|it| {
-                it.ids = Some(stream(&id_data, 0, 4));
-                it.before = HOST_WRITE;
-                it.after = HOST_WRITE;
-            });
+            SurfaceFoamStep::new(Slot(0), stream(&velocity_data, 0, 12), count, 0.03, &settings)
+                .with(|it| {
+                    it.ids = Some(stream(&id_data, 0, 4));
+                    it.before = HOST_WRITE;
+                    it.after = HOST_WRITE;
+                });
         body.record(&whole).expect("a step");
         let expected = phases.step(&twin_settings(&settings), 0.03, &particles);
         let found = body.foam(particles.len());
@@ -469,7 +477,7 @@ fn every_kind_of_input() {
 
     let particles = sea.step().to_vec();
     let cloud = Cloud::new(&body.stub, &particles);
-    let mut wide = Body::new(&gpu, StateConfig::new(400).with(|it| it.max_stride = 20));
+    let mut wide = Body::new(&gpu, SurfaceFoamStateConfig::new(400).with(|it| it.max_stride = 20));
     let step = cloud.step(&settings, 0.1);
     wide.record(&step.with(|it| it.ids = None)).expect("a step");
     for (p, found) in particles.iter().zip(wide.foam(particles.len())) {
@@ -484,7 +492,7 @@ fn every_kind_of_input() {
 #[test]
 fn broken_particles() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig::new(8).with(|it| it.max_stride = 20));
+    let mut body = Body::new(&gpu, SurfaceFoamStateConfig::new(8).with(|it| it.max_stride = 20));
     let (settings, mut phases) = (settings(), Phases::default());
     let of = |id, speed, density| Particle { id, velocity: [speed, 0.0, 0.0], density };
     let particles = [
@@ -511,7 +519,7 @@ fn broken_particles() {
 #[test]
 fn bad_steps_are_errors() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig::new(10).with(|it| it.max_stride = 20));
+    let mut body = Body::new(&gpu, SurfaceFoamStateConfig::new(10).with(|it| it.max_stride = 20));
     let mut sea = Sea::new(10);
     let cloud = Cloud::new(&body.stub, sea.step());
     let settings = settings();
@@ -519,14 +527,17 @@ fn bad_steps_are_errors() {
     body.record(&good).expect("a good step");
     let wide = Stream { stride: 24, ..good.velocities };
     let never = settings.with(|it| it.threshold = 0.0);
-    let bad: [(&str, Step<'_>); 7] = [
-        ("Step.dt", good.with(|it| it.dt = f32::NAN)),
-        ("Step.dt", good.with(|it| it.dt = -0.1)),
-        ("Step.count", good.with(|it| it.count = Count::Cpu(11))),
-        ("Step.velocities", good.with(|it| it.velocities = wide)),
-        ("Step.ids", good.with(|it| it.ids = Some(Stream { offset: 18, ..good.velocities }))),
+    let bad: [(&str, SurfaceFoamStep<'_>); 7] = [
+        ("SurfaceFoamStep.dt", good.with(|it| it.dt = f32::NAN)),
+        ("SurfaceFoamStep.dt", good.with(|it| it.dt = -0.1)),
+        ("SurfaceFoamStep.count", good.with(|it| it.count = Count::Cpu(11))),
+        ("SurfaceFoamStep.velocities", good.with(|it| it.velocities = wide)),
         (
-            "Step.densities",
+            "SurfaceFoamStep.ids",
+            good.with(|it| it.ids = Some(Stream { offset: 18, ..good.velocities })),
+        ),
+        (
+            "SurfaceFoamStep.densities",
             good.with(|it| it.densities = Some(Stream { size: 9, ..good.velocities })),
         ),
         ("WeberSettings.threshold", good.with(|it| it.settings = &never)),
@@ -544,11 +555,11 @@ fn bad_steps_are_errors() {
     );
     body.record(&good.with(|it| it.before = nothing)).expect("as before");
     for config in [
-        StateConfig::new(0),
-        StateConfig::new(1).with(|it| it.max_stride = 6),
-        StateConfig::new(u32::MAX),
+        SurfaceFoamStateConfig::new(0),
+        SurfaceFoamStateConfig::new(1).with(|it| it.max_stride = 6),
+        SurfaceFoamStateConfig::new(u32::MAX),
     ] {
-        match State::new(&gpu.context(1), &config) {
+        match SurfaceFoamState::new(&gpu.context(1), &config) {
             Err(Error::BadInput { .. }) => {}
             Err(other) => panic!("{config:?}: {other}"),
             Ok(_) => panic!("{config:?} is accepted"),
@@ -560,7 +571,7 @@ fn bad_steps_are_errors() {
 #[test]
 fn hostile_bits_in_a_step() {
     let gpu = Gpu::shared();
-    let mut body = Body::new(&gpu, StateConfig::new(600).with(|it| it.max_stride = 20));
+    let mut body = Body::new(&gpu, SurfaceFoamStateConfig::new(600).with(|it| it.max_stride = 20));
     let (settings, mut random) = (settings(), Random(9));
     let mut words = vec![0x4120_0000_u32; 5 * 600];
     for (i, id) in words.iter_mut().skip(4).step_by(5).enumerate() {

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use ash::vk;
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Convolution, Shading, ShadowFilter, Shadows};
-use whitewater::{Config, Region, Shadow};
+use whitewater::{Config, LightVolume, Shadow};
 
 use crate::light::{SIZE, casting, check_foam, light_views, shadows, wall};
 use crate::reference::Image;
@@ -23,7 +23,7 @@ use crate::surface_foam::Foamy;
 fn convolving(convolution: Convolution) -> Config {
     let shadow = Some(Shadows::Convolution(convolution));
     casting(16).with(|it| {
-        it.cast = None;
+        it.light_map_size = None;
         it.shadow = shadow;
         it.thickness_level = 0;
     })
@@ -82,7 +82,7 @@ impl Map {
         let mut host = image.host_image();
         host.rect.offset = vk::Offset2D { x: 1, y: 2 };
         host.rect.extent = extent(w as u32, h as u32);
-        case.shot.sun.shadow =
+        case.shot.shadow =
             Some(Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = bias));
         Self { part, view_projection, bias, reversed, _image: image }
     }
@@ -380,12 +380,12 @@ fn maps_of_any_size_come_and_go() {
         let n = case.shot.positions.len();
         case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
         let at = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
-        case.shot.sun.region = Some(Region { center: at.to_array(), radius: 6.0 });
+        case.shot.light_volume = Some(LightVolume { center: at.to_array(), radius: 6.0 });
         let sun = Vec3::from(case.shot.settings.light.direction);
         let view = Mat4::look_at_rh(at + 6.0 * sun, at, Vec3::Y);
         let flat = Mat4::orthographic_rh(-4.0, 4.0, -4.0, 4.0, 1.0, 11.0) * view;
         let config = convolving(convolution).with(|it| {
-            it.cast = Some(32);
+            it.light_map_size = Some(32);
             it.spray = true;
             it.sheets = 2;
             it.composite = Some(composite);
@@ -409,7 +409,7 @@ fn maps_of_any_size_come_and_go() {
         assert!(pictures[0] == pictures[6] && pictures[0] != pictures[1]);
         // Nothing in the map, in both conventions.
         let mut dark = Rig::lit(&gpu, &config.with(|it| it.shadow = None), 1);
-        case.shot.sun.shadow = None;
+        case.shot.shadow = None;
         let expected = case.draw(&mut dark);
         for (reversed, open) in [(false, 1.0), (true, 0.0)] {
             let (near, far) = if reversed { (11.0, 1.0) } else { (1.0, 11.0) };

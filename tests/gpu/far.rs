@@ -3,7 +3,7 @@
 //! not depend on the order; what is thin beside a step must not be lost by that.
 
 use glam::{Mat4, vec3};
-use whitewater::Region;
+use whitewater::LightVolume;
 use whitewater::WhitewaterConfig;
 use whitewater::headless::Whitewater;
 use whitewater::water::{Splat, SpraySettings};
@@ -209,7 +209,7 @@ fn far_water_keeps_its_volume() {
 fn far_maps_of_the_sun_keep_what_casts() {
     let gpu = Gpu::shared();
     let config = config(SIZE).with(|it| {
-        it.cast = Some(64);
+        it.light_map_size = Some(64);
         it.surface_foam = true;
         it.spray = true;
     });
@@ -225,7 +225,7 @@ fn far_maps_of_the_sun_keep_what_casts() {
             let mut place = || random.between(-0.7, 0.7) * radius;
             case.shot.positions = (0..2000).map(|_| [place(), 0.0, place()]).collect();
             case.shot.settings.light.direction = [0.0, 1.0, 0.0];
-            case.shot.sun.region = Some(Region { center: [0.0; 3], radius });
+            case.shot.light_volume = Some(LightVolume { center: [0.0; 3], radius });
             let drawn = draw(&case, &mut rig);
             let map = drawn.light_thickness.as_ref().expect("a map");
             total(map.data.iter().map(|t| t[channel]), &case, spacings, 0)
@@ -242,7 +242,7 @@ fn far_whitewater_particles_keep_their_light() {
         &gpu,
         &config(SIZE).with(|it| {
             it.whitewater = whitewater;
-            it.cast = Some(64);
+            it.light_map_size = Some(64);
         }),
     );
     const COUNT: usize = 2000;
@@ -260,9 +260,9 @@ fn far_whitewater_particles_keep_their_light() {
                 let radius = 0.5 * 64.0 * spacings * SPACING;
                 let mut place = || random.between(-0.7, 0.7) * radius;
                 case.shot.positions = (0..COUNT).map(|_| [place(), 0.0, place()]).collect();
-                case.shot.sun.region = Some(Region { center: [0.0; 3], radius });
+                case.shot.light_volume = Some(LightVolume { center: [0.0; 3], radius });
             } else {
-                case.shot.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
+                case.shot.light_volume = Some(LightVolume { center: [0.0; 3], radius: 1.0 });
             }
             case.shot.settings.light.direction = [0.0, 1.0, 0.0];
             case.shot.settings.whitewater.radius = radius * SPACING;

@@ -690,7 +690,7 @@ fn mistakes_are_named() {
         ("GeneratorSettings.trapped_air_rate", settings.with(|it| it.trapped_air_rate = -1.0)),
         ("GeneratorSettings.wave_crest_rate", settings.with(|it| it.wave_crest_rate = f32::NAN)),
         (
-            "GeneratorSettings.lifetime",
+            "GeneratorSettings.max_lifetime",
             settings.with(|it| [it.min_lifetime, it.max_lifetime] = [0.0, 1.0]),
         ),
         ("GeneratorSettings.buoyancy", settings.with(|it| it.buoyancy = 65.0)),

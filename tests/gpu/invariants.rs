@@ -4,7 +4,7 @@
 use ash::vk;
 use whitewater::water::Shading::{Compute, Raster};
 use whitewater::water::{Exit, Splat};
-use whitewater::{Config, Count, Packets, Particles, Previous, Region, Stream};
+use whitewater::{Config, Count, LightVolume, Packets, Particles, Previous, Stream};
 
 use crate::depth::spheres;
 use crate::reference::Image;
@@ -372,7 +372,7 @@ fn particles_in_no_packet_are_in_no_pass() {
         let mut rig = Rig::lit(
             &gpu,
             &passes.with(|it| {
-                it.cast = Some(64);
+                it.light_map_size = Some(64);
                 it.max_stride = max_stride;
             }),
             1,
@@ -383,8 +383,8 @@ fn particles_in_no_packet_are_in_no_pass() {
         case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
         case.shot.settings.noise.foam = 1.0;
         case.shot.settings.light.direction = [0.0, 1.0, 0.0];
-        let region = |center| Some(Region { center, radius: 6.0 });
-        case.shot.sun.region = region(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
+        let region = |center| Some(LightVolume { center, radius: 6.0 });
+        case.shot.light_volume = region(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
         case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.05 });
         let packed = |case: &Foamy, rig: &mut Rig<'_>, ranges: &[(u32, u32)]| {
             let streams = case.streams(rig);
@@ -419,7 +419,7 @@ fn particles_in_no_packet_are_in_no_pass() {
             same_passes(&name, &drawn, &expected);
         }
         // All of it behind the eye.
-        case.shot.sun.region = region(scenes::world(&case.shot.camera, &[[0.0, 0.0, -8.0]])[0]);
+        case.shot.light_volume = region(scenes::world(&case.shot.camera, &[[0.0, 0.0, -8.0]])[0]);
         let behind = scenes::world(&case.shot.camera, &scenes::cloud(31, n as usize, -10.0, -6.0));
         case.shot.positions = behind;
         let (drawn, expected) = (packed(&case, &mut rig, &[(0, n)]), case.draw(&mut rig));

@@ -2,10 +2,13 @@
 //! and timestamps of few bits.
 
 use ash::vk;
-use whitewater::bubbles::{BubbleConfig, DistanceField, Heap, HeapConfig};
+use whitewater::bubbles::{BlobSimulation, BlobSimulationConfig, BubbleConfig, DistanceField};
 use whitewater::shore::ShoreConfig;
 use whitewater::water::{Gate, Shading, Smoothing, Splat};
-use whitewater::{Config, Count, Error, Packets, Particles, Renderer, Slot, State, StateConfig};
+use whitewater::{
+    Config, Count, Error, Packets, Particles, Renderer, Slot, SurfaceFoamState,
+    SurfaceFoamStateConfig,
+};
 use whitewater::{Generator, GeneratorConfig, WhitewaterConfig, WhitewaterSplat};
 
 use crate::invariants::{exact, packet_bytes, same_drawn, water};
@@ -263,7 +266,7 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
         edge: 1.0,
         distances: vec![1.0; points.iter().product::<u32>() as usize],
     };
-    let heap = Heap::new(&gpu.context(1), &HeapConfig::new(8), Some(&field));
+    let heap = BlobSimulation::new(&gpu.context(1), &BlobSimulationConfig::new(8), Some(&field));
     match heap.map(|_| "no error") {
         Err(Error::BadInput { field: "DistanceField", why }) => {
             assert!(why.contains("131072"), "{why}");
@@ -330,7 +333,7 @@ fn limits_are_what_the_shaders_use() {
             it.thickness_splat = Some(Splat::Raster);
         }),
         fluid.with(|it| {
-            it.cast = Some(32);
+            it.light_map_size = Some(32);
             it.whitewater = whitewater;
         }),
         base.with(|it| it.whitewater = own(WhitewaterSplat::Compute)),
@@ -342,7 +345,8 @@ fn limits_are_what_the_shaders_use() {
         }),
     ];
     for config in &configs {
-        let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
+        let offer =
+            whitewater::DeviceSupport::of(&gpu.instance, gpu.physical, config.output_format);
         let needed = offer.limits(config);
         let mut exact = all;
         for limit in &needed {
@@ -376,8 +380,8 @@ fn limits_are_what_the_shaders_use() {
     claim(&mut gpu, Claims { limits: Some(least), ..Claims::default() });
     let context = gpu.context(1);
     let made = [
-        State::new(&context, &StateConfig::new(8)).map(|_| ()),
-        Heap::new(&context, &HeapConfig::new(8), None).map(|_| ()),
+        SurfaceFoamState::new(&context, &SurfaceFoamStateConfig::new(8)).map(|_| ()),
+        BlobSimulation::new(&context, &BlobSimulationConfig::new(8), None).map(|_| ()),
         Generator::new(&context, &GeneratorConfig::new(8, 8)).map(|_| ()),
         Renderer::new(&context, &base).map(|_| ()),
     ];

@@ -8,11 +8,11 @@ use glam::{Mat4, Vec3};
 use whitewater::bubbles::{BubbleConfig, Crossfade};
 use whitewater::headless::{Bubble, Whitewater};
 use whitewater::water::{
-    Amplitude, Convolution, Fresnel, Ladder, Medium, Rule, Shadows, SpraySettings,
+    Amplitude, Convolution, DebugView, Fresnel, Medium, Rule, Shadows, SpraySettings,
     SurfaceNoiseSettings,
 };
+use whitewater::{LightVolume, Settings, Shadow};
 use whitewater::{Occlusion, OcclusionReach, ShadowMixing, Submerged, WhitewaterConfig};
-use whitewater::{Region, Settings, Shadow};
 
 use crate::light::shadows;
 use crate::reference::Image;
@@ -65,7 +65,7 @@ fn layered() -> Foamy {
     let mut random = Random(12);
     case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
     let center = scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0];
-    case.shot.sun.region = Some(Region { center, radius: 6.0 });
+    case.shot.light_volume = Some(LightVolume { center, radius: 6.0 });
     let settings = &mut case.shot.settings;
     // The sun behind the eye, and a highlight so wide that it is seen.
     settings.light.direction = Vec3::new(-0.5, 0.7, 0.6).normalize().to_array();
@@ -94,7 +94,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         it.noise = Some(0);
     });
     let config = both.with(|it| {
-        it.cast = Some(64);
+        it.light_map_size = Some(64);
         it.sheets = 2;
         it.thickness_level = 0;
     });
@@ -165,10 +165,10 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("light.ambient", |s| s.light.ambient = [1.0; 3]),
         ("light.irradiance", |s| s.light.irradiance = [PI; 3]),
         ("light.shade", |s| s.light.shade = [0.1; 3]),
-        ("ladder 0", |s| s.ladder = Ladder::Background),
-        ("ladder 1", |s| s.ladder = Ladder::BackWater),
-        ("ladder 2", |s| s.ladder = Ladder::SurfaceFoam),
-        ("ladder 3", |s| s.ladder = Ladder::FrontWater),
+        ("ladder 0", |s| s.ladder = DebugView::Background),
+        ("ladder 1", |s| s.ladder = DebugView::BackWater),
+        ("ladder 2", |s| s.ladder = DebugView::SurfaceFoam),
+        ("ladder 3", |s| s.ladder = DebugView::FrontWater),
         ("fresnel", |s| {
             s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
         }),
@@ -186,7 +186,7 @@ fn every_setting_of_the_other_modes_shows() {
     });
     let mut rig = Rig::lit(&gpu, &plain, 1);
     let mut case = layered();
-    case.shot.sun.region = None;
+    case.shot.light_volume = None;
     let look = &mut case.shot.settings.surface_foam;
     (look.pattern, look.noise) = (0.0, 0.5);
     let source = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
@@ -219,7 +219,7 @@ fn every_setting_of_the_other_modes_shows() {
     let ruled = plain.with(|it| it.rule = Rule::Source);
     let mut rig = Rig::lit(&gpu, &ruled, 1);
     let mut case = layered();
-    case.shot.sun.region = None;
+    case.shot.light_volume = None;
     let base = case.shot.settings.clone();
     let width: [Change; 1] = [("water.smoothing_width", |s| s.water.smoothing_width *= 2.0)];
     none_show("the source's rule", &base, &width, drawer(case, &mut rig));
@@ -244,14 +244,14 @@ fn every_setting_of_the_shadow_filter_shows() {
     });
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = layered();
-    case.shot.sun.region = None;
+    case.shot.light_volume = None;
     let middle = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
     let sun = Vec3::from(case.shot.settings.light.direction);
     let light = Mat4::look_at_rh(middle + 20.0 * sun, middle, Vec3::Y);
     let view_projection = Mat4::orthographic_rh(-9.0, 9.0, -9.0, 9.0, 1.0, 40.0) * light;
     let map = Image::from_fn(64, 64, |x, y| if (x / 9 + y / 7) % 2 == 0 { 0.3 } else { 0.9 });
     let image = shadows(&rig, Shadows::Convolution(convolution), &map);
-    case.shot.sun.shadow = Some(
+    case.shot.shadow = Some(
         Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
             .with(|it| it.bias = 0.05),
     );
@@ -407,7 +407,7 @@ fn every_setting_of_bubble_foam_shows() {
 }
 
 #[test]
-fn every_setting_of_the_hand_over_shows() {
+fn every_setting_of_the_crossfade_shows() {
     let gpu = Gpu::shared();
     let bubbles = BubbleConfig::new(600).with(|it| {
         it.variants = 3;

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use ash::vk;
 use glam::{DMat3, DVec2, DVec3};
 use whitewater::water::{Ellipsoids, Kernels, Splat};
-use whitewater::{Config, Count, Region};
+use whitewater::{Config, Count, LightVolume};
 
 use crate::hostile::spoil;
 use crate::invariants::{packet_bytes, same_drawn, scaled};
@@ -525,13 +525,13 @@ fn hostile_positions_end() {
     for splat in BOTH {
         let config = ellipsoids(size, splat).with(|it| {
             it.sheets = 2;
-            it.cast = Some(64);
+            it.light_map_size = Some(64);
             it.spray = true;
         });
         let mut rig = Rig::new(&gpu, &config);
         let mut shot = mixed(size, Lens::Standard);
         let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
-        shot.sun.region = Some(Region { center, radius: 6.0 });
+        shot.light_volume = Some(LightVolume { center, radius: 6.0 });
         let on_one_spot = vec![shot.positions[3]; 1500];
         let in_a_line = (0..700).map(|i| [i as f32 * 1.0e-20, 2.0, 0.0]).collect();
         let far = shot.positions.iter().map(|p| p.map(|x| x * 1.0e17)).collect();

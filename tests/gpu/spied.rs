@@ -35,7 +35,7 @@ fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
     let frame = shot
         .frame(color.host_image(), depth.host_image(), particles)
         .with(|it| it.bubbles = blobs.as_ref().map(Foamed::streams));
-    let shadow = shot.sun.shadow.map(|shadow| shadow.image.image);
+    let shadow = shot.shadow.map(|shadow| shadow.image.image);
     for _ in 0..3 {
         let cmd = rig.stub.begin(0);
         spy::reset();
@@ -56,7 +56,7 @@ fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
         for image in [depth.image].into_iter().chain(shadow) {
             assert_eq!(spy::barriers_of(image), 2, "{name}");
         }
-        let inner = 1 + usize::from(rig.config.cast.is_some());
+        let inner = 1 + usize::from(rig.config.light_map_size.is_some());
         assert_eq!(spy::barriers_of(color.image), 2 + inner, "{name}");
         rig.stub.end(0);
         rig.stub.wait(0);
@@ -125,7 +125,7 @@ fn record_only_records_with_foam_spray_and_light() {
         });
         let mut rig = Rig::lit(&gpu, &config, 1);
         let (_image, shadow) = even(&rig, 0.5);
-        case.shot.sun.shadow = Some(shadow);
+        case.shot.shadow = Some(shadow);
         let streams = case.streams(&rig);
         watched(name, &mut rig, &case.shot, streams.particles());
     }
@@ -135,7 +135,7 @@ fn record_only_records_with_foam_spray_and_light() {
     let size = extent(48, 32);
     let config = config(size).with(|it| {
         it.shadow = shadow;
-        it.cast = Some(16);
+        it.light_map_size = Some(16);
         it.surface_foam = true;
         it.spray = true;
         it.sheets = 2;

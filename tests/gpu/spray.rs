@@ -516,7 +516,7 @@ fn each_droplet_has_its_own_sun() {
         let map = Image::from_fn(96, 96, |x, y| f32::from(u8::from((x + y / 2) / 5 % 2 == 0)));
         let image = shadows(&rig, Shadows::Map, &map);
         case.shot.settings.light.direction = sun.to_array();
-        case.shot.sun.shadow = Some(
+        case.shot.shadow = Some(
             Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
                 .with(|it| it.bias = 0.05),
         );

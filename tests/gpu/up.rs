@@ -5,7 +5,7 @@ use whitewater::WhitewaterConfig;
 use whitewater::bubbles::BubbleConfig;
 use whitewater::headless::{Bubble, Whitewater};
 use whitewater::shore::ShoreConfig;
-use whitewater::{Config, EnvironmentSource, Error, Region, Settings, Shore, Sky, Slot};
+use whitewater::{Config, EnvironmentSource, Error, LightVolume, Settings, Shore, Sky, Slot};
 
 use crate::reference::Image;
 use crate::support::device::Gpu;
@@ -63,7 +63,7 @@ impl World {
         (settings.spray.droplets, settings.spray.scatter_radius) = (1, 0.0);
         settings.shore.contact.particle_opacity = 1.0;
         let [x, y, z] = shot.positions[0];
-        shot.sun.region = Some(Region { center: [x, y, z], radius: 4.0 });
+        shot.light_volume = Some(LightVolume { center: [x, y, z], radius: 4.0 });
         let sky = Sky::default().with(|it| it.sun = shot.settings.light.direction);
         Self { shot, sky, velocities, foam, whitewater }
     }
@@ -85,7 +85,7 @@ impl World {
             blob.ball = [x, y, z, radius];
             blob.turn = (quarter * Quat::from_array(blob.turn)).to_array();
         }
-        if let Some(region) = &mut shot.sun.region {
+        if let Some(region) = &mut shot.light_volume {
             region.center = turned(region.center);
         }
         let settings = &mut shot.settings;
@@ -117,7 +117,7 @@ impl World {
         let some = config.whitewater.is_some().then(|| whitewater.particles());
         let mut shot = self.shot.clone();
         shot.shore = shot.shore.filter(|_| config.shore.is_some());
-        shot.sun.region = shot.sun.region.filter(|_| config.cast.is_some());
+        shot.light_volume = shot.light_volume.filter(|_| config.light_map_size.is_some());
         rig.draw_whitewater(&shot, &particles, some).output
     }
 }
@@ -152,7 +152,7 @@ fn a_turned_world_looks_the_same() {
         ("whitewater", base.with(|it| it.whitewater = whitewater)),
         ("bubbles", base.with(|it| it.bubbles = bubbles)),
         ("shore", base.with(|it| it.shore = Some(ShoreConfig::default()))),
-        ("cast", base.with(|it| it.cast = Some(64))),
+        ("cast", base.with(|it| it.light_map_size = Some(64))),
     ] {
         let expected = world.draw(&gpu, &config);
         let (same, other) = (z_up.draw(&gpu, &config), unsaid.draw(&gpu, &config));

@@ -9,7 +9,7 @@ use std::thread::available_parallelism;
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use whitewater::headless::{Device, DeviceOptions};
-use whitewater::{Context, Error, Host};
+use whitewater::{Allocate, Context, Error, Host};
 
 use super::watchdog::Watch;
 use crate::reference::shore::texture::filters_in_halves;
@@ -38,6 +38,8 @@ pub struct Gpu {
     /// Functions and allocator handed to the library; a spy replaces them.
     pub functions: ash::Device,
     pub allocator: Arc<Mutex<Allocator>>,
+    /// What is handed in its place.
+    pub other_allocator: Option<Arc<dyn Allocate>>,
     /// The instance's functions that are handed to the library, where they are not its own.
     pub claims: Option<ash::Instance>,
     /// The test leaves objects behind on purpose.
@@ -155,6 +157,7 @@ impl Gpu {
             device: Some(device),
             functions,
             allocator,
+            other_allocator: None,
             claims: None,
             leaks: false,
             _lock: lock,
@@ -201,7 +204,8 @@ impl Gpu {
         Device::host(self, frames_in_flight).with(|it| {
             it.instance = self.claims.as_ref().unwrap_or(&self.instance);
             it.device = &self.functions;
-            it.allocator = Some(self.allocator.clone());
+            it.allocator =
+                Some(self.other_allocator.clone().unwrap_or_else(|| self.allocator.clone()));
         })
     }
 

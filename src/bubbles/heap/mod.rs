@@ -33,7 +33,7 @@ use crate::water::Window;
 use crate::water::settings::range;
 pub use field::DistanceField;
 use settings::GpuSolid;
-pub use settings::{HeapConfig, HeapSettings, HeapStep, Solid};
+pub use settings::{BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep, Solid};
 
 /// How blobs are used between steps.
 const AFTER: crate::contract::Access = COMPUTE_READ.and(COPY_READ);
@@ -128,9 +128,9 @@ struct HeapSlot {
 }
 
 /// A simulation of bubble-foam blobs. Views share it.
-pub struct Heap {
+pub struct BlobSimulation {
     gpu: Arc<Gpu>,
-    config: HeapConfig,
+    config: BlobSimulationConfig,
     pipelines: Pipelines,
     buffers: Buffers,
     scan: Scan,
@@ -144,21 +144,21 @@ pub struct Heap {
     largest: f32,
 }
 
-impl Heap {
+impl BlobSimulation {
     /// Makes pipelines and memory: 140 to 144 bytes per slot, 4 per point of the field, and for each frame in
-    /// flight 48 per solid. There are 2^[`max_splits`](HeapConfig::max_splits) slots per blob. `field`: solids
+    /// flight 48 per solid. There are 2^[`max_splits`](BlobSimulationConfig::max_splits) slots per blob. `field`: solids
     /// besides those of the steps.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
     pub fn new(
         context: &Context,
-        config: &HeapConfig,
+        config: &BlobSimulationConfig,
         field: Option<&DistanceField>,
     ) -> Result<Self, Error> {
         if config.max_blobs == 0 || config.max_blobs > 1 << 20 {
             let why = format!("expected 1 to {}, found {}", 1 << 20, config.max_blobs);
-            return Err(Error::bad("HeapConfig.max_blobs", why));
+            return Err(Error::bad("BlobSimulationConfig.max_blobs", why));
         }
         if config.max_splits > 6 || config.max_blobs << config.max_splits > 1 << 20 {
             let why = format!(
@@ -167,11 +167,11 @@ impl Heap {
                 config.max_blobs,
                 1 << 20
             );
-            return Err(Error::bad("HeapConfig.max_splits", why));
+            return Err(Error::bad("BlobSimulationConfig.max_splits", why));
         }
         if config.max_solids > 65_536 {
             let why = format!("expected 0 to 65536, found {}", config.max_solids);
-            return Err(Error::bad("HeapConfig.max_solids", why));
+            return Err(Error::bad("BlobSimulationConfig.max_solids", why));
         }
         field.map_or(Ok(()), DistanceField::check)?;
         let gpu = Gpu::new(context);
@@ -190,7 +190,7 @@ impl Heap {
 
     fn made(
         gpu: &Arc<Gpu>,
-        config: &HeapConfig,
+        config: &BlobSimulationConfig,
         field: Option<&DistanceField>,
     ) -> Result<Self, Error> {
         let places = config.max_blobs << config.max_splits;
@@ -273,7 +273,7 @@ impl Heap {
     ) -> Result<(), Error> {
         check::step(["slot", "dt"], slot, self.slots.len(), 0.0)?;
         let fields = ["Blobs.count", "Blobs.count.offset"];
-        let most = ("HeapConfig.max_blobs", self.config.max_blobs);
+        let most = ("BlobSimulationConfig.max_blobs", self.config.max_blobs);
         let count = check::count(fields, blobs.count, most, &self.gpu.limits)?;
         if matches!(blobs.count, Count::Gpu { .. }) {
             return Err(Error::bad(
@@ -338,7 +338,7 @@ impl Heap {
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
-        step: &HeapStep<'_>,
+        step: &BlobSimulationStep<'_>,
     ) -> Result<(), Error> {
         self.check(step)?;
         let push = self.push(step);
@@ -402,7 +402,7 @@ impl Heap {
         Ok(())
     }
 
-    fn push(&self, step: &HeapStep<'_>) -> Push {
+    fn push(&self, step: &BlobSimulationStep<'_>) -> Push {
         let s = step.settings;
         let [x, y, z] = s.gravity;
         let (points, field) = self.field;
@@ -496,14 +496,22 @@ impl Heap {
     }
 
     /// Validates a step.
-    fn check(&self, step: &HeapStep<'_>) -> Result<(), Error> {
-        check::step(["HeapStep.slot", "HeapStep.dt"], step.slot, self.slots.len(), step.dt)?;
-        range("HeapStep.dt", step.dt, 0.0, 1.0)?;
+    fn check(&self, step: &BlobSimulationStep<'_>) -> Result<(), Error> {
+        check::step(
+            ["BlobSimulationStep.slot", "BlobSimulationStep.dt"],
+            step.slot,
+            self.slots.len(),
+            step.dt,
+        )?;
+        range("BlobSimulationStep.dt", step.dt, 0.0, 1.0)?;
         step.settings.check()?;
         if step.solids.len() > self.config.max_solids as usize {
             let most = self.config.max_solids;
-            let why = format!("{} are more than HeapConfig.max_solids, {most}", step.solids.len());
-            return Err(Error::bad("HeapStep.solids", why));
+            let why = format!(
+                "{} are more than BlobSimulationConfig.max_solids, {most}",
+                step.solids.len()
+            );
+            return Err(Error::bad("BlobSimulationStep.solids", why));
         }
         step.solids.iter().try_for_each(Solid::check)
     }

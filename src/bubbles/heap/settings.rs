@@ -6,7 +6,7 @@ use crate::contract::Slot;
 use crate::error::Error;
 use crate::water::settings::range;
 
-crate::contract::with!(HeapConfig, HeapSettings, HeapStep<'_>);
+crate::contract::with!(BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep<'_>);
 
 /// Most parts of a step.
 const MOST_SUBSTEPS: u32 = 64;
@@ -14,7 +14,7 @@ const MOST_SUBSTEPS: u32 = 64;
 /// How blobs move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct HeapSettings {
+pub struct BlobSimulationSettings {
     /// Gravity, m/s², default (0, −9.81, 0).
     pub gravity: [f32; 3],
     /// Linear air drag, 1/s, [0, 100], default 0.8.
@@ -47,7 +47,7 @@ pub struct HeapSettings {
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
     /// A blob splits in two if the blobs that it touches have less than this many times its volume, [0, 100],
-    /// default 2.5. A torn-off blob becomes a clump of four and more. With [`HeapConfig::max_splits`].
+    /// default 2.5. A torn-off blob becomes a clump of four and more. With [`BlobSimulationConfig::max_splits`].
     pub split_support: f32,
     /// Time that a blob must be isolated before it splits, seconds, [0, 10], default 0.1.
     pub split_delay: f32,
@@ -57,7 +57,7 @@ pub struct HeapSettings {
     pub substeps: u32,
 }
 
-impl Default for HeapSettings {
+impl Default for BlobSimulationSettings {
     fn default() -> Self {
         Self {
             gravity: [0.0, -9.81, 0.0],
@@ -82,7 +82,7 @@ impl Default for HeapSettings {
     }
 }
 
-impl HeapSettings {
+impl BlobSimulationSettings {
     /// Replaces gravity by the earth's, for a number of scene units per metre and an up direction of unit length.
     #[must_use]
     pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
@@ -91,27 +91,27 @@ impl HeapSettings {
 
     pub(super) fn check(&self) -> Result<(), Error> {
         for part in self.gravity {
-            range("HeapSettings.gravity", part, -1.0e4, 1.0e4)?;
+            range("BlobSimulationSettings.gravity", part, -1.0e4, 1.0e4)?;
         }
-        range("HeapSettings.drag", self.drag, 0.0, 100.0)?;
-        range("HeapSettings.rest", self.rest, 1.0e-3, 1.0)?;
-        range("HeapSettings.reach", self.reach, self.rest + 1.0e-3, 1.2)?;
-        range("HeapSettings.stiffness", self.stiffness, 1.0e-3, 1.0e5)?;
-        range("HeapSettings.cohesion", self.cohesion, 0.0, 1000.0)?;
-        range("HeapSettings.normal_damping", self.normal_damping, 0.0, 100.0)?;
-        range("HeapSettings.tangential_damping", self.tangential_damping, 0.0, 100.0)?;
-        range("HeapSettings.contact", self.contact, 1.0e-3, 1.0)?;
-        range("HeapSettings.solidity", self.solidity, 1.0e-3, 1.0e5)?;
-        range("HeapSettings.solid_damping", self.solid_damping, 0.0, 200.0)?;
-        range("HeapSettings.friction", self.friction, 0.0, 10.0)?;
-        range("HeapSettings.water", self.water.unwrap_or(0.0), -1.0e9, 1.0e9)?;
-        range("HeapSettings.density", self.density, 0.01, 10.0)?;
-        range("HeapSettings.split_support", self.split_support, 0.0, 100.0)?;
-        range("HeapSettings.split_delay", self.split_delay, 0.0, 10.0)?;
-        range("HeapSettings.split_duration", self.split_duration, 0.01, 10.0)?;
+        range("BlobSimulationSettings.drag", self.drag, 0.0, 100.0)?;
+        range("BlobSimulationSettings.rest", self.rest, 1.0e-3, 1.0)?;
+        range("BlobSimulationSettings.reach", self.reach, self.rest + 1.0e-3, 1.2)?;
+        range("BlobSimulationSettings.stiffness", self.stiffness, 1.0e-3, 1.0e5)?;
+        range("BlobSimulationSettings.cohesion", self.cohesion, 0.0, 1000.0)?;
+        range("BlobSimulationSettings.normal_damping", self.normal_damping, 0.0, 100.0)?;
+        range("BlobSimulationSettings.tangential_damping", self.tangential_damping, 0.0, 100.0)?;
+        range("BlobSimulationSettings.contact", self.contact, 1.0e-3, 1.0)?;
+        range("BlobSimulationSettings.solidity", self.solidity, 1.0e-3, 1.0e5)?;
+        range("BlobSimulationSettings.solid_damping", self.solid_damping, 0.0, 200.0)?;
+        range("BlobSimulationSettings.friction", self.friction, 0.0, 10.0)?;
+        range("BlobSimulationSettings.water", self.water.unwrap_or(0.0), -1.0e9, 1.0e9)?;
+        range("BlobSimulationSettings.density", self.density, 0.01, 10.0)?;
+        range("BlobSimulationSettings.split_support", self.split_support, 0.0, 100.0)?;
+        range("BlobSimulationSettings.split_delay", self.split_delay, 0.0, 10.0)?;
+        range("BlobSimulationSettings.split_duration", self.split_duration, 0.01, 10.0)?;
         if !(1..=MOST_SUBSTEPS).contains(&self.substeps) {
             let why = format!("expected 1 to {MOST_SUBSTEPS}, found {}", self.substeps);
-            return Err(Error::bad("HeapSettings.substeps", why));
+            return Err(Error::bad("BlobSimulationSettings.substeps", why));
         }
         Ok(())
     }
@@ -161,7 +161,7 @@ impl Solid {
             return Ok(());
         }
         let why = format!("{self:?}: finite, with a unit normal or turn expected");
-        Err(Error::bad("HeapStep.solids", why))
+        Err(Error::bad("BlobSimulationStep.solids", why))
     }
 
     pub(super) fn on_gpu(self) -> GpuSolid {
@@ -178,20 +178,20 @@ impl Solid {
     }
 }
 
-/// Configuration of a [`Heap`](super::Heap): what fixes its memory.
+/// Configuration of a [`BlobSimulation`](super::BlobSimulation): what fixes its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct HeapConfig {
+pub struct BlobSimulationConfig {
     /// Maximum number of blobs, 1 to 2^20.
     pub max_blobs: u32,
     /// Maximum number of solids per step, default 64.
     pub max_solids: u32,
-    /// Maximum number of successive splits of a blob ([`HeapSettings::split_support`]), 0 to 6, default 0. The heap
+    /// Maximum number of successive splits of a blob ([`BlobSimulationSettings::split_support`]), 0 to 6, default 0. The heap
     /// has 2^max_splits times `max_blobs` slots, at most 2^20.
     pub max_splits: u32,
 }
 
-impl HeapConfig {
+impl BlobSimulationConfig {
     /// The defaults for a maximum number of blobs.
     pub fn new(max_blobs: u32) -> Self {
         Self { max_blobs, max_solids: 64, max_splits: 0 }
@@ -201,20 +201,20 @@ impl HeapConfig {
 /// One step of the simulation.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub struct HeapStep<'a> {
+pub struct BlobSimulationStep<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
     /// Duration in seconds, [0, 1].
     pub dt: f32,
     /// Uniform settings.
-    pub settings: &'a HeapSettings,
+    pub settings: &'a BlobSimulationSettings,
     /// Solids, in their state at the end of the step.
     pub solids: &'a [Solid],
 }
 
-impl<'a> HeapStep<'a> {
+impl<'a> BlobSimulationStep<'a> {
     /// A step of this many seconds, without solids.
-    pub fn new(slot: Slot, dt: f32, settings: &'a HeapSettings) -> Self {
+    pub fn new(slot: Slot, dt: f32, settings: &'a BlobSimulationSettings) -> Self {
         Self { slot, dt, settings, solids: &[] }
     }
 }

@@ -49,7 +49,7 @@ fn bad_blobs_are_errors_before_any_command() {
         ("Settings.bubbles.film", |l| l.film = f32::NAN),
         ("Settings.bubbles.variation", |l| l.variation = 1.5),
         ("Settings.bubbles.drainage", |l| l.drainage = -0.1),
-        ("Settings.[bubbles.core_opaque_radius, bubbles.core_outer_radius]", |l| {
+        ("Settings.bubbles.core_opaque_radius", |l| {
             [l.core_opaque_radius, l.core_outer_radius] = [0.9, 0.9]
         }),
         ("Settings.bubbles.albedo", |l| l.albedo[1] = 2.0),

@@ -1,7 +1,7 @@
 //! Blobs as the sun sees them: what they leave of its light on the scene.
 
 use glam::{DVec3, Vec3};
-use whitewater::Region;
+use whitewater::LightVolume;
 use whitewater::bubbles::BubbleConfig;
 use whitewater::headless::Bubble;
 
@@ -25,7 +25,7 @@ fn a_blob_casts_the_shadow_of_its_core() {
     let edge = 256;
     let config = config(size).with(|it| {
         it.bubbles = Some(bubbles);
-        it.cast = Some(edge);
+        it.light_map_size = Some(edge);
     });
     let mut rig = Rig::lit(&gpu, &config, 1);
     for (lens, radius) in [(Lens::Standard, 0.5_f32), (Lens::LeftHanded, 0.45)] {
@@ -39,8 +39,8 @@ fn a_blob_casts_the_shadow_of_its_core() {
         shot.settings.light.direction = sun.to_array();
         shot.settings.light.irradiance = [2.0; 3];
         shot.settings.light.shade = [0.0; 3];
-        let region = Region { center: middle.to_array(), radius: 4.0 };
-        shot.sun.region = Some(region);
+        let region = LightVolume { center: middle.to_array(), radius: 4.0 };
+        shot.light_volume = Some(region);
         let lit = rig.draw(&shot).output;
         shot.blobs = vec![
             Bubble { ball: at.extend(radius).to_array(), turn: [0.0, 0.0, 0.0, 1.0], id: 0 },

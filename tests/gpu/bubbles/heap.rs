@@ -2,7 +2,10 @@
 
 use ash::vk;
 use glam::{DVec3, Vec3};
-use whitewater::bubbles::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
+use whitewater::bubbles::{
+    BlobSimulation, BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep,
+    DistanceField, Solid,
+};
 use whitewater::headless::Bubble;
 use whitewater::{Blobs, Count, Error, Slot};
 
@@ -16,7 +19,7 @@ use crate::support::scenes::Random;
 /// A heap in a host.
 pub struct Running {
     stub: Stub,
-    pub heap: Option<Heap>,
+    pub heap: Option<BlobSimulation>,
     count: usize,
 }
 
@@ -41,12 +44,12 @@ impl Running {
         (blobs, velocities): (&[Bubble], &[[f32; 3]]),
         field: Option<&DistanceField>,
         max_splits: u32,
-        step: Option<&HeapStep<'_>>,
+        step: Option<&BlobSimulationStep<'_>>,
     ) -> Self {
-        let config =
-            HeapConfig::new(blobs.len().max(1) as u32).with(|it| it.max_splits = max_splits);
+        let config = BlobSimulationConfig::new(blobs.len().max(1) as u32)
+            .with(|it| it.max_splits = max_splits);
         let stub = Stub::new(gpu, 1);
-        let mut heap = Heap::new(&gpu.context(1), &config, field).expect("a heap");
+        let mut heap = BlobSimulation::new(&gpu.context(1), &config, field).expect("a heap");
         let mut bytes = bytemuck::cast_slice(blobs).to_vec();
         bytes.resize(bytes.len().max(64), 0);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
@@ -75,11 +78,11 @@ impl Running {
     pub fn step(
         &mut self,
         dt: f32,
-        settings: &HeapSettings,
+        settings: &BlobSimulationSettings,
         solids: &[Solid],
     ) -> Result<(), Error> {
         let heap = self.heap.as_mut().expect("only drop takes it");
-        let step = HeapStep::new(Slot(0), dt, settings).with(|it| it.solids = solids);
+        let step = BlobSimulationStep::new(Slot(0), dt, settings).with(|it| it.solids = solids);
         // SAFETY: submitted at once.
         self.stub.run(|cmd| unsafe { heap.record_step(cmd, &step) })
     }
@@ -139,7 +142,7 @@ pub const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 }
 #[test]
 fn a_step_is_the_twins() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings::default().with(|it| it.substeps = 1);
+    let settings = BlobSimulationSettings::default().with(|it| it.substeps = 1);
     let mut random = Random(4);
     let blobs = cloud(120, [1.0, 1.2, 1.0], [0.05, 0.2], 8);
     let speeds: Vec<[f32; 3]> =
@@ -177,7 +180,7 @@ fn a_step_is_the_twins() {
 #[test]
 fn a_heap_comes_to_rest_and_loses_energy() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings::default();
+    let settings = BlobSimulationSettings::default();
     let blobs = cloud(400, [1.2, 2.0, 1.2], [0.06, 0.12], 5);
     let mut running = Running::new(&gpu, &blobs, &[], None);
     let wall = |normal: [f32; 3]| Solid::Plane { normal, distance: -0.7 };
@@ -221,7 +224,7 @@ fn a_heap_comes_to_rest_and_loses_energy() {
 #[test]
 fn the_order_of_blobs_is_no_matter_to_a_heap() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings::default();
+    let settings = BlobSimulationSettings::default();
     let mut random = Random(2);
     // Loose ones, and more in one bucket than are looked at.
     for (count, edge, steps) in [(300, [0.8, 1.0, 0.8], 20), (1200, [0.004; 3], 2)] {
@@ -245,7 +248,7 @@ fn the_order_of_blobs_is_no_matter_to_a_heap() {
 #[test]
 fn blobs_slide_down_a_slope_that_is_steep() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings::default().with(|it| {
+    let settings = BlobSimulationSettings::default().with(|it| {
         it.cohesion = 0.0;
         it.drag = 0.0;
     });
@@ -308,7 +311,7 @@ fn a_mesh_is_solid_by_its_field() {
     let mut running = Running::new(&gpu, &[blob], &[], Some(&field));
     let mut nearest = f64::INFINITY;
     for _ in 0..90 {
-        running.step(1.0 / 60.0, &HeapSettings::default(), &[]).expect("a step");
+        running.step(1.0 / 60.0, &BlobSimulationSettings::default(), &[]).expect("a step");
         nearest = nearest.min(running.blobs()[0].place.length());
     }
     let end = running.blobs()[0];
@@ -328,21 +331,21 @@ fn what_is_no_blob_and_none_do_nothing() {
     let mut none = Running::new(&gpu, &[], &[], None);
     for running in [&mut all, &mut alone, &mut none] {
         for _ in 0..10 {
-            running.step(1.0 / 60.0, &HeapSettings::default(), &[FLOOR]).expect("a step");
+            running.step(1.0 / 60.0, &BlobSimulationSettings::default(), &[FLOOR]).expect("a step");
         }
     }
     assert_eq!(all.blobs()[0], alone.blobs()[0]);
     assert!(all.blobs()[1..].iter().all(|b| b.radius == 0.0 && b.place == DVec3::ZERO));
     assert!(alone.blobs()[0].place.y < 1.0);
-    type Spoil = fn(&mut HeapSettings);
+    type Spoil = fn(&mut BlobSimulationSettings);
     let spoils: [(&str, Spoil); 4] = [
-        ("HeapSettings.reach", |s| s.reach = 0.5),
-        ("HeapSettings.stiffness", |s| s.stiffness = f32::NAN),
-        ("HeapSettings.substeps", |s| s.substeps = 0),
-        ("HeapSettings.density", |s| s.density = 0.0),
+        ("BlobSimulationSettings.reach", |s| s.reach = 0.5),
+        ("BlobSimulationSettings.stiffness", |s| s.stiffness = f32::NAN),
+        ("BlobSimulationSettings.substeps", |s| s.substeps = 0),
+        ("BlobSimulationSettings.density", |s| s.density = 0.0),
     ];
     for (field, spoil) in spoils {
-        let mut settings = HeapSettings::default();
+        let mut settings = BlobSimulationSettings::default();
         spoil(&mut settings);
         let result = alone.step(1.0 / 60.0, &settings, &[]);
         assert!(
@@ -352,11 +355,11 @@ fn what_is_no_blob_and_none_do_nothing() {
     }
     let flat = Solid::Plane { normal: [0.0; 3], distance: 0.0 };
     for (field, dt, solids) in [
-        ("HeapStep.solids", 0.01, vec![flat]),
-        ("HeapStep.solids", 0.01, vec![FLOOR; 65]),
-        ("HeapStep.dt", f32::NAN, vec![]),
+        ("BlobSimulationStep.solids", 0.01, vec![flat]),
+        ("BlobSimulationStep.solids", 0.01, vec![FLOOR; 65]),
+        ("BlobSimulationStep.dt", f32::NAN, vec![]),
     ] {
-        let result = alone.step(dt, &HeapSettings::default(), &solids);
+        let result = alone.step(dt, &BlobSimulationSettings::default(), &solids);
         assert!(
             matches!(result, Err(Error::BadInput { field: found, .. }) if found == field),
             "{field}"
@@ -369,8 +372,9 @@ fn what_is_no_blob_and_none_do_nothing() {
 fn blobs_are_set_and_moved_in_one_command_buffer() {
     let gpu = Gpu::shared();
     let blobs = cloud(70, [0.8, 1.0, 0.8], [0.05, 0.2], 3);
-    let settings = HeapSettings::default();
-    let step = HeapStep::new(Slot(0), 1.0 / 60.0, &settings).with(|it| it.solids = &[FLOOR]);
+    let settings = BlobSimulationSettings::default();
+    let step =
+        BlobSimulationStep::new(Slot(0), 1.0 / 60.0, &settings).with(|it| it.solids = &[FLOOR]);
     let mut apart = Running::new(&gpu, &blobs, &[], None);
     apart.step(step.dt, step.settings, step.solids).expect("a step");
     let at_once = Running::stepped(&gpu, (&blobs, &[]), None, 0, Some(&step));
@@ -394,7 +398,7 @@ fn hostile_bits_in_a_heap() {
         let streams = (&blobs[..], bytemuck::cast_slice(&speeds));
         let mut running = Running::stepped(&gpu, streams, None, max_splits, None);
         for _ in 0..5 {
-            running.step(1.0 / 60.0, &HeapSettings::default(), &[FLOOR]).expect("a step");
+            running.step(1.0 / 60.0, &BlobSimulationSettings::default(), &[FLOOR]).expect("a step");
         }
         // Those that were not spoiled, each by itself, are blobs still.
         let left = running.blobs().iter().filter(|b| b.place.is_finite() && b.radius > 0.0).count();

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3, Vec4};
 use whitewater::WhitewaterConfig;
 use whitewater::bubbles::{BubbleConfig, Crossfade};
 use whitewater::headless::{Bubble, Whitewater};
-use whitewater::{Config, Error, Region};
+use whitewater::{Config, Error, LightVolume};
 
 use crate::reference::classify::pcg;
 use crate::reference::is_surface;
@@ -34,7 +34,7 @@ impl Cloud {
     fn new(count: usize, depth: impl Fn(usize) -> f32) -> Self {
         let mut shot = Shot::new(extent(96, 80), Lens::ReversedInfinite, 0.1, &[]);
         let center = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
-        shot.sun.region = Some(Region { center, radius: 4.0 });
+        shot.light_volume = Some(LightVolume { center, radius: 4.0 });
         shot.settings.whitewater.radius = RADIUS;
         // As they grow some are small: what merges is another test's.
         shot.settings.bubbles.min_pixels = 0.0;
@@ -127,7 +127,7 @@ fn with(cloud: &Cloud, bubbles: BubbleConfig) -> Config {
     config(cloud.shot.size).with(|it| {
         it.whitewater = Some(WhitewaterConfig::new(most));
         it.bubbles = Some(bubbles);
-        it.cast = Some(32);
+        it.light_map_size = Some(32);
     })
 }
 
@@ -258,7 +258,7 @@ fn shading(from: [f32; 3]) -> (Cloud, f64) {
     shot.settings.whitewater.radius = 0.15;
     // Thinner than blobs: their shadows differ.
     shot.settings.whitewater.half_intensity_thickness *= 2.0;
-    shot.sun.region = Some(Region { center: there.to_array(), radius: 5.0 });
+    shot.light_volume = Some(LightVolume { center: there.to_array(), radius: 5.0 });
     cloud.positions = scenes::world(&shot.camera, &eye);
     cloud.kinds = vec![FOAM; eye.len()];
     cloud.ages = vec![0.0; eye.len()];
@@ -295,7 +295,7 @@ fn foam_that_is_handed_over_casts_one_shadow() {
     let (mut cloud, away) = shading([-0.9, 0.0, 3.0]);
     let config = |crossfade| {
         let own = with(&cloud, bubbles(256).with(|it| it.crossfade = crossfade));
-        own.with(|it| it.cast = Some(128))
+        own.with(|it| it.light_map_size = Some(128))
     };
     let [mut over_rig, mut rig] =
         [true, false].map(|crossfade| Rig::lit(&gpu, &config(crossfade), 1));
@@ -338,7 +338,7 @@ fn foam_beside_the_view_casts_the_shadow_of_sprites() {
     let (mut cloud, away) = shading([-3.6, 0.0, 2.6]);
     let [handed, sprites] = [true, false].map(|crossfade| {
         let own = with(&cloud, bubbles(256).with(|it| it.crossfade = crossfade));
-        let mut rig = Rig::lit(&gpu, &own.with(|it| it.cast = Some(128)), 1);
+        let mut rig = Rig::lit(&gpu, &own.with(|it| it.light_map_size = Some(128)), 1);
         let crossfade = Crossfade { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
         cloud.shot.settings.bubbles.crossfade = crossfade;
         cloud.draw(&mut rig)
@@ -346,7 +346,7 @@ fn foam_beside_the_view_casts_the_shadow_of_sprites() {
     let mut none = cloud.clone();
     none.ages.fill(1.0);
     let own = with(&none, bubbles(256));
-    let lit = none.draw(&mut Rig::lit(&gpu, &own.with(|it| it.cast = Some(128)), 1));
+    let lit = none.draw(&mut Rig::lit(&gpu, &own.with(|it| it.light_map_size = Some(128)), 1));
     assert_eq!(handed.soap.as_ref().expect("bubble foam").range[2], 0, "none is on the screen");
     let all = [sprites, handed];
     let shares = left(&all, &lit);
@@ -369,7 +369,7 @@ fn it_takes_the_memory_it_says() {
 }
 
 #[test]
-fn bad_hand_overs_are_errors() {
+fn bad_crossfades_are_errors() {
     let gpu = Gpu::shared();
     let cloud = Cloud::new(4, |_| 2.0);
     let over = bubbles(8).with(|it| it.crossfade = true);

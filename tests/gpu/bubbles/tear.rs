@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use whitewater::Error;
-use whitewater::bubbles::{Heap, HeapConfig, HeapSettings};
+use whitewater::bubbles::{BlobSimulation, BlobSimulationConfig, BlobSimulationSettings};
 use whitewater::headless::Bubble;
 
 use super::heap::{FLOOR, Running, cloud};
@@ -12,8 +12,8 @@ use crate::support::device::Gpu;
 use crate::support::scenes::Random;
 
 const DT: f32 = 1.0 / 60.0;
-fn free() -> HeapSettings {
-    HeapSettings::default().with(|it| it.gravity = [0.0; 3])
+fn free() -> BlobSimulationSettings {
+    BlobSimulationSettings::default().with(|it| it.gravity = [0.0; 3])
 }
 
 fn one(radius: f32) -> Bubble {
@@ -29,7 +29,7 @@ fn volume(blobs: &[Blob]) -> f64 {
 }
 
 /// What is beside one that it touches, in its own volume.
-fn beside(blobs: &[Blob], own: &Blob, settings: &HeapSettings) -> f64 {
+fn beside(blobs: &[Blob], own: &Blob, settings: &BlobSimulationSettings) -> f64 {
     let touches = |other: &&Blob| {
         let reach = f64::from(settings.reach) * (own.radius + other.radius);
         let far = own.place.distance(other.place);
@@ -87,7 +87,7 @@ fn a_lone_blob_becomes_a_clump() {
 #[test]
 fn what_has_enough_beside_it_stays_whole() {
     let gpu = Gpu::shared();
-    let settings = HeapSettings::default().with(|it| {
+    let settings = BlobSimulationSettings::default().with(|it| {
         it.split_delay = 0.0;
         it.split_duration = 0.05;
     });
@@ -152,7 +152,7 @@ fn the_order_of_blobs_is_no_matter_to_their_halves() {
     let end = |blobs: &[Bubble]| {
         let mut running = Running::halving(&gpu, blobs, 2);
         for _ in 0..60 {
-            running.step(DT, &HeapSettings::default(), &[FLOOR]).expect("a step");
+            running.step(DT, &BlobSimulationSettings::default(), &[FLOOR]).expect("a step");
         }
         running.blobs()
     };
@@ -170,22 +170,22 @@ fn the_order_of_blobs_is_no_matter_to_their_halves() {
 fn bad_halvings_are_errors() {
     let gpu = Gpu::shared();
     for config in [
-        HeapConfig::new(4).with(|it| it.max_splits = 7),
-        HeapConfig::new(1 << 18).with(|it| it.max_splits = 3),
+        BlobSimulationConfig::new(4).with(|it| it.max_splits = 7),
+        BlobSimulationConfig::new(1 << 18).with(|it| it.max_splits = 3),
     ] {
-        let result = Heap::new(&gpu.context(1), &config, None);
+        let result = BlobSimulation::new(&gpu.context(1), &config, None);
         let field = result.err().map(|error| error.to_string()).unwrap_or_default();
-        assert!(field.contains("HeapConfig.max_splits"), "{field}");
+        assert!(field.contains("BlobSimulationConfig.max_splits"), "{field}");
     }
-    type Spoil = fn(&mut HeapSettings);
+    type Spoil = fn(&mut BlobSimulationSettings);
     let spoils: [(&str, Spoil); 3] = [
-        ("HeapSettings.split_support", |s| s.split_support = -1.0),
-        ("HeapSettings.split_delay", |s| s.split_delay = f32::NAN),
-        ("HeapSettings.split_duration", |s| s.split_duration = 0.0),
+        ("BlobSimulationSettings.split_support", |s| s.split_support = -1.0),
+        ("BlobSimulationSettings.split_delay", |s| s.split_delay = f32::NAN),
+        ("BlobSimulationSettings.split_duration", |s| s.split_duration = 0.0),
     ];
     let mut running = Running::halving(&gpu, &[one(0.1)], 1);
     for (field, spoil) in spoils {
-        let mut settings = HeapSettings::default();
+        let mut settings = BlobSimulationSettings::default();
         spoil(&mut settings);
         let result = running.step(DT, &settings, &[]);
         assert!(

@@ -3,7 +3,7 @@
 use ash::vk;
 use whitewater::water::{Convolution, Shading, Shadows};
 use whitewater::{
-    Context, Count, Error, Frame, Packets, Previous, Recorded, Region, Settings, Shadow, Slot,
+    Context, Count, Error, Frame, LightVolume, Packets, Previous, Recorded, Settings, Shadow, Slot,
     Stream,
 };
 
@@ -152,7 +152,9 @@ fn spoils() -> Vec<Spoil> {
         ("opacity", "Settings.spray.opacity", |g| g.settings.spray.opacity = 1.0),
         ("size", "Settings.spray.size", |g| g.settings.spray.size = 0.0),
         ("droplets", "Settings.spray.droplets", |g| g.settings.spray.droplets = 65),
-        ("densities", "Settings.spray.densities", |g| g.settings.spray.full_water_density = 0.1),
+        ("densities", "Settings.spray.full_water_density", |g| {
+            g.settings.spray.full_water_density = 0.1
+        }),
         ("spread", "Settings.spray.scatter_radius", |g| g.settings.spray.scatter_radius = f32::NAN),
         ("shutter", "Settings.spray.exposure", |g| g.settings.spray.exposure = -1.0),
         ("weight", "Settings.noise.weight", |g| g.settings.noise.weight = f32::NAN),
@@ -187,10 +189,10 @@ fn spoils() -> Vec<Spoil> {
             g.settings.surface_foam.shadow = f32::NAN
         }),
         ("shade", "Settings.light", |g| g.settings.light.shade[0] = -1.0),
-        ("region", "Frame.sun.region", |g| {
-            g.frame.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
+        ("region", "Frame.light_volume", |g| {
+            g.frame.light_volume = Some(LightVolume { center: [0.0; 3], radius: 1.0 });
         }),
-        ("shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = Some(shadow(&g.frame))),
+        ("shadow", "Frame.shadow", |g| g.frame.shadow = Some(shadow(&g.frame))),
         ("box", "Settings.shadow.width", |g| g.settings.shadow.width = -1.0),
         ("damping", "Settings.shadow.damping", |g| g.settings.shadow.damping = f32::NAN),
         ("offset", "Settings.shadow.offset", |g| g.settings.shadow.offset = 1.5),
@@ -209,23 +211,23 @@ fn shadow(frame: &Frame<'_>) -> Shadow {
 /// The sun's way where the configuration has it.
 fn sunny_spoils() -> Vec<Spoil> {
     fn shadow_of<'a>(g: &'a mut Good<'_>) -> &'a mut Shadow {
-        g.frame.sun.shadow.as_mut().expect("a good one")
+        g.frame.shadow.as_mut().expect("a good one")
     }
-    fn region_of<'a>(g: &'a mut Good<'_>) -> &'a mut Region {
-        g.frame.sun.region.as_mut().expect("a good one")
+    fn region_of<'a>(g: &'a mut Good<'_>) -> &'a mut LightVolume {
+        g.frame.light_volume.as_mut().expect("a good one")
     }
     vec![
-        ("no shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = None),
-        ("no region", "Frame.sun.region", |g| g.frame.sun.region = None),
-        ("radius", "Frame.sun.region", |g| region_of(g).radius = 0.0),
-        ("radius of NaN", "Frame.sun.region", |g| region_of(g).radius = f32::NAN),
-        ("center", "Frame.sun.region", |g| region_of(g).center[1] = f32::INFINITY),
-        ("bias", "Frame.sun.shadow.bias", |g| shadow_of(g).bias = f32::NAN),
-        ("matrix", "Frame.sun.shadow.view_projection", |g| {
+        ("no shadow", "Frame.shadow", |g| g.frame.shadow = None),
+        ("no region", "Frame.light_volume", |g| g.frame.light_volume = None),
+        ("radius", "Frame.light_volume", |g| region_of(g).radius = 0.0),
+        ("radius of NaN", "Frame.light_volume", |g| region_of(g).radius = f32::NAN),
+        ("center", "Frame.light_volume", |g| region_of(g).center[1] = f32::INFINITY),
+        ("bias", "Frame.shadow.bias", |g| shadow_of(g).bias = f32::NAN),
+        ("matrix", "Frame.shadow.view_projection", |g| {
             shadow_of(g).view_projection = [[0.0; 4]; 4];
         }),
-        ("part", "Frame.sun.shadow.image.rect", |g| shadow_of(g).image.rect.offset.x = 1),
-        ("lost shadow", "Frame.sun.shadow.image.before", |g| {
+        ("part", "Frame.shadow.image.rect", |g| shadow_of(g).image.rect.offset.x = 1),
+        ("lost shadow", "Frame.shadow.image.before", |g| {
             shadow_of(g).image.before.layout = vk::ImageLayout::UNDEFINED;
         }),
     ]
@@ -245,14 +247,14 @@ fn bad_frames_in_the_sun(kind: Shadows) {
     let size = extent(32, 16);
     let config = config(size).with(|it| {
         it.shadow = Some(kind);
-        it.cast = Some(16);
+        it.light_map_size = Some(16);
     });
     let mut rig = Rig::with_slots(&gpu, &config, 1);
     let mut shot = water(size, Lens::Standard);
-    shot.sun.region = Some(Region { center: [0.0; 3], radius: 4.0 });
+    shot.light_volume = Some(LightVolume { center: [0.0; 3], radius: 4.0 });
     let ((color, depth), (_, map)) = (rig.scene(&shot), rig.scene(&shot));
     let cloud = rig.particles(&shot);
-    shot.sun.shadow = Some(Shadow::new(map.host_image(), glam::Mat4::IDENTITY.to_cols_array_2d()));
+    shot.shadow = Some(Shadow::new(map.host_image(), glam::Mat4::IDENTITY.to_cols_array_2d()));
     let cmd = rig.stub.begin(0);
     let good = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     for (name, field, spoil) in sunny_spoils() {
@@ -385,9 +387,9 @@ fn bad_configurations_are_errors() {
         ("Config.sheets", good.with(|it| it.sheets = 0)),
         ("Config.sheets", good.with(|it| it.sheets = 3)),
         ("Config.noise", good.with(|it| it.noise = Some(4))),
-        ("Config.cast", good.with(|it| it.cast = Some(0))),
-        ("Config.cast", good.with(|it| it.cast = Some(24))),
-        ("Config.cast", good.with(|it| it.cast = Some(4112))),
+        ("Config.light_map_size", good.with(|it| it.light_map_size = Some(0))),
+        ("Config.light_map_size", good.with(|it| it.light_map_size = Some(24))),
+        ("Config.light_map_size", good.with(|it| it.light_map_size = Some(4112))),
         ("Config.shadow", good.with(|it| it.shadow = convolved(5, 8))),
         ("Config.shadow", good.with(|it| it.shadow = convolved(8, 12))),
         ("Config.shadow", good.with(|it| it.shadow = of_texels(15))),

@@ -3,7 +3,10 @@
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::water::{Gate, Shading, Smoothing};
-use whitewater::{Config, Context, Enabled, Error, Renderer, Slot, State, StateConfig};
+use whitewater::{
+    Config, Context, DeviceSupport, EnabledFeatures, Error, Renderer, Slot, SurfaceFoamState,
+    SurfaceFoamStateConfig,
+};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, config, extent};
@@ -18,9 +21,9 @@ const _: () = {
     const fn shared<T: Send + Sync>() {}
     shared::<Context>();
     shared::<Renderer>();
-    shared::<State>();
+    shared::<SurfaceFoamState>();
     shared::<whitewater::Generator>();
-    shared::<whitewater::bubbles::Heap>();
+    shared::<whitewater::bubbles::BlobSimulation>();
     shared::<whitewater::shore::ShoreMap>();
     shared::<whitewater::Frame<'static>>();
     shared::<Error>();
@@ -60,7 +63,7 @@ fn a_device_of_vulkan_1_2_draws_the_same() {
             it.noise = Some(1);
         }),
         plain.with(|it| {
-            it.cast = Some(64);
+            it.light_map_size = Some(64);
             it.shadow = convolved(8, 8);
             it.composite = Some(Shading::Compute);
             it.depth_splat = Some(whitewater::water::Splat::Raster);
@@ -83,7 +86,7 @@ fn an_old_device_says_what_it_lacks() {
     let options =
         whitewater::headless::DeviceOptions { vulkan_1_2: true, bare: true, ..Default::default() };
     let gpu = Gpu::own_with(&options);
-    let host = gpu.host(1).with(|it| it.enabled = Enabled::default());
+    let host = gpu.host(1).with(|it| it.enabled = EnabledFeatures::default());
     // SAFETY: live handles; the device goes last.
     let context = unsafe { Context::new(&host) }.expect("a context");
     let config = config(extent(16, 16));
@@ -104,7 +107,7 @@ fn an_old_device_says_what_it_lacks() {
 fn what_a_device_lacks_is_named() {
     let gpu = Gpu::shared();
     let config = config(extent(32, 16));
-    let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
+    let offer = whitewater::DeviceSupport::of(&gpu.instance, gpu.physical, config.output_format);
     offer.check(&config).expect("this device will do");
     let raster = config.with(|it| it.depth_splat = Some(whitewater::water::Splat::Raster));
     let foam = config.with(|it| it.surface_foam = true);
@@ -115,7 +118,7 @@ fn what_a_device_lacks_is_named() {
         it.blend_floats = false;
         it.foam_floats = false;
     });
-    let bare = offer.with(|it| it.optional = Enabled::default());
+    let bare = offer.with(|it| it.optional = EnabledFeatures::default());
     let gate = |gate| config.with(|it| it.smoothing = Some(Smoothing::Query(gate)));
     let drawn = config.with(|it| it.composite = Some(Shading::Raster));
     let stored = config.with(|it| it.composite = Some(Shading::Compute));
@@ -194,7 +197,7 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
             let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
             let device = instance.create_device(physical, &info, None).expect("a device");
             // Where what it enabled says too much, too.
-            for enabled in [Enabled::default(), of_1_3.enabled] {
+            for enabled in [EnabledFeatures::default(), of_1_3.enabled] {
                 let host = of_1_3.host(1).with(|it| {
                     it.instance = &instance;
                     it.physical_device = physical;
@@ -278,8 +281,8 @@ fn ten_million_particles_have_room() {
     // SAFETY: live handles; nothing is recorded.
     let state = unsafe {
         Renderer::new(&gpu.context(1), &foam).expect("room for foam").destroy();
-        let state =
-            State::new(&gpu.context(1), &StateConfig::new(count)).expect("room for its phases");
+        let state = SurfaceFoamState::new(&gpu.context(1), &SurfaceFoamStateConfig::new(count))
+            .expect("room for its phases");
         let memory = state.memory();
         state.destroy();
         memory
@@ -328,7 +331,7 @@ fn memory_is_as_documented() {
         for (cast, foam) in ways.into_iter().step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config = Config::new(extent(width, height), format, count).with(|it| {
-                it.cast = cast;
+                it.light_map_size = cast;
                 it.surface_foam = foam;
             });
             let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
@@ -474,7 +477,7 @@ fn timings_name_every_pass() {
             "cull",
             "front",
             "depth",
-            "foam",
+            "surface_foam",
             "spray",
             "gaps",
             "thickness",
@@ -497,7 +500,7 @@ fn timings_name_every_pass() {
         assert!(!falls, "{timings:?}");
     }
     assert!(rig.renderer().timings(Slot(1)).is_empty(), "a slot without a frame");
-    let mut rig = Rig::new(&gpu, &config.with(|it| it.cast = Some(16)));
+    let mut rig = Rig::new(&gpu, &config.with(|it| it.light_map_size = Some(16)));
     sunny(&rig, &mut shot);
     rig.draw(&shot);
     let names: Vec<&str> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();
@@ -505,4 +508,22 @@ fn timings_name_every_pass() {
     let (light, caustics, lit) = (at("light"), at("caustics"), at("lit"));
     assert!(light.is_some() && light < caustics && caustics < lit, "{names:?}");
     assert!(lit < at("composite"), "{names:?}");
+}
+
+/// A host of Vulkan 1.2 that leaves out a feature is told which one, before it creates the device.
+#[test]
+fn what_a_selection_of_features_lacks_is_named() {
+    let gpu = Gpu::shared();
+    let config = config(extent(64, 64)).with(|it| it.surface_foam = true);
+    let support = DeviceSupport::of(&gpu.instance, gpu.physical, config.output_format);
+    let none = EnabledFeatures::default();
+    let stores = none.with(|it| it.storage_image_write_without_format = true);
+    support.with_enabled(vk::API_VERSION_1_3, none).check(&config).expect("of 1.3");
+    if !support.optional.storage_image_write_without_format {
+        return crate::support::skipped::skipped("no shaderStorageImageWriteWithoutFormat");
+    }
+    support.with_enabled(vk::API_VERSION_1_2, stores).check(&config).expect("it is enabled");
+    let bare = support.with_enabled(vk::API_VERSION_1_2, none);
+    let error = bare.check(&config).expect_err("it is not enabled").to_string();
+    assert!(error.contains("enable shaderStorageImageWriteWithoutFormat"), "{error}");
 }

@@ -122,7 +122,7 @@ fn filtered_shadows_of_two_slots_in_flight() {
     }
     let alone = shots.each_ref().map(|shot| Rig::lit(&gpu, &config, 1).draw(shot));
     let mut other = shots[0].clone();
-    other.sun = shots[1].sun;
+    (other.shadow, other.light_volume) = (shots[1].shadow, shots[1].light_volume);
     let other = Rig::lit(&gpu, &config, 1).draw(&other).output;
     let differ = other.data.iter().zip(&alone[0].output.data).filter(|(a, b)| a != b).count();
     assert!(differ > 100, "in the other's shade only {differ} pixels differ");

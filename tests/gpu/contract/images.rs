@@ -141,7 +141,7 @@ fn particles_that_the_device_writes_are_waited_for() {
     let gpu = Gpu::shared();
     let size = extent(64, 48);
     let plain = config(size);
-    let light = plain.with(|it| it.cast = Some(64));
+    let light = plain.with(|it| it.light_map_size = Some(64));
     let whitewater = |splat| {
         light.with(|it| {
             it.whitewater = Some(WhitewaterConfig::new(500).with(|it| it.splat = Some(splat)))

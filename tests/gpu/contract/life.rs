@@ -27,7 +27,7 @@ fn resize_gives_what_a_new_renderer_gives() {
     }
     let config = |size| {
         config(size).with(|it| {
-            it.cast = Some(32);
+            it.light_map_size = Some(32);
             it.shadow = Some(Shadows::Map);
             it.surface_foam = true;
             it.noise = Some(1);
@@ -106,15 +106,15 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
             it.composite = Some(Shading::Compute);
             it.spray = true;
         }),
-        base.with(|it| it.cast = Some(32)),
+        base.with(|it| it.light_map_size = Some(32)),
         base.with(|it| {
-            it.cast = Some(64);
+            it.light_map_size = Some(64);
             it.shadow = Some(Shadows::Map);
             it.surface_foam = true;
             it.spray = true;
         }),
         base.with(|it| {
-            it.cast = Some(64);
+            it.light_map_size = Some(64);
             it.composite = Some(Shading::Compute);
             it.sheets = 2;
         }),
@@ -129,7 +129,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         }),
         base.with(|it| {
             it.shadow = convolved(16, 16);
-            it.cast = Some(32);
+            it.light_map_size = Some(32);
         }),
         base.with(|it| {
             it.shadow = convolved(8, 8);

@@ -1,6 +1,7 @@
 //! The contract: frames in flight, resize, retired objects, bad input, abandoned frames, every kind of
 //! host image, and what the renderer says of itself.
 
+mod allocate;
 mod bad;
 mod device;
 mod flight;
@@ -9,7 +10,7 @@ mod life;
 
 use ash::vk;
 use whitewater::water::Shadows;
-use whitewater::{Region, Shadow};
+use whitewater::{LightVolume, Shadow};
 
 use crate::support::host::Texture;
 use crate::support::rig::{Rig, Shot};
@@ -24,7 +25,7 @@ fn water(size: vk::Extent2D, lens: Lens) -> Shot {
 /// water: a shot is in the shade where the map says so.
 pub fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
     let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
-    shot.sun.region = rig.config.cast.map(|_| Region { center, radius: 4.0 });
+    shot.light_volume = rig.config.light_map_size.map(|_| LightVolume { center, radius: 4.0 });
     let kind = rig.config.shadow?;
     let (color, depth) = rig.scene(shot);
     let image = match kind {
@@ -32,7 +33,7 @@ pub fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
         Shadows::Map | Shadows::Convolution(_) => depth,
     };
     let view_projection = shot.camera.projection_matrix() * shot.camera.view_matrix();
-    shot.sun.shadow = Some(
+    shot.shadow = Some(
         Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
             .with(|it| it.bias = 0.1),
     );

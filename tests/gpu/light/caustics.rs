@@ -2,7 +2,7 @@
 
 use glam::{DVec2, Vec3};
 use whitewater::water::Shadows;
-use whitewater::{Region, Shadow};
+use whitewater::{LightVolume, Shadow};
 
 use crate::reference::light::{Light, Maps, ShadowMap};
 use crate::reference::{Image, is_surface};
@@ -85,7 +85,7 @@ fn water_in_the_scenes_shade_bends_no_light() {
             });
             let image = shadows(&rig, Shadows::Map, &texels);
             let host = image.host_image();
-            case.shot.sun.shadow = Some(
+            case.shot.shadow = Some(
                 Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = 0.05),
             );
             let map = ShadowMap {
@@ -135,7 +135,7 @@ fn a_flat_pool_lets_the_light_pass() {
         let mut shot = Shot::new(SIZE, Lens::Standard, 0.656 * 2.0 * t, &[]);
         shot.positions = points.map(|(x, z)| [x, slope * x, z]).collect();
         shot.settings.light.direction = [0.0, 1.0, 0.0];
-        shot.sun.region = Some(Region { center: [0.0; 3], radius });
+        shot.light_volume = Some(LightVolume { center: [0.0; 3], radius });
         let drawn = water(shot).draw(&mut rig);
         let found = drawn.caustics.expect("caustics");
         for (x, y) in (24..40).flat_map(|y| (24..40).map(move |x| (x, y))) {

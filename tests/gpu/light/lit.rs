@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};
-use whitewater::{Config, Region, Shadow};
+use whitewater::{Config, LightVolume, Shadow};
 
 use crate::reference::Image;
 use crate::reference::light::{ShadowMap, lit};
@@ -37,7 +37,7 @@ pub fn grounded(lens: Lens, height: f64) -> Foamy {
     shot.settings.surface_foam.shadow = 8.0;
     // Half precision does not hold these.
     shot.color.iter_mut().for_each(|c| *c = c.map(|v| v * 1.0309));
-    shot.sun.region = Some(Region { center: [2.9, 0.7, 0.1], radius: 1.3 });
+    shot.light_volume = Some(LightVolume { center: [2.9, 0.7, 0.1], radius: 1.3 });
     let mut case = water(shot);
     for amount in case.amounts.iter_mut().step_by(3) {
         amount[0] = random.between(0.0, 1.0);
@@ -179,7 +179,7 @@ fn the_lit_scene_is_past_the_scene() {
         let texels = Image::from_fn(8, 8, |x, y| ((x * 5 + y * 3) % 7) as f32 / 6.0);
         let image = shadows(&rig, kind, &texels);
         let bias = 0.05;
-        case.shot.sun.shadow = Some(
+        case.shot.shadow = Some(
             Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
                 .with(|it| it.bias = bias),
         );
@@ -225,7 +225,7 @@ fn highlights_and_relief_are_the_suns() {
     case.shot.settings.light.direction = sun.as_vec3().to_array();
     for (lit, seen) in [(1.0, true), (0.0, false)] {
         let (_texture, shadow) = even(&rig, lit);
-        case.shot.sun.shadow = Some(shadow);
+        case.shot.shadow = Some(shadow);
         let mut drawn = |specular: f32, relief: f32| {
             case.shot.settings.water.specular = specular;
             case.shot.settings.surface_foam.normal_strength = relief;

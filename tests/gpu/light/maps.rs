@@ -1,6 +1,6 @@
 //! The light's front and thickness against the twin.
 
-use whitewater::{Config, Region};
+use whitewater::{Config, LightVolume};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -47,7 +47,7 @@ fn the_maps_are_the_twins() {
             case.shot.settings.light.direction = sun;
             // Of the particles some are beside it, before it and behind it, some out of the view.
             let center = scenes::world(&case.shot.camera, &[[0.3, -0.2, 5.0]])[0];
-            case.shot.sun.region = Some(Region { center, radius: [3.0, 12.0][i % 2] });
+            case.shot.light_volume = Some(LightVolume { center, radius: [3.0, 12.0][i % 2] });
             if i > 0 {
                 let density = |i| match i % 9 {
                     0 => [0.0, -3.0, f32::NAN][i % 3],

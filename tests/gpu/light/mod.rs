@@ -12,7 +12,7 @@ mod whitewater_light;
 use ash::vk;
 use glam::{DVec3, Vec3};
 use whitewater::water::{Medium, Shadows};
-use whitewater::{Config, Region};
+use whitewater::{Config, LightVolume};
 
 use crate::reference::light::{Light, Maps, Particle};
 use crate::support::rig::{Drawn, Shot, config};
@@ -25,7 +25,7 @@ pub const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 
 pub fn casting(texels: u32) -> Config {
     config(SIZE).with(|it| {
-        it.cast = Some(texels);
+        it.light_map_size = Some(texels);
         it.surface_foam = true;
     })
 }
@@ -56,7 +56,7 @@ fn toward(x: f32, y: f32, z: f32) -> [f32; 3] {
 
 /// What the twin takes of a shot.
 fn twin(shot: &Shot, config: &Config) -> Light {
-    let (water, region) = (&shot.settings.water, shot.sun.region.expect("a region"));
+    let (water, region) = (&shot.settings.water, shot.light_volume.expect("a region"));
     let [first, second, third] = match config.spray {
         true => [
             shot.settings.spray.all_spray_density,
@@ -70,7 +70,7 @@ fn twin(shot: &Shot, config: &Config) -> Light {
         sun: wide(shot.settings.light.direction),
         center: wide(region.center),
         radius: f64::from(region.radius),
-        texels: config.cast.expect("maps") as usize,
+        texels: config.light_map_size.expect("maps") as usize,
         spacing: f64::from(water.spacing),
         densities: [density(first), density(second), density(third)],
         shade: f64::from(shot.settings.spray.shade),
@@ -135,7 +135,7 @@ fn pool(sun: [f32; 3], wave: f32, drops: usize) -> Foamy {
     let mut shot = Shot::new(SIZE, Lens::Standard, 0.656 * s, &[]);
     shot.positions = points;
     shot.settings.light.direction = sun;
-    shot.sun.region = Some(Region { center: [0.0, 0.1, 0.0], radius: 1.6 });
+    shot.light_volume = Some(LightVolume { center: [0.0, 0.1, 0.0], radius: 1.6 });
     water(shot)
 }
 
@@ -145,7 +145,7 @@ pub fn everything(case: &mut Foamy) -> Config {
     let mut random = Random(12);
     case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
     let center = scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0];
-    case.shot.sun.region = Some(Region { center, radius: 6.0 });
+    case.shot.light_volume = Some(LightVolume { center, radius: 6.0 });
     casting(64).with(|it| {
         it.spray = true;
         it.shadow = Some(Shadows::Mask);

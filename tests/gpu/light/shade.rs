@@ -3,7 +3,7 @@
 use ash::vk;
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};
-use whitewater::{Access, Region, Shadow};
+use whitewater::{Access, LightVolume, Shadow};
 
 use crate::reference::Image;
 use crate::reference::light::ShadowMap;
@@ -135,7 +135,7 @@ fn foam_is_in_the_shade_of_a_mask() {
     let gpu = Gpu::shared();
     for composite in [Shading::Raster, Shading::Compute] {
         let config = casting(16).with(|it| {
-            it.cast = None;
+            it.light_map_size = None;
             it.shadow = Some(Shadows::Mask);
             it.thickness_level = 0;
             it.composite = Some(composite);
@@ -151,7 +151,7 @@ fn foam_is_in_the_shade_of_a_mask() {
             let mut host = image.host_image();
             host.rect.offset = vk::Offset2D { x: 2, y: 1 };
             host.rect.extent = extent(width as u32, height as u32);
-            case.shot.sun.shadow =
+            case.shot.shadow =
                 Some(Shadow::new(host, Mat4::NAN.to_cols_array_2d()).with(|it| it.bias = f32::NAN));
             let drawn = case.draw(&mut rig);
             check_foam(&format!("mask-{composite:?}-{width}"), &case, &drawn, None, |(x, y)| {
@@ -181,7 +181,7 @@ pub fn light_views(sun: Vec3, at: Vec3) -> [(&'static str, Mat4, bool); 4] {
 fn foam_is_in_the_shade_of_a_map() {
     let gpu = Gpu::shared();
     let config = casting(16).with(|it| {
-        it.cast = None;
+        it.light_map_size = None;
         it.shadow = Some(Shadows::Map);
         it.thickness_level = 0;
     });
@@ -211,7 +211,7 @@ fn foam_is_in_the_shade_of_a_map() {
             let mut host = image.host_image();
             host.rect.offset = vk::Offset2D { x: 1, y: 2 };
             host.rect.extent = extent(21, 14);
-            case.shot.sun.shadow = Some(
+            case.shot.shadow = Some(
                 Shadow::new(host, view_projection.to_cols_array_2d()).with(|it| it.bias = bias),
             );
             let part = Image::from_fn(21, 14, |x, y| texels.at(x + 1, y + 2));
@@ -250,7 +250,7 @@ fn foam_is_in_its_own_shade() {
         let texels = Image::from_vec(2, 1, vec![0.25, 1.0]).expect("two");
         let image = shadows(&rig, Shadows::Mask, &texels);
         let none = Shadow::new(image.host_image(), Mat4::ZERO.to_cols_array_2d());
-        case.shot.sun.shadow = shadow.map(|_| none);
+        case.shot.shadow = shadow.map(|_| none);
         // A lump between the wall and the sun, which is to the left of the view.
         let (at, from) = ([0.2, 0.0, 2.0], [-1.8, 0.6, 1.2]);
         let [at, from] = [at, from].map(|p| Vec3::from(scenes::world(&case.shot.camera, &[p])[0]));
@@ -265,7 +265,7 @@ fn foam_is_in_its_own_shade() {
         case.shot.settings.surface_foam.front_depth = 0.15;
         case.shot.settings.water.medium = medium;
         let center = at.to_array();
-        case.shot.sun.region = Some(Region { center, radius: 2.0 });
+        case.shot.light_volume = Some(LightVolume { center, radius: 2.0 });
         let drawn = case.draw(&mut rig);
         let (light, maps) = (twin(&case.shot, &config), maps(&drawn));
         let sun = |p: DVec3, by: f64| light.at(&maps, p, by).0;

@@ -17,14 +17,14 @@ const STEP: f32 = Sums::SINGLE.step as f32;
 fn spray_is_lit_by_the_sun_that_comes() {
     let gpu = Gpu::shared();
     let mut case = Foamy::new(SIZE, Lens::Standard, 10.0);
-    let config = everything(&mut case).with(|it| it.cast = None);
-    case.shot.sun.region = None;
+    let config = everything(&mut case).with(|it| it.light_map_size = None);
+    case.shot.light_volume = None;
     // So few that no two droplets share a pixel often.
     case.shot.settings.spray.droplets = 1;
     let mut rig = Rig::lit(&gpu, &config, 1);
     let draw = |case: &mut Foamy, rig: &mut Rig<'_>, sun| {
         let (_image, shadow) = even(rig, sun);
-        case.shot.sun.shadow = Some(shadow);
+        case.shot.shadow = Some(shadow);
         let drawn = case.draw(rig);
         (drawn.spray.expect("spray"), drawn.lit_spray.expect("spray"), drawn.output)
     };

@@ -1,6 +1,6 @@
 //! What must not change the light: the particles' order, the frame's size.
 
-use whitewater::Region;
+use whitewater::LightVolume;
 use whitewater::water::Shading;
 
 use crate::support::compare;
@@ -22,7 +22,7 @@ fn the_order_of_particles_does_not_show_in_light() {
     let config = everything(&mut case);
     let mut rig = Rig::lit(&gpu, &config, 1);
     let (_image, shadow) = even(&rig, 0.625);
-    case.shot.sun.shadow = Some(shadow);
+    case.shot.shadow = Some(shadow);
     let expected = case.draw(&mut rig);
     for seed in 0..3 {
         let drawn = permuted(&case, seed).draw(&mut rig);
@@ -43,7 +43,7 @@ fn the_order_of_particles_does_not_show_in_far_light() {
     let gpu = Gpu::shared();
     let mut rig = Rig::lit(&gpu, &casting(64), 1);
     let mut case = pool(toward(0.2, 1.0, 0.1), 0.06, 12);
-    case.shot.sun.region = Some(Region { center: [0.0, 40.0, 0.0], radius: 45.0 });
+    case.shot.light_volume = Some(LightVolume { center: [0.0, 40.0, 0.0], radius: 45.0 });
     let expected = case.draw(&mut rig);
     for seed in 0..3 {
         let drawn = permuted(&case, seed).draw(&mut rig);
@@ -93,7 +93,7 @@ fn light_on_frames_of_any_size() {
             });
             let mut rig = Rig::lit(&gpu, &config, 1);
             let (_image, shadow) = even(&rig, 0.5);
-            case.shot.sun.shadow = Some(shadow);
+            case.shot.shadow = Some(shadow);
             case.draw(&mut rig);
             (case.shot.positions, case.amounts, case.velocities) = Default::default();
             (case.ids, case.shot.densities) = (None, None);

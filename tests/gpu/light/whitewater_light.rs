@@ -4,7 +4,7 @@
 use ash::vk;
 use glam::Vec3;
 use whitewater::headless::Whitewater;
-use whitewater::{Config, Count, Packets, Region, Stream, WhitewaterParticles};
+use whitewater::{Config, Count, LightVolume, Packets, Stream, WhitewaterParticles};
 use whitewater::{Occlusion, Submerged, WhitewaterConfig};
 
 use crate::reference::Image;
@@ -120,7 +120,7 @@ fn the_map_of_whitewater_particles_is_the_twins() {
             shot.settings.light.direction = sun;
             let center = scenes::world(&shot.camera, &[[0.3, -0.2, 3.0]])[0];
             let radius = [3.0, 7.0][i % 2];
-            shot.sun.region = Some(Region { center, radius });
+            shot.light_volume = Some(LightVolume { center, radius });
             if i % 2 == 1 {
                 let most = 0.9;
                 shot.settings.whitewater.submerged =
@@ -246,11 +246,11 @@ fn a_sheet_takes_of_the_sun_what_it_covers() {
 /// Light that foam gets of the sun alone, over what it would get without shadows, where it faces the sun; the depths.
 fn sun_on_foam(gpu: &Gpu, cloud: &Cloud, config: &Config) -> (Vec<Option<f32>>, Vec<f32>) {
     let mut open = cloud.clone();
-    open.case.shot.sun.region = None;
+    open.case.shot.light_volume = None;
     let mut dark = open.clone();
     let light = &mut dark.case.shot.settings.light;
     light.shade = light.irradiance;
-    let none = config.with(|it| it.cast = None);
+    let none = config.with(|it| it.light_map_size = None);
     let of = |cloud: &Cloud, config: &Config| {
         let drawn = cloud.draw(&mut Rig::lit(gpu, config, 1)).whitewater.expect("foam");
         (drawn.light.map(|light| light[0]).data, drawn.occluders.map(|texel| texel[0]).data)
@@ -302,7 +302,7 @@ fn a_particle_does_not_shade_itself() {
     let gpu = Gpu::shared();
     let config = whitewater_config(casting(64), 16);
     let mut rig = Rig::lit(&gpu, &config, 1);
-    let none = config.with(|it| it.cast = None);
+    let none = config.with(|it| it.light_map_size = None);
     let mut open_rig = Rig::lit(&gpu, &none, 1);
     let suns =
         [[0.0, 1.0, 0.0], toward(0.9, 0.1, 0.1), toward(-0.5, 0.3, -0.8), toward(0.1, 0.2, 1.0)];
@@ -311,11 +311,11 @@ fn a_particle_does_not_shade_itself() {
         shot.settings.light.direction = sun;
         shot.settings.whitewater.half_intensity_thickness = 0.01;
         let at = scenes::world(&shot.camera, &[[0.1, 0.05, 2.0]])[0];
-        shot.sun.region = Some(Region { center: at.map(|c| c + 0.07), radius: 1.0 });
+        shot.light_volume = Some(LightVolume { center: at.map(|c| c + 0.07), radius: 1.0 });
         let cloud = Cloud::of(water(shot), vec![at], radius);
         let shaded = cloud.draw(&mut rig).whitewater.expect("foam");
         let mut open = cloud.clone();
-        open.case.shot.sun.region = None;
+        open.case.shot.light_volume = None;
         let open = open.draw(&mut open_rig).whitewater.expect("foam");
         assert!(open.light.data.iter().any(|light| light[0] > 0.1));
         compare::same_color(&format!("alone-{radius}"), &shaded.light, &open.light);
@@ -344,7 +344,7 @@ fn a_sheet_hardly_shades_itself() {
             shot.settings.light.direction = toward(-0.8 * along, height, 0.6 * along);
             shot.settings.light.irradiance = [3.0 * height.max(0.1); 3];
             shot.settings.light.shade = [0.0; 3];
-            shot.sun.region = Some(Region { center: [3.1, 0.9, 0.2], radius: 1.2 });
+            shot.light_volume = Some(LightVolume { center: [3.1, 0.9, 0.2], radius: 1.2 });
             let cloud = Cloud::of(water(shot), positions, 0.04);
             let (parts, _) = sun_on_foam(&gpu, &cloud, &whitewater_config(casting(texels), 4096));
             let parts: Vec<f32> = parts.into_iter().flatten().collect();
@@ -404,7 +404,7 @@ fn all_kinds_of(size: vk::Extent2D, cast: u32) -> (Cloud, Config) {
     let config = everything(&mut case).with(|it| {
         it.extent = size;
         it.shadow = None;
-        it.cast = Some(cast);
+        it.light_map_size = Some(cast);
     });
     case.shot.settings.whitewater.half_intensity_thickness = 0.1;
     let positions = scenes::world(&case.shot.camera, &scenes::cloud(17, 700, 1.0, 8.0));
@@ -445,7 +445,7 @@ fn packets_cast_as_single_particles() {
     // A region with particles on all sides.
     let middle =
         cloud.positions.iter().map(|p| Vec3::from(*p)).sum::<Vec3>() / cloud.positions.len() as f32;
-    cloud.case.shot.sun.region = Some(Region { center: middle.to_array(), radius: 1.5 });
+    cloud.case.shot.light_volume = Some(LightVolume { center: middle.to_array(), radius: 1.5 });
     let whitewater = config.whitewater.map(|whitewater| whitewater.with(|it| it.packets = true));
     let mut rig = Rig::lit(&gpu, &config.with(|it| it.whitewater = whitewater), 1);
     let expected = cloud.draw(&mut rig);
@@ -606,7 +606,7 @@ fn water_is_in_the_shade_of_foam() {
             let mut case = case.clone();
             case.shot.settings.light.direction = (from - at).normalize().to_array();
             case.shot.settings.light.shade = [0.0; 3];
-            case.shot.sun.region = Some(Region { center: at.to_array(), radius: 4.0 });
+            case.shot.light_volume = Some(LightVolume { center: at.to_array(), radius: 4.0 });
             let cloud = Cloud::of(case, points.clone(), 0.25);
             let drawn = if some { cloud.draw(&mut rig) } else { cloud.draw_with(&mut rig, None) };
             let seen = drawn.whitewater.as_ref().expect("foam");
@@ -661,7 +661,7 @@ fn many_on_one_spot_take_all_the_sun() {
 fn memory_is_by_the_texel() {
     let gpu = Gpu::shared();
     let of = |cast: Option<u32>, most: u32| {
-        let plain = config(SIZE).with(|it| it.cast = cast);
+        let plain = config(SIZE).with(|it| it.light_map_size = cast);
         let config = if most > 0 { whitewater_config(plain, most) } else { plain };
         let renderer = whitewater::Renderer::new(&gpu.context(1), &config);
         let renderer = renderer.expect("a renderer");

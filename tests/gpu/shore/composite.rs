@@ -279,7 +279,7 @@ fn foam_in_the_shade_is_darker() {
     }
     let (image, _depth) = rig.scene(&shade);
     let view_projection = shot.camera.projection_matrix() * shot.camera.view_matrix();
-    shot.sun.shadow = Some(
+    shot.shadow = Some(
         Shadow::new(image.host_image(), view_projection.to_cols_array_2d())
             .with(|it| it.bias = 0.1),
     );

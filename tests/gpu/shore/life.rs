@@ -188,9 +188,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
         ("Settings.shore.shoreline.swing", |l| l.shoreline.swing = 1.5),
         ("Settings.shore.shoreline.swing_period", |l| l.shoreline.swing_period = 0.0),
         ("Settings.shore.shoreline.speed_period", |l| l.shoreline.speed_period = 0.0),
-        ("Settings.[shore.shoreline.wave_slope, shore.shoreline.wave_offset]", |l| {
-            l.shoreline.wave_offset = 101.0
-        }),
+        ("Settings.shore.shoreline.wave_offset", |l| l.shoreline.wave_offset = 101.0),
         ("Settings.shore.shoreline.floor", |l| l.shoreline.floor = Some(f32::NAN)),
         ("Settings.shore.shoreline.web_ratio", |l| l.shoreline.web_ratio = -1.0),
         ("Settings.shore.shoreline.fade", |l| l.shoreline.fade = 0.0),

@@ -24,7 +24,7 @@ use whitewater::shore::{
     Area, Edge, Heights, Measure, ShoreConfig, ShoreMap, ShoreMapConfig, ShoreMapStep,
     ShoreSettings,
 };
-use whitewater::{Access, Coast, Config, Error, Shoreline, Slot, Surface};
+use whitewater::{Access, Config, Error, ShoreDistances, Shoreline, Slot, Surface};
 
 use crate::reference::Image;
 use crate::reference::shore as twin;
@@ -130,7 +130,7 @@ impl<'g> Mapped<'g> {
         Image { width: self.size as usize, height: self.size as usize, data }
     }
 
-    fn coast(&self) -> Coast {
+    fn coast(&self) -> ShoreDistances {
         self.map.as_ref().and_then(ShoreMap::coast).expect("a step before")
     }
 }

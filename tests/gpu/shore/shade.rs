@@ -86,8 +86,7 @@ fn foam_is_in_the_shade_of_a_map() {
         let mut shot = base.clone();
         shot.settings.light.direction = sun.to_array();
         let host = image.host_image();
-        shot.sun.shadow =
-            Some(Shadow::new(host, light.to_cols_array_2d()).with(|it| it.bias = 0.1));
+        shot.shadow = Some(Shadow::new(host, light.to_cols_array_2d()).with(|it| it.bias = 0.1));
         // With a strip nothing but that: of a texel that has both one of them says what the light is.
         let is_strip = name == "strip";
         let surface = base.shore.and_then(|shore| shore.surface).filter(|_| !is_strip);
@@ -152,8 +151,7 @@ fn foam_on_particles_and_behind_them_has_its_own_light() {
             let name = format!("{way:?}, {name}");
             let image = shadows(&rig, Shadows::Map, &Image::new(2, 2, depth));
             shot.settings.light.direction = sun.to_array();
-            shot.sun.shadow =
-                Some(Shadow::new(image.host_image(), view_projection.to_cols_array_2d()));
+            shot.shadow = Some(Shadow::new(image.host_image(), view_projection.to_cols_array_2d()));
             let found = rig.draw(&shot);
             let mut none = shot.clone();
             none.settings.shore.contact.particle_opacity = 0.0;

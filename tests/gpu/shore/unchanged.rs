@@ -46,7 +46,7 @@ fn without_a_sea_nothing_is_another() {
         (contact.particle_opacity, contact.particle_depth) = (1.0, Some(9.0));
         let [mut expected, mut rig] = [plain, with].map(|config| Rig::lit(&gpu, &config, 1));
         let (_image, shadow) = even(&expected, 0.625);
-        case.shot.sun.shadow = Some(shadow);
+        case.shot.shadow = Some(shadow);
         let expected = case.draw(&mut expected);
         let mut foamy = case.clone();
         foamy.shot.scene_depth(|_, _| Some(9.0));

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::water::{Fresnel, Ladder, Medium, Shading};
+use whitewater::water::{DebugView, Fresnel, Medium, Shading};
 
 use super::{Foamy, foaming, of};
 use crate::reference::surface_foam::{self, Pattern};
@@ -517,11 +517,11 @@ fn the_ladder_adds_a_layer_a_rung() {
     for power in [0.0, 1.0, 2.5] {
         case.shot.settings.surface_foam.front_power = power;
         let [scene, back, foam, front, whole] = [
-            Ladder::Background,
-            Ladder::BackWater,
-            Ladder::SurfaceFoam,
-            Ladder::FrontWater,
-            Ladder::Whole,
+            DebugView::Background,
+            DebugView::BackWater,
+            DebugView::SurfaceFoam,
+            DebugView::FrontWater,
+            DebugView::Whole,
         ]
         .map(|rung| {
             case.shot.settings.ladder = rung;

@@ -13,7 +13,7 @@ use ash::vk;
 use glam::{DVec3, Mat4, Vec3, vec3};
 use whitewater::headless;
 use whitewater::water::{Shading, Shadows};
-use whitewater::{Config, Count, Region, Renderer, Settings, WhitewaterParticles};
+use whitewater::{Config, Count, LightVolume, Renderer, Settings, WhitewaterParticles};
 use whitewater::{
     Irradiance, Occlusion as Occluding, OcclusionReach, ShadowMixing, Submerged, WhitewaterConfig,
     WhitewaterSettings, WhitewaterSplat,
@@ -711,12 +711,10 @@ fn mistakes_are_named() {
         }),
         ("Settings.whitewater.exponent", |look| look.exponent = -1.0),
         ("Settings.whitewater.passes", |look| look.passes = 9),
-        ("Settings.[whitewater.min_samples, whitewater.max_samples]", |look| {
+        ("Settings.whitewater.max_samples", |look| {
             [look.min_samples, look.max_samples] = [16, 513]
         }),
-        ("Settings.[whitewater.min_samples, whitewater.max_samples]", |look| {
-            [look.min_samples, look.max_samples] = [32, 16]
-        }),
+        ("Settings.whitewater.max_samples", |look| [look.min_samples, look.max_samples] = [32, 16]),
         ("Settings.whitewater.reach", |look| look.reach = OcclusionReach::Metres(0.0)),
         ("Settings.whitewater.scene_opacity", |look| look.scene_opacity = 1.5),
         ("Settings.whitewater.albedo", |look| look.albedo[2] = 1.01),
@@ -767,7 +765,7 @@ fn the_sun_shines_as_far_as_it_comes() {
     let mut cloud = Whitewater::new(Lens::Reversed);
     let mut draw = |part: f32| {
         let (_image, shadow) = mask(&rig, part);
-        cloud.shot.sun.shadow = Some(shadow);
+        cloud.shot.shadow = Some(shadow);
         channel(&cloud.draw(&mut rig).whitewater.expect("whitewater particles").light, 0)
     };
     let [none, half, all] = [0.0, 0.5, 1.0].map(&mut draw);
@@ -783,13 +781,14 @@ fn the_sun_shines_as_far_as_it_comes() {
 fn water_takes_the_sun_from_foam() {
     let gpu = Gpu::shared();
     let of = |cast: Option<u32>| {
-        let mut rig = Rig::lit(&gpu, &whitewater_config(SIZE).with(|it| it.cast = cast), 1);
+        let mut rig =
+            Rig::lit(&gpu, &whitewater_config(SIZE).with(|it| it.light_map_size = cast), 1);
         // A slab of water between the sun and foam, both before the eye.
         let mut shot = Shot::new(SIZE, Lens::Standard, 0.0656, &[]);
         shot.settings.light.direction = [0.0, 1.0, 0.0];
         let region =
-            Region { center: scenes::world(&shot.camera, &[[0.0, 0.5, 4.0]])[0], radius: 2.5 };
-        shot.sun.region = cast.map(|_| region);
+            LightVolume { center: scenes::world(&shot.camera, &[[0.0, 0.5, 4.0]])[0], radius: 2.5 };
+        shot.light_volume = cast.map(|_| region);
         let slab = scenes::block(3, 0.1, [20, 4, 20], [-1.0, 1.0, 3.0]);
         shot.positions = scenes::world(&shot.camera, &slab);
         let point = |i: u32| [(i % 10) as f32 * 0.1 - 0.5, (i / 10) as f32 * 0.05, 4.0];

@@ -1,7 +1,7 @@
 //! Blobs that move: forces of pairs and of planes, one part of a step after the other, and the energy that there is.
 
 use glam::DVec3;
-use whitewater::bubbles::HeapSettings;
+use whitewater::bubbles::BlobSimulationSettings;
 
 /// A blob.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +25,7 @@ pub type Plane = (DVec3, f64);
 const ROUND: f64 = 2.5;
 
 /// What `other` does to `own`: changes of velocity and spin a second.
-fn pair(own: &Blob, other: &Blob, s: &HeapSettings) -> Option<(DVec3, DVec3)> {
+fn pair(own: &Blob, other: &Blob, s: &BlobSimulationSettings) -> Option<(DVec3, DVec3)> {
     let [rest, reach] = [s.rest, s.reach].map(|v| f64::from(v) * (own.radius + other.radius));
     let to = other.place - own.place;
     let far = to.length();
@@ -51,7 +51,7 @@ fn pair(own: &Blob, other: &Blob, s: &HeapSettings) -> Option<(DVec3, DVec3)> {
 }
 
 /// One part of a step.
-pub fn part(blobs: &[Blob], planes: &[Plane], s: &HeapSettings, dt: f64) -> Vec<Blob> {
+pub fn part(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings, dt: f64) -> Vec<Blob> {
     let gravity = glam::Vec3::from(s.gravity).as_dvec3();
     let one = |(i, own): (usize, &Blob)| {
         let (mut speed, mut spin) = (DVec3::ZERO, DVec3::ZERO);
@@ -92,7 +92,7 @@ pub fn part(blobs: &[Blob], planes: &[Plane], s: &HeapSettings, dt: f64) -> Vec<
 
 /// Of motion, height and what is pressed or held together. Pulls have the potential of their force from where they
 /// begin; of masses one is a radius cubed.
-pub fn energy(blobs: &[Blob], planes: &[Plane], s: &HeapSettings) -> f64 {
+pub fn energy(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings) -> f64 {
     let gravity = glam::Vec3::from(s.gravity).as_dvec3();
     let mut sum = 0.0;
     for (i, a) in blobs.iter().enumerate() {

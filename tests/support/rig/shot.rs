@@ -2,7 +2,9 @@
 
 use ash::vk;
 use whitewater::headless::Bubble;
-use whitewater::{Camera, Frame, HostImage, Particles, Previous, Settings, Shore, Slot, Sun};
+use whitewater::{
+    Camera, Frame, HostImage, LightVolume, Particles, Previous, Settings, Shadow, Shore, Slot,
+};
 
 use super::extent;
 use crate::reference::{Image, Sphere, View};
@@ -25,7 +27,9 @@ pub struct Shot {
     pub margin: [u32; 4],
     pub camera: Camera,
     /// Where the sun does not come.
-    pub sun: Sun,
+    pub shadow: Option<Shadow>,
+    /// The sphere that casts and receives.
+    pub light_volume: Option<LightVolume>,
     /// The frame before.
     pub previous: Option<Previous>,
     pub settings: Settings,
@@ -52,7 +56,8 @@ impl Shot {
             margin: [0; 4],
             positions: scenes::world(&camera, points),
             camera,
-            sun: Sun::default(),
+            shadow: None,
+            light_volume: None,
             previous: None,
             settings: scenes::settings(radius),
             densities: None,
@@ -77,7 +82,7 @@ impl Shot {
     pub fn frame(&self, output: HostImage, depth: HostImage, particles: Particles) -> Frame<'_> {
         Frame::new(Slot(0), output, depth, particles, self.camera, &self.settings).with(|it| {
             it.shore = self.shore;
-            it.sun = self.sun;
+            (it.shadow, it.light_volume) = (self.shadow, self.light_volume);
             it.previous = self.previous;
         })
     }

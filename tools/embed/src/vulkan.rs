@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use whitewater::ash::{Device, Entry, Instance, ext::debug_utils, vk};
 use whitewater::gpu_allocator::{AllocationSizes, MemoryLocation, vulkan as memory};
-use whitewater::{Access, Config, Enabled, HostImage, Offer};
+use whitewater::{Access, Config, DeviceSupport, EnabledFeatures, HostImage};
 
 /// How this host writes its images.
 pub const CLEAR: Access = Access::new(
@@ -36,7 +36,7 @@ pub struct Gpu {
     pub device: Device,
     pub queue_family: u32,
     pub queue: vk::Queue,
-    pub enabled: Enabled,
+    pub enabled: EnabledFeatures,
     pub allocator: Arc<Mutex<memory::Allocator>>,
     messenger: Option<(debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     _entry: Entry, // holds the loader
@@ -82,7 +82,7 @@ impl Gpu {
         let (physical_device, queue_family) = choose(&instance, config)?;
         // All that whitewater can use of the device, and no more: `Host::with_enabled` tells it. It needs none of it; this
         // host itself needs synchronization2.
-        let offer = Offer::of(&instance, physical_device, config.output_format);
+        let offer = DeviceSupport::of(&instance, physical_device, config.output_format);
         let enabled = offer.optional.with(|it| it.debug_utils = validate);
         let mut features = enabled.device_features();
         let names = enabled.device_extensions(offer.api_version);
@@ -299,7 +299,7 @@ fn choose(
         // SAFETY: a live instance, and a device of it.
         let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
         let family = families.iter().position(|family| family.queue_flags.contains(both));
-        let offer = Offer::of(instance, physical, config.output_format);
+        let offer = DeviceSupport::of(instance, physical, config.output_format);
         let own = offer.api_version >= vk::API_VERSION_1_3 && offer.optional.synchronization2;
         match (offer.check(config), family) {
             (Ok(()), Some(_)) if !own => refused = "no synchronization2".into(),

@@ -20,7 +20,7 @@ pub fn near(tool: &Tool, docs: &Path) -> Outcome<()> {
     let kept = kept.display();
     let frame = 240;
     tool.frame("waterfall", frame, &format!("--whitewater generate --write-whitewater {kept}"))?;
-    let look = tool.settings("[bubbles]\nhand_over = [0.5, 1.0]\n")?;
+    let look = tool.settings("[bubbles]\ncrossfade = [0.5, 1.0]\n")?;
     let view = "--eye 1.1,0.6,0.75 --target 1.0,0.22,0.2 --fov 45";
     let panels = ["", &look].map(|look| {
         let more = format!("--whitewater {kept} {view} {look} --surface-foam none --spray none");
@@ -40,12 +40,12 @@ pub fn one(tool: &Tool, docs: &Path) -> Outcome<()> {
 /// What films are: thin and thick, all light and three wavelengths, the source's reflectance.
 pub fn films(tool: &Tool, docs: &Path) -> Outcome<()> {
     let looks = [
-        "film = 120.0\ncore = [0.4, 0.7]",
+        "film = 120.0\ncore_opaque_radius = 0.4\ncore_outer_radius = 0.7",
         "core_opaque_radius = 0.4\ncore_outer_radius = 0.7",
-        "film = 900.0\ncore = [0.4, 0.7]",
-        "drainage = 0.0\nvariation = 0.0\ncore = [0.4, 0.7]",
-        "spectrum = \"three\"\ncore = [0.4, 0.7]",
-        "spectrum = \"three\"\nfresnel = \"source\"\ncore = [0.4, 0.7]",
+        "film = 900.0\ncore_opaque_radius = 0.4\ncore_outer_radius = 0.7",
+        "drainage = 0.0\nvariation = 0.0\ncore_opaque_radius = 0.4\ncore_outer_radius = 0.7",
+        "spectrum = \"three\"\ncore_opaque_radius = 0.4\ncore_outer_radius = 0.7",
+        "spectrum = \"three\"\nfresnel = \"source\"\ncore_opaque_radius = 0.4\ncore_outer_radius = 0.7",
     ];
     let panel = |look: &&str| -> Outcome<_> {
         let settings = tool.settings(&format!("[bubbles]\n{look}\n"))?;
@@ -81,7 +81,7 @@ pub fn errors(tool: &Tool, docs: &Path) -> Outcome<()> {
         let mut all = Vec::new();
         for map in [32, 64, 128] {
             let at = |n: &u32| -> Outcome<(f64, f64)> {
-                let look = format!("impostor = \"{impostor}\"\nmap = {map}\nsteps = {n}");
+                let look = format!("impostor = \"{impostor}\"\nmap_size = {map}\nsteps = {n}");
                 Ok((f64::from(*n), off(&look)?))
             };
             let line: Vec<_> = steps.iter().map(at).collect::<Outcome<_>>()?;

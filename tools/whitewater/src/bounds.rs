@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use glam::Vec3;
-use whitewater::Region;
+use whitewater::LightVolume;
 use whitewater::io::particles::estimate_spacing;
 
 /// An axis-aligned box.
@@ -157,9 +157,9 @@ impl Bounds {
     }
 
     /// A ball round it, with some room.
-    pub fn region(&self) -> Region {
+    pub fn region(&self) -> LightVolume {
         let radius = (0.52 * self.size().length()).max(1.0e-6);
-        Region { center: self.center().to_array(), radius }
+        LightVolume { center: self.center().to_array(), radius }
     }
 
     pub fn contains(&self, p: Vec3) -> bool {

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use serde::Deserialize;
-use whitewater::bubbles::{DistanceField, HeapSettings, Solid};
+use whitewater::bubbles::{BlobSimulationSettings, DistanceField, Solid};
 use whitewater::headless::Bubble;
 use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::io::particles::sequence;
-use whitewater::{Region, Settings};
+use whitewater::{LightVolume, Settings};
 
 use crate::args::RenderArgs;
 use crate::bounds::Bounds;
@@ -125,7 +125,7 @@ pub struct Blobs {
 
 /// By what blobs move, against what, and how often they may split.
 pub struct Motion {
-    pub settings: HeapSettings,
+    pub settings: BlobSimulationSettings,
     pub solids: Vec<Solid>,
     pub field: Option<DistanceField>,
     pub max_splits: u32,
@@ -137,7 +137,7 @@ impl Motion {
         let ground = scene.ground.as_ref().map(|ground| ground.y);
         let floor = |distance| Solid::Plane { normal: [0.0, 1.0, 0.0], distance };
         Ok(Self {
-            settings: HeapSettings::default(),
+            settings: BlobSimulationSettings::default(),
             solids: ground.into_iter().map(floor).collect(),
             field: field_of(scene, largest)?,
             max_splits: HALVINGS,
@@ -323,7 +323,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     });
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
     let solids = solids.chain([floor]).collect();
-    let settings = HeapSettings::default().with(|it| it.friction = 0.25);
+    let settings = BlobSimulationSettings::default().with(|it| it.friction = 0.25);
     let low = Bounds { min: Vec3::new(-1.5, 0.0, -0.6), max: Vec3::new(2.2, 1.6, 0.6) };
     let mut scene = stage::paving_under(&low);
     scene.meshes.extend(meshes);
@@ -399,7 +399,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     scene.sun = environment.sun_light();
     let mut settings = Settings::default().with(|it| it.light = environment.light());
     file.apply(&mut settings);
-    let Region { center, radius } = lit.region();
+    let LightVolume { center, radius } = lit.region();
     let count = blobs.blobs.len();
     let bubbles = file.bubbles.config().with(|it| it.crossfade = false);
     let look = Look {
@@ -417,7 +417,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         shores: None,
         exposure: 0.0,
         spray: false,
-        region: Region { center, radius: 1.5 * radius },
+        region: LightVolume { center, radius: 1.5 * radius },
         fps: Some(args.fps.unwrap_or(FPS)),
         rate: None,
         film: args.fps.unwrap_or(FPS) / args.every.get() as f32,

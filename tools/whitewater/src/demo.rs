@@ -1,7 +1,7 @@
 //! `whitewater demo`: the built-in scene.
 
 use glam::Vec3;
-use whitewater::Region;
+use whitewater::LightVolume;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::{self, Extension};
 
@@ -79,7 +79,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let by = *file.surface_foam.by.get_or_insert(FoamBy::Speed);
     let foam = surface_foam::settings(foam, (&file.surface_foam, by), frames, &[0.0], &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
-    let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
+    let region = bounds.map_or(LightVolume { center: [0.0; 3], radius: 1.0 }, |b| b.region());
     let (whitewater, fps, rate) = (None, None, None);
     let look = Look {
         camera,

@@ -81,7 +81,8 @@ impl From<Error> for Failure {
             }
             // Of objects that the flags say nothing of.
             Error::BadInput { field, why }
-                if field.starts_with("StateConfig.") || field.starts_with("GeneratorConfig.") =>
+                if field.starts_with("SurfaceFoamStateConfig.")
+                    || field.starts_with("GeneratorConfig.") =>
             {
                 Self::input(format!("the particles: {why}"))
             }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use whitewater::headless::{Background, Headless, Picture};
 use whitewater::io::picture::{EMPTY, Layers, normals};
-use whitewater::water::Ladder;
+use whitewater::water::DebugView;
 use whitewater::{Camera, Settings};
 
 use crate::camera::Lens;
@@ -49,11 +49,11 @@ pub const MOTION: &str = "motion";
 /// The composite up to each of its layers: pictures of three channels each.
 pub const LADDER: &str = "ladder";
 
-const RUNGS: [(&str, Ladder); 4] = [
-    ("background", Ladder::Background),
-    ("back_water", Ladder::BackWater),
-    ("surface_foam", Ladder::SurfaceFoam),
-    ("front_water", Ladder::FrontWater),
+const RUNGS: [(&str, DebugView); 4] = [
+    ("background", DebugView::Background),
+    ("back_water", DebugView::BackWater),
+    ("surface_foam", DebugView::SurfaceFoam),
+    ("front_water", DebugView::FrontWater),
 ];
 
 /// The name that a layer has now, of one that had another.

@@ -12,7 +12,7 @@ use whitewater::io::picture::{self, Display, Layers};
 use whitewater::water::{
     Kernels, Rule, Shading, SurfaceNoiseSettings, WaterSettings, WeberSettings,
 };
-use whitewater::{Config, Offer, Previous, Region, Settings};
+use whitewater::{Config, DeviceSupport, LightVolume, Previous, Settings};
 use whitewater::{GeneratorSettings, WhitewaterConfig};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg};
@@ -60,7 +60,7 @@ pub struct Look {
     /// Particles of the water turn to spray.
     pub spray: bool,
     /// Where water and foam cast shadows.
-    pub region: Region,
+    pub region: LightVolume,
     /// Frames a second by which foam comes and goes; none: each frame for itself.
     pub fps: Option<f32>,
     /// Frames a second by which the motion layer is made; none: nothing moves.
@@ -332,7 +332,7 @@ impl<'a> Session<'a> {
         config.noise = (args.noise != NoiseArg::None).then_some(1);
         let shadows = self.shadows();
         config.shadow = (shadows != ShadowArg::None).then(|| self.look.file.shadows());
-        config.cast = (shadows == ShadowArg::All).then(|| light_texels(width));
+        config.light_map_size = (shadows == ShadowArg::All).then(|| light_texels(width));
         config.motion = self.motion;
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
@@ -340,7 +340,7 @@ impl<'a> Session<'a> {
         config.rule = args.rule.unwrap_or(rule);
         if config.kernels == Kernels::Ellipsoids && !self.look.file.water.says_kernels() {
             // A device may not bind so many.
-            let offer = Offer::of(&device.instance, device.physical, COLOR_FORMAT);
+            let offer = DeviceSupport::of(&device.instance, device.physical, COLOR_FORMAT);
             let spheres = config.with(|it| it.kernels = Kernels::Spheres);
             if offer.check(&config).is_err() && offer.check(&spheres).is_ok() {
                 times.say(&format!(
@@ -599,7 +599,7 @@ impl<'a> Session<'a> {
                     .try_for_each(|_| headless.heap_step(dt, &motion.settings, &motion.solids))
             })?;
             if drawn && self.memory.heaped < number {
-                times.passes(number, headless.step_timings(Stepped::Heap));
+                times.passes(number, headless.step_timings(Stepped::BlobSimulation));
             }
             self.memory.heaped = self.memory.heaped.max(number);
         }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
-use whitewater::bubbles::{BubbleConfig, BubbleSort, HeapSettings, Impostor, Solid};
+use whitewater::bubbles::{BlobSimulationSettings, BubbleConfig, BubbleSort, Impostor, Solid};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::{Camera, Config, Settings};
@@ -132,7 +132,8 @@ fn sample(
     // What has nothing to run against falls on the ground.
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
     let moved = blobs.motion.map(|motion| (motion.settings, motion.solids));
-    let (settings, solids) = moved.unwrap_or_else(|| (HeapSettings::default(), vec![floor]));
+    let (settings, solids) =
+        moved.unwrap_or_else(|| (BlobSimulationSettings::default(), vec![floor]));
     // Whole: the CPU's do not split.
     headless.heap(&blobs.blobs, None, 0)?;
     let gpu = steps(args, || {

@@ -16,7 +16,7 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
     let thick = pixels(drawn.config.thickness_level);
     let visible = u64::from(drawn.counts.visible);
     let front = u64::from(drawn.counts.front);
-    let texels = u64::from(drawn.config.cast.unwrap_or(0)).pow(2);
+    let texels = u64::from(drawn.config.light_map_size.unwrap_or(0)).pow(2);
     let foam = drawn.foam;
     Some(match pass {
         // Positions in, spheres out.
@@ -144,7 +144,7 @@ mod tests {
     fn whitewater_particles_cast_by_particle_and_texel() {
         let extent = vk::Extent2D { width: 64, height: 48 };
         let mut config = Config::new(extent, COLOR_FORMAT, 64);
-        config.cast = Some(512);
+        config.light_map_size = Some(512);
         let none = Drawn::nothing(config);
         let map = 512 * 512;
         assert_eq!(moved("whitewater_light", &none), Some(8 * map));

@@ -4,7 +4,7 @@
 use std::num::NonZero;
 
 use glam::{IVec3, Quat, Vec3};
-use whitewater::bubbles::{HeapSettings, Solid};
+use whitewater::bubbles::{BlobSimulationSettings, Solid};
 use whitewater::headless::Bubble;
 
 /// Of a ball's moment of inertia: 1 / (2/5).
@@ -25,7 +25,7 @@ struct Ball {
 /// Blobs that move.
 pub struct CpuHeap {
     balls: Vec<Ball>,
-    settings: HeapSettings,
+    settings: BlobSimulationSettings,
     solids: Vec<Solid>,
     /// Cells a metre.
     cells: f32,
@@ -34,7 +34,7 @@ pub struct CpuHeap {
 
 impl CpuHeap {
     /// At rest, of radii above 0.
-    pub fn new(blobs: &[Bubble], settings: &HeapSettings, solids: &[Solid]) -> Self {
+    pub fn new(blobs: &[Bubble], settings: &BlobSimulationSettings, solids: &[Solid]) -> Self {
         let ball = |blob: &Bubble| {
             let [x, y, z, radius] = blob.ball;
             Ball {

@@ -25,7 +25,7 @@ use whitewater::water::{
     Convolution, Gate, Rule, Shading, Shadows, Smoothing, Splat, SurfaceFoamSettings,
     SurfaceNoiseSettings, WeberSettings,
 };
-use whitewater::{Camera, Config, Error, Previous, Region, Settings};
+use whitewater::{Camera, Config, Error, LightVolume, Previous, Settings};
 use whitewater_seas::Sea;
 
 use crate::bounds::Bounds;
@@ -263,7 +263,7 @@ impl Path {
             Self::Spray => config.spray = true,
             Self::Motion => config.motion = true,
             Self::Noise => config.noise = Some(1),
-            Self::Light => config.cast = Some(512),
+            Self::Light => config.light_map_size = Some(512),
             Self::Pcf => config.shadow = Some(Shadows::Map),
             Self::Convolution => {
                 config.shadow = Some(Shadows::Convolution(Convolution::default()));
@@ -492,7 +492,7 @@ fn sample(
     settings.noise = SurfaceNoiseSettings::SOURCE;
     let densities = config.spray.then(|| densities(pool));
     headless.particles(&pool.positions, densities.as_deref())?;
-    if config.cast.is_some() {
+    if config.light_map_size.is_some() {
         headless.region(region(pool));
     }
     let mut foaming = 0;
@@ -602,7 +602,7 @@ fn densities(pool: &pool::Pool) -> Vec<f32> {
 
 /// A plate over half of the pool, as high over it as that is wide.
 fn plate(pool: &pool::Pool) -> Scene {
-    let Region { center: [x, y, z], radius: r } = region(pool);
+    let LightVolume { center: [x, y, z], radius: r } = region(pool);
     let corner = |i: i32, j: i32| [x + 0.5 * r * i as f32, y + r, z + 0.5 * r * j as f32];
     Scene {
         meshes: vec![Mesh {
@@ -619,9 +619,9 @@ fn plate(pool: &pool::Pool) -> Scene {
 }
 
 /// The pool, seen from the sun.
-fn region(pool: &pool::Pool) -> Region {
+fn region(pool: &pool::Pool) -> LightVolume {
     Bounds::of_bulk(&pool.positions)
-        .map_or(Region { center: [0.0; 3], radius: 1.0 }, |bounds| bounds.region())
+        .map_or(LightVolume { center: [0.0; 3], radius: 1.0 }, |bounds| bounds.region())
 }
 
 /// As fast as it is high: the splash foams. How many particles do.

@@ -7,7 +7,7 @@ use whitewater::headless::scene::{Scene, Sea};
 use whitewater::headless::{Headless, ShoreMesh};
 use whitewater::io::particles::sequence;
 use whitewater::shore::{Area, ShoreConfig};
-use whitewater::{Error, Region, Settings, Shore, Shoreline};
+use whitewater::{Error, LightVolume, Settings, Shore, Shoreline};
 
 use super::own;
 use super::scenes::{self, ShoreScene};
@@ -308,7 +308,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         shores: Some(shores),
         exposure: shown.exposure,
         spray: false,
-        region: Region {
+        region: LightVolume {
             center: (0.5 * (low + high)).to_array(),
             radius: 0.5 * (high - low).length().max(1.0e-3),
         },

@@ -52,7 +52,7 @@ fn check(format: &str, text: &str) {
 #[test]
 fn bubble_foam_is_timed() {
     let folder = Folder::new();
-    folder.text("few.toml", "[bubbles]\ntemplates = 1\nbubbles = 8\nlayers = 2\nsort = \"peel\"\n");
+    folder.text("few.toml", "[bubbles]\nvariants = 1\nbubbles = 8\nlayers = 2\nsort = \"peel\"\n");
     let command =
         "bench --bubbles box:20,one --settings few.toml --frames 2 --warmup 0 --size 64x48";
     let json = folder.run(&format!("{command} --format json")).ok();
@@ -162,12 +162,7 @@ fn a_sea_says_what_its_foam_costs() {
     folder.text("dim.toml", "[whitewater]\nalbedo = [0.09, 0.09, 0.09]\n");
     let table = folder.run(&format!("{quick} --settings dim.toml --picture dim.exr")).ok().stdout();
     let dim = folder.picture("dim.exr");
-    for layer in [
-        "whitewater.Z",
-        "[whitewater.shadow_scale, whitewater.shadow_exponent, whitewater.shadow_offset]",
-        "whitewater.normal.X",
-        "scene.Z",
-    ] {
+    for layer in ["whitewater.Z", "whitewater.shadow", "whitewater.normal.X", "scene.Z"] {
         assert!(dim.channel(layer).is_some(), "{layer}");
     }
     let intensity = dim.channel("whitewater.intensity").unwrap();

@@ -85,7 +85,7 @@ fn water_is_told_before_and_behind_foam() {
     folder.run(&format!("render a.vtu -o a.exr {GROUND} {FRONT} {look} --validate")).ok();
     let exr = folder.picture("a.exr");
     let of = |name: &str| exr.channel(&format!("water.{name}")).unwrap();
-    let (all, foam) = (of("thickness"), of("whitewater.Z"));
+    let (all, foam) = (of("thickness"), exr.channel("surface_foam.Z").unwrap());
     let [front, back] = ["thickness.front", "thickness.back"].map(of);
     assert!(exr.channel("water.sheet.front").is_none());
     let mut before_and_behind = 0;

@@ -80,7 +80,7 @@ fn blobs_fall_on_the_scene() {
         "b.json",
         r#"{"blobs":[{"center":[0,0.6,0],"radius":0.1},{"center":[1.2,0.6,0],"radius":0.1}],"moves":true}"#,
     );
-    folder.text("few.toml", "[bubbles]\ntemplates = 1\nbubbles = 8\nmap = 16\n");
+    folder.text("few.toml", "[bubbles]\nvariants = 1\nbubbles = 8\nmap_size = 16\n");
     let view = "--eye 0.6,0.3,3 --target 0.6,0.3,0 --fov 40 --supersample 1";
     let look = format!("{view} {SIZE} --settings few.toml --scene s.json --validate");
     folder.run(&format!("render --bubbles b.json --frames 45-45 -o b_%d.exr {look}")).ok();

@@ -14,7 +14,7 @@ fn foam_goes_round_a_hill_of_ones_own() {
     folder.text("hill.json", HILL);
     folder.text(
         "map.toml",
-        "[shore]\nmap = 128\n[shoreline]\nreach = [3.0, 1.0]\n[contact]\nopacity = 0.0\n",
+        "[shore]\nmap = 128\n[shoreline]\nsea_reach = 3.0\nland_reach = 1.0\n[contact]\nopacity = 0.0\n",
     );
     let view = "--eye 0,14,4 --target 0,0,0 --fov 50 --supersample 1 --validate";
     let common = format!("render --shore hill.json {view} {SIZE} --settings map.toml");
@@ -74,7 +74,7 @@ fn a_strip_of_ones_own() {
     let folder = Folder::new();
     folder.text("hill.json", HILL);
     folder.text("ring.obj", &ring(true));
-    let rest = "[shoreline]\nreach = [3.0, 1.0]\n[contact]\nopacity = 0.0\n";
+    let rest = "[shoreline]\nsea_reach = 3.0\nland_reach = 1.0\n[contact]\nopacity = 0.0\n";
     let view = "--eye 0,14,4 --target 0,0,0 --fov 50 --supersample 1 --layers shore.amount";
     let draw = |name: &str, shore: &str| {
         folder.text("s.toml", &format!("[shore]\n{shore}\n{rest}"));

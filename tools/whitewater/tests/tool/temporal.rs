@@ -74,7 +74,8 @@ fn foam_of_a_simulation_does_not_flicker() {
     let cache = data.join("double_dam_pillar");
     let files = format!("{}/ParticleData_Fluid_*.bgeo", cache.display());
     let folder = Folder::new();
-    let spray = "[spray]\ndensities = [0.6, 0.7, 0.85]\n";
+    let spray =
+        "[spray]\nall_spray_density = 0.6\nfull_water_density = 0.7\nno_spray_density = 0.85\n";
     // Droplets at an instant are sharp, and no foam.
     let streaks = "[spray]\nexposure = 0.0167\n";
     folder.text(

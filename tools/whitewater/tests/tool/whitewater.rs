@@ -8,7 +8,7 @@ use super::support::{FRONT, Folder, GROUND, SMALL, block};
 const FOAM: &str =
     "x,y,z,type,lifetime,id\n0,0.35,0.5,0,2,7\n0.2,0.35,0.2,2,1,8\n-0.2,0.35,0.5,1,-1,9\n";
 /// Particles as large as a few pixels.
-const LOOK: &str = "[whitewater]\nradius = 0.1\nhalf = 0.3\n";
+const LOOK: &str = "[whitewater]\nradius = 0.1\nhalf_intensity_thickness = 0.3\n";
 
 /// Foam near the eye as blobs; bubbles in the water stay what they are.
 #[test]
@@ -16,8 +16,7 @@ fn near_foam_becomes_blobs() {
     let folder = Folder::new();
     folder.particles("a.ply", block(8));
     folder.text("foam.csv", FOAM);
-    let bubbles =
-        "[bubbles]\nhand_over = [8.0, 9.0]\nhand_over_blobs = 16\nhand_over_size = 2.0\nmap = 16\n";
+    let bubbles = "[bubbles]\ncrossfade = [8.0, 9.0]\ncrossfade_blobs = 16\ncrossfade_size = 2.0\nmap_size = 16\n";
     folder.text("near.toml", &format!("{LOOK}{bubbles}"));
     let common = format!("render a.ply {SMALL} {FRONT} --settings near.toml --validate");
     folder.run(&format!("{common} -o near.exr --layers all --whitewater foam.csv")).ok();
@@ -48,7 +47,7 @@ fn whitewater_particles_are_drawn_before_and_in_the_water() {
         "whitewater.normal.Y",
         "whitewater.irradiance.B",
         "whitewater.radius",
-        "[whitewater.shadow_scale, whitewater.shadow_exponent, whitewater.shadow_offset]",
+        "whitewater.shadow",
     ] {
         assert!(with.channel(name).is_some(), "{name}");
     }
@@ -79,7 +78,9 @@ fn files_of_one_kind_are_that_kind() {
     folder.text("look.toml", LOOK);
     let common = format!("render water_%d.ply {SMALL} {FRONT} --settings look.toml --spray auto");
     let kinds = "--whitewater bubble=bubbles_%d.ply --whitewater spray=drops_%d.ply";
-    folder.run(&format!("{common} {kinds} -o a_%d.exr --layers foam.thickness,water.spray")).ok();
+    folder
+        .run(&format!("{common} {kinds} -o a_%d.exr --layers whitewater.thickness,water.spray"))
+        .ok();
     let sum = |name: &str| {
         folder.picture(name).channel("whitewater.thickness").unwrap().iter().sum::<f32>()
     };
@@ -139,7 +140,7 @@ fn few_particles_and_many_read_as_foam() {
         folder.run(&format!("{common} {again} --whitewater {name}.ply")).ok();
         folder.run(&format!("compare {exr} again.exr --tolerance 0")).ok();
     }
-    folder.text("own.toml", "[whitewater]\nradius = 0.02\nhalf = 2.0\n");
+    folder.text("own.toml", "[whitewater]\nradius = 0.02\nhalf_intensity_thickness = 2.0\n");
     folder.run(&format!("{common} --settings own.toml -o own.exr --whitewater few.ply")).ok();
     assert_eq!(setting("own.exr", "radii"), None);
     for (key, value) in [("radius", 0.02), ("half", 2.0)] {
@@ -280,7 +281,7 @@ fn whitewater_particles_are_made_of_the_water() {
     torn(&folder, 4);
     folder.text(
         "look.toml",
-        "[whitewater]\nradius = 0.1\nhalf = 0.3\n[generate]\nmax_particles = 3000\n",
+        "[whitewater]\nradius = 0.1\nhalf_intensity_thickness = 0.3\n[generate]\nmax_particles = 3000\n",
     );
     let common =
         format!("render torn_%d.csv {SMALL} {FRONT} --settings look.toml --fps 30 --overwrite");
@@ -316,7 +317,7 @@ fn whitewater_particles_are_made_of_the_water() {
     let run = folder.run(&format!("{alone} -o d.exr")).ok();
     // How large and how opaque they are is found by how many there are, where it is not said.
     assert!(run.stderr().contains(" of them (found; table [whitewater]"), "{}", run.stderr());
-    folder.text("half.toml", "[whitewater]\nhalf = 3.0\nradius = 0.002\n");
+    folder.text("half.toml", "[whitewater]\nhalf_intensity_thickness = 3.0\nradius = 0.002\n");
     folder.run(&format!("{alone} --settings half.toml -o e.exr")).ok();
     assert!(amount("d.exr") > 2.0 * amount("e.exr") && amount("e.exr") > 0.0);
 }
