@@ -8,6 +8,7 @@ use whitewater::io::particles::sequence::Frame;
 use whitewater::io::particles::{self, Extra, Particles, same_name};
 
 use crate::failure::{Failure, Outcome};
+use crate::fluids::Fluids;
 
 /// Names of what tells phases, or walls from water.
 const PHASES: [&str; 13] = [
@@ -79,7 +80,33 @@ pub fn condition(text: &str) -> Result<Condition, String> {
 }
 
 impl Condition {
-    fn holds(&self, value: f64) -> bool {
+    /// The attribute that is compared.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The values of that attribute; `what`: the argument, for the error where there is none.
+    pub fn values<'p>(
+        &self,
+        particles: &'p Particles,
+        what: &str,
+        path: &Path,
+    ) -> Outcome<&'p [f64]> {
+        if let Some(extra) = find(particles, &self.name) {
+            return Ok(&extra.values);
+        }
+        let names = particles.attributes.iter().map(|a| a.name.as_str());
+        let names: Vec<_> = names.take(24).collect();
+        Err(Failure::input(format!(
+            "{what}: {}: expected an attribute `{}` of one number for each particle, found {}",
+            path.display(),
+            self.name,
+            names.join(", ")
+        )))
+    }
+
+    /// Whether a value satisfies it.
+    pub fn holds(&self, value: f64) -> bool {
         match self.compare {
             Compare::Is => value == self.value,
             Compare::IsNot => value != self.value,
@@ -92,16 +119,23 @@ impl Condition {
 }
 
 /// Reads a frame with what is looked at here.
-pub fn read(frame: &Frame, conditions: &[Condition]) -> Outcome<Particles> {
-    let asked = conditions.iter().map(|condition| condition.name.as_str());
+pub fn read(frame: &Frame, conditions: &[Condition], fluids: &Fluids) -> Outcome<Particles> {
+    let asked = conditions.iter().map(Condition::name).chain(fluids.names());
     let radii = RADII.into_iter().chain(DIAMETERS);
     let names: Vec<&str> = PHASES.into_iter().chain(radii).chain(asked).collect();
     if let Some(step) = frame.step {
-        return Ok(particles::read_step(&frame.path, step, &names)?);
+        let mut all = particles::read_step(&frame.path, step, &names)?;
+        fluids.mark(&frame.path, &mut all);
+        return Ok(all);
     }
-    let mut all = particles::read_with(&frame.path, &names)?;
+    let read = |path: &Path| -> Outcome<Particles> {
+        let mut part = particles::read_with(path, &names)?;
+        fluids.mark(path, &mut part);
+        Ok(part)
+    };
+    let mut all = read(&frame.path)?;
     for path in &frame.also {
-        all.append(particles::read_with(path, &names)?);
+        all.append(read(path)?);
     }
     Ok(all)
 }
@@ -111,26 +145,17 @@ pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) 
     let count = particles.positions.len();
     let mut kept = vec![true; count];
     for condition in conditions {
-        let bad = |why: String| {
-            Failure::input(format!("--where '{}': {}: {why}", condition.text, path.display()))
-        };
-        let Some(extra) = find(particles, &condition.name) else {
-            let names = particles.attributes.iter().map(|a| a.name.as_str());
-            let names: Vec<_> = names.take(24).collect();
-            return Err(bad(format!(
-                "expected an attribute `{}` of one number for each particle, found {}",
-                condition.name,
-                names.join(", ")
-            )));
-        };
-        kept.iter_mut()
-            .zip(&extra.values)
-            .for_each(|(kept, value)| *kept &= condition.holds(*value));
+        let what = format!("--where '{}'", condition.text);
+        let values = condition.values(particles, &what, path)?;
+        kept.iter_mut().zip(values).for_each(|(kept, value)| *kept &= condition.holds(*value));
         if !kept.contains(&true) {
-            let found = values(extra).map_or(String::new(), |values| {
+            let found = whole(values).map_or(String::new(), |values| {
                 format!(", whose values are {}", list(values.keys().map(|v| number(*v))))
             });
-            return Err(bad(format!("expected some of the {count} particles, found none{found}")));
+            let path = path.display();
+            return Err(Failure::input(format!(
+                "{what}: {path}: expected some of the {count} particles, found none{found}"
+            )));
         }
     }
     if kept.contains(&false) {
@@ -144,9 +169,9 @@ fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
 }
 
 /// Values as numbers of whole value, and how many particles have each; none of what is no such thing.
-fn values(extra: &Extra) -> Option<BTreeMap<i64, usize>> {
+fn whole(values: &[f64]) -> Option<BTreeMap<i64, usize>> {
     let mut counts = BTreeMap::new();
-    for value in &extra.values {
+    for value in values {
         if value.fract() != 0.0 || value.abs() > 1.0e9 {
             return None;
         }
@@ -176,12 +201,13 @@ fn list(words: impl Iterator<Item = String>) -> String {
 pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
     let phase = |extra: &&Extra| PHASES.iter().any(|name| same_name(&extra.name, name));
     let all = particles.extras.iter().filter(phase);
-    all.filter_map(|extra| Some((extra.name.as_str(), values(extra)?))).collect()
+    all.filter_map(|extra| Some((extra.name.as_str(), whole(&extra.values)?))).collect()
 }
 
 /// A word on attributes that tell phases, of which all are drawn as one water.
-pub fn told(particles: &Particles, conditions: &[Condition]) -> Vec<String> {
-    let asked = |name: &str| conditions.iter().any(|condition| same_name(&condition.name, name));
+pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) -> Vec<String> {
+    let mut known = conditions.iter().map(Condition::name).chain(fluids.names());
+    let mut asked = |name: &str| known.any(|known| same_name(known, name));
     let several = phases(particles).into_iter();
     let several = several.filter(|(name, values)| values.len() > 1 && !asked(name));
     let line = |(name, values): (&str, BTreeMap<i64, usize>)| {
@@ -189,7 +215,8 @@ pub fn told(particles: &Particles, conditions: &[Condition]) -> Vec<String> {
         let liquid = liquid(particles, name, &values);
         format!(
             "attribute `{name}` has the values {}, all drawn as one water: walls, or other phases, are drawn too unless \
-             --where '{name}={liquid}' (or another of them) leaves them out",
+             --where '{name}={liquid}' (or another of them) leaves them out; --fluid '{name}={liquid}:water' and the like give \
+             several fluids a look each",
             list(each)
         )
     };
@@ -273,7 +300,7 @@ mod tests {
     #[test]
     fn walls_are_told_and_left_out() {
         let particles = walls();
-        let told_of = |conditions: &[Condition]| told(&particles, conditions);
+        let told_of = |conditions: &[Condition]| told(&particles, conditions, &Fluids::default());
         let [line] = &told_of(&[])[..] else { panic!("{:?}", told_of(&[])) };
         for part in ["`Type` has the values 0 (7 particles) and 3 (3 particles)", "'Type=3'"] {
             assert!(line.contains(part), "{line}");

@@ -10,6 +10,7 @@ use crate::args::InfoArgs;
 use crate::bounds::Bounds;
 use crate::extras;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::fluids::Fluids;
 use crate::folder;
 use crate::frames;
 use crate::out;
@@ -25,7 +26,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     let mut failed = Vec::new();
     for frame in &frames {
         let path = frame.path.display().to_string();
-        match extras::read(frame, &[]) {
+        match extras::read(frame, &[], &Fluids::default()) {
             Ok(particles) => {
                 let value = describe(&path, frame.number, &particles);
                 if args.json {

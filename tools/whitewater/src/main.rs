@@ -17,6 +17,7 @@ mod extras;
 mod failure;
 mod film;
 mod films;
+mod fluids;
 mod folder;
 mod frames;
 mod generate;

@@ -11,6 +11,7 @@ use crate::args::Up;
 use crate::bounds;
 use crate::extras::{self, Condition};
 use crate::failure::Outcome;
+use crate::fluids::Fluids;
 use crate::placing::Placing;
 use crate::surface_foam::quantile;
 
@@ -37,6 +38,7 @@ pub struct Reader<'a> {
     all: &'a [Frame],
     placing: Placing,
     conditions: &'a [Condition],
+    fluids: &'a Fluids,
     /// Radii of particles in the first frame that was read: the least, the middle one, the largest.
     pub radii: Option<[f32; 3]>,
     /// Frames a second, where velocities are to be found; else none are.
@@ -54,13 +56,14 @@ impl<'a> Reader<'a> {
     pub fn new(
         all: &'a [Frame],
         placing: Placing,
-        conditions: &'a [Condition],
+        (conditions, fluids): (&'a [Condition], &'a Fluids),
         fps: Option<f32>,
     ) -> Self {
         Self {
             all,
             placing,
             conditions,
+            fluids,
             radii: None,
             fps,
             last: None,
@@ -141,9 +144,10 @@ impl<'a> Reader<'a> {
 
     /// A frame without what is found or told of it.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
-        let mut particles = extras::read(frame, self.conditions)?;
+        let mut particles = extras::read(frame, self.conditions, self.fluids)?;
         extras::select(&mut particles, self.conditions, &frame.path)?;
-        let told = extras::told(&particles, self.conditions);
+        let told = extras::told(&particles, self.conditions, self.fluids);
+        self.fluids.divide(&mut particles, &frame.path)?;
         let copies = extras::without_copies(&mut particles);
         particles.warnings.extend(told);
         if copies > 0 {
