@@ -123,6 +123,9 @@ pub struct RenderArgs {
     pub turntable: Option<Turntable>,
     /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale) [default: from
     /// the files, or estimated]
+    ///
+    /// It is that of all particles. Without it, where radii in the files differ by more than a quarter, larger particles are
+    /// drawn as several of the smallest ones, up to 8 times as many.
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
     /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]

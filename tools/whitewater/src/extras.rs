@@ -1,4 +1,4 @@
-//! Additional attributes: those that separate walls from water, and radii.
+//! Additional attributes: those that separate walls from water.
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
@@ -9,6 +9,7 @@ use whitewater::io::particles::{self, Extra, Particles, same_name};
 
 use crate::failure::{Failure, Outcome};
 use crate::fluids::Fluids;
+use crate::radii::{DIAMETERS, RADII};
 
 /// Names of what tells phases, or walls from water.
 const PHASES: [&str; 13] = [
@@ -26,10 +27,6 @@ const PHASES: [&str; 13] = [
     "ptype",
     "zone",
 ];
-/// Names of radii.
-const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];
-/// Names of twice that: of LAMMPS, and of OpenFOAM's clouds.
-const DIAMETERS: [&str; 3] = ["diameter", "diam", "d"];
 /// An attribute that tells phases has no more values.
 const MOST: usize = 16;
 /// Share of positions that are there twice, from which on copies are left out.
@@ -164,7 +161,8 @@ pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) 
     Ok(())
 }
 
-fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
+/// An attribute that was asked for.
+pub fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
     particles.extras.iter().find(|extra| same_name(&extra.name, name))
 }
 
@@ -237,22 +235,6 @@ fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i
     let most = values.iter().map(|(value, count)| (speed(*value), *count, *value));
     let most = most.max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     most.map_or(0, |(_, _, value)| value)
-}
-
-/// The smallest radius of the particles, the middle one and the largest, in the unit of the file.
-pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
-    let radius = RADII.iter().find_map(|name| Some((find(particles, name)?, 1.0)));
-    let diameter = || DIAMETERS.iter().find_map(|name| Some((find(particles, name)?, 0.5)));
-    let (extra, of) = radius.or_else(diameter)?;
-    let mut radii: Vec<f32> = extra.values.iter().map(|r| (of * *r) as f32).collect();
-    radii.retain(|radius| radius.is_finite() && *radius > 0.0);
-    radii.sort_unstable_by(f32::total_cmp);
-    Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
-}
-
-/// Whether an attribute is taken for radii.
-pub fn is_radius(name: &str) -> bool {
-    RADII.iter().chain(&DIAMETERS).any(|radius| same_name(radius, name))
 }
 
 /// Leaves one of particles that are at one place, where many are; says how many went.

@@ -271,8 +271,8 @@ fn range(frames: &[Frame]) -> String {
     }
 }
 
-/// Puts particles into an order by their indices; those that are not in it go.
-fn reorder(particles: &mut Particles, order: &[usize]) {
+/// Puts particles into an order by their indices; those that are not in it go, those that are in it again are doubled.
+pub fn reorder(particles: &mut Particles, order: &[usize]) {
     fn of<T: Copy>(list: &mut Vec<T>, order: &[usize]) {
         *list = order.iter().map(|i| list[*i]).collect();
     }

@@ -15,6 +15,7 @@ use crate::folder;
 use crate::frames;
 use crate::out;
 use crate::placing;
+use crate::radii;
 use crate::reader::Has;
 use crate::upright;
 
@@ -113,7 +114,7 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "density": particles.densities.as_deref().and_then(statistics),
         "attributes": attributes,
         "time": particles.time,
-        "radii": extras::radii(particles),
+        "radii": radii::radii(particles),
         "phases": phases,
         "missing": missing(Has::of(particles)),
         "unit": unit(particles),
@@ -143,8 +144,8 @@ fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
 
 /// What else is made of an attribute.
 fn beside(particles: &Particles, name: &str) -> Option<String> {
-    if extras::is_radius(name) {
-        return extras::radii(particles).map(|_| "radius".into());
+    if radii::is_radius(name) {
+        return radii::radii(particles).map(|_| "radius".into());
     }
     let times = ["time", "timestep", "time value", "step", "frame"];
     if particles.time.is_some() && times.iter().any(|time| particles::same_name(time, name)) {

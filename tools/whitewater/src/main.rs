@@ -28,6 +28,7 @@ mod output;
 mod pattern;
 mod placing;
 mod progress;
+mod radii;
 mod reader;
 mod render;
 mod session;

@@ -1,6 +1,7 @@
 //! The frames of `render` in drawing order: turned to y-up, with warnings about unusual data, and with
 //! velocities from frame to frame where the files have none.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use glam::Vec3;
@@ -14,6 +15,7 @@ use crate::failure::Outcome;
 use crate::fluids::Fluids;
 use crate::placing::Placing;
 use crate::surface_foam::quantile;
+use crate::radii::{self, Split};
 
 /// Frames a second, where that can't be found.
 pub const DEFAULT_FPS: f32 = 30.0;
@@ -41,6 +43,8 @@ pub struct Reader<'a> {
     fluids: &'a Fluids,
     /// Radii of particles in the first frame that was read: the least, the middle one, the largest.
     pub radii: Option<[f32; 3]>,
+    /// How large particles are split, by the first frame that was read.
+    split: OnceCell<Option<Split>>,
     /// Frames a second, where velocities are to be found; else none are.
     fps: Option<f32>,
     last: Option<Known>,
@@ -65,6 +69,7 @@ impl<'a> Reader<'a> {
             conditions,
             fluids,
             radii: None,
+            split: OnceCell::new(),
             fps,
             last: None,
             found_velocities: false,
@@ -87,7 +92,7 @@ impl<'a> Reader<'a> {
         self.seen = self.seen.or(own);
         if self.radii.is_none() {
             self.radii =
-                extras::radii(&particles).map(|radii| radii.map(|r| r * self.placing.scale));
+                radii::radii(&particles).map(|radii| radii.map(|r| r * self.placing.scale));
         }
         let lacks = self.expected.without(own);
         if let Some(fps) = self.fps
@@ -131,6 +136,16 @@ impl<'a> Reader<'a> {
         (seconds > LEAST && seconds < 1.0).then(|| (b.number - a.number) as f32 / seconds)
     }
 
+    /// The radius to which larger particles are split; none where all are alike.
+    pub fn base(&self) -> Option<f32> {
+        Some(self.split.get().copied()??.base * self.placing.scale)
+    }
+
+    /// Has particles drawn alike, whatever their radii.
+    pub fn alike(&mut self) {
+        self.split = OnceCell::from(None);
+    }
+
     /// Has frames turned from now on; those that were read are by whoever has them.
     pub fn turn(&mut self, up: Up) {
         self.placing.up = up;
@@ -154,6 +169,14 @@ impl<'a> Reader<'a> {
             particles
                 .warnings
                 .push(format!("{copies} copies of particles at the same place are left out"));
+        }
+        if let Some(split) = self.split.get_or_init(|| Split::of(&particles))
+            && let Some(count) = split.apply(&mut particles)
+        {
+            particles.warnings.push(format!(
+                "radii differ: {count} particles are drawn as {}, so many that each fills its part",
+                particles.positions.len()
+            ));
         }
         self.placing.place(&mut particles);
         Ok(particles)

@@ -144,6 +144,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let origin = origin.unwrap_or_default();
     let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale, origin };
     let mut reader = Reader::new(&all, placing, (&args.conditions, &fluids), fps);
+    if args.radius.is_some() {
+        reader.alike();
+    }
     let by_time = if args.fps.is_none() { reader.rate() } else { None };
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
@@ -194,6 +197,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let spacing = spacing(args, (&probes, reader.radii), &settings, &progress);
     let files = steps
         .during("reading", || whitewater_source::Files::find(files, placing, single, spacing))?;
+    let spacing = spacing(args, (&probes, &reader), &settings, &progress);
+    let files =
+        steps.during("reading", || diffuse::Files::find(files, placing, single, spacing))?;
     if let Some(files) = &files {
         let numbers: Vec<_> = all.iter().map(|f| f.number).collect();
         files.missing(&numbers)?.iter().for_each(|line| progress.say(line));
@@ -557,21 +563,22 @@ const LARGE: f32 = 10.0;
 /// The rest spacing: as it is said, or found.
 fn spacing(
     args: &RenderArgs,
-    (probes, radii): (&Probes, Option<[f32; 3]>),
+    (probes, reader): (&Probes, &Reader<'_>),
     file: &SettingsFile,
     progress: &Progress,
 ) -> f32 {
     match (args.radius, file.water.spacing) {
         (Some(radius), _) => 2.0 * radius,
         (None, Some(spacing)) => spacing,
-        (None, None) if radii.is_some() => {
-            let [least, radius, most] = radii.unwrap_or_default();
+        (None, None) if reader.radii.is_some() => {
+            let [least, middle, most] = reader.radii.unwrap_or_default();
+            let radius = reader.base().unwrap_or(middle);
             let differ = if most > 1.1 * least {
-                format!(
-                    "; those of the files go from {} to {}, and all are drawn alike",
-                    round(least),
-                    round(most)
-                )
+                let how = match reader.base() {
+                    Some(_) => "larger particles are drawn as several of this radius",
+                    None => "all are drawn alike",
+                };
+                format!("; they go from {} to {}, and {how}", round(least), round(most))
             } else {
                 String::new()
             };

@@ -161,11 +161,53 @@ fn radii_and_copies_of_particles_are_understood() {
     folder.text("twice.csv", &twice);
     let said = folder.run(&format!("render radii.csv -o r.png {SMALL}")).ok().stderr();
     assert!(
-        said.contains("radius 0.031 (of the files; those of the files go from 0.028 to 0.031"),
+        said.contains(
+            "radius 0.031 (of the files; they go from 0.028 to 0.031, and all are drawn alike"
+        ),
         "{said}"
     );
     let text = folder.run("info radii.csv").ok().stdout();
     assert!(text.contains("radius (number x 1): radius"), "{text}");
+    // A block of eight times the particles, half of them in one of twice the radius each.
+    let half: Vec<_> =
+        (0..6 * 6 * 6).map(|i| [i % 6, i / 6 % 6, i / 36].map(|i| 0.1 * i as f32)).collect();
+    let mut mixed = String::from("x,y,z,radius\n");
+    for [x, y, z] in half {
+        match x > 0.25 {
+            true => mixed += &format!("{x},{y},{z},0.05\n"),
+            false => {
+                for corner in 0..8_u8 {
+                    let [a, b, c] =
+                        [0, 1, 2].map(|axis| if corner >> axis & 1 == 1 { 0.025 } else { -0.025 });
+                    mixed += &format!("{},{},{},0.025\n", x + a, y + b, z + c);
+                }
+            }
+        }
+    }
+    folder.text("mixed.csv", &mixed);
+    let view =
+        "--eye 0.25,0.25,2.4 --target 0.25,0.25,0.25 --fov 20 --layers water.depth,water.thickness";
+    let said = folder.run(&format!("render mixed.csv -o m.exr {SMALL} {view}")).ok().stderr();
+    for part in [
+        "radius 0.025 (of the files; they go from 0.025 to 0.05, and larger",
+        "972 particles are drawn as 1728",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    // Both halves are as thick, within the unevenness of a few copies.
+    let picture = folder.picture("m.exr");
+    let thick = picture.channel("water.thickness").unwrap();
+    let mean = |from: usize| {
+        let rows = (20..44).flat_map(|y| (from..from + 12).map(move |x| thick[y * 96 + x]));
+        rows.sum::<f32>() / (24.0 * 12.0)
+    };
+    let (fine, coarse) = (mean(34), mean(50));
+    assert!((fine / coarse - 1.0).abs() < 0.15, "{fine} {coarse}");
+    let said = folder
+        .run(&format!("render mixed.csv -o a.exr {SMALL} {view} --radius 0.03"))
+        .ok()
+        .stderr();
+    assert!(!said.contains("are drawn as"), "{said}");
     let said = folder.run(&format!("render twice.csv -o t.png {SMALL}")).ok().stderr();
     let count = slope().len();
     for part in [
