@@ -12,7 +12,7 @@ use crate::fluids::Fluids;
 use crate::radii::{DIAMETERS, RADII};
 
 /// Names of what tells phases, or walls from water.
-const PHASES: [&str; 13] = [
+const PHASES: [&str; 34] = [
     "type",
     "mk",
     "phase",
@@ -26,6 +26,27 @@ const PHASES: [&str; 13] = [
     "marker",
     "ptype",
     "zone",
+    "material id",
+    "mat",
+    "mat id",
+    "species",
+    "color",
+    "colour",
+    "group",
+    "group id",
+    "body",
+    "body id",
+    "itype",
+    "atype",
+    "kind",
+    "nature",
+    "class",
+    "component",
+    "is fluid",
+    "is solid",
+    "boundary type",
+    "particle kind",
+    "fluid type",
 ];
 /// An attribute that tells phases has no more values.
 const MOST: usize = 16;
@@ -218,7 +239,18 @@ pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) ->
             list(each)
         )
     };
-    several.map(line).collect()
+    let text = |extra: &&Extra| {
+        let phase = PHASES.iter().any(|name| same_name(&extra.name, name));
+        phase && !extra.values.is_empty() && extra.values.iter().all(|value| value.is_nan())
+    };
+    let text = particles.extras.iter().filter(text).map(|extra| {
+        let name = &extra.name;
+        format!(
+            "attribute `{name}` holds words, which tell nothing apart here: all is drawn as one water (numbers in their place \
+             can be told by --where)"
+        )
+    });
+    several.map(line).chain(text).collect()
 }
 
 /// The value of what moves most; without velocities, of most particles.
