@@ -309,7 +309,7 @@ impl<'a> Liquids<'a> {
         }
         let timed = |settings: &Settings| {
             let mut settings = settings.clone();
-            settings.foam.time = one.foam.time;
+            settings.surface_foam.time = one.surface_foam.time;
             settings.shore.time = one.shore.time;
             Cow::Owned(settings)
         };

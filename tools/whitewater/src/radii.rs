@@ -8,7 +8,7 @@ use whitewater::io::particles::{Particles, same_name};
 
 use crate::extras::find;
 use crate::fluids::reorder;
-use crate::foam::quantile;
+use crate::surface_foam::quantile;
 
 /// Names of radii.
 pub const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];

@@ -194,12 +194,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
-    let spacing = spacing(args, (&probes, reader.radii), &settings, &progress);
+    let spacing = spacing(args, (&probes, &reader), &settings, &progress);
     let files = steps
         .during("reading", || whitewater_source::Files::find(files, placing, single, spacing))?;
-    let spacing = spacing(args, (&probes, &reader), &settings, &progress);
-    let files =
-        steps.during("reading", || diffuse::Files::find(files, placing, single, spacing))?;
     if let Some(files) = &files {
         let numbers: Vec<_> = all.iter().map(|f| f.number).collect();
         files.missing(&numbers)?.iter().for_each(|line| progress.say(line));
