@@ -14,8 +14,8 @@ use crate::extras::{self, Condition};
 use crate::failure::Outcome;
 use crate::fluids::Fluids;
 use crate::placing::Placing;
-use crate::surface_foam::quantile;
 use crate::radii::{self, Split};
+use crate::surface_foam::quantile;
 
 /// Frames a second, where that can't be found.
 pub const DEFAULT_FPS: f32 = 30.0;
