@@ -41,7 +41,7 @@ fn rows(separator: &str, end: &str) -> String {
 }
 
 /// Names of eight columns as programs write them.
-const NAMES: [(&str, [&str; 8]); 14] = [
+const NAMES: [(&str, [&str; 8]); 18] = [
     ("plain", ["x", "y", "z", "vx", "vy", "vz", "id", "rho"]),
     ("sphsol", ["X", "Y", "Z", "VX", "VY", "VZ", "ID", "DENSITY"]),
     (
@@ -104,6 +104,25 @@ const NAMES: [(&str, [&str; 8]); 14] = [
     ("of one letter", ["x (m)", "y (m)", "z (m)", "u (m/s)", "v (m/s)", "w (m/s)", "ID", "rho"]),
     ("with units", ["x[mm]", "y[mm]", "z[mm]", "ux", "uy", "uz", "gid", "rho_p"]),
     ("as words", ["X", "Y", "Z", "Vel X", "Vel Y", "Vel Z", "Global ID", "Mass Density"]),
+    (
+        "axis first",
+        ["X_coord", "Y_coord", "Z_coord", "X_vel", "Y_vel", "Z_vel", "Particle_Number", "Dens"],
+    ),
+    (
+        "Fluent",
+        [
+            "x-coordinate",
+            "y-coordinate",
+            "z-coordinate",
+            "x-velocity",
+            "y-velocity",
+            "z-velocity",
+            "atom id",
+            "ρ [kg/m³]",
+        ],
+    ),
+    ("maps", ["Easting", "Northing", "Elevation", "Speed_X", "Speed_Y", "Speed_Z", "label", "rho"]),
+    ("r", ["rx", "ry", "rz", "dx/dt", "dy/dt", "dz/dt", "pid", "rho"]),
 ];
 
 #[test]
@@ -210,6 +229,7 @@ fn text_in_other_encodings() {
             .flat_map(|u| if big { u.to_be_bytes() } else { u.to_le_bytes() })
             .collect();
         check("UTF-16", &read_bytes(&bytes, Extension::Csv).unwrap());
+        check("UTF-16 without its mark", &read_bytes(&bytes[2..], Extension::Csv).unwrap());
     }
     check("a mark", &read(&format!("\u{feff}{text}"), Extension::Csv));
     // Latin-1: a superscript in a unit.
@@ -422,6 +442,30 @@ fn several_steps_in_one_table_are_refused() {
     assert_eq!(read(&text, Extension::Csv).time, None);
     let text = table("time,x,y,z", &|t, i| format!("12:0{t}:00,{i},0,{t}\n"));
     assert_eq!(read(&text, Extension::Csv).positions.len(), 60);
+}
+
+#[test]
+fn lines_of_old_macs_and_vectors_in_brackets() {
+    let text = format!("x,y,z,vx,vy,vz,id,rho\n{}", rows(",", "\n"));
+    check("carriage returns", &read(&text.replace('\n', "\r"), Extension::Csv));
+    let vectors: String = ROWS.map(|[x, y, z, ..]| format!("({x} {y}, {z})\n")).concat();
+    let p = read(&vectors, Extension::Xyz);
+    assert_eq!(p.positions, ROWS.map(|row| [0, 1, 2].map(|k| row[k] as f32)));
+}
+
+/// Positions in any plane, and words where numbers would tell kinds apart.
+#[test]
+fn two_axes_and_words() {
+    for (names, expected) in
+        [("x,y", [1.0, 2.0, 0.0]), ("x,z", [1.0, 0.0, 2.0]), ("y,z", [0.0, 1.0, 2.0])]
+    {
+        let p = read(&format!("{names}\n1,2\n"), Extension::Csv);
+        assert_eq!(p.positions, [expected], "{names}");
+    }
+    let p = read("x,y,z,type\n1,2,3,water\n4,5,6,oil\n", Extension::Csv);
+    assert_eq!((p.positions.len(), p.kinds), (2, None));
+    assert!(p.warnings[0].contains("`type` is dropped"), "{:?}", p.warnings);
+    error("x,y,z,rho\n1,2,3,water\n", Extension::Csv, &["a number in column `rho`", "water"]);
 }
 
 #[test]

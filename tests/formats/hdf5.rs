@@ -153,3 +153,47 @@ fn damaged_files() {
     println!("{cases} damaged files, {sound} of them read");
     assert!(sound > 0 && sound < cases, "{sound} of {cases}");
 }
+
+/// The same of XDMF: its text, with the arrays beside it as they are, and with arrays that are damaged.
+#[test]
+fn damaged_xdmf() {
+    let folder = Folder::new("damaged-xdmf");
+    let inline = "<Xdmf><Domain><DataItem Name=\"p\" Dimensions=\"2 3\">1 2 3 4 5 6</DataItem><Grid GridType=\"Collection\" \
+                  CollectionType=\"Temporal\"><Grid><Time Value=\"0.5\"/><Geometry GeometryType=\"XYZ\"><DataItem \
+                  Reference=\"/Xdmf/Domain/DataItem[@Name='p']\"/></Geometry><Attribute Name=\"id\" Center=\"Node\"><DataItem \
+                  Dimensions=\"2\">7 8</DataItem></Attribute></Grid><Grid><Time Value=\"1\"/></Grid></Grid></Domain></Xdmf>";
+    let text = |name: &str| std::fs::read(path(name)).unwrap();
+    let arrays: Vec<_> = ["cloud.h5", "series.h5"].map(|name| (name, text(name))).into();
+    arrays.iter().for_each(|(name, bytes)| drop(folder.put(name, bytes)));
+    let mut next = numbers();
+    let (mut cases, mut sound) = (0, 0);
+    for (name, bytes) in
+        [("cloud", text("cloud.xdmf")), ("series", text("series.xdmf")), ("inline", inline.into())]
+    {
+        for round in 0..super::bad::rounds(48) {
+            // Every eighth time the arrays are.
+            let of_array = round % 8 == 7 && name != "inline";
+            let changed = if of_array { bytes.clone() } else { damaged(&bytes, &mut next) };
+            if of_array {
+                let (name, array) = &arrays[usize::from(name == "series")];
+                folder.put(name, damaged(array, &mut next));
+            }
+            let file = folder.put("a.xmf", changed);
+            let (results, peak) = allocation::peak(|| {
+                let frames = steps(&file).unwrap_or_default();
+                let frames =
+                    frames.into_iter().take(4).map(|step| read_step(&file, step, &["rho"]));
+                frames.chain([read(&file)]).map(|result| result.is_ok()).collect::<Vec<_>>()
+            });
+            let limit = 3 * ((16 << 20) + 64 * 20_000);
+            assert!(peak <= limit, "{name}: {peak} bytes held");
+            cases += 1;
+            sound += usize::from(results.contains(&true));
+            if of_array {
+                arrays.iter().for_each(|(name, bytes)| drop(folder.put(name, bytes)));
+            }
+        }
+    }
+    println!("{cases} damaged files, {sound} of them read");
+    assert!(sound > 0 && sound < cases, "{sound} of {cases}");
+}

@@ -1,7 +1,7 @@
 //! Inputs to numbered frames.
 
 use super::folder::Folder;
-use whitewater::io::particles::sequence::{SequenceError, expand, parse_range};
+use whitewater::io::particles::sequence::{SequenceError, expand, expand_joined, parse_range};
 
 /// A folder of empty files.
 struct Files(Folder);
@@ -208,4 +208,28 @@ fn errors_say_what_is_there() {
         assert!(parse_range(range).is_err(), "{range}");
     }
     assert_eq!(parse_range("3-9").unwrap(), 3..=9);
+}
+
+/// Files of several processes are parts of the frames, not frames.
+#[test]
+fn ranks_are_no_frames() {
+    let folder = Folder::new("ranks");
+    for rank in 0..3 {
+        std::fs::create_dir_all(folder.path().join(format!("run/proc{rank}"))).unwrap();
+        for frame in [10, 11] {
+            folder.put(&format!("fluid_{frame}_rank{rank}.csv"), "x,y,z\n0,0,0\n");
+        }
+        folder.put(&format!("one_MPI-{rank}.csv"), "x,y,z\n0,0,0\n");
+        folder.put(&format!("run/proc{rank}/f.csv"), "x,y,z\n0,0,0\n");
+    }
+    for (pattern, numbers) in
+        [("fluid_*.csv", &[10, 11][..]), ("one_*.csv", &[0]), ("run/proc*/f.csv", &[0])]
+    {
+        let pattern = folder.path().join(pattern).display().to_string();
+        let frames = expand_joined(&[&pattern], None).unwrap();
+        assert_eq!(frames.iter().map(|f| f.number).collect::<Vec<_>>(), numbers, "{pattern}");
+        assert!(frames.iter().all(|frame| frame.also.len() == 2), "{pattern}");
+        let error = expand(&[&pattern], None).unwrap_err().to_string();
+        assert!(error.contains("--join"), "{error}");
+    }
 }

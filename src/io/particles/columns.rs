@@ -197,6 +197,22 @@ impl Data {
         }
     }
 
+    /// All values as ids, those beyond 32 bits modulo 2^32, or the index of the first that is no natural number.
+    pub(super) fn to_ids(&self) -> Result<Vec<u32>, usize> {
+        let id = |i: usize| match self {
+            // The end of the range stands for all beyond it.
+            Self::Int(v) => v.get(i).filter(|x| (0..i64::MAX).contains(*x)).map(|x| *x as u32),
+            _ => {
+                // Doubles hold integers exactly up to 2^53.
+                let x = self.f64(i)?;
+                (x.fract() == 0.0 && (0.0..9.0e15).contains(&x)).then_some(x as i64 as u32)
+            }
+        };
+        let mut values = Vec::with_capacity(self.len());
+        values.extend((0..self.len()).map_while(id));
+        if values.len() < self.len() { Err(values.len()) } else { Ok(values) }
+    }
+
     /// All values, or the index of the first that is not an integer or does not fit.
     pub(super) fn to_u32(&self) -> Result<Vec<u32>, usize> {
         let mut values = Vec::with_capacity(self.len());
@@ -508,7 +524,7 @@ impl<'a> Search<'a> {
         let of_three = || split().find(|columns| !columns.contains(&None)).map(Vector::Split);
         let of_two = || {
             let mut split = split();
-            let found = split.find(|[x, y, z]| x.is_some() && (y.is_some() || z.is_some()));
+            let found = split.find(|columns| columns.iter().flatten().count() > 1);
             found.map(Vector::Split)
         };
         whole(3).or_else(of_three).or_else(|| whole(2)).or_else(of_two)
@@ -591,7 +607,10 @@ impl Roles {
                 }
                 shape.values / components
             }
-            Vector::Split([x, ..]) => x.and_then(|x| shapes.get(x)).map_or(0, |shape| shape.values),
+            Vector::Split(columns) => {
+                let first = columns.into_iter().flatten().next();
+                first.and_then(|first| shapes.get(first)).map_or(0, |shape| shape.values)
+            }
         };
         for shape in self.used().filter_map(|i| shapes.get(i)) {
             shape.check(rows)?;

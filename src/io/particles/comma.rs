@@ -11,7 +11,7 @@ use super::bytes::show;
 use super::columns::{AttributeType, Column};
 use super::error::{Place, ReadError};
 use super::heading::{self, Heading, number_with_comma};
-use super::names::is_step;
+use super::names::may_be_text;
 use super::plan::About;
 use super::source::{Content, Source, inner_error};
 use super::table::{RowReader, Table};
@@ -159,7 +159,7 @@ impl RowReader for Records<'_> {
                 continue;
             }
             let number = number_with_comma(field).filter(|_| self.decimal_comma);
-            let number = number.or_else(|| is_step(name).then_some(f64::NAN));
+            let number = number.or_else(|| may_be_text(name).then_some(f64::NAN));
             if !number.is_some_and(|number| column.data.push_number(number)) {
                 return Err(ReadError::table(
                     format!("a number in column `{name}`"),

@@ -365,13 +365,40 @@ fn is_readable(bytes: &[u8]) -> bool {
     !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))
 }
 
-/// Converts UTF-16 text with a byte order mark, as spreadsheets write it, to UTF-8.
-pub(super) fn from_utf16(bytes: &[u8]) -> Option<Vec<u8>> {
+/// Converts text in UTF-16, or with carriage returns alone at the ends of lines, to UTF-8 with line feeds; `None` for all
+/// others.
+pub(super) fn as_lines(bytes: &[u8]) -> Option<Vec<u8>> {
+    from_utf16(bytes).or_else(|| from_old_mac(bytes))
+}
+
+fn from_old_mac(bytes: &[u8]) -> Option<Vec<u8>> {
+    let head = bytes.get(..bytes.len().min(1 << 16)).unwrap_or(bytes);
+    let returns = head.contains(&b'\r') && !head.contains(&b'\n') && is_text(bytes);
+    // A lone line may end so.
+    let several = || head.iter().filter(|b| **b == b'\r').count() > 1;
+    let feed = |b: &u8| if *b == b'\r' { b'\n' } else { *b };
+    (returns && several()).then(|| bytes.iter().map(feed).collect())
+}
+
+/// Converts UTF-16 text, as spreadsheets write it, with a byte order mark or with every other byte 0.
+fn from_utf16(bytes: &[u8]) -> Option<Vec<u8>> {
+    type Unit = fn([u8; 2]) -> u16;
     let (mark, rest) = bytes.split_first_chunk::<2>()?;
-    let unit: fn([u8; 2]) -> u16 = match mark {
-        b"\xff\xfe" => u16::from_le_bytes,
-        b"\xfe\xff" => u16::from_be_bytes,
-        _ => return None,
+    let (unit, rest): (Unit, _) = match mark {
+        b"\xff\xfe" => (u16::from_le_bytes, rest),
+        b"\xfe\xff" => (u16::from_be_bytes, rest),
+        _ => {
+            let (pairs, _) = bytes.get(..64)?.as_chunks::<2>();
+            let readable = |b: u8| matches!(b, b' '..=b'~' | b'\t' | b'\n' | b'\r');
+            let unit = if pairs.iter().all(|[low, high]| *high == 0 && readable(*low)) {
+                u16::from_le_bytes
+            } else if pairs.iter().all(|[high, low]| *high == 0 && readable(*low)) {
+                u16::from_be_bytes
+            } else {
+                return None;
+            };
+            (unit as Unit, bytes)
+        }
     };
     let decode = |bytes: &[u8]| {
         let units = bytes.as_chunks::<2>().0.iter().map(|pair| unit(*pair));

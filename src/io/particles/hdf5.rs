@@ -209,41 +209,104 @@ fn type_of(dataset: &Dataset) -> AttributeType {
     }
 }
 
+/// Rows that are read at a time, if the dataset is not stored in larger chunks.
+const ROWS: u64 = 1 << 17;
+
+/// What to read one after the other: as many rows as are unpacked together, so that no others are held in memory.
+fn selections(dataset: &Dataset, rows: &Rows) -> Vec<SliceInfo> {
+    let all = SliceInfoElem::Slice { start: 0, end: u64::MAX, step: 1 };
+    let of = |first: Option<SliceInfoElem>| {
+        let mut selections = vec![all.clone(); dataset.ndim()];
+        if let (Some(to), Some(first)) = (selections.first_mut(), first) {
+            *to = first;
+        }
+        SliceInfo { selections }
+    };
+    let total = dataset.shape().first().copied().unwrap_or(0);
+    let (start, end) = match rows {
+        Rows::Frame(frame) => return vec![of(Some(SliceInfoElem::Index(*frame)))],
+        Rows::All => (0, total),
+        Rows::Some(rows) => (rows.start, rows.end.min(total)),
+    };
+    if end.saturating_sub(start) <= ROWS {
+        let first = SliceInfoElem::Slice { start, end, step: 1 };
+        return vec![of(Some(first).filter(|_| matches!(rows, Rows::Some(_))))];
+    }
+    let chunk = dataset.chunks().and_then(|chunks| chunks.first().copied()).unwrap_or(1).max(1);
+    let step = ROWS.div_ceil(u64::from(chunk)).saturating_mul(u64::from(chunk));
+    let mut parts = Vec::new();
+    let mut at = start;
+    while at < end {
+        // Up to where a chunk ends.
+        let next = (at / step).saturating_add(1).saturating_mul(step).min(end);
+        parts.push(of(Some(SliceInfoElem::Slice { start: at, end: next, step: 1 })));
+        at = next;
+    }
+    parts
+}
+
 /// Reads values of a dataset.
 fn numbers(dataset: &Dataset, ty: AttributeType, rows: &Rows) -> Result<Data, ReadError> {
     use AttributeType as T;
-    let all = SliceInfoElem::Slice { start: 0, end: u64::MAX, step: 1 };
-    let mut selections = vec![all; dataset.ndim()];
-    if let Some(first) = selections.first_mut() {
-        *first = match rows {
-            Rows::All => first.clone(),
-            Rows::Some(rows) => SliceInfoElem::Slice { start: rows.start, end: rows.end, step: 1 },
-            Rows::Frame(frame) => SliceInfoElem::Index(*frame),
-        };
+    if ty.size().is_none() || ty == T::F16 {
+        return Ok(Data::NONE);
     }
-    let selection = SliceInfo { selections };
-    /// Reads values of one type and converts them.
-    macro_rules! read {
-        ($number:ty, $data:ident, $target:ty) => {{
-            let read = dataset.read_slice::<$number>(&selection).map_err(failed)?;
-            Data::$data(read.iter().map(|x| *x as $target).collect())
-        }};
-    }
-    Ok(match ty {
-        T::F32 => read!(f32, F32, f32),
-        T::F64 => read!(f64, F64, f64),
-        T::I8 => read!(i8, Int, i64),
-        T::U8 => read!(u8, Int, i64),
-        T::I16 => read!(i16, Int, i64),
-        T::U16 => read!(u16, Int, i64),
-        T::I32 => read!(i32, Int, i64),
-        T::U32 => read!(u32, Int, i64),
-        T::I64 => read!(i64, Int, i64),
-        T::U64 => {
-            let read = dataset.read_slice::<u64>(&selection).map_err(failed)?;
-            Data::Int(read.iter().map(|x| i64::try_from(*x).unwrap_or(i64::MAX)).collect())
+    let mut data = Data::for_type(ty);
+    for selection in selections(dataset, rows) {
+        /// Reads values of one type and converts them.
+        macro_rules! read {
+            ($number:ty, $v:ident, $target:ty) => {{
+                let read = dataset.read_slice::<$number>(&selection).map_err(failed)?;
+                $v.extend(read.iter().map(|x| *x as $target));
+            }};
         }
-        _ => Data::NONE,
+        match (&mut data, ty) {
+            (Data::F32(v), T::F32) => read!(f32, v, f32),
+            (Data::F64(v), T::F64) => read!(f64, v, f64),
+            (Data::Int(v), T::I8) => read!(i8, v, i64),
+            (Data::Int(v), T::U8) => read!(u8, v, i64),
+            (Data::Int(v), T::I16) => read!(i16, v, i64),
+            (Data::Int(v), T::U16) => read!(u16, v, i64),
+            (Data::Int(v), T::I32) => read!(i32, v, i64),
+            (Data::Int(v), T::U32) => read!(u32, v, i64),
+            (Data::Int(v), T::I64) => read!(i64, v, i64),
+            (Data::Int(v), T::U64) => {
+                let read = dataset.read_slice::<u64>(&selection).map_err(failed)?;
+                v.extend(read.iter().map(|x| i64::try_from(*x).unwrap_or(i64::MAX)));
+            }
+            _ => {}
+        }
+    }
+    Ok(data)
+}
+
+/// Memory that a process may still take, in bytes; `None` where the system does not say so.
+fn memory_left() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
+}
+
+/// Bytes of a frame from which the memory is looked at.
+const LARGE: u64 = 1 << 28;
+
+/// Refuses a frame that does not fit in memory: HDF5 is not read in parts.
+fn fits(particles: u64, bytes: u64) -> Result<(), ReadError> {
+    if bytes < LARGE {
+        return Ok(());
+    }
+    // A probe that is limited by the process; a system may promise more than it has.
+    let mut probe: Vec<u8> = Vec::new();
+    let probed = usize::try_from(bytes).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
+    if probed && memory_left().is_none_or(|left| bytes <= left) {
+        return Ok(());
+    }
+    let mib = |bytes: u64| bytes >> 20;
+    let left =
+        memory_left().map_or(String::new(), |left| format!(" of {} MiB that are free", mib(left)));
+    Err(ReadError::Unsupported {
+        what: format!("a frame of {particles} particles, which takes {} MiB{left},", mib(bytes)),
+        advice: "write it as VTU, PLY, NPZ or BGEO, which are read in parts, or as several frames",
     })
 }
 
@@ -303,6 +366,16 @@ impl Frame {
             ));
         }
         let parts: Vec<Part> = parts.into_iter().map(Part::without_empty).collect();
+        // As it is read, as particles, and as much for what is found by them: 4 times was measured.
+        let wanted = parts.iter().flat_map(|part| &part.arrays).filter(|a| asked.wants(&a.name));
+        let values = wanted.clone().map(|array| {
+            let (rows, components) = array.shape();
+            rows.saturating_mul(components as u64)
+                .saturating_mul(type_of(&array.dataset).size().unwrap_or(0).max(4))
+        });
+        let bytes = values.fold(0_u64, u64::saturating_add).saturating_mul(4);
+        let particles = wanted.map(|array| array.shape().0).max().unwrap_or(0);
+        fits(particles, bytes)?;
         let mut all: Vec<(String, usize, Data, usize)> = Vec::new();
         let count = parts.len();
         for (i, part) in parts.into_iter().enumerate() {

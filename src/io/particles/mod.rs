@@ -102,8 +102,8 @@ pub struct Particles {
     pub velocities: Option<Vec<[f32; 3]>>,
     /// Mass densities, in the file's unit.
     pub densities: Option<Vec<f32>>,
-    /// Numbers that stay with a particle from frame to frame. Negative, fractional or too large ones are
-    /// dropped, with a warning.
+    /// Numbers that stay with a particle from frame to frame. Those beyond 32 bits are kept modulo 2^32;
+    /// negative and fractional ones, and ids that repeat, are dropped with a warning.
     pub ids: Option<Vec<u32>>,
     /// Remaining lifetime of whitewater particles. At or below zero a particle dies with the next frame.
     pub lifetimes: Option<Vec<f32>>,
@@ -262,7 +262,7 @@ fn read_plain(
     gzip: bool,
     asked: &Asked,
 ) -> Result<Particles, ReadError> {
-    if let Some(text) = format::from_utf16(bytes) {
+    if let Some(text) = format::as_lines(bytes) {
         return read_plain(&text, hint, gzip, asked);
     }
     #[cfg(feature = "hdf5")]

@@ -23,10 +23,24 @@ pub(super) const POSITION: Names = &[
     "x",
     "xp",
     "p",
+    "r",
 ];
-pub(super) const VELOCITY: Names =
-    &["velocity", "velocities", "vel", "vels", "velo", "v", "vp", "u"];
-pub(super) const DENSITY: Names = &["density", "densities", "rho", "rhop", "dens", "massdensity"];
+pub(super) const VELOCITY: Names = &[
+    "velocity",
+    "velocities",
+    "vel",
+    "vels",
+    "velo",
+    "linearvelocity",
+    "linvel",
+    "v",
+    "vp",
+    "pv",
+    "u",
+    "speed",
+];
+pub(super) const DENSITY: Names =
+    &["density", "densities", "rho", "rhop", "dens", "massdensity", "ρ"];
 pub(super) const ID: Names = &[
     "id",
     "ids",
@@ -43,6 +57,10 @@ pub(super) const ID: Names = &[
     "originalid",
     "origid",
     "index",
+    "particlenumber",
+    "particleindex",
+    "atomid",
+    "label",
 ];
 pub(super) const LIFETIME: Names = &["lifetime", "life"];
 pub(super) const KIND: Names = &["type"];
@@ -105,8 +123,17 @@ pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
         });
         suffixes.map(move |suffixes| suffixes.map(|suffix| format!("{base}{suffix}")))
     });
-    let uvw = (names == VELOCITY).then(|| ["u", "v", "w"].map(String::from));
-    split.chain(uvw)
+    // `X_vel`, `x-coordinate`: not of short names, which are others.
+    let long = names.iter().copied().filter(|base| base.len() > 2);
+    let before = long.map(|base| ["x", "y", "z"].map(|axis| format!("{axis}{base}")));
+    let own: &[[&str; 3]] = match position {
+        true => &[["easting", "northing", "elevation"], ["easting", "northing", "height"]],
+        false if names == VELOCITY => {
+            &[["u", "v", "w"], ["xdot", "ydot", "zdot"], ["dx/dt", "dy/dt", "dz/dt"]]
+        }
+        false => &[],
+    };
+    split.chain(before).chain(own.iter().map(|names| names.map(String::from)))
 }
 
 /// Whether a plain name has a meaning.
@@ -147,6 +174,12 @@ pub(super) fn may_have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     names.iter().any(whole) || have_positions(names)
 }
 
+/// Whether an attribute with this name may be text, because nothing that is drawn depends on its numbers.
+pub(super) fn may_be_text(name: &str) -> bool {
+    let plain = plain(name);
+    KIND.contains(&plain.as_str()) || STEP.contains(&plain.as_str()) || !known(&plain)
+}
+
 /// Whether an attribute with this name may be a time, which need not be a number.
 pub(super) fn is_step(name: &str) -> bool {
     STEP.contains(&plain(name).as_str())
@@ -156,8 +189,7 @@ pub(super) fn is_step(name: &str) -> bool {
 /// of names from other lines.
 pub(super) fn have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     let plain: Vec<String> = names.iter().map(|name| plain(name.as_ref())).collect();
-    triples(POSITION)
-        .any(|[x, y, z]| plain.contains(&x) && (plain.contains(&y) || plain.contains(&z)))
+    triples(POSITION).any(|names| names.iter().filter(|name| plain.contains(name)).count() > 1)
 }
 
 #[cfg(test)]
@@ -193,7 +225,24 @@ mod tests {
 
     #[test]
     fn what_is_wanted() {
-        for name in ["U", "u", "v_3", "v_0", "Idp", "origId", "Rhop", "Part id", "ux", "VX", "w"] {
+        for name in [
+            "U",
+            "u",
+            "v_3",
+            "v_0",
+            "Idp",
+            "origId",
+            "Rhop",
+            "Part id",
+            "ux",
+            "VX",
+            "w",
+            "X_vel",
+            "y-coordinate",
+            "rz",
+            "Northing",
+            "Speed_Y",
+        ] {
             assert!(known(&plain(name)), "{name}");
         }
         for name in ["xx", "d", "PART", "mass", "nx", "Points_Magnitude", "v_4", "v_mag", "", "age"]

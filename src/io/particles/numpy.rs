@@ -274,6 +274,9 @@ fn of_positions(cursor: &mut Cursor<'_>, asked: &Asked) -> Result<Header, ReadEr
     let header = header(cursor)?;
     let frame = header.frames(false).and_then(|count| one(asked, count));
     let header = header.of_frame(frame, true);
+    if header.descr.ends_with('O') {
+        return Err(header.unsupported(NPY));
+    }
     if !header.structured && header.rowed(NPY, true)?.components < 2 {
         return Err(ReadError::Unsupported {
             what: format!("an array of shape {}", header.words()),

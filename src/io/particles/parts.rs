@@ -306,7 +306,7 @@ pub(super) fn plan<'a>(
     if !all && start.trim_ascii_start().len() < start.len() / 2 {
         return Ok(None);
     }
-    if format::from_utf16(&start).is_some() {
+    if format::as_lines(&start).is_some() {
         return Ok(None);
     }
     let reader = match format::detect(&start, hint) {

@@ -144,7 +144,8 @@ pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
 /// is the last run of digits in its name that differs between files, so `run2_frame_10` is frame 10; for a
 /// pattern with `%d` it is the number there. If all file names are alike, the number is in their folders
 /// (`10/cloud.vtp`). A number with a point or an exponent is a time, and a minus after another sign belongs to
-/// it (`step--1`). Times order the frames, which are then counted from 0.
+/// it (`step--1`). Times order the frames, which are then counted from 0. A number behind `rank`, `proc` and
+/// the like is that of a process, whose file is a part of a frame.
 ///
 /// # Errors
 /// Says which input gave nothing, and what is there instead. Every input must give a file.
@@ -442,14 +443,29 @@ impl Named {
         }
     }
 
-    fn numbers(&self, level: usize) -> Vec<&Number> {
-        let parts = self.levels.get(level).into_iter().flatten();
-        let numbers = parts.filter_map(|part| match part {
-            Part::Number(number) => Some(number),
-            Part::Text(_) => None,
-        });
-        numbers.collect()
+    /// The numbers of a level that are not those of processes, and whether it has such.
+    fn numbers(&self, level: usize) -> (Vec<&Number>, bool) {
+        let (mut numbers, mut ranked, mut before) = (Vec::new(), false, "");
+        for part in self.levels.get(level).into_iter().flatten() {
+            match part {
+                Part::Number(number) if !is_rank(before) => numbers.push(number),
+                Part::Number(_) => ranked = true,
+                Part::Text(text) => before = text,
+            }
+        }
+        (numbers, ranked)
     }
+}
+
+/// Words before the number of a process, which writes a part of each frame.
+const RANKS: [&str; 9] =
+    ["rank", "proc", "processor", "process", "piece", "mpi", "cpu", "subdomain", "thread"];
+
+/// Whether a number behind this text, as in `fluid_10_rank0`, is that of a process, which writes a part of each frame.
+pub fn is_rank(text: &str) -> bool {
+    let text = text.trim_end_matches(['_', '-', '.', '=']);
+    let word = text.rsplit(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or(text);
+    RANKS.iter().any(|rank| word.eq_ignore_ascii_case(rank))
 }
 
 /// The name of a file without extension, and without a second one if the last is `gz` or `sc`.
@@ -563,7 +579,8 @@ fn compare(a: &[Part], b: &[Part]) -> Ordering {
 fn telling(named: &[Named]) -> Option<Vec<Number>> {
     let depth = named.iter().map(|named| named.levels.len()).min().unwrap_or(0);
     for level in 0..depth {
-        let numbers: Vec<_> = named.iter().map(|named| named.numbers(level)).collect();
+        let ranked = named.iter().any(|named| named.numbers(level).1);
+        let numbers: Vec<_> = named.iter().map(|named| named.numbers(level).0).collect();
         let runs = numbers.first().map_or(0, Vec::len);
         let same = numbers.iter().all(|n| n.len() == runs);
         let first = |run: usize| numbers.first().and_then(|first| first.get(run).copied());
@@ -599,6 +616,10 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
         let text = |parts: Option<&Vec<Part>>| parts.cloned();
         let other = names.clone().any(|n| text(n) != text(names.clone().next().flatten()));
         if other {
+            if runs == 0 && ranked {
+                // Parts of one frame.
+                return Some(vec![Number::parse("0")?; named.len()]);
+            }
             return if runs > 0 { numbers.iter().map(own).collect() } else { None };
         }
     }

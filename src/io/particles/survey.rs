@@ -7,6 +7,9 @@ use super::columns::{Column, Data, Extra, Roles, Vector};
 use super::error::ReadError;
 use super::{Format, Particles};
 
+/// Converts values to integers.
+type Whole = fn(&Data) -> Result<Vec<u32>, usize>;
+
 /// The columns of some particles.
 pub(super) struct Columns(Vec<Column>);
 
@@ -31,7 +34,7 @@ impl Columns {
         let values = |column: usize| self.0.get(column).map_or(0, |c| c.data.len());
         match vector {
             Vector::Whole(column, components) => values(column) / components.max(1),
-            Vector::Split([x, ..]) => x.map_or(0, values),
+            Vector::Split(columns) => columns.into_iter().flatten().next().map_or(0, values),
         }
     }
 
@@ -311,18 +314,18 @@ impl Survey {
         let velocities = roles.velocities.map(|v| columns.take_vectors(v, [0.0; 3]));
         let mut scalar = |column: Option<usize>| column.map(|c| columns.take(c).into_f32());
         let (densities, lifetimes) = (scalar(roles.densities), scalar(roles.lifetimes));
-        let mut whole = |column: Option<usize>, dropped: &mut Option<Dropped>| {
+        let mut whole = |column: Option<usize>, to: Whole, dropped: &mut Option<Dropped>| {
             let column = column?;
             let data = columns.take(column);
-            let values = data.to_u32().map_err(|i| Dropped {
+            let values = to(&data).map_err(|i| Dropped {
                 attribute: columns.0.get(column).map_or(String::new(), |c| c.name.clone()),
                 value: data.f64(i).unwrap_or(f64::NAN),
                 particle: self.seen + i,
             });
             values.map_err(|first| dropped.get_or_insert(first)).ok()
         };
-        let ids = whole(roles.ids, &mut self.ids);
-        let kinds = whole(roles.kinds, &mut self.kinds);
+        let ids = whole(roles.ids, Data::to_ids, &mut self.ids);
+        let kinds = whole(roles.kinds, Data::to_u32, &mut self.kinds);
         if let (Some(column), None) = (roles.ids, &self.numbered) {
             self.numbered = columns.0.get(column).map(|column| column.name.clone());
         }
@@ -404,14 +407,13 @@ impl Survey {
                 self.kept()
             )
         });
-        let dropped = [&self.ids, &self.kinds].into_iter().flatten().map(|dropped| {
-            format!(
-                "attribute `{}` is dropped: value {} of particle {} is no whole number from 0 to {}",
-                dropped.attribute,
-                dropped.value,
-                dropped.particle,
-                u32::MAX
-            )
+        let dropped =
+            [(&self.ids, " from 0 on"), (&self.kinds, " from 0 to 4294967295")].into_iter();
+        let dropped = dropped.filter_map(|(dropped, limits)| {
+            let Dropped { attribute, value, particle } = dropped.as_ref()?;
+            Some(format!(
+                "attribute `{attribute}` is dropped: value {value} of particle {particle} is no whole number{limits}"
+            ))
         });
         let repeated = (self.ids.is_none() && self.repeated_ids()).then(|| {
             format!(

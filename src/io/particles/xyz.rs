@@ -465,7 +465,7 @@ fn row(
             continue;
         }
         let value = number_with_comma(word).filter(|_| !commas);
-        let value = value.or_else(|| names::is_step(&column.name).then_some(f64::NAN));
+        let value = value.or_else(|| names::may_be_text(&column.name).then_some(f64::NAN));
         if !value.is_some_and(|x| column.data.push_number(x)) {
             return Err(bad_line(line, number));
         }
@@ -487,6 +487,11 @@ fn number(word: &[u8]) -> Option<f64> {
 
 /// `commas`: whether commas separate words; otherwise they are decimal commas.
 fn words(line: &[u8], commas: bool) -> impl Iterator<Item = &[u8]> {
-    line.split(move |b| b.is_ascii_whitespace() || (commas && *b == b',') || *b == b';')
-        .filter(|word| !word.is_empty())
+    // Vectors may stand in brackets.
+    let between = move |b: &u8| match b {
+        b',' => commas,
+        b';' | b'(' | b')' | b'[' | b']' => true,
+        b => b.is_ascii_whitespace(),
+    };
+    line.split(between).filter(|word| !word.is_empty())
 }

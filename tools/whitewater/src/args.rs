@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::bubbles::Which as Bubbles;
 use crate::extras::Condition;
+use crate::fluids::FluidArg;
 use crate::pattern::Source;
 use crate::settings::{LookWord, MediumName};
 use crate::shore::Which as Shore;
@@ -122,6 +123,9 @@ pub struct RenderArgs {
     pub turntable: Option<Turntable>,
     /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale) [default: from
     /// the files, or estimated]
+    ///
+    /// It is that of all particles. Without it, where radii in the files differ by more than a quarter, larger particles are
+    /// drawn as several of the smallest ones, up to 8 times as many.
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
     /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]
@@ -162,6 +166,15 @@ pub struct RenderArgs {
     /// are in the same files.
     #[arg(long = "where", value_name = "NAME=VALUE", value_parser = crate::extras::condition)]
     pub conditions: Vec<Condition>,
+    /// Draw some particles as another liquid, such as 'Type=2:honey' or 'oil_*.vtk:beer:0.1'; several times for several fluids
+    ///
+    /// WHICH is a comparison as in --where, or files of the same frames, whose own water the inputs stay. LIQUID is a name
+    /// of --medium, 'water' for what is drawn without --fluid, or a settings file (.toml) over --settings. Once a fluid is
+    /// chosen by a comparison, particles that none chooses are not drawn. Each fluid is drawn over the picture of the
+    /// others, and a pixel shows the one in front with the others behind it, whose surface mirrors nothing there: two
+    /// fluids take 5 renders, three 10. No fluid casts shadows on another. Layers in EXR files are those of the first.
+    #[arg(long = "fluid", value_name = "WHICH:LIQUID", value_parser = crate::fluids::fluid, conflicts_with_all = ["whitewater", "bubbles", "shore"])]
+    pub fluids: Vec<FluidArg>,
     /// Unit of lengths in the particle files, velocities included [default: m]
     ///
     /// All other lengths (--radius, --eye, --scene) are in metres.

@@ -405,6 +405,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let look = Look {
         camera,
         settings,
+        fluids: Vec::new(),
         file,
         environment,
         scene,

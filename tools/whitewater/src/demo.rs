@@ -84,6 +84,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let look = Look {
         camera,
         settings,
+        fluids: Vec::new(),
         photograph: !file.is_thesis(),
         file,
         environment,

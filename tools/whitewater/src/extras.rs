@@ -1,4 +1,4 @@
-//! Additional attributes: those that separate walls from water, and radii.
+//! Additional attributes: those that separate walls from water.
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
@@ -8,9 +8,11 @@ use whitewater::io::particles::sequence::Frame;
 use whitewater::io::particles::{self, Extra, Particles, same_name};
 
 use crate::failure::{Failure, Outcome};
+use crate::fluids::Fluids;
+use crate::radii::{DIAMETERS, RADII};
 
 /// Names of what tells phases, or walls from water.
-const PHASES: [&str; 13] = [
+const PHASES: [&str; 34] = [
     "type",
     "mk",
     "phase",
@@ -24,11 +26,28 @@ const PHASES: [&str; 13] = [
     "marker",
     "ptype",
     "zone",
+    "material id",
+    "mat",
+    "mat id",
+    "species",
+    "color",
+    "colour",
+    "group",
+    "group id",
+    "body",
+    "body id",
+    "itype",
+    "atype",
+    "kind",
+    "nature",
+    "class",
+    "component",
+    "is fluid",
+    "is solid",
+    "boundary type",
+    "particle kind",
+    "fluid type",
 ];
-/// Names of radii.
-const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];
-/// Names of twice that: of LAMMPS, and of OpenFOAM's clouds.
-const DIAMETERS: [&str; 3] = ["diameter", "diam", "d"];
 /// An attribute that tells phases has no more values.
 const MOST: usize = 16;
 /// Share of positions that are there twice, from which on copies are left out.
@@ -79,7 +98,33 @@ pub fn condition(text: &str) -> Result<Condition, String> {
 }
 
 impl Condition {
-    fn holds(&self, value: f64) -> bool {
+    /// The attribute that is compared.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The values of that attribute; `what`: the argument, for the error where there is none.
+    pub fn values<'p>(
+        &self,
+        particles: &'p Particles,
+        what: &str,
+        path: &Path,
+    ) -> Outcome<&'p [f64]> {
+        if let Some(extra) = find(particles, &self.name) {
+            return Ok(&extra.values);
+        }
+        let names = particles.attributes.iter().map(|a| a.name.as_str());
+        let names: Vec<_> = names.take(24).collect();
+        Err(Failure::input(format!(
+            "{what}: {}: expected an attribute `{}` of one number for each particle, found {}",
+            path.display(),
+            self.name,
+            names.join(", ")
+        )))
+    }
+
+    /// Whether a value satisfies it.
+    pub fn holds(&self, value: f64) -> bool {
         match self.compare {
             Compare::Is => value == self.value,
             Compare::IsNot => value != self.value,
@@ -92,16 +137,23 @@ impl Condition {
 }
 
 /// Reads a frame with what is looked at here.
-pub fn read(frame: &Frame, conditions: &[Condition]) -> Outcome<Particles> {
-    let asked = conditions.iter().map(|condition| condition.name.as_str());
+pub fn read(frame: &Frame, conditions: &[Condition], fluids: &Fluids) -> Outcome<Particles> {
+    let asked = conditions.iter().map(Condition::name).chain(fluids.names());
     let radii = RADII.into_iter().chain(DIAMETERS);
     let names: Vec<&str> = PHASES.into_iter().chain(radii).chain(asked).collect();
     if let Some(step) = frame.step {
-        return Ok(particles::read_step(&frame.path, step, &names)?);
+        let mut all = particles::read_step(&frame.path, step, &names)?;
+        fluids.mark(&frame.path, &mut all);
+        return Ok(all);
     }
-    let mut all = particles::read_with(&frame.path, &names)?;
+    let read = |path: &Path| -> Outcome<Particles> {
+        let mut part = particles::read_with(path, &names)?;
+        fluids.mark(path, &mut part);
+        Ok(part)
+    };
+    let mut all = read(&frame.path)?;
     for path in &frame.also {
-        all.append(particles::read_with(path, &names)?);
+        all.append(read(path)?);
     }
     Ok(all)
 }
@@ -111,26 +163,17 @@ pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) 
     let count = particles.positions.len();
     let mut kept = vec![true; count];
     for condition in conditions {
-        let bad = |why: String| {
-            Failure::input(format!("--where '{}': {}: {why}", condition.text, path.display()))
-        };
-        let Some(extra) = find(particles, &condition.name) else {
-            let names = particles.attributes.iter().map(|a| a.name.as_str());
-            let names: Vec<_> = names.take(24).collect();
-            return Err(bad(format!(
-                "expected an attribute `{}` of one number for each particle, found {}",
-                condition.name,
-                names.join(", ")
-            )));
-        };
-        kept.iter_mut()
-            .zip(&extra.values)
-            .for_each(|(kept, value)| *kept &= condition.holds(*value));
+        let what = format!("--where '{}'", condition.text);
+        let values = condition.values(particles, &what, path)?;
+        kept.iter_mut().zip(values).for_each(|(kept, value)| *kept &= condition.holds(*value));
         if !kept.contains(&true) {
-            let found = values(extra).map_or(String::new(), |values| {
+            let found = whole(values).map_or(String::new(), |values| {
                 format!(", whose values are {}", list(values.keys().map(|v| number(*v))))
             });
-            return Err(bad(format!("expected some of the {count} particles, found none{found}")));
+            let path = path.display();
+            return Err(Failure::input(format!(
+                "{what}: {path}: expected some of the {count} particles, found none{found}"
+            )));
         }
     }
     if kept.contains(&false) {
@@ -139,14 +182,15 @@ pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) 
     Ok(())
 }
 
-fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
+/// An attribute that was asked for.
+pub fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
     particles.extras.iter().find(|extra| same_name(&extra.name, name))
 }
 
 /// Values as numbers of whole value, and how many particles have each; none of what is no such thing.
-fn values(extra: &Extra) -> Option<BTreeMap<i64, usize>> {
+fn whole(values: &[f64]) -> Option<BTreeMap<i64, usize>> {
     let mut counts = BTreeMap::new();
-    for value in &extra.values {
+    for value in values {
         if value.fract() != 0.0 || value.abs() > 1.0e9 {
             return None;
         }
@@ -176,12 +220,13 @@ fn list(words: impl Iterator<Item = String>) -> String {
 pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
     let phase = |extra: &&Extra| PHASES.iter().any(|name| same_name(&extra.name, name));
     let all = particles.extras.iter().filter(phase);
-    all.filter_map(|extra| Some((extra.name.as_str(), values(extra)?))).collect()
+    all.filter_map(|extra| Some((extra.name.as_str(), whole(&extra.values)?))).collect()
 }
 
 /// A word on attributes that tell phases, of which all are drawn as one water.
-pub fn told(particles: &Particles, conditions: &[Condition]) -> Vec<String> {
-    let asked = |name: &str| conditions.iter().any(|condition| same_name(&condition.name, name));
+pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) -> Vec<String> {
+    let mut known = conditions.iter().map(Condition::name).chain(fluids.names());
+    let mut asked = |name: &str| known.any(|known| same_name(known, name));
     let several = phases(particles).into_iter();
     let several = several.filter(|(name, values)| values.len() > 1 && !asked(name));
     let line = |(name, values): (&str, BTreeMap<i64, usize>)| {
@@ -189,11 +234,23 @@ pub fn told(particles: &Particles, conditions: &[Condition]) -> Vec<String> {
         let liquid = liquid(particles, name, &values);
         format!(
             "attribute `{name}` has the values {}, all drawn as one water: walls, or other phases, are drawn too unless \
-             --where '{name}={liquid}' (or another of them) leaves them out",
+             --where '{name}={liquid}' (or another of them) leaves them out; --fluid '{name}={liquid}:water' and the like give \
+             several fluids a look each",
             list(each)
         )
     };
-    several.map(line).collect()
+    let text = |extra: &&Extra| {
+        let phase = PHASES.iter().any(|name| same_name(&extra.name, name));
+        phase && !extra.values.is_empty() && extra.values.iter().all(|value| value.is_nan())
+    };
+    let text = particles.extras.iter().filter(text).map(|extra| {
+        let name = &extra.name;
+        format!(
+            "attribute `{name}` holds words, which tell nothing apart here: all is drawn as one water (numbers in their place \
+             can be told by --where)"
+        )
+    });
+    several.map(line).chain(text).collect()
 }
 
 /// The value of what moves most; without velocities, of most particles.
@@ -210,22 +267,6 @@ fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i
     let most = values.iter().map(|(value, count)| (speed(*value), *count, *value));
     let most = most.max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     most.map_or(0, |(_, _, value)| value)
-}
-
-/// The smallest radius of the particles, the middle one and the largest, in the unit of the file.
-pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
-    let radius = RADII.iter().find_map(|name| Some((find(particles, name)?, 1.0)));
-    let diameter = || DIAMETERS.iter().find_map(|name| Some((find(particles, name)?, 0.5)));
-    let (extra, of) = radius.or_else(diameter)?;
-    let mut radii: Vec<f32> = extra.values.iter().map(|r| (of * *r) as f32).collect();
-    radii.retain(|radius| radius.is_finite() && *radius > 0.0);
-    radii.sort_unstable_by(f32::total_cmp);
-    Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
-}
-
-/// Whether an attribute is taken for radii.
-pub fn is_radius(name: &str) -> bool {
-    RADII.iter().chain(&DIAMETERS).any(|radius| same_name(radius, name))
 }
 
 /// Leaves one of particles that are at one place, where many are; says how many went.
@@ -273,7 +314,7 @@ mod tests {
     #[test]
     fn walls_are_told_and_left_out() {
         let particles = walls();
-        let told_of = |conditions: &[Condition]| told(&particles, conditions);
+        let told_of = |conditions: &[Condition]| told(&particles, conditions, &Fluids::default());
         let [line] = &told_of(&[])[..] else { panic!("{:?}", told_of(&[])) };
         for part in ["`Type` has the values 0 (7 particles) and 3 (3 particles)", "'Type=3'"] {
             assert!(line.contains(part), "{line}");

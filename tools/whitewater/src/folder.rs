@@ -240,6 +240,8 @@ fn readable(name: &str) -> bool {
 
 /// A name with `*` in the place of its last number.
 fn pattern(name: &str) -> String {
+    let name = without_ranks(name);
+    let name = name.as_str();
     let stem =
         name.find('.').filter(|at| *at > 0 && !name.starts_with("dump.")).unwrap_or(name.len());
     let digits = |c: char| c.is_ascii_digit();
@@ -253,6 +255,19 @@ fn pattern(name: &str) -> String {
     };
     let start = name[..=before].rfind(|c: char| !digits(c)).map_or(0, |at| at + 1);
     format!("{}*{}", &name[..start], &name[after..])
+}
+
+/// A name with `*` in the place of the numbers of processes.
+fn without_ranks(name: &str) -> String {
+    let (mut out, mut rest) = (String::new(), name);
+    while let Some(at) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (text, number) = rest.split_at(at);
+        let end = number.find(|c: char| !c.is_ascii_digit()).unwrap_or(number.len());
+        out.push_str(text);
+        out.push_str(if sequence::is_rank(text) { "*" } else { &number[..end] });
+        rest = &number[end..];
+    }
+    out + rest
 }
 
 /// What to do with a file of a program that writes none of what is read here.
@@ -286,6 +301,8 @@ mod tests {
             ("dump.500.lammpstrj", "dump.*.lammpstrj"),
             ("cloud.vtp", "cloud.vtp"),
             ("8.csv", "*.csv"),
+            ("fluid_10_rank0.csv", "fluid_*_rank*.csv"),
+            ("f_proc3.vtu", "f_proc*.vtu"),
         ] {
             assert_eq!(pattern(name), expected);
         }

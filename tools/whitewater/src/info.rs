@@ -10,10 +10,12 @@ use crate::args::InfoArgs;
 use crate::bounds::Bounds;
 use crate::extras;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::fluids::Fluids;
 use crate::folder;
 use crate::frames;
 use crate::out;
 use crate::placing;
+use crate::radii;
 use crate::reader::Has;
 use crate::upright;
 
@@ -25,7 +27,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     let mut failed = Vec::new();
     for frame in &frames {
         let path = frame.path.display().to_string();
-        match extras::read(frame, &[]) {
+        match extras::read(frame, &[], &Fluids::default()) {
             Ok(particles) => {
                 let value = describe(&path, frame.number, &particles);
                 if args.json {
@@ -112,7 +114,7 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "density": particles.densities.as_deref().and_then(statistics),
         "attributes": attributes,
         "time": particles.time,
-        "radii": extras::radii(particles),
+        "radii": radii::radii(particles),
         "phases": phases,
         "missing": missing(Has::of(particles)),
         "unit": unit(particles),
@@ -142,8 +144,8 @@ fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
 
 /// What else is made of an attribute.
 fn beside(particles: &Particles, name: &str) -> Option<String> {
-    if extras::is_radius(name) {
-        return extras::radii(particles).map(|_| "radius".into());
+    if radii::is_radius(name) {
+        return radii::radii(particles).map(|_| "radius".into());
     }
     let times = ["time", "timestep", "time value", "step", "frame"];
     if particles.time.is_some() && times.iter().any(|time| particles::same_name(time, name)) {

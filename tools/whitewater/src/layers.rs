@@ -8,6 +8,7 @@ use whitewater::{Camera, Settings};
 
 use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
+use crate::fluids::Liquids;
 
 /// What can be asked for beside the beauty.
 const GROUPS: [&str; 30] = [
@@ -274,17 +275,28 @@ pub fn ladder(
     Ok(())
 }
 
+/// Has another picture as the beauty.
+pub fn show(layers: &mut Layers, picture: &Picture<[f32; 4]>) {
+    for (c, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+        let merged = merged(&picture.map(|v| v[c]), layers.width, Merge::Mean);
+        let channel = layers.channels.iter_mut().find(|channel| channel.name == name);
+        channel.into_iter().for_each(|channel| channel.data.clone_from(&merged.data));
+    }
+}
+
 /// Draws the frame, which was drawn before black, again before white: what it lets through is the difference, and the share
 /// that it hides goes to channel A (Smith and Blinn 1996, whose two backgrounds these are). Of water, which takes more of
 /// red than of blue, it is the mean of the channels.
 pub fn matte(
     headless: &mut Headless,
     camera: &Camera,
-    settings: &Settings,
+    liquids: &Liquids<'_>,
     layers: &mut Layers,
 ) -> Outcome<()> {
-    headless.render(camera, settings, &Background::Color([1.0; 3]))?;
-    let color = headless.color()?;
+    let color = match liquids.draw(headless, camera, &Background::Color([1.0; 3]))? {
+        Some(picture) => picture,
+        None => headless.color()?,
+    };
     let white = [0, 1, 2].map(|c| merged(&color.map(|v| v[c]), layers.width, Merge::Mean).data);
     let Some(black) = layers.rgb() else { return Ok(()) };
     let through = |i: usize| (0..3).map(|c| white[c][i] - black[i][c]).sum::<f32>() / 3.0;

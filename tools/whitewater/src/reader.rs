@@ -1,6 +1,7 @@
 //! The frames of `render` in drawing order: turned to y-up, with warnings about unusual data, and with
 //! velocities from frame to frame where the files have none.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 
 use glam::Vec3;
@@ -11,7 +12,9 @@ use crate::args::Up;
 use crate::bounds;
 use crate::extras::{self, Condition};
 use crate::failure::Outcome;
+use crate::fluids::Fluids;
 use crate::placing::Placing;
+use crate::radii::{self, Split};
 use crate::surface_foam::quantile;
 
 /// Frames a second, where that can't be found.
@@ -37,8 +40,11 @@ pub struct Reader<'a> {
     all: &'a [Frame],
     placing: Placing,
     conditions: &'a [Condition],
+    fluids: &'a Fluids,
     /// Radii of particles in the first frame that was read: the least, the middle one, the largest.
     pub radii: Option<[f32; 3]>,
+    /// How large particles are split, by the first frame that was read.
+    split: OnceCell<Option<Split>>,
     /// Frames a second, where velocities are to be found; else none are.
     fps: Option<f32>,
     last: Option<Known>,
@@ -54,14 +60,16 @@ impl<'a> Reader<'a> {
     pub fn new(
         all: &'a [Frame],
         placing: Placing,
-        conditions: &'a [Condition],
+        (conditions, fluids): (&'a [Condition], &'a Fluids),
         fps: Option<f32>,
     ) -> Self {
         Self {
             all,
             placing,
             conditions,
+            fluids,
             radii: None,
+            split: OnceCell::new(),
             fps,
             last: None,
             found_velocities: false,
@@ -84,7 +92,7 @@ impl<'a> Reader<'a> {
         self.seen = self.seen.or(own);
         if self.radii.is_none() {
             self.radii =
-                extras::radii(&particles).map(|radii| radii.map(|r| r * self.placing.scale));
+                radii::radii(&particles).map(|radii| radii.map(|r| r * self.placing.scale));
         }
         let lacks = self.expected.without(own);
         if let Some(fps) = self.fps
@@ -128,6 +136,16 @@ impl<'a> Reader<'a> {
         (seconds > LEAST && seconds < 1.0).then(|| (b.number - a.number) as f32 / seconds)
     }
 
+    /// The radius to which larger particles are split; none where all are alike.
+    pub fn base(&self) -> Option<f32> {
+        Some(self.split.get().copied()??.base * self.placing.scale)
+    }
+
+    /// Has particles drawn alike, whatever their radii.
+    pub fn alike(&mut self) {
+        self.split = OnceCell::from(None);
+    }
+
     /// Has frames turned from now on; those that were read are by whoever has them.
     pub fn turn(&mut self, up: Up) {
         self.placing.up = up;
@@ -141,15 +159,24 @@ impl<'a> Reader<'a> {
 
     /// A frame without what is found or told of it.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
-        let mut particles = extras::read(frame, self.conditions)?;
+        let mut particles = extras::read(frame, self.conditions, self.fluids)?;
         extras::select(&mut particles, self.conditions, &frame.path)?;
-        let told = extras::told(&particles, self.conditions);
+        let told = extras::told(&particles, self.conditions, self.fluids);
+        self.fluids.divide(&mut particles, &frame.path)?;
         let copies = extras::without_copies(&mut particles);
         particles.warnings.extend(told);
         if copies > 0 {
             particles
                 .warnings
                 .push(format!("{copies} copies of particles at the same place are left out"));
+        }
+        if let Some(split) = self.split.get_or_init(|| Split::of(&particles))
+            && let Some(count) = split.apply(&mut particles)
+        {
+            particles.warnings.push(format!(
+                "radii differ: {count} particles are drawn as {}, so many that each fills its part",
+                particles.positions.len()
+            ));
         }
         self.placing.place(&mut particles);
         Ok(particles)

@@ -1,5 +1,7 @@
 //! `whitewater render`: particle files to pictures, one or a sequence.
 
+use std::ops::Range;
+
 use glam::{Quat, Vec3};
 use whitewater::Settings;
 use whitewater::headless::scene::Scene;
@@ -14,6 +16,7 @@ use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Turn};
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::fluids::{self, Fluids};
 use crate::frames;
 use crate::generate::Generate;
 use crate::output;
@@ -54,7 +57,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         None => None,
     };
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let all = frames::expand(&args.inputs, args.join)?;
+    let mut all = frames::expand(&args.inputs, args.join)?;
+    let (fluids, said_of_fluids) = Fluids::find(&args.fluids, &mut all)?;
     let frames = frames::within(&all, range)?;
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
     // Of one file as many pictures as a turn has.
@@ -108,6 +112,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     if left.is_empty() {
         return Ok(());
     }
+    said_of_fluids.iter().for_each(|line| progress.say(line));
     let steps = progress.steps();
     let steps_of = |frames: &[Frame]| match frames {
         [first, .., last] => (last.number - first.number) as f32 / (frames.len() - 1) as f32,
@@ -138,7 +143,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let origin = all.first().and_then(|first| origin(first).ok());
     let origin = origin.unwrap_or_default();
     let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale, origin };
-    let mut reader = Reader::new(&all, placing, &args.conditions, fps);
+    let mut reader = Reader::new(&all, placing, (&args.conditions, &fluids), fps);
+    if args.radius.is_some() {
+        reader.alike();
+    }
     let by_time = if args.fps.is_none() { reader.rate() } else { None };
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
@@ -169,6 +177,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
             "velocities are not in the files: found by where particles are from frame to frame",
         );
     }
+    fluids.missing(&probes.frames).iter().for_each(|line| progress.say(line));
     if made || foams {
         probes.missing(all.len()).into_iter().for_each(|line| progress.say(&line));
     }
@@ -185,7 +194,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
-    let spacing = spacing(args, (&probes, reader.radii), &settings, &progress);
+    let spacing = spacing(args, (&probes, &reader), &settings, &progress);
     let files = steps
         .during("reading", || whitewater_source::Files::find(files, placing, single, spacing))?;
     if let Some(files) = &files {
@@ -200,6 +209,11 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         progress.say("--eye and --target are taken where the files have them, far from the origin");
     }
     let found = Found { camera, spacing, files, sheet };
+    // Those that are estimated are all in the unit of one rest density.
+    let told = probes.own.densities && settings.water.rest_density.is_none();
+    let own_densities: Vec<Option<f32>> = (0..fluids.count())
+        .map(|fluid| probes.rest_density_of((fluid, fluids.count())).filter(|_| told))
+        .collect();
     let look = steps.during("finding camera and light", || {
         look(args, sequence, &mut probes, found, settings, environment, &progress)
     })?;
@@ -208,7 +222,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         foam => foam,
     };
     let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
-    let look = Look { bubbles: foam, shores, ..look };
+    let several = fluids.settings(&look.settings, &own_densities)?;
+    let look = Look { fluids: several, bubbles: foam, shores, ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
     session.placing = placing;
@@ -457,7 +472,16 @@ impl Probes {
 
     /// In the unit of the file: 1000 where that fits, else what most of the particles have.
     fn rest_density(&self) -> Option<f32> {
-        let densities = self.frames.iter().find_map(|f| f.densities.as_ref())?;
+        self.rest_density_of((0, 1))
+    }
+
+    /// The same of one of so many fluids.
+    fn rest_density_of(&self, (fluid, count): (usize, usize)) -> Option<f32> {
+        let part = |frame: &'_ Particles| {
+            let Range { start, end } = fluids::ranges(frame, count).get(fluid)?.clone();
+            frame.densities.as_ref()?.get(start as usize..end as usize).map(<[f32]>::to_vec)
+        };
+        let densities = self.frames.iter().filter_map(part).find(|part| !part.is_empty())?;
         let mut sorted: Vec<f32> =
             densities.iter().copied().filter(|d| d.is_finite() && *d > 0.0).collect();
         sorted.sort_unstable_by(f32::total_cmp);
@@ -536,21 +560,22 @@ const LARGE: f32 = 10.0;
 /// The rest spacing: as it is said, or found.
 fn spacing(
     args: &RenderArgs,
-    (probes, radii): (&Probes, Option<[f32; 3]>),
+    (probes, reader): (&Probes, &Reader<'_>),
     file: &SettingsFile,
     progress: &Progress,
 ) -> f32 {
     match (args.radius, file.water.spacing) {
         (Some(radius), _) => 2.0 * radius,
         (None, Some(spacing)) => spacing,
-        (None, None) if radii.is_some() => {
-            let [least, radius, most] = radii.unwrap_or_default();
+        (None, None) if reader.radii.is_some() => {
+            let [least, middle, most] = reader.radii.unwrap_or_default();
+            let radius = reader.base().unwrap_or(middle);
             let differ = if most > 1.1 * least {
-                format!(
-                    "; those of the files go from {} to {}, and all are drawn alike",
-                    round(least),
-                    round(most)
-                )
+                let how = match reader.base() {
+                    Some(_) => "larger particles are drawn as several of this radius",
+                    None => "all are drawn alike",
+                };
+                format!("; they go from {} to {}, and {how}", round(least), round(most))
             } else {
                 String::new()
             };
@@ -899,7 +924,9 @@ fn look(
     Ok(Look {
         camera,
         settings,
-        photograph: !(sequence.is || sequence.still.is_some() || matte || file.is_thesis()),
+        fluids: Vec::new(),
+        photograph: args.fluids.is_empty()
+            && !(sequence.is || sequence.still.is_some() || matte || file.is_thesis()),
         file,
         environment,
         scene,

@@ -23,6 +23,7 @@ use crate::environment::{Environment, Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
 use crate::film::{self, Reel};
 use crate::films;
+use crate::fluids::Liquids;
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
 use crate::placing::Placing;
@@ -37,6 +38,8 @@ use crate::whitewater_source::{self, WhitewaterSource};
 pub struct Look {
     pub camera: CameraFile,
     pub settings: Settings,
+    /// Of several fluids those of each; empty, or one, where there is one.
+    pub fluids: Vec<Settings>,
     /// The file of settings: what in it chooses passes.
     pub file: SettingsFile,
     pub environment: Environment,
@@ -626,16 +629,18 @@ impl<'a> Session<'a> {
         self.look.settings.shore.time = time;
         let background =
             if self.look.matte { Background::Color([0.0; 3]) } else { Background::Scene };
+        let liquids = Liquids::new(&self.look.settings, &self.look.fluids, particles);
+        let mut picture = None;
         for _ in 0..self.args.repeat.get() {
-            times.step("draw", number, || {
-                headless.render(&camera, &self.look.settings, &background)
-            })?;
+            picture =
+                times.step("draw", number, || liquids.draw(headless, &camera, &background))?;
             times.passes(number, headless.timings());
         }
         let layers = times.step("read back", number, || {
             let mut layers = layers::collect(headless, self.args.size, &self.wanted, &lens)?;
+            picture.iter().for_each(|picture| layers::show(&mut layers, picture));
             if self.look.matte {
-                layers::matte(headless, &camera, &self.look.settings, &mut layers)?;
+                layers::matte(headless, &camera, &liquids, &mut layers)?;
             }
             if self.wanted.contains(&layers::LADDER) {
                 layers::ladder(headless, &camera, &self.look.settings, &mut layers)?;
@@ -652,10 +657,11 @@ impl<'a> Session<'a> {
             let shown = times.step("samples", number, || {
                 blur.draw(headless, particles, |headless, sample| {
                     let view = blur::through(&camera, sample, focus, self.args.size);
-                    headless.render(&view, &self.look.settings, &background)?;
+                    let picture = liquids.draw(headless, &view, &background)?;
                     let mut drawn = layers::collect(headless, self.args.size, &[], &lens)?;
+                    picture.iter().for_each(|picture| layers::show(&mut drawn, picture));
                     if self.look.matte {
-                        layers::matte(headless, &view, &self.look.settings, &mut drawn)?;
+                        layers::matte(headless, &view, &liquids, &mut drawn)?;
                     }
                     Ok(drawn)
                 })

@@ -1,6 +1,6 @@
 //! What people have: other axes and units, files that do not fit each other, and what is said of them.
 
-use super::support::{Folder, GROUND, SIZE, SMALL};
+use super::support::{Folder, GROUND, SIZE, SMALL, block};
 
 /// Water that slopes from a wall on the left down to a floor, which it falls to: positions and velocities, y up.
 fn slope() -> Vec<[[f32; 3]; 2]> {
@@ -161,11 +161,53 @@ fn radii_and_copies_of_particles_are_understood() {
     folder.text("twice.csv", &twice);
     let said = folder.run(&format!("render radii.csv -o r.png {SMALL}")).ok().stderr();
     assert!(
-        said.contains("radius 0.031 (of the files; those of the files go from 0.028 to 0.031"),
+        said.contains(
+            "radius 0.031 (of the files; they go from 0.028 to 0.031, and all are drawn alike"
+        ),
         "{said}"
     );
     let text = folder.run("info radii.csv").ok().stdout();
     assert!(text.contains("radius (number x 1): radius"), "{text}");
+    // A block of eight times the particles, half of them in one of twice the radius each.
+    let half: Vec<_> =
+        (0..6 * 6 * 6).map(|i| [i % 6, i / 6 % 6, i / 36].map(|i| 0.1 * i as f32)).collect();
+    let mut mixed = String::from("x,y,z,radius\n");
+    for [x, y, z] in half {
+        match x > 0.25 {
+            true => mixed += &format!("{x},{y},{z},0.05\n"),
+            false => {
+                for corner in 0..8_u8 {
+                    let [a, b, c] =
+                        [0, 1, 2].map(|axis| if corner >> axis & 1 == 1 { 0.025 } else { -0.025 });
+                    mixed += &format!("{},{},{},0.025\n", x + a, y + b, z + c);
+                }
+            }
+        }
+    }
+    folder.text("mixed.csv", &mixed);
+    let view =
+        "--eye 0.25,0.25,2.4 --target 0.25,0.25,0.25 --fov 20 --layers water.depth,water.thickness";
+    let said = folder.run(&format!("render mixed.csv -o m.exr {SMALL} {view}")).ok().stderr();
+    for part in [
+        "radius 0.025 (of the files; they go from 0.025 to 0.05, and larger",
+        "972 particles are drawn as 1728",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    // Both halves are as thick, within the unevenness of a few copies.
+    let picture = folder.picture("m.exr");
+    let thick = picture.channel("water.thickness").unwrap();
+    let mean = |from: usize| {
+        let rows = (20..44).flat_map(|y| (from..from + 12).map(move |x| thick[y * 96 + x]));
+        rows.sum::<f32>() / (24.0 * 12.0)
+    };
+    let (fine, coarse) = (mean(34), mean(50));
+    assert!((fine / coarse - 1.0).abs() < 0.15, "{fine} {coarse}");
+    let said = folder
+        .run(&format!("render mixed.csv -o a.exr {SMALL} {view} --radius 0.03"))
+        .ok()
+        .stderr();
+    assert!(!said.contains("are drawn as"), "{said}");
     let said = folder.run(&format!("render twice.csv -o t.png {SMALL}")).ok().stderr();
     let count = slope().len();
     for part in [
@@ -275,4 +317,76 @@ fn frames_in_one_file_and_files_of_one_frame() {
     folder.run(&format!("{halves} --join")).ok();
     folder.run(&format!("render whole_1.csv -o e.exr {common}")).ok();
     folder.run("compare d.exr e.exr").ok();
+}
+
+/// Fluids are drawn each with its look: one that is all is as without it, and of two the nearer is in front, from both sides.
+#[test]
+fn several_fluids_are_drawn_each_with_its_look() {
+    let folder = Folder::new();
+    let mut rows = String::from("x,y,z,Type\n");
+    let mut near = rows.clone();
+    for [x, y, z] in block(6) {
+        rows += &format!("{x},{y},{},1\n{x},{y},{},2\n{x},{y},0,0\n", z + 0.35, z - 0.35);
+        near += &format!("{x},{y},{},1\n", z + 0.35);
+    }
+    folder.text("both_1.csv", &rows);
+    folder.text("milk_1.csv", &near);
+    let run = |out: &str, more: &str| {
+        let common = "--target 0,0.25,0 --fov 40 --radius 0.05 --layers water.depth";
+        folder.run(&format!("render both_1.csv -o {out}.exr {SMALL} {common} {more}")).ok().stderr()
+    };
+    let (front, back) = ("--eye 0,0.25,3", "--eye 0,0.25,-3");
+    let said = run("plain", &format!("{front} --where Type=1"));
+    assert!(!said.contains("--fluid"), "{said}");
+    run("one", &format!("{front} --fluid Type=1:water"));
+    folder.run("compare plain.exr one.exr").ok();
+    for (side, out) in [(front, "front"), (back, "back")] {
+        run(&format!("{out}-milk"), &format!("{side} --where Type=1 --medium milk"));
+        run(&format!("{out}-lava"), &format!("{side} --where Type=2 --medium lava"));
+        let said = run(out, &format!("{side} --fluid Type=1:milk --fluid type=2:lava"));
+        assert!(said.contains("216 of 648 particles are of no --fluid"), "{said}");
+        let [both, milk, lava] =
+            [out, &format!("{out}-milk"), &format!("{out}-lava")].map(|name| {
+                let picture = folder.picture(&format!("{name}.exr"));
+                picture.rgb().unwrap()[32 * 96 + 48]
+            });
+        let (seen, hidden) = if out == "front" { (milk, lava) } else { (lava, milk) };
+        let off =
+            |a: [f32; 3], b: [f32; 3]| (0..3).map(|c| (a[c] - b[c]).abs()).fold(0.0, f32::max);
+        // Both are opaque, but light comes round the other.
+        assert!(off(both, seen) < 0.1 * off(seen, hidden), "{out}: {both:?} {seen:?} {hidden:?}");
+    }
+    // The same by files.
+    let common =
+        format!("{SMALL} {front} --target 0,0.25,0 --fov 40 --radius 0.05 --layers water.depth");
+    let two = "--medium milk --where Type!=0 --fluid lava_1.csv:lava";
+    folder.text("lava_1.csv", &rows.replace(",1\n", ",0\n"));
+    let said = folder.run(&format!("render milk_1.csv -o files.exr {common} {two}")).ok().stderr();
+    assert!(said.contains("frame 1: 432 particles"), "{said}");
+    folder.run("compare front.exr files.exr --tolerance 0.01").ok();
+    let wrong = format!("render both_1.csv -o a.exr {common} --fluid");
+    folder
+        .run(&format!("{wrong} phase=1:milk"))
+        .fails(3, &["--fluid 'phase=1:milk'", "found x, y, z, Type"]);
+    folder.run(&format!("{wrong} Type=1")).fails_at_once();
+    folder.run(&format!("{wrong} Type=1:oil")).fails_at_once();
+}
+
+/// Frames of one file are drawn as those of several are.
+#[test]
+fn frames_in_one_file_are_drawn() {
+    let folder = Folder::new();
+    let list = |frame: usize| {
+        let moved = block(4).into_iter().map(|[x, y, z]| [x + 0.1 * frame as f32, y, z]);
+        format!("{:?}", moved.collect::<Vec<_>>())
+    };
+    folder.text("all.json", &format!("[{}, {}]", list(0), list(1)));
+    [0, 1].into_iter().for_each(|i| folder.text(&format!("one_{i}.json"), &list(i)));
+    let common =
+        format!("{SMALL} --eye 0,0.35,2.35 --target 0,0.35,0 --fov 40 --radius 0.05 --foam none");
+    folder.run(&format!("render all.json -o all.png {common} --frames 1")).ok();
+    folder.run(&format!("render one_*.json -o one.png {common} --frames 1")).ok();
+    folder.run("compare all.0001.png one.0001.png").ok();
+    let text = folder.run("info all.json").ok().stdout();
+    assert_eq!(text.matches("particles   64").count(), 2, "{text}");
 }

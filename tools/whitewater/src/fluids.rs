@@ -1,0 +1,501 @@
+//! Several fluids, each with a look of its own: which particles are of which, and how their pictures are put together.
+//!
+//! The renderer draws one liquid at a time. So each fluid is drawn over the picture of the others, and of these pictures a
+//! pixel is that of the fluid whose surface is in front there. What is behind is refracted and absorbed by what is in front,
+//! and mirrors nothing, as a surface between two liquids does. Each fluid casts its own shadow, and none on another.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use whitewater::headless::{Background, Headless, Picture};
+use whitewater::io::particles::sequence::Frame;
+use whitewater::io::particles::{Extra, Particles};
+use whitewater::io::picture::EMPTY;
+use whitewater::water::Fresnel;
+use whitewater::{Camera, Settings};
+
+use crate::extras::{self, Condition};
+use crate::failure::{Failure, Outcome};
+use crate::frames;
+use crate::settings::{MediumName, SettingsFile};
+
+/// The attribute with the number of each particle's fluid: no file has such a name.
+const FLUID: &str = "\0fluid";
+
+/// `WHICH:LIQUID`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FluidArg {
+    which: Which,
+    look: Look,
+    text: String,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Which {
+    /// Particles of the inputs.
+    Where(Condition),
+    /// Other files of the same frames.
+    Files(String),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Look {
+    /// As all looks without fluids.
+    Water,
+    Named(MediumName),
+    /// A file of settings, over all others.
+    File(PathBuf),
+}
+
+/// `WHICH:LIQUID`, for clap.
+pub fn fluid(text: &str) -> Result<FluidArg, String> {
+    let bad = |why: String| {
+        format!(
+            "expected WHICH:LIQUID, such as Type=2:honey, 'oil_*.vtk:beer' or phase=1:oil.toml, with water, a name of --medium \
+             or a settings file as LIQUID{why}"
+        )
+    };
+    // A name may hold a colon, and a liquid its share.
+    let mut why = String::new();
+    for (at, _) in text.match_indices(':') {
+        let (which, look) = (text[..at].trim(), text[at + 1..].trim());
+        let look = match look {
+            "water" => Ok(Look::Water),
+            file if file.ends_with(".toml") => Ok(Look::File(file.into())),
+            name => name.parse().map(Look::Named),
+        };
+        match look {
+            Ok(_) if which.is_empty() => break,
+            Ok(look) => {
+                let which = match extras::condition(which) {
+                    Ok(condition) => Which::Where(condition),
+                    Err(_) => Which::Files(which.into()),
+                };
+                return Ok(FluidArg { which, look, text: text.into() });
+            }
+            // A known liquid says more than an unknown one.
+            Err(_) if why.contains("share") => {}
+            Err(error) => why = format!("; {}: {error}", &text[at + 1..]),
+        }
+    }
+    Err(bad(why))
+}
+
+/// The fluids of a run; none where nothing is said.
+#[derive(Default)]
+pub struct Fluids {
+    args: Vec<FluidArg>,
+    /// Of files that are fluids of their own, by which argument.
+    files: HashMap<PathBuf, usize>,
+}
+
+impl Fluids {
+    /// Adds the files of fluids to the frames of the inputs; the second list is what to say.
+    pub fn find(args: &[FluidArg], frames: &mut [Frame]) -> Outcome<(Self, Vec<String>)> {
+        let (mut files, mut said) = (HashMap::new(), Vec::new());
+        for (i, arg) in args.iter().enumerate() {
+            let Which::Files(pattern) = &arg.which else { continue };
+            if frames.iter().any(|frame| frame.step.is_some()) {
+                let why = "expected inputs of a file for each frame, found one that holds all";
+                return Err(Failure::usage(format!("--fluid '{}': {why}", arg.text)));
+            }
+            let own = frames::files(std::slice::from_ref(pattern), true)?;
+            let single = frames.len() == 1 && own.len() == 1;
+            let mut missing = 0;
+            for frame in frames.iter_mut() {
+                let found = own.iter().filter(|other| single || other.number == frame.number);
+                let mut any = false;
+                for other in found {
+                    any = true;
+                    for path in other.paths() {
+                        files.insert(path.to_path_buf(), i + 1);
+                        frame.also.push(path.to_path_buf());
+                    }
+                }
+                missing += usize::from(!any);
+            }
+            if missing == frames.len() {
+                return Err(Failure::input(format!(
+                    "--fluid '{}': expected files of the frames {}, found those of {}: the last number in the name is the frame",
+                    arg.text,
+                    range(frames),
+                    range(&own)
+                )));
+            }
+            if missing > 0 {
+                said.push(format!(
+                    "--fluid '{}': {missing} of {} frames have no file of their number, and are drawn without it",
+                    arg.text,
+                    frames.len()
+                ));
+            }
+        }
+        Ok((Self { args: args.to_vec(), files }, said))
+    }
+
+    /// How many there are; 0 and 1: nothing is to be told apart.
+    pub fn count(&self) -> usize {
+        if self.args.is_empty() { 1 } else { self.args.len() + 1 }
+    }
+
+    /// Names of the attributes by which particles are told apart.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.conditions().map(|(_, condition)| condition.name())
+    }
+
+    fn conditions(&self) -> impl Iterator<Item = (usize, &Condition)> {
+        self.args.iter().enumerate().filter_map(|(i, arg)| match &arg.which {
+            Which::Where(condition) => Some((i + 1, condition)),
+            Which::Files(_) => None,
+        })
+    }
+
+    /// Marks the particles of a file, before those of others of the frame are added to them.
+    pub fn mark(&self, path: &Path, particles: &mut Particles) {
+        if self.args.is_empty() {
+            return;
+        }
+        let fluid = self.files.get(path).copied().unwrap_or(0);
+        let count = self.count() as u32;
+        if !self.files.is_empty()
+            && let Some(ids) = &mut particles.ids
+        {
+            // Fluids count their particles each for itself.
+            match ids.iter().map(|id| id.checked_mul(count)?.checked_add(fluid as u32)).collect() {
+                Some(own) => *ids = own,
+                None => particles.ids = None,
+            }
+        }
+        let values = vec![fluid as f64; particles.positions.len()];
+        particles.extras.push(Extra { name: FLUID.into(), values });
+    }
+
+    /// Tells the particles of a frame apart, puts those of a fluid beside each other, and leaves out those of none.
+    pub fn divide(&self, particles: &mut Particles, path: &Path) -> Outcome<()> {
+        if self.args.is_empty() {
+            return Ok(());
+        }
+        let own = particles.extras.iter().position(|extra| extra.name == FLUID);
+        let mut fluids = match own {
+            Some(own) => particles.extras.swap_remove(own).values,
+            None => vec![0.0; particles.positions.len()],
+        };
+        for (fluid, condition) in self.conditions() {
+            let values = condition.values(
+                particles,
+                &format!("--fluid '{}'", self.args[fluid - 1].text),
+                path,
+            )?;
+            for (of, value) in fluids.iter_mut().zip(values) {
+                if *of == 0.0 && condition.holds(*value) {
+                    *of = fluid as f64;
+                }
+            }
+        }
+        let kept: Vec<bool> = match self.conditions().next() {
+            Some(_) => fluids.iter().map(|fluid| *fluid > 0.0).collect(),
+            None => vec![true; fluids.len()],
+        };
+        let lost = kept.iter().filter(|kept| !**kept).count();
+        let mut order: Vec<usize> = (0..kept.len()).filter(|i| kept[*i]).collect();
+        order.sort_by(|a, b| fluids[*a].total_cmp(&fluids[*b]));
+        reorder(particles, &order);
+        let values = order.iter().map(|i| fluids[*i]).collect();
+        particles.extras.push(Extra { name: FLUID.into(), values });
+        if lost > 0 {
+            particles.warnings.push(format!(
+                "{lost} of {} particles are of no --fluid: they are not drawn",
+                kept.len()
+            ));
+        }
+        Ok(())
+    }
+
+    /// What to say of fluids without particles.
+    pub fn missing(&self, frames: &[Particles]) -> Vec<String> {
+        let empty = |fluid: &usize| {
+            frames.iter().all(|frame| ranges(frame, self.count())[*fluid].is_empty())
+        };
+        let first = usize::from(self.conditions().next().is_some());
+        let line = |fluid: usize| match fluid {
+            0 => "no particles in the inputs beside those of --fluid".to_string(),
+            fluid => format!(
+                "--fluid '{}': no particles in the frames that were looked at",
+                self.args[fluid - 1].text
+            ),
+        };
+        (first..self.count()).filter(|_| self.count() > 1).filter(empty).map(line).collect()
+    }
+
+    /// The settings of all fluids over those without fluids. Empty where there is one.
+    /// `densities`: their rest densities, where files tell them.
+    pub fn settings(&self, all: &Settings, densities: &[Option<f32>]) -> Outcome<Vec<Settings>> {
+        let rest = |fluid: usize| {
+            let mut own = all.clone();
+            let density = densities.get(fluid).copied().flatten();
+            own.water.rest_density = density.unwrap_or(own.water.rest_density);
+            own
+        };
+        if self.args.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut settings = vec![rest(0)];
+        for (i, arg) in self.args.iter().enumerate() {
+            let mut own = rest(i + 1);
+            match &arg.look {
+                Look::Water => {}
+                Look::Named(name) => {
+                    name.liquid().put(&mut own);
+                    own.water.medium = name.medium(own.water.spacing);
+                }
+                Look::File(path) => {
+                    let spacing = own.water.spacing;
+                    SettingsFile::read(path)?.apply(&mut own);
+                    own.water.spacing = spacing;
+                }
+            }
+            settings.push(own);
+        }
+        Ok(settings)
+    }
+}
+
+/// Numbers of frames in words.
+fn range(frames: &[Frame]) -> String {
+    match frames {
+        [] => "none".into(),
+        [only] => only.number.to_string(),
+        [first, .., last] => format!("{} to {}", first.number, last.number),
+    }
+}
+
+/// Puts particles into an order by their indices; those that are not in it go, those that are in it again are doubled.
+pub fn reorder(particles: &mut Particles, order: &[usize]) {
+    fn of<T: Copy>(list: &mut Vec<T>, order: &[usize]) {
+        *list = order.iter().map(|i| list[*i]).collect();
+    }
+    of(&mut particles.positions, order);
+    particles.velocities.iter_mut().for_each(|list| of(list, order));
+    particles.densities.iter_mut().for_each(|list| of(list, order));
+    particles.ids.iter_mut().for_each(|list| of(list, order));
+    particles.lifetimes.iter_mut().for_each(|list| of(list, order));
+    particles.kinds.iter_mut().for_each(|list| of(list, order));
+    particles.extras.iter_mut().for_each(|extra| of(&mut extra.values, order));
+}
+
+/// Where the particles of each fluid are, by [`Fluids::divide`].
+pub fn ranges(particles: &Particles, count: usize) -> Vec<Range<u32>> {
+    let all = particles.positions.len() as u32;
+    let Some(own) = particles.extras.iter().find(|extra| extra.name == FLUID) else {
+        return (0..count).map(|fluid| if fluid == 0 { 0..all } else { all..all }).collect();
+    };
+    let at = |fluid: usize| own.values.partition_point(|of| *of < fluid as f64) as u32;
+    (0..count).map(|fluid| at(fluid)..at(fluid + 1)).collect()
+}
+
+/// What a frame is drawn of.
+pub struct Liquids<'a> {
+    all: Vec<(Cow<'a, Settings>, Range<u32>)>,
+}
+
+impl<'a> Liquids<'a> {
+    /// One liquid, or where the particles of several are; `time`: of their foam.
+    pub fn new(one: &'a Settings, several: &[Settings], particles: &Particles) -> Self {
+        if several.len() < 2 {
+            let all = 0..particles.positions.len() as u32;
+            return Self { all: vec![(Cow::Borrowed(one), all)] };
+        }
+        let timed = |settings: &Settings| {
+            let mut settings = settings.clone();
+            settings.surface_foam.time = one.surface_foam.time;
+            settings.shore.time = one.shore.time;
+            Cow::Owned(settings)
+        };
+        let all = several.iter().map(timed).zip(ranges(particles, several.len()));
+        let all: Vec<_> = all.filter(|(_, range)| !range.is_empty()).collect();
+        if all.is_empty() { Self { all: vec![(Cow::Borrowed(one), 0..0)] } } else { Self { all } }
+    }
+
+    /// Draws a frame; the picture where the device has another one, as it has of several. Its layers are those of the first.
+    pub fn draw(
+        &self,
+        headless: &mut Headless,
+        camera: &Camera,
+        background: &Background<'_>,
+    ) -> Outcome<Option<Picture<[f32; 4]>>> {
+        let render = |headless: &mut Headless,
+                      fluid: usize,
+                      settings: &Settings,
+                      background: &Background<'_>| {
+            headless.show(Some(self.all[fluid].1.clone()));
+            headless.render(camera, settings, background)
+        };
+        if self.all.len() == 1 {
+            render(headless, 0, &self.all[0].0, background)?;
+            return Ok(None);
+        }
+        let wetted: Vec<Settings> = self.all.iter().map(|(settings, _)| wetted(settings)).collect();
+        headless.show(Some(0..0));
+        headless.render(camera, &self.all[0].0, background)?;
+        let (scene, depth) = (headless.color()?, headless.scene_depth()?);
+        // Each alone, and where its surface is.
+        let (mut alone, mut fronts) = (Vec::new(), Vec::new());
+        for (fluid, wetted) in wetted.iter().enumerate() {
+            render(headless, fluid, wetted, background)?;
+            alone.push(headless.color()?);
+            let front = headless.layer("water.depth")?;
+            let none = || vec![EMPTY; scene.data.len()];
+            fronts.push(front.map_or_else(none, |front| full(&front, &scene)));
+        }
+        // From the one that is farthest on the whole to the nearest.
+        let means: Vec<f64> = fronts.iter().map(|front| mean(front)).collect();
+        let mut far: Vec<usize> = (0..self.all.len()).collect();
+        far.sort_by(|a, b| means[*b].total_cmp(&means[*a]));
+        let mut over = |fluid, settings: &Settings, color: &Picture<[f32; 4]>| -> Outcome<_> {
+            let under = Background::Images { color: &color.data, depth: &depth.data };
+            render(headless, fluid, settings, &under)?;
+            Ok(headless.color()?)
+        };
+        // Each over the others; the first at last, for its layers.
+        let mut pictures = Vec::new();
+        for fluid in (0..self.all.len()).rev() {
+            let mut others = far.iter().copied().filter(|other| *other != fluid);
+            let mut under = Cow::Borrowed(&alone[others.next().unwrap_or(fluid)].data);
+            for other in others {
+                let picture = Picture { data: under.into_owned(), ..empty(&scene) };
+                under = Cow::Owned(over(other, &wetted[other], &picture)?.data);
+            }
+            let picture = Picture { data: under.into_owned(), ..empty(&scene) };
+            pictures.push(over(fluid, &self.all[fluid].0, &picture)?);
+        }
+        pictures.reverse();
+        let last = far.last().copied().unwrap_or(0);
+        let data = (0..scene.data.len()).map(|i| {
+            let front = (0..fronts.len()).filter(|fluid| fronts[*fluid][i] < EMPTY);
+            let front = front.min_by(|a, b| fronts[*a][i].total_cmp(&fronts[*b][i]));
+            pictures[front.unwrap_or(last)].data[i]
+        });
+        Ok(Some(Picture { data: data.collect(), ..empty(&scene) }))
+    }
+}
+
+/// How a fluid looks that touches the one in front: between two liquids next to nothing is mirrored (0.3 % between water and
+/// honey), and light is bent less.
+fn wetted(settings: &Settings) -> Settings {
+    let mut settings = settings.clone();
+    settings.water.fresnel = Fresnel::Source { bias: 0.0, scale: 0.0, power: 1.0 };
+    settings.water.specular = 0.0;
+    settings.water.refraction *= 0.3;
+    settings
+}
+
+/// A picture as large as another, to be filled.
+fn empty<T>(like: &Picture<T>) -> Picture<T> {
+    Picture { width: like.width, height: like.height, data: Vec::new() }
+}
+
+/// The mean depth of what is not empty.
+fn mean(front: &[f32]) -> f64 {
+    let there = front.iter().filter(|z| **z < EMPTY).map(|z| f64::from(*z));
+    let (sum, count) = there.fold((0.0, 0_u32), |(sum, count), z| (sum + z, count + 1));
+    if count == 0 { f64::MAX } else { sum / f64::from(count) }
+}
+
+/// A layer as large as a picture.
+fn full(layer: &Picture<f32>, picture: &Picture<[f32; 4]>) -> Vec<f32> {
+    let (width, height) = (picture.width, picture.height);
+    let at = |x: usize, y: usize| *layer.at(x * layer.width / width, y * layer.height / height);
+    (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| at(x, y)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fluids_are_parsed() {
+        let of = |text: &str| fluid(text).map(|arg| (arg.which, arg.look));
+        let condition = |text: &str| Which::Where(extras::condition(text).unwrap());
+        let named = |text: &str| Look::Named(text.parse().unwrap());
+        assert_eq!(of("Type=2:honey"), Ok((condition("Type=2"), named("honey"))));
+        assert_eq!(of("mk>=10 : beer:0.05"), Ok((condition("mk>=10"), named("beer:0.05"))));
+        assert_eq!(of("Points:0<1:water"), Ok((condition("Points:0<1"), Look::Water)));
+        assert_eq!(
+            of("oil_*.vtk:oil.toml"),
+            Ok((Which::Files("oil_*.vtk".into()), Look::File("oil.toml".into())))
+        );
+        for (bad, says) in [
+            ("Type=2", "WHICH:LIQUID"),
+            ("Type=2:oil", "one of clear"),
+            (":honey", "WHICH"),
+            ("a:b:beer:x", "share"),
+        ] {
+            let message = fluid(bad).unwrap_err();
+            assert!(message.contains(says), "{bad}: {message}");
+        }
+    }
+
+    fn particles() -> Particles {
+        let mut particles =
+            Particles::from_positions((0..6).map(|i| [i as f32, 0.0, 0.0]).collect());
+        particles.ids = Some((0..6).collect());
+        particles.extras =
+            vec![Extra { name: "Type".into(), values: vec![3.0, 1.0, 0.0, 3.0, 1.0, f64::NAN] }];
+        particles
+    }
+
+    #[test]
+    fn particles_of_a_fluid_are_put_beside_each_other() {
+        let args = ["type=1:water", "type=3:honey", "type=9:milk"].map(|text| fluid(text).unwrap());
+        let (fluids, said) = Fluids::find(&args, &mut []).unwrap();
+        assert!(said.is_empty() && fluids.count() == 4);
+        let mut all = particles();
+        fluids.divide(&mut all, Path::new("a.csv")).unwrap();
+        assert_eq!(all.ids, Some(vec![1, 4, 0, 3]));
+        assert_eq!(ranges(&all, 4), [0..0, 0..2, 2..4, 4..4]);
+        assert!(
+            all.warnings[0].starts_with("2 of 6 particles are of no --fluid"),
+            "{:?}",
+            all.warnings
+        );
+        let missing = fluids.missing(&[all]);
+        assert!(missing.len() == 1 && missing[0].contains("type=9"), "{missing:?}");
+        let none = fluid("phase=1:milk").unwrap();
+        let (fluids, _) = Fluids::find(&[none], &mut []).unwrap();
+        let error = fluids.divide(&mut particles(), Path::new("a.csv")).unwrap_err();
+        assert!(
+            error.message.contains("--fluid 'phase=1:milk'") && error.message.contains("`phase`"),
+            "{}",
+            error.message
+        );
+        // Without fluids all is as it was.
+        let mut all = particles();
+        Fluids::default().divide(&mut all, Path::new("a.csv")).unwrap();
+        assert_eq!((all.ids.unwrap().len(), Fluids::default().count()), (6, 1));
+    }
+
+    #[test]
+    fn files_of_other_fluids_belong_to_the_frames() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        for name in ["water_1.csv", "water_2.csv", "oil_1.csv"] {
+            std::fs::write(at(name), "x,y,z,id\n0,0,0,7\n").unwrap();
+        }
+        let args = [fluid(&format!("{}:honey", at("oil_*.csv"))).unwrap()];
+        let mut frames = frames::expand(&[at("water_*.csv")], false).unwrap();
+        let (fluids, said) = Fluids::find(&args, &mut frames).unwrap();
+        assert!(said.len() == 1 && said[0].contains("1 of 2 frames"), "{said:?}");
+        let mut all = extras::read(&frames[0], &[], &fluids).unwrap();
+        fluids.divide(&mut all, Path::new("water_1.csv")).unwrap();
+        assert_eq!((all.ids.clone(), ranges(&all, 2)), (Some(vec![14, 15]), vec![0..1, 1..2]));
+        let args = [fluid(&format!("{}:honey", at("water_2.csv"))).unwrap()];
+        let mut frames = frames::expand(&[at("oil_*.csv"), at("water_1.csv")], true).unwrap();
+        frames.push(Frame { number: 5, ..frames[0].clone() });
+        assert!(
+            Fluids::find(&args, &mut frames)
+                .is_err_and(|error| error.message.contains("frames 1 to 5"))
+        );
+    }
+}

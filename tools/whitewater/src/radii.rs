@@ -1,0 +1,206 @@
+//! Radii of particles in files. The renderer draws all particles alike: where radii differ much, large particles are drawn
+//! as several small ones in their place.
+
+use std::f32::consts::PI;
+
+use glam::{Quat, Vec3};
+use whitewater::io::particles::{Particles, same_name};
+
+use crate::extras::find;
+use crate::fluids::reorder;
+use crate::surface_foam::quantile;
+
+/// Names of radii.
+pub const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];
+/// Names of twice that: of LAMMPS, and of OpenFOAM's clouds.
+pub const DIAMETERS: [&str; 3] = ["diameter", "diam", "d"];
+
+/// Particles whose radii differ by less are drawn alike: twice the volume.
+const ALIKE: f32 = 1.26;
+/// Of the radii, the one that becomes that of all, where no more particles come of it than so many times as many.
+const BASE: f64 = 0.05;
+const MOST: usize = 8;
+/// A particle fills a cube of twice its radius; a ball of so many radii has its volume.
+const BALL: f32 = 1.2407;
+
+/// Whether an attribute is taken for radii.
+pub fn is_radius(name: &str) -> bool {
+    RADII.iter().chain(&DIAMETERS).any(|radius| same_name(radius, name))
+}
+
+/// The radii of the particles, in the unit of the file.
+fn of(particles: &Particles) -> Option<Vec<f32>> {
+    let radius = RADII.iter().find_map(|name| Some((find(particles, name)?, 1.0)));
+    let diameter = || DIAMETERS.iter().find_map(|name| Some((find(particles, name)?, 0.5)));
+    let (extra, of) = radius.or_else(diameter)?;
+    Some(extra.values.iter().map(|r| (of * *r) as f32).collect())
+}
+
+/// The smallest radius of the particles, the middle one and the largest, in the unit of the file.
+pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
+    let mut radii = of(particles)?;
+    radii.retain(|radius| radius.is_finite() && *radius > 0.0);
+    radii.sort_unstable_by(f32::total_cmp);
+    Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
+}
+
+/// How large particles are split: the same in all frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Split {
+    /// The radius of all, in the unit of the file.
+    pub base: f32,
+    /// Most particles that come of one.
+    most: u32,
+}
+
+impl Split {
+    /// By the particles of a frame; none where they are all alike.
+    pub fn of(particles: &Particles) -> Option<Self> {
+        let mut radii = of(particles)?;
+        radii.retain(|radius| radius.is_finite() && *radius > 0.0);
+        let [low, high] = [BASE, 1.0 - BASE].map(|part| quantile(radii.clone(), part));
+        let (mut base, high) = (low?, high?);
+        if high <= ALIKE * base {
+            return None;
+        }
+        let largest = radii.iter().copied().fold(high, f32::max);
+        let count =
+            |base: f32| radii.iter().map(|radius| copies(*radius, base) as usize).sum::<usize>();
+        while count(base) > MOST * radii.len() {
+            base *= 1.1;
+        }
+        // What becomes larger later is split no finer than this.
+        let most = copies(largest, base).max(2);
+        Some(Self { base, most })
+    }
+
+    /// Splits the particles of a frame; says how many there were.
+    pub fn apply(&self, particles: &mut Particles) -> Option<usize> {
+        let radii = of(particles)?;
+        let count = radii.len();
+        let copies = |radius: &f32| copies(*radius, self.base).min(self.most);
+        let order: Vec<usize> =
+            radii.iter().enumerate().flat_map(|(i, r)| (0..copies(r)).map(move |_| i)).collect();
+        if order.len() == count {
+            return None;
+        }
+        let ids = particles.ids.take();
+        reorder(particles, &order);
+        let mut at = 0;
+        let mut own = ids.as_ref().map(|_| Vec::with_capacity(order.len()));
+        for (i, radius) in radii.iter().enumerate() {
+            let n = copies(radius);
+            let id = ids.as_ref().and_then(|ids| ids.get(i).copied());
+            let turn = turn(id.unwrap_or(i as u32));
+            for k in 0..n {
+                if n > 1
+                    && let Some(position) = particles.positions.get_mut(at)
+                {
+                    let away = turn * (radius * BALL * even(k, n));
+                    *position = (Vec3::from(*position) + away).to_array();
+                }
+                at += 1;
+                // A particle that no number is left for is one of many.
+                let id = id.and_then(|id| id.checked_mul(self.most)?.checked_add(k));
+                own = own.zip(id).map(|(mut own, id)| {
+                    own.push(id);
+                    own
+                });
+            }
+        }
+        particles.ids = own;
+        Some(count)
+    }
+}
+
+/// How many particles of a radius fill as much as one.
+fn copies(radius: f32, base: f32) -> u32 {
+    let times = radius / base;
+    if times.is_finite() && times > ALIKE {
+        times.powi(3).round().clamp(1.0, 4096.0) as u32
+    } else {
+        1
+    }
+}
+
+/// One of so many points that fill the unit ball evenly: on spirals, by the golden angle.
+fn even(k: u32, count: u32) -> Vec3 {
+    let part = (k as f32 + 0.5) / count as f32;
+    // By another number over the height than outwards, so that a shell has all directions.
+    let height = 1.0 - 2.0 * (0.5 + k as f32 * 0.754_877_7).fract();
+    let around = k as f32 * PI * (3.0 - 5.0_f32.sqrt());
+    let level = (1.0 - height * height).max(0.0).sqrt();
+    // A particle in the middle of its part: no farther out than it is itself.
+    part.cbrt() * 0.85 * Vec3::new(level * around.cos(), height, level * around.sin())
+}
+
+/// A direction of its own for each particle, so that copies make no pattern.
+fn turn(id: u32) -> Quat {
+    let hash = |salt: u32| {
+        let mixed = (id ^ salt).wrapping_mul(0x9e37_79b9);
+        (mixed ^ mixed >> 15).wrapping_mul(0x85eb_ca6b) as f32 / 2.0_f32.powi(32)
+    };
+    let axis = Vec3::new(hash(1) - 0.5, hash(2) - 0.5, hash(3) - 0.5).normalize_or(Vec3::Y);
+    Quat::from_axis_angle(axis, 2.0 * PI * hash(4))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use whitewater::io::particles::Extra;
+
+    fn particles(radii: &[f32]) -> Particles {
+        let at = |i: usize| [i as f32, 0.0, 0.0];
+        let mut particles = Particles::from_positions((0..radii.len()).map(at).collect());
+        particles.ids = Some((0..radii.len() as u32).collect());
+        let values = radii.iter().map(|r| f64::from(*r)).collect();
+        particles.extras = vec![Extra { name: "Radius".into(), values }];
+        particles
+    }
+
+    #[test]
+    fn alike_particles_stay() {
+        assert_eq!(Split::of(&Particles::from_positions(vec![[0.0; 3]])), None);
+        let radii: Vec<f32> = (0..100).map(|i| 0.1 + 0.0002 * i as f32).collect();
+        assert_eq!(Split::of(&particles(&radii)), None);
+        assert_eq!(super::radii(&particles(&radii)).unwrap()[0], 0.1);
+    }
+
+    /// One of twice the radius becomes eight of its volume, that stay what they are from frame to frame.
+    #[test]
+    fn large_particles_become_several() {
+        let radii: Vec<f32> = (0..100).map(|i| if i % 10 == 9 { 0.2 } else { 0.1 }).collect();
+        let mut all = particles(&radii);
+        let split = Split::of(&all).unwrap();
+        assert_eq!(split, Split { base: 0.1, most: 8 });
+        assert_eq!(split.apply(&mut all), Some(100));
+        assert_eq!(all.positions.len(), 90 + 10 * 8);
+        let ids = all.ids.clone().unwrap();
+        assert_eq!(ids[..10], [0, 8, 16, 24, 32, 40, 48, 56, 64, 72]);
+        assert_eq!(ids[10..17], [73, 74, 75, 76, 77, 78, 79]);
+        assert_eq!(all.positions[3], [3.0, 0.0, 0.0]);
+        let mean = all.positions[9..17].iter().map(|p| Vec3::from(*p)).sum::<Vec3>() / 8.0;
+        assert!(mean.distance(Vec3::new(9.0, 0.0, 0.0)) < 0.05, "{mean}");
+        let mut again = particles(&radii);
+        split.apply(&mut again);
+        assert_eq!(again.positions, all.positions);
+        // No more than eight times as many.
+        let radii: Vec<f32> = (0..1000).map(|i| if i < 100 { 0.01 } else { 0.2 }).collect();
+        let mut many = particles(&radii);
+        let split = Split::of(&many).unwrap();
+        split.apply(&mut many);
+        assert!((2000..=8000).contains(&many.positions.len()), "{}", many.positions.len());
+    }
+
+    /// Points fill the ball: as many in each half and each eighth of the volume.
+    #[test]
+    fn copies_are_even() {
+        let all: Vec<Vec3> = (0..512).map(|k| even(k, 512) / 0.85).collect();
+        let share =
+            |test: &dyn Fn(&Vec3) -> bool| all.iter().filter(|p| test(p)).count() as f32 / 512.0;
+        assert!((share(&|p| p.length() < 0.5) - 0.125).abs() < 0.01);
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE.normalize()] {
+            assert!((share(&|p| p.dot(axis) > 0.0) - 0.5).abs() < 0.03, "{axis}");
+        }
+    }
+}
