@@ -26,8 +26,11 @@ layout(location = 0) out vec2 optical_depth; // optical depth: all, and the sunl
 // Logarithm of the mean of exp(a n) over a^2, for value noise n and amplitudes a up to 2: within 0.3 %.
 const float RAISED = 0.0895;
 
-float lattice_value(ivec2 at, uint salt) {
-    return float(pcg(uint(at.x) + pcg(uint(at.y) + salt)) >> 8) * (2.0 / 16777216.0) - 1.0;
+// Factors of a lattice point's coordinates in its hash: primes of xxHash, as in gradient_noise.glsl.
+float lattice_value(uvec2 joined, uint salt) {
+    uint h = joined.x ^ joined.y ^ salt;
+    h = (h ^ (h >> 15)) * 0x27D4EB2Fu;
+    return float((h ^ (h >> 13)) >> 8) * (2.0 / 16777216.0) - 1.0;
 }
 
 // Value noise, -1 to 1.
@@ -35,9 +38,11 @@ float value_noise(vec2 p, uint salt) {
     vec2 cell = floor(p);
     vec2 f = p - cell;
     f *= f * (3.0 - 2.0 * f);
-    ivec2 at = ivec2(cell);
-    float low = mix(lattice_value(at, salt), lattice_value(at + ivec2(1, 0), salt), f.x);
-    float high = mix(lattice_value(at + ivec2(0, 1), salt), lattice_value(at + ivec2(1), salt), f.x);
+    const uvec2 PRIMES = uvec2(0x9E3779B1u, 0x85EBCA77u);
+    uvec2 near = uvec2(ivec2(cell)) * PRIMES;
+    uvec2 far = near + PRIMES;
+    float low = mix(lattice_value(near, salt), lattice_value(uvec2(far.x, near.y), salt), f.x);
+    float high = mix(lattice_value(uvec2(near.x, far.y), salt), lattice_value(far, salt), f.x);
     return mix(low, high, f.y);
 }
 
@@ -47,7 +52,7 @@ float clumps(vec2 place) {
     float sum = 0.0;
     for (uint k = 0u; float(k) < grain.z; ++k) {
         float amplitude = frame.spray_mist.x * min(grain.z - float(k), 1.0);
-        sum += amplitude * (value_noise(at, chance + k) - RAISED * amplitude);
+        sum += amplitude * (value_noise(at, chance + k * 0xC2B2AE3Du) - RAISED * amplitude);
         at *= 2.0;
     }
     return exp(sum);

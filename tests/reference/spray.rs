@@ -258,7 +258,7 @@ impl Grain {
         for k in 0..OCTAVES {
             let part = (self.octaves - exact(f64::from(k))).clamp(0.0, 1.0);
             let amplitude = off(self.contrast, 1.0) * part;
-            let noise = value_noise(at, self.bits.wrapping_add(k));
+            let noise = value_noise(at, self.bits.wrapping_add(k.wrapping_mul(0xC2B2_AE3D)));
             sum = sum + amplitude * (noise - off(RAISED, 1.0) * amplitude);
             at = at.map(|x| exact(2.0) * x);
         }
@@ -272,7 +272,9 @@ fn value_noise(at: [Rounded; 2], salt: u32) -> Rounded {
     let fade = [0, 1].map(|i| smoothstep(0.0, 1.0, at[i].v - cell[i]));
     let number = |x: i32, y: i32| {
         let [x, y] = [cell[0] as i32 + x, cell[1] as i32 + y].map(|n| n as u32);
-        let bits = classify::pcg(x.wrapping_add(classify::pcg(y.wrapping_add(salt))));
+        let joined = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ salt;
+        let bits = (joined ^ (joined >> 15)).wrapping_mul(0x27D4_EB2F);
+        let bits = bits ^ (bits >> 13);
         f64::from(bits >> 8) / 8_388_608.0 - 1.0
     };
     let row = |y| number(0, y) * (1.0 - fade[0]) + number(1, y) * fade[0];

@@ -515,7 +515,7 @@ const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.1 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.14 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -524,7 +524,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = mist;
-        it.mist_size = 2.5;
+        it.mist_size = 2.0;
         it.mist_contrast = 2.0;
         it.exposure = 0.001;
         it.shade = 2.0;
