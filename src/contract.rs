@@ -646,10 +646,10 @@ impl WhitewaterParticles {
 pub struct Blobs {
     /// Centre (world space) and radius of each blob (4×f32). Entries with a non-finite or huge centre or a
     /// radius ≤ 0 are ignored.
-    pub balls: Stream,
+    pub spheres: Stream,
     /// Orientation of each blob, from its own space to the world: quaternions (4×f32, the real part last) of
     /// any length; zero means identity. `None`: all are the identity.
-    pub turns: Option<Stream>,
+    pub rotations: Option<Stream>,
     /// Numbers that stay with their blob from frame to frame (u32). They choose its variant and films. `None`:
     /// the index is used.
     pub ids: Option<Stream>,
@@ -662,11 +662,11 @@ pub struct Blobs {
 }
 
 impl Blobs {
-    /// Balls alone, in buffers that the CPU wrote before the submit.
-    pub fn new(balls: Stream, count: Count) -> Self {
+    /// Spheres alone, in buffers that the CPU wrote before the submit.
+    pub fn new(spheres: Stream, count: Count) -> Self {
         Self {
-            balls,
-            turns: None,
+            spheres,
+            rotations: None,
             ids: None,
             count,
             before: crate::gpu::access::NOTHING,
@@ -676,8 +676,8 @@ impl Blobs {
 
     /// Adds rotations.
     #[must_use]
-    pub fn with_turns(self, turns: Stream) -> Self {
-        Self { turns: Some(turns), ..self }
+    pub fn with_rotations(self, rotations: Stream) -> Self {
+        Self { rotations: Some(rotations), ..self }
     }
 
     /// Adds ids that identify them from frame to frame.
@@ -793,14 +793,14 @@ pub struct Strip {
     /// The mesh, in world space.
     pub triangles: Triangles,
     /// Shore coordinate of each vertex (f32).
-    pub v: Stream,
+    pub coordinates: Stream,
     /// Last use of these buffers before `record` (layout ignored).
     pub before: Access,
     /// First use of them after it (layout ignored).
     pub after: Access,
 }
 
-/// Distances to the shore, as returned by [`ShoreMap::coast`](crate::shore::ShoreMap::coast).
+/// Distances to the shore, as returned by [`ShoreMap::shore_distances`](crate::shore::ShoreMap::shore_distances).
 #[derive(Clone, Copy, Debug)]
 pub struct ShoreDistances {
     pub(crate) view: vk::ImageView,

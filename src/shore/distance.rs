@@ -521,7 +521,7 @@ impl ShoreMap {
     }
 
     /// The map of the last step, for [`Shoreline::Map`](crate::Shoreline::Map). `None` before the first step.
-    pub fn coast(&self) -> Option<ShoreDistances> {
+    pub fn shore_distances(&self) -> Option<ShoreDistances> {
         let area = self.area?;
         let size = self.config.size;
         Some(ShoreDistances {

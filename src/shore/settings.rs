@@ -23,25 +23,25 @@ pub struct ShoreConfig {
     pub(crate) edge: Edge,
     /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. 25⅓ bytes per
     /// texel.
-    pub web_size: u32,
+    pub texture_size: u32,
     /// Seed of the built-in foam texture and noise, default 1.
     pub seed: u32,
 }
 
 impl Default for ShoreConfig {
     fn default() -> Self {
-        Self { edge: Edge::Smooth, web_size: 512, seed: 1 }
+        Self { edge: Edge::Smooth, texture_size: 512, seed: 1 }
     }
 }
 
 impl ShoreConfig {
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let size = self.web_size;
+        let size = self.texture_size;
         if size.is_power_of_two() && (16..=2048).contains(&size) {
             return Ok(());
         }
         let why = format!("{size}: a power of two from 16 to 2048 expected");
-        Err(Error::bad("Config.shore.web_size", why))
+        Err(Error::bad("Config.shore.texture_size", why))
     }
 }
 
@@ -83,7 +83,7 @@ impl ShoreSettings {
         let shore = &mut self.shoreline;
         [&mut shore.sea_reach, &mut shore.land_reach]
             .into_iter()
-            .chain(&mut shore.web_warp_speed)
+            .chain(&mut shore.texture_warp_velocity)
             .for_each(longer);
         for layer in &mut shore.layers {
             wider(&mut layer.scale);
@@ -98,7 +98,7 @@ impl ShoreSettings {
             wider(&mut noise.scale);
         }
         // Of these the amplitude is a length too.
-        for warp in [&mut shore.web_warp, &mut shore.warp] {
+        for warp in [&mut shore.texture_warp, &mut shore.warp] {
             wider(&mut warp.scale);
             longer(&mut warp.amplitude);
         }
@@ -135,7 +135,7 @@ impl Noise {
 
 /// Shoreline foam. There is foam where
 ///
-/// `wave_ratio · (sin((frequency + n₁)·v + phase) + a·v + b) + web_ratio · (web + a'·v + b') ≥ threshold + n₂`
+/// `wave_weight · (sin((frequency + n₁)·v + phase) + a·v + b) + texture_weight · (web + a'·v + b') ≥ threshold + n₂`
 ///
 /// with the shore coordinate v 0 at the sea's edge of the foam, 1 at the shore line and 2 inland (the blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,19 +172,19 @@ pub struct ShorelineSettings {
     /// Lower limit of the waves, [-100, 100]. `None` (default): no limit. The blog's first steps use 0.
     pub floor: Option<f32>,
     /// Weight of the waves in the mix, [0, 100], default 0.34.
-    pub wave_ratio: f32,
+    pub wave_weight: f32,
     /// Weight of the foam texture in the mix, [0, 100], default 0.66.
-    pub web_ratio: f32,
+    pub texture_weight: f32,
     /// Slope a' of the foam texture over v, [-100, 100], default 0.95.
-    pub web_slope: f32,
+    pub texture_slope: f32,
     /// Offset b' of the foam texture, [-100, 100], default -0.62.
-    pub web_offset: f32,
+    pub texture_offset: f32,
     /// Layers of the foam texture. Default: two.
-    pub layers: [WebLayer; LAYERS],
+    pub layers: [TextureLayer; LAYERS],
     /// Domain warp of the foam texture, metres. Default 0.7, 1/18 m.
-    pub web_warp: Noise,
+    pub texture_warp: Noise,
     /// Velocity of that warp's noise, metres per second, [-1000, 1000], default 0.35 and 0.2.
-    pub web_warp_speed: [f32; 2],
+    pub texture_warp_velocity: [f32; 2],
     /// Threshold of the mix from which there is foam, [-100, 100], default 0.39.
     pub threshold: f32,
     /// Noise added to the threshold. Default 0.1, 1/90 m.
@@ -203,7 +203,7 @@ pub struct ShorelineSettings {
 
 /// One layer of the foam texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WebLayer {
+pub struct TextureLayer {
     /// Weight of the layer, [0, 1], 0 = off.
     pub weight: f32,
     /// Repetitions per metre, [0, 100].
@@ -214,14 +214,14 @@ pub struct WebLayer {
     pub speed: [f32; 2],
 }
 
-impl WebLayer {
+impl TextureLayer {
     /// No layer.
     pub const NONE: Self = Self { weight: 0.0, scale: 0.0, angle: 0.0, speed: [0.0; 2] };
 }
 
 impl Default for ShorelineSettings {
     fn default() -> Self {
-        let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
+        let layer = |weight, scale, angle, speed| TextureLayer { weight, scale, angle, speed };
         Self {
             sea_reach: 12.0,
             land_reach: 3.0,
@@ -236,18 +236,18 @@ impl Default for ShorelineSettings {
             wave_slope: 1.1,
             wave_offset: -0.75,
             floor: None,
-            wave_ratio: 0.34,
-            web_ratio: 0.66,
-            web_slope: 0.95,
-            web_offset: -0.62,
+            wave_weight: 0.34,
+            texture_weight: 0.66,
+            texture_slope: 0.95,
+            texture_offset: -0.62,
             layers: [
                 layer(0.65, 1.0 / 10.5, 0.0, [0.12, 0.07]),
                 layer(0.35, 1.0 / 6.4, 37.0, [-0.1, 0.13]),
-                WebLayer::NONE,
-                WebLayer::NONE,
+                TextureLayer::NONE,
+                TextureLayer::NONE,
             ],
-            web_warp: Noise::new(0.7, 1.0 / 18.0),
-            web_warp_speed: [0.35, 0.2],
+            texture_warp: Noise::new(0.7, 1.0 / 18.0),
+            texture_warp_velocity: [0.35, 0.2],
             threshold: 0.39,
             threshold_noise: Noise::new(0.1, 1.0 / 90.0),
             rise_noise: Noise::new(0.22, 1.0 / 90.0),
@@ -364,16 +364,20 @@ impl ShorelineSettings {
         range("Settings.shore.shoreline.swing_period", self.swing_period, 0.1, 1.0e6)?;
         range("Settings.shore.shoreline.speed_period", self.speed_period, 0.1, 1.0e6)?;
         range("Settings.shore.shoreline.floor", self.floor.unwrap_or(0.0), -100.0, 100.0)?;
-        range("Settings.shore.shoreline.wave_ratio", self.wave_ratio, 0.0, 100.0)?;
-        range("Settings.shore.shoreline.web_ratio", self.web_ratio, 0.0, 100.0)?;
+        range("Settings.shore.shoreline.wave_weight", self.wave_weight, 0.0, 100.0)?;
+        range("Settings.shore.shoreline.texture_weight", self.texture_weight, 0.0, 100.0)?;
         range("Settings.shore.shoreline.wave_slope", self.wave_slope, -100.0, 100.0)?;
         range("Settings.shore.shoreline.wave_offset", self.wave_offset, -100.0, 100.0)?;
-        range("Settings.shore.shoreline.web_slope", self.web_slope, -100.0, 100.0)?;
-        range("Settings.shore.shoreline.web_offset", self.web_offset, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.texture_slope", self.texture_slope, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.texture_offset", self.texture_offset, -100.0, 100.0)?;
         range("Settings.shore.shoreline.threshold", self.threshold, -100.0, 100.0)?;
         range("Settings.shore.shoreline.fade", self.fade, 0.001, 1.0)?;
         range("Settings.shore.shoreline.opacity", self.opacity, 0.0, 1.0)?;
-        let pairs = [("Settings.shore.shoreline.web_warp_speed", self.web_warp_speed, 1000.0)];
+        let pairs = [(
+            "Settings.shore.shoreline.texture_warp_velocity",
+            self.texture_warp_velocity,
+            1000.0,
+        )];
         for (field, pair, most) in pairs {
             pair.into_iter().try_for_each(|value| range(field, value, -most, most))?;
         }
@@ -408,9 +412,9 @@ impl ShorelineSettings {
             "Settings.shore.shoreline.warp.amplitude",
             "Settings.shore.shoreline.warp.scale",
         ])?;
-        self.web_warp.check([
-            "Settings.shore.shoreline.web_warp.amplitude",
-            "Settings.shore.shoreline.web_warp.scale",
+        self.texture_warp.check([
+            "Settings.shore.shoreline.texture_warp.amplitude",
+            "Settings.shore.shoreline.texture_warp.scale",
         ])
     }
 }
