@@ -115,7 +115,7 @@ impl ShoreSettings {
 pub struct Noise {
     /// Maximum value, [-1000, 1000], in the unit of the quantity that it modulates.
     pub amplitude: f32,
-    /// Repetitions per metre, [0, 100]. The coarsest cells are a quarter of a repetition wide.
+    /// Repetitions per scene unit, [0, 100]. The coarsest cells are a quarter of a repetition wide.
     pub scale: f32,
 }
 
@@ -141,10 +141,10 @@ impl Noise {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShorelineSettings {
-    /// Width of the foam seawards of the shore line, metres, (0, 1e6], default 12, where v comes from a
+    /// Width of the foam seawards of the shore line, scene units, (0, 1e6], default 12, where v comes from a
     /// distance. A strip has its own v.
     pub sea_reach: f32,
-    /// Width of the foam inland of the shore line, metres, (0, 1e6], default 3.
+    /// Width of the foam inland of the shore line, scene units, (0, 1e6], default 3.
     pub land_reach: f32,
     /// Wave frequency in radians per v, [0, 1000], default 13: two waves between the sea's edge and the shore
     /// line.
@@ -181,9 +181,9 @@ pub struct ShorelineSettings {
     pub texture_offset: f32,
     /// Layers of the foam texture. Default: two.
     pub layers: [TextureLayer; LAYERS],
-    /// Domain warp of the foam texture, metres. Default 0.7, 1/18 m.
+    /// Domain warp of the foam texture, scene units. Default 0.7, 1/18 m.
     pub texture_warp: Noise,
-    /// Velocity of that warp's noise, metres per second, [-1000, 1000], default 0.35 and 0.2.
+    /// Velocity of that warp's noise, scene units per second, [-1000, 1000], default 0.35 and 0.2.
     pub texture_warp_velocity: [f32; 2],
     /// Threshold of the mix from which there is foam, [-100, 100], default 0.39.
     pub threshold: f32,
@@ -191,7 +191,7 @@ pub struct ShorelineSettings {
     pub threshold_noise: Noise,
     /// Noise added to both offsets, so that the foam's reach varies along the shore. Default 0.22, 1/90 m.
     pub rise_noise: Noise,
-    /// Domain warp applied to everything except v, metres. Default none.
+    /// Domain warp applied to everything except v, scene units. Default none.
     pub warp: Noise,
     /// Range of v over which foam fades out at the sea's edge and at the inland edge, [0.001, 1], default 0.2.
     pub fade: f32,
@@ -206,11 +206,11 @@ pub struct ShorelineSettings {
 pub struct TextureLayer {
     /// Weight of the layer, [0, 1], 0 = off.
     pub weight: f32,
-    /// Repetitions per metre, [0, 100].
+    /// Repetitions per scene unit, [0, 100].
     pub scale: f32,
-    /// Rotation in degrees.
+    /// Rotation in degrees, [-1e6, 1e6].
     pub angle: f32,
-    /// Velocity in metres per second, [-1000, 1000].
+    /// Velocity in scene units per second, [-1000, 1000].
     pub speed: [f32; 2],
 }
 
@@ -263,7 +263,7 @@ impl Default for ShorelineSettings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ContactSettings {
-    /// Distance at which contact foam ends on the host's surface, metres, (0, 1e6], default 0.4. (The tutorial
+    /// Distance at which contact foam ends on the host's surface, scene units, (0, 1e6], default 0.4. (The tutorial
     /// has 4 in its own units.)
     pub depth: f32,
     /// The same distance on the particles' water. `None` (default): four spacings.
@@ -272,10 +272,10 @@ pub struct ContactSettings {
     pub measure: Measure,
     /// Strength of the mask, 0 (none) to 1 (no foam where it is black), default 0.8.
     pub mask: f32,
-    /// Repetitions per metre of the foam texture that serves as mask if the host has none, [0, 100], default
+    /// Repetitions per scene unit of the foam texture that serves as mask if the host has none, [0, 100], default
     /// 1/2.2.
     pub mask_scale: f32,
-    /// Velocity of that texture, metres per second, [-1000, 1000], default 0.05 and 0.03.
+    /// Velocity of that texture, scene units per second, [-1000, 1000], default 0.05 and 0.03.
     pub mask_speed: [f32; 2],
     /// Albedo, linear RGB, 0 to 1, default the tutorial's (0.8, 0.85, 0.92 in sRGB). With `lit` of 0 it is a
     /// radiance, [0, ∞).
