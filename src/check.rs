@@ -144,7 +144,7 @@ fn shore(
             strip.triangles.check(fields, limits)?;
             let vertices = strip.triangles.vertices;
             let most = ("what the device binds", limits.max_storage_buffer_range / vertices.max(1));
-            strip.v.check("Frame.shore.shoreline.v", 4, vertices, most)
+            strip.coordinates.check("Frame.shore.shoreline.coordinates", 4, vertices, most)
         }
         Some(_) if shore.surface.is_none() => {
             bad("Frame.shore.surface", "none, but Frame.shore.shoreline is no strip: it needs one")
@@ -253,9 +253,9 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     // All are bound at once.
     let stride = (limits.max_storage_buffer_range / config.max_blobs) & !3;
     let most = ("what the device binds of Config.bubbles.max_blobs", stride);
-    blobs.balls.check("Frame.bubbles.balls", 16, count, most)?;
-    if let Some(turns) = &blobs.turns {
-        turns.check("Frame.bubbles.turns", 16, count, most)?;
+    blobs.spheres.check("Frame.bubbles.spheres", 16, count, most)?;
+    if let Some(turns) = &blobs.rotations {
+        turns.check("Frame.bubbles.rotations", 16, count, most)?;
     }
     blobs.ids.map_or(Ok(()), |ids| ids.check("Frame.bubbles.ids", 4, count, most))
 }

@@ -125,7 +125,7 @@ impl<'a> Host<'a> {
     }
 }
 
-/// Optional features and extensions that the host enabled. Without one a path is unavailable; the picture stays
+/// Optional features and extensions that the host enabled; by default none. Without one a path is unavailable; the picture stays
 /// correct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -172,7 +172,7 @@ pub struct Config {
     /// Format of the output: of a colour attachment or a storage image, as [`composite`](Self::composite)
     /// requires.
     pub output_format: vk::Format,
-    /// Maximum number of particles per frame.
+    /// Maximum number of particles per frame, at least 1.
     pub max_particles: u32,
     /// Maximum stride of the particle streams in bytes, a multiple of 4 (default 16). With the device's
     /// storage-buffer range it determines how many particles are processed at a time.
@@ -473,7 +473,7 @@ pub struct Packets {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Particles {
-    /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are dropped
+    /// World-space centres (3×f32, scene units). NaN and infinite ones are dropped
     /// and counted.
     pub positions: Stream,
     /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a
@@ -561,7 +561,7 @@ impl Particles {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct WhitewaterParticles {
-    /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are not drawn.
+    /// World-space centres (3×f32, scene units). NaN and infinite ones are not drawn.
     pub positions: Stream,
     /// Kind of each particle (u32): 0 foam, 1 spray, 2 bubble. `None`: all are foam.
     pub kinds: Option<Stream>,
@@ -646,10 +646,10 @@ impl WhitewaterParticles {
 pub struct Blobs {
     /// Centre (world space) and radius of each blob (4×f32). Entries with a non-finite or huge centre or a
     /// radius ≤ 0 are ignored.
-    pub balls: Stream,
+    pub spheres: Stream,
     /// Orientation of each blob, from its own space to the world: quaternions (4×f32, the real part last) of
     /// any length; zero means identity. `None`: all are the identity.
-    pub turns: Option<Stream>,
+    pub rotations: Option<Stream>,
     /// Numbers that stay with their blob from frame to frame (u32). They choose its variant and films. `None`:
     /// the index is used.
     pub ids: Option<Stream>,
@@ -662,11 +662,11 @@ pub struct Blobs {
 }
 
 impl Blobs {
-    /// Balls alone, in buffers that the CPU wrote before the submit.
-    pub fn new(balls: Stream, count: Count) -> Self {
+    /// Spheres alone, in buffers that the CPU wrote before the submit.
+    pub fn new(spheres: Stream, count: Count) -> Self {
         Self {
-            balls,
-            turns: None,
+            spheres,
+            rotations: None,
             ids: None,
             count,
             before: crate::gpu::access::NOTHING,
@@ -676,8 +676,8 @@ impl Blobs {
 
     /// Adds rotations.
     #[must_use]
-    pub fn with_turns(self, turns: Stream) -> Self {
-        Self { turns: Some(turns), ..self }
+    pub fn with_rotations(self, rotations: Stream) -> Self {
+        Self { rotations: Some(rotations), ..self }
     }
 
     /// Adds ids that identify them from frame to frame.
@@ -709,7 +709,7 @@ pub struct Shore {
     /// A single-channel mask over the view that suppresses contact foam: 0 completely, 1 not at all. Any size,
     /// only sampled. `None`: the foam texture at world positions.
     pub mask: Option<HostImage>,
-    /// Depth bias in metres, [0, 1000], default 0: scene geometry up to this far in front of the surface is
+    /// Depth bias in scene units, [0, 1000], default 0: scene geometry up to this far in front of the surface is
     /// treated as behind it. Increase it if the scene's depth contains the water surface.
     pub bias: f32,
 }
@@ -793,14 +793,14 @@ pub struct Strip {
     /// The mesh, in world space.
     pub triangles: Triangles,
     /// Shore coordinate of each vertex (f32).
-    pub v: Stream,
+    pub coordinates: Stream,
     /// Last use of these buffers before `record` (layout ignored).
     pub before: Access,
     /// First use of them after it (layout ignored).
     pub after: Access,
 }
 
-/// Distances to the shore, as returned by [`ShoreMap::coast`](crate::shore::ShoreMap::coast).
+/// Distances to the shore, as returned by [`ShoreMap::shore_distances`](crate::shore::ShoreMap::shore_distances).
 #[derive(Clone, Copy, Debug)]
 pub struct ShoreDistances {
     pub(crate) view: vk::ImageView,
@@ -887,7 +887,7 @@ pub struct GeneratorStep<'a> {
     pub count: Count,
     /// Seconds since the previous step, [0, ∞).
     pub dt: f32,
-    /// Number of the step in the sequence, for the random numbers.
+    /// Number of the step in the sequence, any value, for the random numbers; another one in each step.
     pub number: u32,
     /// Uniform settings.
     pub settings: &'a GeneratorSettings,
@@ -1014,8 +1014,8 @@ pub struct Shadow {
     pub image: HostImage,
     /// World to clip space of the map, four columns, standard or reversed depth. Not read for a mask.
     pub view_projection: [[f32; 4]; 4],
-    /// Shadow bias in metres: points are moved towards the sun by this before the comparison. Recommended:
-    /// about a spacing plus a texel of the map. Not read for a mask.
+    /// Shadow bias in scene units, finite, default 0: points are moved towards the sun by this before the comparison.
+    /// Recommended: about a spacing plus a texel of the map. Not read for a mask.
     pub bias: f32,
 }
 
@@ -1043,9 +1043,9 @@ impl Shadow {
 /// A sphere in the world. The light's maps are fitted to it; outside of it nothing is cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightVolume {
-    /// Centre, world space.
+    /// Centre, world space, finite.
     pub center: [f32; 3],
-    /// Radius, metres.
+    /// Radius, scene units, (0, ∞).
     pub radius: f32,
 }
 
@@ -1214,7 +1214,7 @@ pub struct Settings {
     pub(crate) ladder: DebugView,
 }
 
-/// Defaults for a particle spacing of 0.05 metres, in metres, under the default [`Sky`](crate::Sky).
+/// Defaults for a particle spacing of 0.05 in a scene of metres, under the default [`Sky`](crate::Sky).
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -1294,7 +1294,7 @@ impl Light {
     }
 }
 
-/// Light of sun and sky.
+/// Light of sun and sky. The default is that of the default [`Sky`](crate::Sky), [`Light::of`] that of another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Light {

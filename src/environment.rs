@@ -17,6 +17,7 @@ use crate::gpu::graveyard::{Grave, Owned};
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
+use crate::water::settings::{GREATEST, range};
 use crate::whitewater::Irradiance;
 
 crate::contract::with!(Sky, Equirectangular);
@@ -39,7 +40,7 @@ pub enum EnvironmentSource {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sky {
-    /// World direction to the sun, unit length.
+    /// World direction to the sun, unit length, default (1, 2, 1) normalised.
     pub sun: [f32; 3],
     /// World up direction, any length except 0, default +y, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
@@ -67,9 +68,9 @@ pub struct Equirectangular {
     /// Default `None`: it does not. Diffuse light is gathered from this one, so that the sun, which is added
     /// with its shadows, is not counted twice. Reflections show `image`.
     pub without_sun: Option<HostImage>,
-    /// Factor on the radiance, default 1. The product is clamped to 65 000.
+    /// Factor on the radiance, [0, ∞), default 1. The product is clamped to 65 000.
     pub scale: f32,
-    /// Right-handed rotation of the image around up, radians: for +y up, what was along −z moves towards −x.
+    /// Right-handed rotation of the image around up, radians, finite, default 0: for +y up, what was along −z moves towards −x.
     pub turn: f32,
     /// World up direction, any length except 0, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
@@ -132,8 +133,16 @@ impl EnvironmentSource {
     pub(crate) fn check(&self) -> Result<(), Error> {
         match self {
             Self::Black => Ok(()),
-            Self::Sky(sky) => check_up("Sky.up", sky.up),
-            Self::Equirectangular(own) => check_up("Equirectangular.up", own.up),
+            Self::Sky(sky) => {
+                check_up("Sky.sun", sky.sun)?;
+                range("Sky.intensity", sky.intensity, 0.0, f32::MAX)?;
+                check_up("Sky.up", sky.up)
+            }
+            Self::Equirectangular(own) => {
+                range("Equirectangular.scale", own.scale, 0.0, f32::MAX)?;
+                range("Equirectangular.turn", own.turn, -GREATEST, GREATEST)?;
+                check_up("Equirectangular.up", own.up)
+            }
         }
     }
 }
@@ -450,5 +459,44 @@ impl Environment {
             size /= 2;
         }
         gpu.barriers(cmd, &[access::image(cube, COPY_READ, SAMPLED)], &[]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn field(source: EnvironmentSource) -> Option<&'static str> {
+        match source.check() {
+            Err(Error::BadInput { field, .. }) => Some(field),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn bad_sources_name_their_field() {
+        let sky = Sky::default();
+        let state = crate::gpu::access::NOTHING;
+        let (image, view) = (vk::Image::null(), vk::ImageView::null());
+        let format = vk::Format::R32G32B32A32_SFLOAT;
+        let extent = vk::Extent2D { width: 2, height: 1 };
+        let map = Equirectangular::new(HostImage::new(image, view, format, extent, state));
+        assert_eq!(field(EnvironmentSource::Sky(sky)), None);
+        assert_eq!(field(EnvironmentSource::Equirectangular(map)), None);
+        for (bad, name) in [
+            (sky.with(|it| it.sun = [0.0; 3]), "Sky.sun"),
+            (sky.with(|it| it.intensity = -1.0), "Sky.intensity"),
+            (sky.with(|it| it.intensity = f32::NAN), "Sky.intensity"),
+            (sky.with(|it| it.up = [f32::NAN; 3]), "Sky.up"),
+        ] {
+            assert_eq!(field(EnvironmentSource::Sky(bad)), Some(name));
+        }
+        for (bad, name) in [
+            (map.with(|it| it.scale = f32::INFINITY), "Equirectangular.scale"),
+            (map.with(|it| it.turn = f32::NAN), "Equirectangular.turn"),
+            (map.with(|it| it.up = [0.0; 3]), "Equirectangular.up"),
+        ] {
+            assert_eq!(field(EnvironmentSource::Equirectangular(bad)), Some(name));
+        }
     }
 }

@@ -54,8 +54,8 @@
 //! | `whitewater.count` | as `particles.count` | as above | as above |
 //! | `whitewater.packets` | as `particles.packets`, with `WhitewaterConfig::packets` | as above | as above |
 //! | `whitewater.fluid_depth` | depth of a fluid surface of your own, in the camera's convention; any size; optional | sampled and depth attachment, single-sampled | `before` → `after` |
-//! | `bubbles.balls` | with `Config.bubbles`: 4×f32, centre and radius of soap-foam blobs, world space; entries with a non-finite centre or a radius ≤ 0 are ignored | as above | as above |
-//! | `bubbles.turns`, `ids` | orientation quaternions (4×f32) and ids (u32) per blob; both optional | as above | as above |
+//! | `bubbles.spheres` | with `Config.bubbles`: 4×f32, centre and radius of soap-foam blobs, world space; entries with a non-finite centre or a radius ≤ 0 are ignored | as above | as above |
+//! | `bubbles.rotations`, `ids` | orientation quaternions (4×f32) and ids (u32) per blob; both optional | as above | as above |
 //! | `bubbles.count` | as `particles.count` | as above | as above |
 //! | `shore.surface`, `mask` | with `Config.shore`: the height of your water, or its depth in the camera's convention; a single-channel mask that suppresses contact foam; any size | sampled (a depth: and depth attachment), single-sampled | `before` → `after` |
 //! | `shore.shoreline` | a mesh strip: 3×f32 position and f32 shore coordinate per vertex, u32 indices; or the distances of a [`shore::ShoreMap`] | storage buffers | as above |

@@ -146,7 +146,7 @@ impl Renderer {
     ///
     /// # Safety
     /// As [`record_environment`](Self::record_environment), among whose four it counts.
-    pub unsafe fn record_web(
+    pub unsafe fn record_foam_texture(
         &mut self,
         cmd: vk::CommandBuffer,
         slot: Slot,
@@ -159,7 +159,7 @@ impl Renderer {
         };
         self.retired.recorded(slot.0);
         self.slots[index].begin_environment(&self.gpu)?;
-        shore.record_web(&self.gpu, cmd, &self.slots[index].descriptors, image)
+        shore.record_foam_texture(&self.gpu, cmd, &self.slots[index].descriptors, image)
     }
 
     /// Records the environment that the water reflects, once per environment, after

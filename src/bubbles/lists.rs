@@ -81,7 +81,7 @@ pub fn room(extent: vk::Extent2D, config: &BubbleConfig) -> u32 {
 
 /// The present streams, with the bytes of a value.
 fn streams(blobs: &Blobs) -> impl Iterator<Item = (&Stream, u64)> {
-    let all = [(Some(&blobs.balls), 16), (blobs.turns.as_ref(), 16), (blobs.ids.as_ref(), 4)];
+    let all = [(Some(&blobs.spheres), 16), (blobs.rotations.as_ref(), 16), (blobs.ids.as_ref(), 4)];
     all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
 }
 
@@ -92,12 +92,12 @@ pub fn buffers_of(blobs: &Blobs) -> Vec<vk::Buffer> {
 
 /// Bindings and offsets of balls, turns and ids; `None` if a stream ends before the first blob.
 pub fn windows(gpu: &Gpu, blobs: &Blobs) -> Option<([Resource; 3], Places)> {
-    let balls = Window::new(gpu, &blobs.balls, 0)?;
+    let balls = Window::new(gpu, &blobs.spheres, 0)?;
     let other = |stream: &Option<Stream>| match stream {
         Some(stream) => Window::new(gpu, stream, 0),
         None => Some(Window { stride: 0, ..balls }),
     };
-    let (turns, ids) = (other(&blobs.turns)?, other(&blobs.ids)?);
+    let (turns, ids) = (other(&blobs.rotations)?, other(&blobs.ids)?);
     let places = Places {
         ball_word: balls.word,
         ball_stride: balls.stride,

@@ -109,8 +109,8 @@ impl Near {
             stride,
         };
         Blobs {
-            balls: stream(&self.balls, 16),
-            turns: Some(stream(&self.turns, 16)),
+            spheres: stream(&self.balls, 16),
+            rotations: Some(stream(&self.turns, 16)),
             ids: Some(stream(&self.ids, 4)),
             count: Count::Gpu { buffer: self.count.handle, offset: 0 },
             before: COMPUTE_READ,

@@ -93,7 +93,7 @@ impl Headless {
             Some(stream) => self.read_buffer(stream.buffer, each * u64::from(count)),
             None => Ok(vec![0; (each / 4) as usize * count as usize]),
         };
-        let (balls, turns) = (words(Some(blobs.balls), 16)?, words(blobs.turns, 16)?);
+        let (balls, turns) = (words(Some(blobs.spheres), 16)?, words(blobs.rotations, 16)?);
         let ids = words(blobs.ids, 4)?;
         let four = |words: &[u32], i: usize| [0, 1, 2, 3].map(|k| f32::from_bits(words[4 * i + k]));
         let blob = |(i, id): (usize, &u32)| Bubble {

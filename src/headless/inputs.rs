@@ -280,7 +280,7 @@ impl Foamed {
     pub fn streams(&self) -> Blobs {
         let all = stream(&self.blobs, size_of::<Bubble>() as u32);
         Blobs {
-            turns: Some(Stream { offset: 16, ..all }),
+            rotations: Some(Stream { offset: 16, ..all }),
             ids: Some(Stream { offset: 32, ..all }),
             before: HOST_WRITE,
             after: HOST_WRITE,

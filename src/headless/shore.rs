@@ -72,11 +72,15 @@ impl Shores {
     pub fn shore(&self) -> Option<Shore> {
         let strip = self.strip.as_ref().map(|(mesh, v)| {
             let v = stream(v, 4);
-            let strip =
-                Strip { triangles: mesh.triangles(), v, before: HOST_WRITE, after: HOST_WRITE };
+            let strip = Strip {
+                triangles: mesh.triangles(),
+                coordinates: v,
+                before: HOST_WRITE,
+                after: HOST_WRITE,
+            };
             Shoreline::Strip(strip)
         });
-        let map = self.map.as_ref().and_then(|(map, _)| map.coast()).map(Shoreline::Map);
+        let map = self.map.as_ref().and_then(|(map, _)| map.shore_distances()).map(Shoreline::Map);
         let mask = self.mask.as_ref().map(|mask| super::draw::host_image(mask, COMPUTE_SAMPLED));
         self.shore.map(|shore| Shore {
             shoreline: strip.or(map).or(shore.shoreline),
@@ -182,7 +186,7 @@ impl Headless {
             this.upload(cmd, &staged, &image, NOTHING, COMPUTE_SAMPLED);
             let host = super::draw::host_image(&image, COMPUTE_SAMPLED);
             // SAFETY: submitted at once, and waited for.
-            unsafe { this.renderer.record_web(cmd, Slot(0), &host) }
+            unsafe { this.renderer.record_foam_texture(cmd, Slot(0), &host) }
         })
     }
 

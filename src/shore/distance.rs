@@ -68,11 +68,11 @@ pub struct Area {
     /// Centre along the two level axes: x and z for y up. It is snapped to whole texels, so a map that follows
     /// a camera keeps its content.
     pub center: [f32; 2],
-    /// Side length in metres, (0, 1e6].
+    /// Side length in scene units, (0, 1e6].
     pub edge: f32,
-    /// Height of the water along `up`.
+    /// Height of the water along `up`, scene units, finite.
     pub level: f32,
-    /// Maximum distance from the shore that is computed, metres, (0, edge]: the width of the foam, seawards or
+    /// Maximum distance from the shore that is computed, scene units, (0, edge]: the width of the foam, seawards or
     /// inland.
     pub reach: f32,
 }
@@ -106,7 +106,7 @@ pub struct ShoreMapStep<'a> {
     pub area: Area,
     /// The land: all of it, also where it has not changed.
     pub heights: Heights<'a>,
-    /// What has changed since the last step: minimum and maximum corner along the level axes, metres, enclosing
+    /// What has changed since the last step: minimum and maximum corner along the level axes, scene units, enclosing
     /// the old and the new position. `None`: everything, as if the area had changed.
     pub changed: Option<[[f32; 2]; 2]>,
     /// Last use of the meshes' buffers before the step (layout ignored).
@@ -521,7 +521,7 @@ impl ShoreMap {
     }
 
     /// The map of the last step, for [`Shoreline::Map`](crate::Shoreline::Map). `None` before the first step.
-    pub fn coast(&self) -> Option<ShoreDistances> {
+    pub fn shore_distances(&self) -> Option<ShoreDistances> {
         let area = self.area?;
         let size = self.config.size;
         Some(ShoreDistances {
@@ -532,7 +532,7 @@ impl ShoreMap {
         })
     }
 
-    /// Distance to the shore at each texel's centre, metres, negative in the water, R32F. Beyond the reach only
+    /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Beyond the reach only
     /// the sign and a larger value are guaranteed. Transfer source; sampled by fragment and compute shaders
     /// after a step.
     pub fn distances(&self) -> vk::Image {

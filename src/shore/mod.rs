@@ -32,7 +32,7 @@ pub use distance::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapSte
 #[cfg(feature = "diagnostics")]
 pub use settings::Edge;
 pub use settings::{
-    ContactSettings, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings, WebLayer,
+    ContactSettings, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings, TextureLayer,
 };
 use textures::Textures;
 pub(crate) use tiles::COAT_DISPATCH;
@@ -181,7 +181,7 @@ impl ShoreUniforms {
         };
 
         let [phase, local] = look.phases();
-        let (mut looks, web_warp) = (Looks::default(), s.web_warp);
+        let (mut looks, texture_warp) = (Looks::default(), s.texture_warp);
         if s.warp.amplitude != 0.0 {
             looks.add(s.warp.scale)[1] = s.warp.amplitude;
         }
@@ -191,11 +191,11 @@ impl ShoreUniforms {
             (s.rise_noise, 1.0),
             (s.threshold_noise, 1.0),
         ]);
-        if web_warp.amplitude != 0.0 {
-            looks.add(web_warp.scale)[2] = web_warp.amplitude;
+        if texture_warp.amplitude != 0.0 {
+            looks.add(texture_warp.scale)[2] = texture_warp.amplitude;
             // In metres.
-            let [u, v] = moved(look, web_warp.scale, s.web_warp_speed);
-            let metres = 1.0 / web_warp.scale.max(1.0e-9);
+            let [u, v] = moved(look, texture_warp.scale, s.texture_warp_velocity);
+            let metres = 1.0 / texture_warp.scale.max(1.0e-9);
             looks.moved[looks.count - 1] = [u * metres, v * metres, 0.0, 0.0];
         }
         let (mut layer, mut weight, mut layers) = ([[0.0; 4]; 4], [0.0; 4], 0);
@@ -222,8 +222,8 @@ impl ShoreUniforms {
             map,
             reach: [1.0 / s.sea_reach, 1.0 / s.land_reach, s.fade, way],
             waves: [s.frequency, phase, s.wave_slope, s.wave_offset],
-            mixed: [s.floor.unwrap_or(-1.0e9), s.wave_ratio, s.web_ratio, s.threshold],
-            web: [s.web_slope, s.web_offset, edges[0], edges[1]],
+            mixed: [s.floor.unwrap_or(-1.0e9), s.wave_weight, s.texture_weight, s.threshold],
+            web: [s.texture_slope, s.texture_offset, edges[0], edges[1]],
             counts: [looks.count as f32, layers as f32, 0.0, 0.0],
             look: looks.own,
             look_moved: looks.moved,
@@ -297,7 +297,7 @@ impl<'a> Given<'a> {
 /// The host's buffers, each once.
 fn buffers_of(strip: &Strip) -> impl Iterator<Item = vk::Buffer> + use<> {
     let indices = strip.triangles.indices.map(|(stream, _)| stream.buffer);
-    let own = [strip.triangles.positions.buffer, strip.v.buffer];
+    let own = [strip.triangles.positions.buffer, strip.coordinates.buffer];
     let mut all: Vec<_> = own.into_iter().chain(indices).collect();
     all.sort_by_key(|handle| vk::Handle::as_raw(*handle));
     all.dedup();
@@ -361,14 +361,14 @@ impl Shore {
         self.textures.record_setup(gpu, cmd);
     }
 
-    pub fn record_web(
+    pub fn record_foam_texture(
         &self,
         gpu: &Gpu,
         cmd: vk::CommandBuffer,
         descriptors: &Descriptors,
         image: &HostImage,
     ) -> Result<(), Error> {
-        self.textures.record_web(gpu, cmd, descriptors, image)
+        self.textures.record_foam_texture(gpu, cmd, descriptors, image)
     }
 
     /// Side lengths of foam texture and noise, in texels.

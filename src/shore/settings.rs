@@ -23,25 +23,25 @@ pub struct ShoreConfig {
     pub(crate) edge: Edge,
     /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. 25⅓ bytes per
     /// texel.
-    pub web_size: u32,
+    pub texture_size: u32,
     /// Seed of the built-in foam texture and noise, default 1.
     pub seed: u32,
 }
 
 impl Default for ShoreConfig {
     fn default() -> Self {
-        Self { edge: Edge::Smooth, web_size: 512, seed: 1 }
+        Self { edge: Edge::Smooth, texture_size: 512, seed: 1 }
     }
 }
 
 impl ShoreConfig {
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let size = self.web_size;
+        let size = self.texture_size;
         if size.is_power_of_two() && (16..=2048).contains(&size) {
             return Ok(());
         }
         let why = format!("{size}: a power of two from 16 to 2048 expected");
-        Err(Error::bad("Config.shore.web_size", why))
+        Err(Error::bad("Config.shore.texture_size", why))
     }
 }
 
@@ -83,7 +83,7 @@ impl ShoreSettings {
         let shore = &mut self.shoreline;
         [&mut shore.sea_reach, &mut shore.land_reach]
             .into_iter()
-            .chain(&mut shore.web_warp_speed)
+            .chain(&mut shore.texture_warp_velocity)
             .for_each(longer);
         for layer in &mut shore.layers {
             wider(&mut layer.scale);
@@ -98,7 +98,7 @@ impl ShoreSettings {
             wider(&mut noise.scale);
         }
         // Of these the amplitude is a length too.
-        for warp in [&mut shore.web_warp, &mut shore.warp] {
+        for warp in [&mut shore.texture_warp, &mut shore.warp] {
             wider(&mut warp.scale);
             longer(&mut warp.amplitude);
         }
@@ -115,7 +115,7 @@ impl ShoreSettings {
 pub struct Noise {
     /// Maximum value, [-1000, 1000], in the unit of the quantity that it modulates.
     pub amplitude: f32,
-    /// Repetitions per metre, [0, 100]. The coarsest cells are a quarter of a repetition wide.
+    /// Repetitions per scene unit, [0, 100]. The coarsest cells are a quarter of a repetition wide.
     pub scale: f32,
 }
 
@@ -135,16 +135,16 @@ impl Noise {
 
 /// Shoreline foam. There is foam where
 ///
-/// `wave_ratio · (sin((frequency + n₁)·v + phase) + a·v + b) + web_ratio · (web + a'·v + b') ≥ threshold + n₂`
+/// `wave_weight · (sin((frequency + n₁)·v + phase) + a·v + b) + texture_weight · (web + a'·v + b') ≥ threshold + n₂`
 ///
 /// with the shore coordinate v 0 at the sea's edge of the foam, 1 at the shore line and 2 inland (the blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShorelineSettings {
-    /// Width of the foam seawards of the shore line, metres, (0, 1e6], default 12, where v comes from a
+    /// Width of the foam seawards of the shore line, scene units, (0, 1e6], default 12, where v comes from a
     /// distance. A strip has its own v.
     pub sea_reach: f32,
-    /// Width of the foam inland of the shore line, metres, (0, 1e6], default 3.
+    /// Width of the foam inland of the shore line, scene units, (0, 1e6], default 3.
     pub land_reach: f32,
     /// Wave frequency in radians per v, [0, 1000], default 13: two waves between the sea's edge and the shore
     /// line.
@@ -172,26 +172,26 @@ pub struct ShorelineSettings {
     /// Lower limit of the waves, [-100, 100]. `None` (default): no limit. The blog's first steps use 0.
     pub floor: Option<f32>,
     /// Weight of the waves in the mix, [0, 100], default 0.34.
-    pub wave_ratio: f32,
+    pub wave_weight: f32,
     /// Weight of the foam texture in the mix, [0, 100], default 0.66.
-    pub web_ratio: f32,
+    pub texture_weight: f32,
     /// Slope a' of the foam texture over v, [-100, 100], default 0.95.
-    pub web_slope: f32,
+    pub texture_slope: f32,
     /// Offset b' of the foam texture, [-100, 100], default -0.62.
-    pub web_offset: f32,
+    pub texture_offset: f32,
     /// Layers of the foam texture. Default: two.
-    pub layers: [WebLayer; LAYERS],
-    /// Domain warp of the foam texture, metres. Default 0.7, 1/18 m.
-    pub web_warp: Noise,
-    /// Velocity of that warp's noise, metres per second, [-1000, 1000], default 0.35 and 0.2.
-    pub web_warp_speed: [f32; 2],
+    pub layers: [TextureLayer; LAYERS],
+    /// Domain warp of the foam texture, scene units. Default 0.7, 1/18 m.
+    pub texture_warp: Noise,
+    /// Velocity of that warp's noise, scene units per second, [-1000, 1000], default 0.35 and 0.2.
+    pub texture_warp_velocity: [f32; 2],
     /// Threshold of the mix from which there is foam, [-100, 100], default 0.39.
     pub threshold: f32,
     /// Noise added to the threshold. Default 0.1, 1/90 m.
     pub threshold_noise: Noise,
     /// Noise added to both offsets, so that the foam's reach varies along the shore. Default 0.22, 1/90 m.
     pub rise_noise: Noise,
-    /// Domain warp applied to everything except v, metres. Default none.
+    /// Domain warp applied to everything except v, scene units. Default none.
     pub warp: Noise,
     /// Range of v over which foam fades out at the sea's edge and at the inland edge, [0.001, 1], default 0.2.
     pub fade: f32,
@@ -203,25 +203,25 @@ pub struct ShorelineSettings {
 
 /// One layer of the foam texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WebLayer {
+pub struct TextureLayer {
     /// Weight of the layer, [0, 1], 0 = off.
     pub weight: f32,
-    /// Repetitions per metre, [0, 100].
+    /// Repetitions per scene unit, [0, 100].
     pub scale: f32,
-    /// Rotation in degrees.
+    /// Rotation in degrees, [-1e6, 1e6].
     pub angle: f32,
-    /// Velocity in metres per second, [-1000, 1000].
+    /// Velocity in scene units per second, [-1000, 1000].
     pub speed: [f32; 2],
 }
 
-impl WebLayer {
+impl TextureLayer {
     /// No layer.
     pub const NONE: Self = Self { weight: 0.0, scale: 0.0, angle: 0.0, speed: [0.0; 2] };
 }
 
 impl Default for ShorelineSettings {
     fn default() -> Self {
-        let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
+        let layer = |weight, scale, angle, speed| TextureLayer { weight, scale, angle, speed };
         Self {
             sea_reach: 12.0,
             land_reach: 3.0,
@@ -236,18 +236,18 @@ impl Default for ShorelineSettings {
             wave_slope: 1.1,
             wave_offset: -0.75,
             floor: None,
-            wave_ratio: 0.34,
-            web_ratio: 0.66,
-            web_slope: 0.95,
-            web_offset: -0.62,
+            wave_weight: 0.34,
+            texture_weight: 0.66,
+            texture_slope: 0.95,
+            texture_offset: -0.62,
             layers: [
                 layer(0.65, 1.0 / 10.5, 0.0, [0.12, 0.07]),
                 layer(0.35, 1.0 / 6.4, 37.0, [-0.1, 0.13]),
-                WebLayer::NONE,
-                WebLayer::NONE,
+                TextureLayer::NONE,
+                TextureLayer::NONE,
             ],
-            web_warp: Noise::new(0.7, 1.0 / 18.0),
-            web_warp_speed: [0.35, 0.2],
+            texture_warp: Noise::new(0.7, 1.0 / 18.0),
+            texture_warp_velocity: [0.35, 0.2],
             threshold: 0.39,
             threshold_noise: Noise::new(0.1, 1.0 / 90.0),
             rise_noise: Noise::new(0.22, 1.0 / 90.0),
@@ -263,7 +263,7 @@ impl Default for ShorelineSettings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ContactSettings {
-    /// Distance at which contact foam ends on the host's surface, metres, (0, 1e6], default 0.4. (The tutorial
+    /// Distance at which contact foam ends on the host's surface, scene units, (0, 1e6], default 0.4. (The tutorial
     /// has 4 in its own units.)
     pub depth: f32,
     /// The same distance on the particles' water. `None` (default): four spacings.
@@ -272,10 +272,10 @@ pub struct ContactSettings {
     pub measure: Measure,
     /// Strength of the mask, 0 (none) to 1 (no foam where it is black), default 0.8.
     pub mask: f32,
-    /// Repetitions per metre of the foam texture that serves as mask if the host has none, [0, 100], default
+    /// Repetitions per scene unit of the foam texture that serves as mask if the host has none, [0, 100], default
     /// 1/2.2.
     pub mask_scale: f32,
-    /// Velocity of that texture, metres per second, [-1000, 1000], default 0.05 and 0.03.
+    /// Velocity of that texture, scene units per second, [-1000, 1000], default 0.05 and 0.03.
     pub mask_speed: [f32; 2],
     /// Albedo, linear RGB, 0 to 1, default the tutorial's (0.8, 0.85, 0.92 in sRGB). With `lit` of 0 it is a
     /// radiance, [0, ∞).
@@ -364,16 +364,20 @@ impl ShorelineSettings {
         range("Settings.shore.shoreline.swing_period", self.swing_period, 0.1, 1.0e6)?;
         range("Settings.shore.shoreline.speed_period", self.speed_period, 0.1, 1.0e6)?;
         range("Settings.shore.shoreline.floor", self.floor.unwrap_or(0.0), -100.0, 100.0)?;
-        range("Settings.shore.shoreline.wave_ratio", self.wave_ratio, 0.0, 100.0)?;
-        range("Settings.shore.shoreline.web_ratio", self.web_ratio, 0.0, 100.0)?;
+        range("Settings.shore.shoreline.wave_weight", self.wave_weight, 0.0, 100.0)?;
+        range("Settings.shore.shoreline.texture_weight", self.texture_weight, 0.0, 100.0)?;
         range("Settings.shore.shoreline.wave_slope", self.wave_slope, -100.0, 100.0)?;
         range("Settings.shore.shoreline.wave_offset", self.wave_offset, -100.0, 100.0)?;
-        range("Settings.shore.shoreline.web_slope", self.web_slope, -100.0, 100.0)?;
-        range("Settings.shore.shoreline.web_offset", self.web_offset, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.texture_slope", self.texture_slope, -100.0, 100.0)?;
+        range("Settings.shore.shoreline.texture_offset", self.texture_offset, -100.0, 100.0)?;
         range("Settings.shore.shoreline.threshold", self.threshold, -100.0, 100.0)?;
         range("Settings.shore.shoreline.fade", self.fade, 0.001, 1.0)?;
         range("Settings.shore.shoreline.opacity", self.opacity, 0.0, 1.0)?;
-        let pairs = [("Settings.shore.shoreline.web_warp_speed", self.web_warp_speed, 1000.0)];
+        let pairs = [(
+            "Settings.shore.shoreline.texture_warp_velocity",
+            self.texture_warp_velocity,
+            1000.0,
+        )];
         for (field, pair, most) in pairs {
             pair.into_iter().try_for_each(|value| range(field, value, -most, most))?;
         }
@@ -408,9 +412,9 @@ impl ShorelineSettings {
             "Settings.shore.shoreline.warp.amplitude",
             "Settings.shore.shoreline.warp.scale",
         ])?;
-        self.web_warp.check([
-            "Settings.shore.shoreline.web_warp.amplitude",
-            "Settings.shore.shoreline.web_warp.scale",
+        self.texture_warp.check([
+            "Settings.shore.shoreline.texture_warp.amplitude",
+            "Settings.shore.shoreline.texture_warp.scale",
         ])
     }
 }

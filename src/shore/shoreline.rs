@@ -195,7 +195,7 @@ impl Shore {
         let taken = hosts.iter().map(|handle| buffer(*handle, strip.before, VERTEX_READ));
         gpu.barriers(cmd, &[], &taken.collect::<Vec<_>>());
         let indices = strip.triangles.indices.map(|(stream, _)| stream);
-        let others = [&Some(strip.v), &indices];
+        let others = [&Some(strip.coordinates), &indices];
         let windows = Window::all(gpu, &strip.triangles.positions, others, 0);
         if let Some((positions, [across, indices])) = windows {
             self.target.begin(gpu, cmd, r.extent.into(), [0.0; 4]);

@@ -191,7 +191,7 @@ pub struct Textures {
 
 impl Textures {
     pub fn new(gpu: &Gpu, config: &ShoreConfig) -> Result<Self, Error> {
-        let web = texture::web(config.web_size, config.seed);
+        let web = texture::web(config.texture_size, config.seed);
         let noise = texture::noise(NOISE, config.seed);
         let repeat = vk::SamplerAddressMode::REPEAT;
         // One level, not two mixed: what a level leaves out is kept as a variance, so that the next is another by little.
@@ -207,7 +207,7 @@ impl Textures {
         let texture = |what, floats| Texture::new(gpu, &setup, what, floats);
         Ok(Self {
             config: *config,
-            web: texture(("shore/web", config.web_size, false), bytemuck::cast_slice(&web))?,
+            web: texture(("shore/web", config.texture_size, false), bytemuck::cast_slice(&web))?,
             noise: texture(("shore/noise", NOISE, true), bytemuck::cast_slice(&noise))?,
             hosts: Pipeline::compute(gpu, shader::SHORE_TEXTURE_COMP, &[(0, 0), (1, 2)])?,
             _setup: setup,
@@ -217,7 +217,7 @@ impl Textures {
 
     /// Whether they fit a configuration.
     pub fn fits(&self, config: &ShoreConfig) -> bool {
-        (self.config.web_size, self.config.seed) == (config.web_size, config.seed)
+        (self.config.texture_size, self.config.seed) == (config.texture_size, config.seed)
     }
 
     /// Records the built-in textures.
@@ -232,7 +232,7 @@ impl Textures {
     }
 
     /// The web of an image of the host's.
-    pub fn record_web(
+    pub fn record_foam_texture(
         &self,
         gpu: &Gpu,
         cmd: vk::CommandBuffer,

@@ -147,13 +147,15 @@ pub struct WaterSettings {
     /// default 0.35 (an isolated particle has 0.318 with the usual cubic spline). With
     /// [`Config::spray`](crate::Config), [`SpraySettings::all_spray_density`] replaces it.
     pub density_threshold: f32,
-    /// Fraction of the rest density from which a particle has its full radius. Default 0.45.
+    /// Fraction of the rest density from which a particle has its full radius, at least
+    /// `density_threshold`, default 0.45.
     pub density_full: f32,
     /// Width of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. At 0.7 the particle
     /// lattice shows; 2.5 looks like silk. (The thesis' rule has its own
     /// width of 4.8.)
     pub smoothing_width: f32,
-    /// Depth steps larger than this are silhouettes and are not smoothed across. Drawn radii, default 5.3.
+    /// Depth steps larger than this are silhouettes and are not smoothed across. Drawn radii, [0, ∞), default
+    /// 5.3.
     pub depth_falloff: f32,
     /// Shape of the particles with [`Kernels::Ellipsoids`].
     pub ellipsoids: Ellipsoids,
@@ -355,9 +357,9 @@ pub enum Amplitude {
 pub enum Medium {
     /// Beer's law per channel, with single scattering of the ambient light.
     Physical {
-        /// Absorption per metre, linear RGB, [0, ∞).
+        /// Absorption per scene unit, linear RGB, [0, ∞).
         absorption: [f32; 3],
-        /// Scattering per metre, linear RGB, [0, ∞).
+        /// Scattering per scene unit, linear RGB, [0, ∞).
         scattering: [f32; 3],
     },
     /// Beer's law per channel, with multiple scattering. An infinitely deep body shows its diffuse reflectance under
@@ -371,9 +373,9 @@ pub enum Medium {
     /// plus the reflection back inside at its surface. The surface is shaded as a matte one by the sun, the
     /// scene's shadows and [`Light::shade`](crate::Light::shade). The fluid does not shadow itself.
     Turbid {
-        /// Absorption per metre, linear RGB, [0, ∞).
+        /// Absorption per scene unit, linear RGB, [0, ∞).
         absorption: [f32; 3],
-        /// Reduced scattering per metre, linear RGB, [0, ∞).
+        /// Reduced scattering per scene unit, linear RGB, [0, ∞).
         scattering: [f32; 3],
         /// Radiance that an infinitely deep body emits, linear RGB, [0, ∞), for hot media such as lava.
         emission: [f32; 3],
@@ -382,13 +384,13 @@ pub enum Medium {
     Source {
         /// Colour of thin water, linear RGB, [0, 1].
         base: [f32; 3],
-        /// Falloff per metre of colour (RGB) and background (A), [0, ∞).
+        /// Falloff per scene unit of colour (RGB) and background (A), [0, ∞).
         falloff: [f32; 4],
     },
 }
 
 /// Presets. Red, green and blue are 610, 550 and 465 nm, next to the dominant wavelengths of the primaries of Rec. 709 (611,
-/// 549 and 464 nm), except where the publication measured with the three channels of a camera. All numbers are per metre.
+/// 549 and 464 nm), except where the publication measured with the three channels of a camera. All numbers are per metre; [`Settings::new`](crate::Settings::new) converts the default.
 /// For a scene that is simulated larger than it is meant, such as a glass of beer four metres wide, [`thinned`](Self::thinned)
 /// gives the right picture.
 impl Medium {
@@ -510,12 +512,12 @@ pub struct WeberSettings {
     pub threshold: f32,
     /// Mean time in which foam dissolves, seconds, (0, ∞), default 1. Each particle has 0.5 to 1.5 times this.
     pub foam_lifetime: f32,
-    /// World velocity of the air, scene units per second, default 0.
+    /// World velocity of the air, scene units per second, finite, default 0.
     pub air: [f32; 3],
     /// Density where no stream gives one, or where it is 0 (a particle that was just emitted), (0, ∞), default
     /// 1000.
     pub rest_density: f32,
-    /// Seed of the random times.
+    /// Seed of the random times, any value, default 0.
     pub seed: u32,
 }
 
@@ -573,11 +575,11 @@ impl WeberSettings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurfaceFoamSettings {
-    /// Extinction per metre of foam along the ray, [0, ∞), default 0.4 / spacing: two layers of foam particles
+    /// Extinction per scene unit of foam along the ray, [0, ∞), default 0.4 / spacing: two layers of foam particles
     /// hide half.
     pub extinction: f32,
     /// How fast the colour approaches [`front_color`](Self::front_color) with the thickness of the front layer,
-    /// per metre, [0, ∞), default 0.15 / spacing.
+    /// per scene unit, [0, ∞), default 0.15 / spacing.
     pub front_extinction: f32,
     /// Exponent p of the thesis' alternative rule, [0, 64]: the share of the front colour is (front-layer
     /// thickness / layer depth)^p. With 0, the default, `front_extinction` applies.
@@ -625,7 +627,7 @@ pub struct SurfaceFoamSettings {
     /// six spacings turns a point towards the sun or away from it, where only sky light remains, and dims the
     /// sky in hollows. Not in the thesis.
     pub shape: f32,
-    /// Extinction of sunlight that foam casts as a shadow, per metre, [0, ∞), default 0.25 / spacing: less than
+    /// Extinction of sunlight that foam casts as a shadow, per scene unit, [0, ∞), default 0.25 / spacing: less than
     /// [`extinction`](Self::extinction), because most scattered light continues.
     pub shadow: f32,
     /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis' screen colour is 0.25.)

@@ -104,7 +104,7 @@ pub enum Irradiance {
 pub enum Submerged {
     /// The water in front of them attenuates them, as it does everything in it. Default.
     Water,
-    /// The paper's falloff, `f(metres behind, depth, n, m)` (Eq. 1 and Sec. 2.2), which reaches zero at `depth`. The
+    /// The paper's falloff, `f(distance behind, depth, n, m)` (Eq. 1 and Sec. 2.2), which reaches zero at `depth`. The
     /// particles are then composited in front of the water.
     Falloff {
         /// Metres, (0, ∞), recommended 6 spacings.
@@ -122,7 +122,7 @@ pub enum Submerged {
 pub enum OcclusionReach {
     /// In search radii, (0, ∞), default 1.
     Radii(f32),
-    /// In metres, (0, ∞); the paper: 5.
+    /// In scene units, (0, ∞); the paper: 5 metres.
     Metres(f32),
 }
 

@@ -134,7 +134,7 @@ fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
     let balls = of("blobs");
     let part = |offset| Stream { offset, ..balls };
     let blobs = Blobs::new(balls, count("blob count")).with(|it| {
-        it.turns = Some(part(16));
+        it.rotations = Some(part(16));
         it.ids = Some(part(32));
         it.before = before;
         it.after = after;

@@ -282,8 +282,8 @@ impl BlobSimulation {
             ));
         }
         let most = ("what the device binds of all blobs", self.stride());
-        blobs.balls.check("Blobs.balls", 16, count, most)?;
-        blobs.turns.map_or(Ok(()), |turns| turns.check("Blobs.turns", 16, count, most))?;
+        blobs.spheres.check("Blobs.spheres", 16, count, most)?;
+        blobs.rotations.map_or(Ok(()), |turns| turns.check("Blobs.rotations", 16, count, most))?;
         blobs.ids.map_or(Ok(()), |ids| ids.check("Blobs.ids", 4, count, most))?;
         velocities.map_or(Ok(()), |v| v.check("velocities", 12, count, most))?;
         if !(largest.is_finite() && largest > 0.0) {
@@ -300,7 +300,7 @@ impl BlobSimulation {
         let gpu = &*self.gpu;
         let own = &mut self.slots[slot.0 as usize];
         own.setting.reset(gpu)?;
-        let ended = || Error::bad("Blobs.balls", "ends before the first");
+        let ended = || Error::bad("Blobs.spheres", "ends before the first");
         let ([balls, turns, ids], places) = windows(gpu, blobs).ok_or_else(ended)?;
         let drifts = velocities.and_then(|stream| Window::new(gpu, stream, 0));
         // Not read.
@@ -432,8 +432,8 @@ impl BlobSimulation {
             Stream { buffer: own.handle, size, offset: 0, stride }
         };
         Blobs {
-            balls: stream(&b.balls, 16),
-            turns: Some(stream(&b.turns, 16)),
+            spheres: stream(&b.balls, 16),
+            rotations: Some(stream(&b.turns, 16)),
             ids: Some(stream(&b.ids, 4)),
             count: Count::Cpu(self.count()),
             before: COMPUTE_READ,

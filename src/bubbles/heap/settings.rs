@@ -1,4 +1,4 @@
-//! Settings of the blob simulation: how blobs move, what they collide with, and how many there are.
+//! Settings of the blob simulation, in scene units and seconds, with defaults for metres: how blobs move, what they collide with, and how many there are.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -11,7 +11,7 @@ crate::contract::with!(BlobSimulationConfig, BlobSimulationSettings, BlobSimulat
 /// Most parts of a step.
 const MOST_SUBSTEPS: u32 = 64;
 
-/// How blobs move.
+/// How blobs move. Lengths are in scene units; the defaults are for metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BlobSimulationSettings {
@@ -42,7 +42,7 @@ pub struct BlobSimulationSettings {
     pub solid_damping: f32,
     /// Coefficient of friction on solids, [0, 10], default 0.35.
     pub friction: f32,
-    /// Level of the water that blobs float on, metres. Default `None`: no water.
+    /// Level of the water that blobs float on, scene units along y. Default `None`: no water.
     pub water: Option<f32>,
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
@@ -124,7 +124,7 @@ pub enum Solid {
     Plane {
         /// Unit length.
         normal: [f32; 3],
-        /// Distance of the plane from the origin along the normal, metres.
+        /// Distance of the plane from the origin along the normal, scene units.
         distance: f32,
     },
     /// An oriented box.

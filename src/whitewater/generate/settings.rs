@@ -72,7 +72,7 @@ pub struct GeneratorSettings {
     /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. The total of a
     /// fluid particle is limited to 64 per step.
     pub trapped_air_rate: f32,
-    /// Maximum emission of one fluid particle from wave crests, particles per second.
+    /// Maximum emission of one fluid particle from wave crests, particles per second, [0, 1e18].
     pub wave_crest_rate: f32,
     /// Minimum lifetime of foam, seconds, (0, max_lifetime], default 2. Spray and bubbles do not age.
     pub min_lifetime: f32,
@@ -87,7 +87,7 @@ pub struct GeneratorSettings {
     /// Box (minimum and maximum corner) outside which particles die. Default `None`: spray, which does not age,
     /// then falls forever and keeps its slot.
     pub bounds: Option<[[f32; 3]; 2]>,
-    /// Seed of the random numbers.
+    /// Seed of the random numbers, any value, default 0.
     pub seed: u32,
 }
 

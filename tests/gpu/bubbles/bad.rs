@@ -30,18 +30,18 @@ fn bad_blobs_are_errors_before_any_command() {
     let data = rig.stub.data(&[0; 36 * 16], vk::BufferUsageFlags::STORAGE_BUFFER);
     let all = stream(&data, 0, 36);
     let good = Blobs::new(all, Count::Cpu(16)).with(|it| {
-        it.turns = Some(all);
+        it.rotations = Some(all);
         it.ids = Some(all);
     });
     let spoils: [Spoil; 7] = [
         ("Frame.bubbles.count", |b| b.count = Count::Cpu(17)),
-        ("Frame.bubbles.balls", |b| b.balls.stride = 12),
-        ("Frame.bubbles.balls", |b| b.balls.stride = 18),
-        ("Frame.bubbles.balls", |b| b.balls.size = 100),
-        ("Frame.bubbles.turns", |b| b.turns.as_mut().expect("turns").offset = 2),
+        ("Frame.bubbles.spheres", |b| b.spheres.stride = 12),
+        ("Frame.bubbles.spheres", |b| b.spheres.stride = 18),
+        ("Frame.bubbles.spheres", |b| b.spheres.size = 100),
+        ("Frame.bubbles.rotations", |b| b.rotations.as_mut().expect("turns").offset = 2),
         ("Frame.bubbles.ids", |b| b.ids.as_mut().expect("ids").stride = 400),
         ("Frame.bubbles.count.offset", |b| {
-            b.count = Count::Gpu { buffer: b.balls.buffer, offset: 2 };
+            b.count = Count::Gpu { buffer: b.spheres.buffer, offset: 2 };
         }),
     ];
     let looks: [Look; 9] = [

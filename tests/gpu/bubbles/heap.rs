@@ -59,7 +59,7 @@ impl Running {
         let speeds = stub.data(bytemuck::cast_slice(&speeds), usage);
         let all = |offset| stream(&data, offset, size_of::<Bubble>() as u32);
         let set = Blobs::new(all(0), Count::Cpu(blobs.len() as u32)).with(|it| {
-            it.turns = Some(all(16));
+            it.rotations = Some(all(16));
             it.ids = Some(all(32));
             it.before = HOST_WRITE;
             it.after = HOST_WRITE;
@@ -96,7 +96,7 @@ impl Running {
 
     pub fn blobs(&self) -> Vec<Blob> {
         let heap = self.heap.as_ref().expect("only drop takes it");
-        let balls = self.read(heap.blobs().balls.buffer);
+        let balls = self.read(heap.blobs().spheres.buffer);
         let (speeds, spins) = (self.read(heap.velocities().buffer), self.read(heap.spins().buffer));
         let vector = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
         let one = |i: usize| Blob {
@@ -379,7 +379,7 @@ fn blobs_are_set_and_moved_in_one_command_buffer() {
     apart.step(step.dt, step.settings, step.solids).expect("a step");
     let at_once = Running::stepped(&gpu, (&blobs, &[]), None, 0, Some(&step));
     let balls = |running: &Running| {
-        running.read(running.heap.as_ref().expect("only drop takes it").blobs().balls.buffer)
+        running.read(running.heap.as_ref().expect("only drop takes it").blobs().spheres.buffer)
     };
     assert_eq!(balls(&apart), balls(&at_once));
     assert!(balls(&apart).iter().zip(&blobs).any(|(now, then)| *now != then.ball), "they move");

@@ -56,7 +56,7 @@ fn over_bottom(
     shot.settings.shore = look();
     shot.settings.light.irradiance = [2.0, 3.0, 4.0];
     shot.settings.light.shade = [0.5, 1.0, 0.25];
-    let shoreline = Some(Shoreline::Map(coasts.coast()));
+    let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
     shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
     shot
 }

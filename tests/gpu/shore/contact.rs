@@ -2,7 +2,7 @@
 
 use ash::vk;
 use glam::DVec3;
-use whitewater::shore::{ContactSettings, Edge, Measure, ShoreSettings, WebLayer};
+use whitewater::shore::{ContactSettings, Edge, Measure, ShoreSettings, TextureLayer};
 use whitewater::{Shore, Shoreline};
 
 use super::{Tally, clock, is_shared, measure_of, shared_at, textures, water, with_shore};
@@ -36,7 +36,7 @@ fn look(contact: ContactSettings) -> ShoreSettings {
 /// A web of more layers than most have, which are drawn another way.
 fn more_layers(shot: &mut Shot) {
     shot.settings.shore.shoreline.layers[2] =
-        WebLayer { weight: 0.1, scale: 0.1, ..WebLayer::NONE };
+        TextureLayer { weight: 0.1, scale: 0.1, ..TextureLayer::NONE };
 }
 
 /// The depth of the scene as single precision finds it.

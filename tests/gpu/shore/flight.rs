@@ -91,7 +91,7 @@ fn drawn(gpu: &Gpu, steps: u32, wait: bool) -> Vec<Image<[f32; 4]>> {
             // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
             unsafe { map.record_step(cmd, &step) }.expect("a step");
         }
-        let shoreline = Some(Shoreline::Map(coasts.coast()));
+        let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
         shot.shore = Some(Shore::new(AREA.level).with(|it| it.shoreline = shoreline));
         let (color, depth) = &scenes[frame as usize];
         let frame = shot

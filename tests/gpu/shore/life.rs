@@ -2,7 +2,7 @@
 
 use ash::vk;
 use glam::DVec2;
-use whitewater::shore::{ContactSettings, Edge, ShoreConfig, ShoreSettings, WebLayer};
+use whitewater::shore::{ContactSettings, Edge, ShoreConfig, ShoreSettings, TextureLayer};
 use whitewater::{Error, Shore, Shoreline, Slot, Strip, Surface, Triangles};
 
 use super::shoreline::{AREA, heights, plain, web_alone};
@@ -25,7 +25,7 @@ fn shot(coasts: &Mapped<'_>, width: u32, height: u32) -> Shot {
     shot.settings.shore = plain();
     shot.settings.shore.contact.particle_opacity = 1.0;
     shot.scene_depth(|x, _| Some(4.0 + 0.1 * f64::from(x)));
-    let shoreline = Some(Shoreline::Map(coasts.coast()));
+    let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
     shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
     shot
 }
@@ -55,7 +55,7 @@ fn a_resize_and_a_reconfiguration_give_what_a_new_renderer_gives() {
     let shot = shot(&coasts, 120, 90);
     for (name, anew, shore) in [
         ("edge", false, Some(base.with(|it| it.edge = Edge::Clip))),
-        ("web", true, Some(base.with(|it| it.web_size = 64))),
+        ("web", true, Some(base.with(|it| it.texture_size = 64))),
         ("none", false, None),
         ("again", true, Some(base.with(|it| it.seed = 9))),
     ] {
@@ -84,8 +84,8 @@ fn memory_is_what_it_says() {
     };
     let size = extent(512, 512);
     let without = of(size, None);
-    let [small, large] = [256, 1024].map(|web_size| {
-        of(size, Some(ShoreConfig::default().with(|it| it.web_size = web_size))) - without
+    let [small, large] = [256, 1024].map(|texture_size| {
+        of(size, Some(ShoreConfig::default().with(|it| it.texture_size = texture_size))) - without
     });
     println!("of 256 texels {small}, of 1024 {large} bytes");
     // Halves of four channels twice, as an image and packed, and the floats they were: of all levels a third more.
@@ -108,8 +108,8 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     shot.positions.clear();
     shot.scene_depth(|_, _| None);
     let s = &mut shot.settings.shore.shoreline;
-    let own = WebLayer { weight: 1.0, scale: 0.25, angle: 30.0, speed: [0.1, 0.0] };
-    *s = web_alone([6.0, 3.0], [own, WebLayer::NONE, WebLayer::NONE, WebLayer::NONE]);
+    let own = TextureLayer { weight: 1.0, scale: 0.25, angle: 30.0, speed: [0.1, 0.0] };
+    *s = web_alone([6.0, 3.0], [own, TextureLayer::NONE, TextureLayer::NONE, TextureLayer::NONE]);
     let first = rig.draw(&shot).shore.expect("foam");
     // A part of a larger image, as large as the web: a smooth pattern.
     let n = super::WEB as usize;
@@ -134,7 +134,8 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     let image = image.host_image().with(|it| it.rect = rect);
     let cmd = rig.stub.begin(0);
     // SAFETY: cmd is recording; the slot's work is done; the image outlives it.
-    unsafe { rig.renderer().record_web(cmd, Slot(0), &image) }.expect("record_web");
+    unsafe { rig.renderer().record_foam_texture(cmd, Slot(0), &image) }
+        .expect("record_foam_texture");
     rig.stub.end(0);
     rig.stub.wait(0);
     rig.collect(Slot(0));
@@ -170,11 +171,11 @@ type Spoil = (&'static str, fn(&mut ShoreSettings));
 fn bad_looks_shores_and_configurations_name_their_field() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    for web_size in [0, 8, 100, 4096] {
-        let shore = Some(ShoreConfig::default().with(|it| it.web_size = web_size));
+    for texture_size in [0, 8, 100, 4096] {
+        let shore = Some(ShoreConfig::default().with(|it| it.texture_size = texture_size));
         match Rig::try_new(&gpu, &config(size).with(|it| it.shore = shore), 1) {
-            Err(Error::BadInput { field, .. }) => assert_eq!(field, "Config.shore.web_size"),
-            _ => panic!("no error for a web of {web_size}"),
+            Err(Error::BadInput { field, .. }) => assert_eq!(field, "Config.shore.texture_size"),
+            _ => panic!("no error for a web of {texture_size}"),
         }
     }
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
@@ -190,7 +191,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
         ("Settings.shore.shoreline.speed_period", |l| l.shoreline.speed_period = 0.0),
         ("Settings.shore.shoreline.wave_offset", |l| l.shoreline.wave_offset = 101.0),
         ("Settings.shore.shoreline.floor", |l| l.shoreline.floor = Some(f32::NAN)),
-        ("Settings.shore.shoreline.web_ratio", |l| l.shoreline.web_ratio = -1.0),
+        ("Settings.shore.shoreline.texture_weight", |l| l.shoreline.texture_weight = -1.0),
         ("Settings.shore.shoreline.fade", |l| l.shoreline.fade = 0.0),
         ("Settings.shore.shoreline.color", |l| l.shoreline.color[2] = 1.5),
         ("Settings.shore.shoreline.opacity", |l| l.shoreline.opacity = 2.0),
@@ -221,7 +222,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
     let data = rig.stub.data(&[0; 16 * 16], vk::BufferUsageFlags::STORAGE_BUFFER);
     let strip = Strip {
         triangles: Triangles { positions: stream(&data, 0, 16), vertices: 6, indices: None },
-        v: stream(&data, 12, 16),
+        coordinates: stream(&data, 12, 16),
         before: HOST_WRITE,
         after: HOST_WRITE,
     };
@@ -252,7 +253,10 @@ fn bad_looks_shores_and_configurations_name_their_field() {
             "Frame.shore.shoreline.triangles.positions",
             base.with(|it| it.shoreline = of(|s| s.triangles.positions.stride = 4)),
         ),
-        ("Frame.shore.shoreline.v", base.with(|it| it.shoreline = of(|s| s.v.offset = 250))),
+        (
+            "Frame.shore.shoreline.coordinates",
+            base.with(|it| it.shoreline = of(|s| s.coordinates.offset = 250)),
+        ),
     ] {
         let bad = Shot { shore: Some(shore), ..shot.clone() };
         let why = rig.refused(&bad, None);
@@ -264,7 +268,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
     let image = depth.host_image();
     let cmd = plainly.stub.begin(0);
     // SAFETY: nothing of it may be used.
-    let result = unsafe { plainly.renderer().record_web(cmd, Slot(0), &image) };
+    let result = unsafe { plainly.renderer().record_foam_texture(cmd, Slot(0), &image) };
     plainly.stub.end(0);
     plainly.stub.wait(0);
     assert!(matches!(result, Err(Error::BadInput { field: "Config.shore", .. })));

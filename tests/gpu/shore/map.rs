@@ -441,7 +441,10 @@ fn bad_maps_and_steps_name_their_field() {
         }
     }
     let mut coasts = Mapped::new(&gpu, 64);
-    assert!(coasts.map.as_ref().is_some_and(|map| map.coast().is_none()), "before a step");
+    assert!(
+        coasts.map.as_ref().is_some_and(|map| map.shore_distances().is_none()),
+        "before a step"
+    );
     assert!(coasts.map.as_ref().is_some_and(|map| map.memory() >= 16 * 64 * 64));
     let good = area(64);
     let image = coasts.image(&heights(&good, 64, |_| 0.0));

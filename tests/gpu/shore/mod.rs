@@ -52,7 +52,7 @@ const SEED: u32 = 3;
 fn shore_config(edge: Edge) -> ShoreConfig {
     ShoreConfig::default().with(|it| {
         it.edge = edge;
-        it.web_size = WEB;
+        it.texture_size = WEB;
         it.seed = SEED;
     })
 }
@@ -130,8 +130,8 @@ impl<'g> Mapped<'g> {
         Image { width: self.size as usize, height: self.size as usize, data }
     }
 
-    fn coast(&self) -> ShoreDistances {
-        self.map.as_ref().and_then(ShoreMap::coast).expect("a step before")
+    fn shore_distances(&self) -> ShoreDistances {
+        self.map.as_ref().and_then(ShoreMap::shore_distances).expect("a step before")
     }
 }
 
@@ -197,7 +197,7 @@ fn is_shared(shot: &Shot) -> bool {
         noises.iter().filter(|n| n.amplitude != 0.0).map(|n| n.scale.to_bits()).collect();
     scales.sort_unstable();
     scales.dedup();
-    let bends = [s.warp, s.web_warp].iter().filter(|n| n.amplitude != 0.0).count();
+    let bends = [s.warp, s.texture_warp].iter().filter(|n| n.amplitude != 0.0).count();
     let layers = s.layers.iter().filter(|layer| layer.weight > 0.0).count();
     !matches!(shore.surface, Some(Surface::Depth(_)))
         && !matches!(shore.shoreline, Some(Shoreline::Screen))
@@ -231,14 +231,14 @@ fn look_of(look: &ShoreSettings) -> foam::Shoreline {
         speed_noise: noise(s.speed_noise),
         wave_rise: [s.wave_slope, s.wave_offset].map(f64::from),
         floor: s.floor.map(f64::from),
-        wave_ratio: f64::from(s.wave_ratio),
-        web_ratio: f64::from(s.web_ratio),
-        web_rise: [s.web_slope, s.web_offset].map(f64::from),
+        wave_weight: f64::from(s.wave_weight),
+        texture_weight: f64::from(s.texture_weight),
+        web_rise: [s.texture_slope, s.texture_offset].map(f64::from),
         layers: layers
             .map(|own| foam::layer(clock, own.weight, own.scale, own.angle, own.speed))
             .collect(),
-        web_warp: noise(s.web_warp),
-        web_warp_moved: clock.moved(s.web_warp.scale, s.web_warp_speed),
+        texture_warp: noise(s.texture_warp),
+        web_warp_moved: clock.moved(s.texture_warp.scale, s.texture_warp_velocity),
         threshold: f64::from(s.threshold),
         threshold_noise: noise(s.threshold_noise),
         rise_noise: noise(s.rise_noise),

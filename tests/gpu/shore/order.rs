@@ -195,11 +195,11 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
     let vertices = rig.stub.data(bytemuck::cast_slice(&corners), usage);
     let strip = Shoreline::Strip(Strip {
         triangles: Triangles { positions: stream(&vertices, 0, 16), vertices: 3, indices: None },
-        v: stream(&vertices, 12, 16),
+        coordinates: stream(&vertices, 12, 16),
         before: HOST_WRITE,
         after: HOST_WRITE,
     });
-    let map = Shoreline::Map(coasts.coast());
+    let map = Shoreline::Map(coasts.shore_distances());
     for (way, shoreline, strip, contacts) in
         [("map", map, 0, 0), ("strip", strip, 1, 0), ("particles", map, 0, 1)]
     {

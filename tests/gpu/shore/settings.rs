@@ -1,6 +1,6 @@
 //! Each setting of shoreline and contact foam does what it says: a change of any one shows in the picture.
 
-use whitewater::shore::{Edge, Measure, Noise, WebLayer};
+use whitewater::shore::{Edge, Measure, Noise, TextureLayer};
 use whitewater::{Settings, Shore};
 
 use super::composite::{coasts, shot};
@@ -38,23 +38,23 @@ fn every_setting_of_foam_on_the_level_shows() {
         ("wave_slope", |s| s.shore.shoreline.wave_slope += 0.5),
         ("wave_offset", |s| s.shore.shoreline.wave_offset += 0.5),
         ("floor", |s| s.shore.shoreline.floor = Some(0.3)),
-        ("wave_ratio", |s| s.shore.shoreline.wave_ratio *= 1.5),
-        ("web_ratio", |s| s.shore.shoreline.web_ratio *= 1.5),
-        ("web_slope", |s| s.shore.shoreline.web_slope += 0.3),
-        ("web_offset", |s| s.shore.shoreline.web_offset += 0.3),
+        ("wave_weight", |s| s.shore.shoreline.wave_weight *= 1.5),
+        ("texture_weight", |s| s.shore.shoreline.texture_weight *= 1.5),
+        ("texture_slope", |s| s.shore.shoreline.texture_slope += 0.3),
+        ("texture_offset", |s| s.shore.shoreline.texture_offset += 0.3),
         ("layers[0].weight", |s| s.shore.shoreline.layers[0].weight = 0.9),
         ("layers[1].scale", |s| s.shore.shoreline.layers[1].scale *= 1.5),
         ("layers[1].angle", |s| s.shore.shoreline.layers[1].angle += 20.0),
         ("layers[0].speed[0]", |s| s.shore.shoreline.layers[0].speed[0] += 0.1),
         ("layers[0].speed[1]", |s| s.shore.shoreline.layers[0].speed[1] += 0.1),
         ("layers[2]", |s| {
-            let layer = WebLayer { weight: 0.5, scale: 0.5, angle: -110.0, speed: [0.3, 0.0] };
+            let layer = TextureLayer { weight: 0.5, scale: 0.5, angle: -110.0, speed: [0.3, 0.0] };
             s.shore.shoreline.layers[2] = layer;
         }),
-        ("web_warp.amplitude", |s| s.shore.shoreline.web_warp.amplitude *= 3.0),
-        ("web_warp.scale", |s| s.shore.shoreline.web_warp.scale *= 2.0),
-        ("web_warp_speed[0]", |s| s.shore.shoreline.web_warp_speed[0] += 0.3),
-        ("web_warp_speed[1]", |s| s.shore.shoreline.web_warp_speed[1] += 0.3),
+        ("texture_warp.amplitude", |s| s.shore.shoreline.texture_warp.amplitude *= 3.0),
+        ("texture_warp.scale", |s| s.shore.shoreline.texture_warp.scale *= 2.0),
+        ("texture_warp_velocity[0]", |s| s.shore.shoreline.texture_warp_velocity[0] += 0.3),
+        ("texture_warp_velocity[1]", |s| s.shore.shoreline.texture_warp_velocity[1] += 0.3),
         ("threshold", |s| s.shore.shoreline.threshold -= 0.1),
         ("threshold_noise.amplitude", |s| s.shore.shoreline.threshold_noise.amplitude *= 2.0),
         ("threshold_noise.scale", |s| s.shore.shoreline.threshold_noise.scale *= 2.0),

@@ -66,7 +66,7 @@ fn foam_is_in_the_shade_of_a_map() {
     let vertices = rig.stub.data(bytemuck::cast_slice(&vertices), usage);
     let strip = Shoreline::Strip(Strip {
         triangles: Triangles { positions: stream(&vertices, 0, 16), vertices: 6, indices: None },
-        v: stream(&vertices, 12, 16),
+        coordinates: stream(&vertices, 12, 16),
         before: HOST_WRITE,
         after: HOST_WRITE,
     });

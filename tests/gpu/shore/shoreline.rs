@@ -2,7 +2,7 @@
 
 use ash::vk;
 use glam::{DVec2, DVec3, Mat4, Vec3};
-use whitewater::shore::{Area, Edge, Noise, ShoreSettings, ShorelineSettings, WebLayer};
+use whitewater::shore::{Area, Edge, Noise, ShoreSettings, ShorelineSettings, TextureLayer};
 use whitewater::{Shore, Shoreline, Surface};
 
 use super::{Mapped, Tally, is_shared, look_of, shared_at, textures, water, with_shore};
@@ -36,25 +36,25 @@ pub fn heights(area: &Area, size: u32, height: impl Fn(DVec2) -> f64) -> Image<f
 }
 
 /// The map of a bent shore.
-fn coast(gpu: &Gpu) -> Mapped<'_> {
+fn shore_distances(gpu: &Gpu) -> Mapped<'_> {
     let mut coasts = Mapped::new(gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
     coasts
 }
 
 /// The web alone: no noise, and no waves.
-pub fn web_alone(reach: [f32; 2], layers: [WebLayer; 4]) -> ShorelineSettings {
+pub fn web_alone(reach: [f32; 2], layers: [TextureLayer; 4]) -> ShorelineSettings {
     ShorelineSettings::default().with(|it| {
         [it.sea_reach, it.land_reach] = reach;
-        it.wave_ratio = 0.0;
-        it.web_ratio = 1.0;
-        [it.web_slope, it.web_offset] = [0.0; 2];
+        it.wave_weight = 0.0;
+        it.texture_weight = 1.0;
+        [it.texture_slope, it.texture_offset] = [0.0; 2];
         it.threshold = 0.5;
         it.threshold_noise = Noise::NONE;
         it.rise_noise = Noise::NONE;
         it.frequency_noise = Noise::NONE;
         it.speed_noise = Noise::NONE;
-        it.web_warp = Noise::NONE;
+        it.texture_warp = Noise::NONE;
         it.layers = layers;
     })
 }
@@ -65,7 +65,7 @@ pub const AREA: Area =
 /// Two looks into the noise, two layers: what a frame of the less general kind has.
 pub fn plain() -> ShoreSettings {
     let noise = |amplitude, scale| Noise { amplitude, scale };
-    let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
+    let layer = |weight, scale, angle, speed| TextureLayer { weight, scale, angle, speed };
     let shoreline = ShorelineSettings::default().with(|it| {
         [it.sea_reach, it.land_reach] = [3.0, 1.5];
         it.frequency = 9.0;
@@ -73,12 +73,12 @@ pub fn plain() -> ShoreSettings {
         it.speed_noise = noise(0.35, 1.0 / 30.0);
         it.threshold_noise = noise(0.14, 1.0 / 30.0);
         it.rise_noise = noise(0.2, 1.0 / 30.0);
-        it.web_warp = noise(0.4, 1.0 / 17.0);
+        it.texture_warp = noise(0.4, 1.0 / 17.0);
         it.layers = [
             layer(0.62, 1.0 / 6.0, 0.0, [0.12, 0.07]),
             layer(0.38, 1.0 / 3.7, 37.0, [-0.1, 0.13]),
-            WebLayer::NONE,
-            WebLayer::NONE,
+            TextureLayer::NONE,
+            TextureLayer::NONE,
         ];
     });
     ShoreSettings::default().with(|it| {
@@ -97,8 +97,8 @@ fn rich() -> ShoreSettings {
     s.threshold_noise = noise(0.2, 1.0 / 8.0);
     s.rise_noise = noise(0.2, 1.0 / 13.0);
     s.floor = Some(-0.3);
-    s.layers[2] = WebLayer { weight: 0.3, scale: 0.5, angle: -110.0, speed: [0.3, 0.0] };
-    s.layers[3] = WebLayer { weight: 0.2, scale: 0.9, angle: 200.0, speed: [0.0, 0.2] };
+    s.layers[2] = TextureLayer { weight: 0.3, scale: 0.5, angle: -110.0, speed: [0.3, 0.0] };
+    s.layers[3] = TextureLayer { weight: 0.2, scale: 0.9, angle: 200.0, speed: [0.0, 0.2] };
     look
 }
 
@@ -166,7 +166,7 @@ pub fn amount(look: &ShoreSettings, edge: Edge, pixel: &Pixel, at: [usize; 2]) -
 
 /// A shot of the level with the map.
 fn with_map(coasts: &Mapped<'_>, shot: &mut Shot, look: &ShoreSettings) {
-    let line = Some(Shoreline::Map(coasts.coast()));
+    let line = Some(Shoreline::Map(coasts.shore_distances()));
     shot.shore = Some(Shore::new(AREA.level).with(|it| it.shoreline = line));
     shot.settings.shore = *look;
 }
@@ -205,7 +205,7 @@ pub fn twin_map(coasts: &Mapped<'_>) -> Map {
 fn a_level_s_foam_is_the_twin_s() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let coasts = coast(&gpu);
+    let coasts = shore_distances(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     for (name, lens, look) in [
@@ -256,7 +256,7 @@ fn both_pipelines_draw_the_same() {
         &mut s.speed_noise,
         &mut s.threshold_noise,
         &mut s.rise_noise,
-        &mut s.web_warp,
+        &mut s.texture_warp,
     ] {
         *noise = Noise::NONE;
     }
@@ -279,7 +279,7 @@ fn both_pipelines_draw_the_same() {
 fn what_is_shared_changes_little() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let coasts = coast(&gpu);
+    let coasts = shore_distances(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
@@ -308,7 +308,7 @@ fn what_is_shared_changes_little() {
 fn what_stands_before_the_surface_hides_its_foam() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let coasts = coast(&gpu);
+    let coasts = shore_distances(&gpu);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     with_map(&coasts, &mut shot, &plain());
@@ -335,7 +335,7 @@ fn what_stands_before_the_surface_hides_its_foam() {
 fn edges_are_clipped_or_of_quarters() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let coasts = coast(&gpu);
+    let coasts = shore_distances(&gpu);
     let map = twin_map(&coasts);
     for edge in [Edge::Clip, Edge::Coverage] {
         let mut rig = Rig::new(&gpu, &with_shore(size, edge));
@@ -360,7 +360,7 @@ fn edges_are_clipped_or_of_quarters() {
 fn time_goes_round_and_nothing_grows() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let coasts = coast(&gpu);
+    let coasts = shore_distances(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
@@ -408,7 +408,7 @@ fn time_goes_round_and_nothing_grows() {
 fn a_shaped_surface_s_foam_is_the_twin_s() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let coasts = coast(&gpu);
+    let coasts = shore_distances(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     for lens in [Lens::Standard, Lens::ReversedInfinite] {
@@ -423,7 +423,7 @@ fn a_shaped_surface_s_foam_is_the_twin_s() {
             (z > 0.0 && z < 60.0).then(|| z * (1.0 + 0.02 * (0.3 * at[0]).sin()))
         });
         let (_color, depth) = rig.scene(&other);
-        let line = Some(Shoreline::Map(coasts.coast()));
+        let line = Some(Shoreline::Map(coasts.shore_distances()));
         let surface = Some(Surface::Depth(depth.host_image()));
         shot.shore = Some(Shore::new(0.0).with(|it| {
             it.surface = surface;
@@ -483,7 +483,7 @@ fn up_may_be_any_axis() {
         let round = |at: DVec2| 0.4 * (3.0 - (at - DVec2::new(x, y)).length());
         coasts.image_step(&area, &heights(&area, 64, round), None);
         let map = twin_map(&coasts);
-        let line = Some(Shoreline::Map(coasts.coast()));
+        let line = Some(Shoreline::Map(coasts.shore_distances()));
         shot.settings.up = area.up;
         shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = line));
         shot.settings.shore = plain();

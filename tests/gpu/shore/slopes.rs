@@ -1,7 +1,7 @@
 //! The web's slopes where pixels are much longer than wide: they are those of a web that is turned.
 
 use glam::{Mat4, Vec3};
-use whitewater::shore::{Area, Edge, ShoreSettings, WebLayer};
+use whitewater::shore::{Area, Edge, ShoreSettings, TextureLayer};
 use whitewater::{Shore, Shoreline};
 
 use super::shoreline::{AREA, amount, heights, pixel_by_map, twin_map, web_alone};
@@ -17,13 +17,13 @@ const ANGLE: f32 = 30.0;
 
 /// The web alone, of so many layers that are turned alike.
 fn look(layers: usize) -> ShoreSettings {
-    let all = [0.3, 0.47, 0.21].map(|scale| WebLayer {
+    let all = [0.3, 0.47, 0.21].map(|scale| TextureLayer {
         weight: 1.0 / layers as f32,
         scale,
         angle: ANGLE,
         speed: [0.1, 0.0],
     });
-    let layers = std::array::from_fn(|i| if i < layers { all[i] } else { WebLayer::NONE });
+    let layers = std::array::from_fn(|i| if i < layers { all[i] } else { TextureLayer::NONE });
     let shoreline = web_alone([50.0; 2], layers);
     ShoreSettings::default().with(|it| {
         it.time = 12.75;
@@ -53,7 +53,7 @@ fn slopes_are_turned_with_the_web() {
         let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
         let (eye, along) = (Vec3::new(4.0, 0.7, 9.0), Vec3::new(0.3, -0.3, -1.0));
         shot.camera.view = Mat4::look_to_rh(eye, along, Vec3::Y).to_cols_array_2d();
-        let shoreline = Some(Shoreline::Map(coasts.coast()));
+        let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
         shot.shore = Some(Shore::new(area.level).with(|it| it.shoreline = shoreline));
         shot.settings.shore = look(layers);
         let found = rig.draw(&shot).shore.expect("foam");

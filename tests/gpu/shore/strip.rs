@@ -45,7 +45,7 @@ fn a_strip_s_foam_is_the_twin_s() {
     let plainly = rig.stub.data(bytemuck::cast_slice(&unrolled), usage);
     let strip = |data, offset, count, indices| Strip {
         triangles: Triangles { positions: stream(data, offset, 16), vertices: count, indices },
-        v: stream(data, offset + 12, 16),
+        coordinates: stream(data, offset + 12, 16),
         before: HOST_WRITE,
         after: HOST_WRITE,
     };

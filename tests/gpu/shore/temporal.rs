@@ -84,7 +84,7 @@ fn smooth_foam_neither_crawls_nor_sparkles() {
                 let moved = f32::from(frame) * step - Vec3::new(0.0, low, 0.0);
                 shot.camera.view =
                     (shot.camera.view_matrix() * Mat4::from_translation(-moved)).to_cols_array_2d();
-                let shoreline = Some(Shoreline::Map(coasts.coast()));
+                let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
                 shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
                 shot.settings.shore = plain();
                 let found = amounts(&rig.draw(&shot).shore.expect("shoreline foam"));
@@ -121,7 +121,7 @@ fn far_foam_covers_what_near_foam_does() {
         // From above, 20 m.
         shot.camera.view =
             Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z).to_cols_array_2d();
-        let shoreline = Some(Shoreline::Map(coasts.coast()));
+        let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
         shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = shoreline));
         shot.settings.shore = plain();
         let mut rig = Rig::new(&gpu, &with_shore(size, edge));

@@ -1,7 +1,7 @@
 //! Which tiles are shaded: all that have foam, from wherever the surface is seen and whatever stands in it.
 
 use glam::{DVec3, Mat4, Vec3};
-use whitewater::shore::{Edge, Measure, WebLayer};
+use whitewater::shore::{Edge, Measure, TextureLayer};
 use whitewater::{Shore, Shoreline};
 
 use super::contact::{scene_of, twins};
@@ -66,10 +66,11 @@ fn no_tile_with_foam_is_left_out() {
             });
             if k == 1 {
                 // More layers than most have.
-                look.shoreline.layers[2] = WebLayer { weight: 0.05, ..look.shoreline.layers[0] };
+                look.shoreline.layers[2] =
+                    TextureLayer { weight: 0.05, ..look.shoreline.layers[0] };
             }
             shot.settings.shore = look;
-            let line = Some(Shoreline::Map(coasts.coast()));
+            let line = Some(Shoreline::Map(coasts.shore_distances()));
             shot.shore = Some(Shore::new(0.0).with(|it| it.shoreline = line));
             let level = water(&shot, DVec3::Y, 0.0);
             let up_row = [level.up[0], level.up[1], level.up[2]];

@@ -35,7 +35,7 @@ fn without_a_sea_nothing_is_another() {
     let gpu = Gpu::shared();
     let mut coasts = Mapped::new(&gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, |_: DVec2| -1.0), None);
-    let sea = Some(Shoreline::Map(coasts.coast()));
+    let sea = Some(Shoreline::Map(coasts.shore_distances()));
     let (bare, level) = (Shore::new(0.0).with(|it| it.surface = None), Shore::new(0.0));
     for way in WAYS {
         let mut case = Foamy::new(SIZE, Lens::ReversedInfinite, 30.0);

@@ -90,15 +90,15 @@ pub struct Shoreline {
     /// Waves are no less.
     pub floor: Option<f64>,
     /// r.
-    pub wave_ratio: f64,
+    pub wave_weight: f64,
     /// r'.
-    pub web_ratio: f64,
+    pub texture_weight: f64,
     /// a' and b'.
     pub web_rise: [f64; 2],
     /// Of the web.
     pub layers: Vec<Layer>,
     /// Bends the web, metres.
-    pub web_warp: Noise,
+    pub texture_warp: Noise,
     /// By how many metres that has moved.
     pub web_warp_moved: [Bounded; 2],
     /// Foam is from here on.
@@ -123,11 +123,11 @@ impl Shoreline {
             speed_noise: NONE,
             wave_rise: [0.0; 2],
             floor: None,
-            wave_ratio: 1.0,
-            web_ratio: 0.0,
+            wave_weight: 1.0,
+            texture_weight: 0.0,
             web_rise: [0.0; 2],
             layers: Vec::new(),
-            web_warp: NONE,
+            texture_warp: NONE,
             web_warp_moved: [exact(0.0); 2],
             threshold: 0.0,
             threshold_noise: NONE,
@@ -235,10 +235,10 @@ pub fn shoreline(look: &Shoreline, noise: &Texture<4>, texels: &Texture<4>, pixe
     let waves = look.floor.map_or(waves, |floor| waves.max(floor));
 
     let mut q = p;
-    if look.web_warp.amplitude != 0.0 {
+    if look.texture_warp.amplitude != 0.0 {
         let at = [0, 1].map(|i| p[i] + look.web_warp_moved[i]);
-        let [_, _, x, y] = noise.at(at, look.web_warp.scale, width);
-        q = moved(q, look.web_warp, [x, y]);
+        let [_, _, x, y] = noise.at(at, look.texture_warp.scale, width);
+        q = moved(q, look.texture_warp, [x, y]);
     }
     let q = [0, 1].map(|i| beside(q[i], across.map(|way| way[i]), off));
     let [a, b] = look.web_rise;
@@ -255,18 +255,19 @@ pub fn shoreline(look: &Shoreline, noise: &Texture<4>, texels: &Texture<4>, pixe
     }
     let (web, fine) = (sum(&means), sum(&fine));
     let change =
-        [0, 1].map(|i| steep * dv[i] * look.wave_ratio + sum(&changes[i]) * look.web_ratio);
+        [0, 1].map(|i| steep * dv[i] * look.wave_weight + sum(&changes[i]) * look.texture_weight);
 
     let ends = v.smoothstep(look.fade) * (exact(2.0) - v).smoothstep(look.fade);
     let over = sum(&[
-        waves * look.wave_ratio,
-        web * look.web_ratio,
+        waves * look.wave_weight,
+        web * look.texture_weight,
         exact(-look.threshold),
         -dearer,
         (exact(1.0) - ends) * -2.0,
     ]);
-    let [wave_ratio, web_ratio] = [look.wave_ratio, look.web_ratio].map(|r| exact(r) * r);
-    let variance = wave_ratio * ((exact(1.0) - kept * kept) * 0.5) + web_ratio * fine;
+    let [wave_weight, texture_weight] =
+        [look.wave_weight, look.texture_weight].map(|r| exact(r) * r);
+    let variance = wave_weight * ((exact(1.0) - kept * kept) * 0.5) + texture_weight * fine;
     Foam { over, variance, kept, waves, web, change }
 }
 

@@ -120,9 +120,9 @@ pub fn shoreline(
         waves = waves.max(floor as f32);
     }
     let mut q = p;
-    if look.web_warp.amplitude != 0.0 {
+    if look.texture_warp.amplitude != 0.0 {
         let moved = f(look.web_warp_moved);
-        let n = at([p[0] + moved[0], p[1] + moved[1]], look.web_warp);
+        let n = at([p[0] + moved[0], p[1] + moved[1]], look.texture_warp);
         q = [q[0] + n[2], q[1] + n[3]];
     }
     let q = [0, 1].map(|i| q[i] + (across[0][i] * off[0] + across[1][i] * off[1]));
@@ -142,7 +142,7 @@ pub fn shoreline(
     }
     let fade = look.fade as f32;
     let ends = smoothstep(fade, v) * smoothstep(fade, 2.0 - v);
-    let [r, s] = [look.wave_ratio, look.web_ratio].map(|r| r as f32);
+    let [r, s] = [look.wave_weight, look.texture_weight].map(|r| r as f32);
     let dearer = at(p, look.threshold_noise)[3];
     let over = r * waves + s * mean - look.threshold as f32 - dearer - 2.0 * (1.0 - ends);
     let change = [0, 1].map(|i| r * steep * dv[i] + s * change[i]);

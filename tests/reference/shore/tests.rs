@@ -77,14 +77,14 @@ fn island(clock: Clock) -> Shoreline {
         frequency_noise: noise(5.0, ninety),
         speed_noise: noise(0.35, ninety),
         wave_rise: [1.5, -1.0],
-        wave_ratio: 0.5,
-        web_ratio: 0.5,
+        wave_weight: 0.5,
+        texture_weight: 0.5,
         web_rise: [f64::from(0.9_f32), f64::from(-0.6_f32)],
         layers: vec![
             layer(clock, 0.62, 1.0 / 13.0, 0.0, [0.12, 0.07]),
             layer(clock, 0.38, 1.0 / 7.9, 37.0, [-0.1, 0.13]),
         ],
-        web_warp: noise(0.8, 1.0 / 17.0),
+        texture_warp: noise(0.8, 1.0 / 17.0),
         web_warp_moved: clock.moved(1.0 / 17.0, [0.35, 0.2]),
         threshold: f64::from(0.42_f32),
         threshold_noise: noise(0.14, ninety),
@@ -536,8 +536,8 @@ fn far_less_near(
 fn far_foam_covers_what_near_foam_does() {
     let (noise, web) = (smooth_noise(64, 11), cells(128, 30, 12));
     let own = island(CLOCK);
-    let waves = Shoreline { web_ratio: 0.0, wave_ratio: 1.0, ..own.clone() };
-    let web_alone = Shoreline { web_ratio: 1.0, wave_ratio: 0.0, ..own.clone() };
+    let waves = Shoreline { texture_weight: 0.0, wave_weight: 1.0, ..own.clone() };
+    let web_alone = Shoreline { texture_weight: 1.0, wave_weight: 0.0, ..own.clone() };
     let only_web = Shoreline { web_rise: [0.25, -0.25], threshold: 0.5, ..web_alone };
     // A shore so wide that v changes little over a pixel, while waves of some metres and the web change much.
     let short = |look: &Shoreline| Shoreline { frequency: 150.0, ..look.clone() };

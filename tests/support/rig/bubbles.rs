@@ -59,7 +59,7 @@ impl Foamed {
         let stride = size_of::<Bubble>() as u32;
         let at = |offset| -> Stream { stream(&self.0, offset, stride) };
         Blobs::new(at(0), Count::Cpu(self.1)).with(|it| {
-            it.turns = Some(at(16));
+            it.rotations = Some(at(16));
             it.ids = Some(at(32));
             it.before = HOST_WRITE;
             it.after = HOST_WRITE;

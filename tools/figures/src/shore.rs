@@ -11,7 +11,7 @@ use crate::tool::Tool;
 const BEACH: &str = "--eye 8,9,52 --target 18,0,18 --fov 45";
 
 /// Waves as the blog begins with them, without noise or web.
-const PLAIN: &str = "web_ratio = 0.0\nwave_ratio = 1.0\nfrequency_noise = [0.0, 0.0]\nspeed_noise = [0.0, 0.0]\n\
+const PLAIN: &str = "texture_weight = 0.0\nwave_weight = 1.0\nfrequency_noise = [0.0, 0.0]\nspeed_noise = [0.0, 0.0]\n\
      threshold_noise = [0.0, 0.0]\nrise_noise = [0.0, 0.0]\nswing = 0.0\nspeed = 0.9\nfrequency = 19.0\nfade = 0.02\n";
 
 fn look(tool: &Tool, look: &str) -> Outcome<String> {
@@ -20,8 +20,8 @@ fn look(tool: &Tool, look: &str) -> Outcome<String> {
 
 /// The blog's steps: waves; thinner out to sea; noise on the frequency; the web, by two thresholds; the mix.
 pub fn steps(tool: &Tool, docs: &Path) -> Outcome<()> {
-    let web = "wave_ratio = 0.0\nweb_ratio = 1.0\nthreshold_noise = [0.0, 0.0]\nrise_noise = [0.0, 0.0]\nfade = 0.02\n\
-               web_slope = 0.9\nweb_offset = -0.9\n";
+    let web = "wave_weight = 0.0\ntexture_weight = 1.0\nthreshold_noise = [0.0, 0.0]\nrise_noise = [0.0, 0.0]\nfade = 0.02\n\
+               texture_slope = 0.9\ntexture_offset = -0.9\n";
     let looks = [
         format!("{PLAIN}floor = 0.0\nwave_slope = 0.0\nwave_offset = 0.0\nthreshold = 0.4\n"),
         format!("{PLAIN}wave_slope = 1.0\nwave_offset = 0.0\nthreshold = 1.25\n"),

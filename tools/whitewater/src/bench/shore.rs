@@ -9,7 +9,7 @@ use glam::Quat;
 use whitewater::ash::vk;
 use whitewater::headless::scene::{Ground, Material, Mesh, Scene};
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
-use whitewater::shore::{Edge, Noise, ShorelineSettings, WebLayer};
+use whitewater::shore::{Edge, Noise, ShorelineSettings, TextureLayer};
 use whitewater::water::Shadows;
 use whitewater::{Camera, Config, Error, Settings};
 
@@ -294,8 +294,8 @@ fn everything(look: &mut ShorelineSettings) {
     look.rise_noise = noise(0.22, 60.0);
     look.threshold_noise = noise(0.1, 50.0);
     look.warp = noise(1.0, 40.0);
-    look.web_warp = noise(0.7, 18.0);
-    let layer = |weight, scale, angle| WebLayer { weight, scale, angle, speed: [0.1, 0.05] };
+    look.texture_warp = noise(0.7, 18.0);
+    let layer = |weight, scale, angle| TextureLayer { weight, scale, angle, speed: [0.1, 0.05] };
     look.layers = [
         layer(0.4, 1.0 / 10.5, 0.0),
         layer(0.3, 1.0 / 6.4, 37.0),

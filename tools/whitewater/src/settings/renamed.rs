@@ -27,7 +27,12 @@ pub const RENAMED: &[(&str, &str, &str)] = &[
     ("shoreline", "reach", "sea_reach and land_reach"),
     ("shoreline", "swing_by", "swing_amplitude and swing_period"),
     ("shoreline", "wave_rise", "wave_slope and wave_offset"),
-    ("shoreline", "web_rise", "web_slope and web_offset"),
+    ("shoreline", "web_rise", "texture_slope and texture_offset"),
+    ("shoreline", "wave_ratio", "wave_weight"),
+    ("shoreline", "web_ratio", "texture_weight"),
+    ("shoreline", "web_warp", "texture_warp"),
+    ("shoreline", "web_warp_speed", "texture_warp_velocity"),
+    ("shore", "web_size", "texture_size"),
 ];
 
 /// The message for the first table or key of a text that has another name now.

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use whitewater::shore::{
-    ContactSettings, Edge, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings, WebLayer,
+    ContactSettings, Edge, Measure, Noise, ShoreConfig, ShoreSettings, ShorelineSettings,
+    TextureLayer,
 };
 
 use super::table::{table, words};
@@ -18,7 +19,7 @@ table! {
     not { time, shoreline, contact }
     beside {
         edge: EdgeWord,
-        web_size: u32,
+        texture_size: u32,
         seed: u32,
         /// A picture in place of the built-in web.
         web: PathBuf,
@@ -61,17 +62,17 @@ impl ShoreTable {
         let standard = ShoreConfig::default();
         standard.with(|it| {
             it.edge = self.edge.map_or(standard.edge, Into::into);
-            it.web_size = self.web_size.unwrap_or(standard.web_size);
+            it.texture_size = self.texture_size.unwrap_or(standard.texture_size);
             it.seed = self.seed.unwrap_or(standard.seed);
         })
     }
 
     /// The table that says all of a look, and of the passes and of what they read as this table does.
     pub fn all(&self, look: &ShoreSettings) -> Self {
-        let ShoreConfig { edge, web_size, seed, .. } = self.config();
+        let ShoreConfig { edge, texture_size, seed, .. } = self.config();
         Self {
             edge: Some(edge.into()),
-            web_size: Some(web_size),
+            texture_size: Some(texture_size),
             seed: Some(seed),
             web: self.web.clone(),
             strip: self.strip.clone(),
@@ -98,13 +99,13 @@ table! {
         speed_period: f32,
         wave_slope: f32,
         wave_offset: f32,
-        wave_ratio: f32,
-        web_ratio: f32,
-        web_slope: f32,
-        web_offset: f32,
+        wave_weight: f32,
+        texture_weight: f32,
+        texture_slope: f32,
+        texture_offset: f32,
         layers: Layers,
-        web_warp: Pair,
-        web_warp_speed: [f32; 2],
+        texture_warp: Pair,
+        texture_warp_velocity: [f32; 2],
         threshold: f32,
         threshold_noise: Pair,
         rise_noise: Pair,
@@ -140,7 +141,7 @@ const LAYERS: usize = 4;
 /// The layers of the web, as many as there are.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(try_from = "Vec<LayerTable>", into = "Vec<LayerTable>")]
-pub struct Layers([WebLayer; LAYERS]);
+pub struct Layers([TextureLayer; LAYERS]);
 
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -163,10 +164,10 @@ impl TryFrom<Vec<LayerTable>> for Layers {
                 tables.len()
             ));
         }
-        let mut layers = [WebLayer::NONE; LAYERS];
+        let mut layers = [TextureLayer::NONE; LAYERS];
         for (layer, table) in layers.iter_mut().zip(tables) {
             let LayerTable { weight, scale, angle, speed } = table;
-            *layer = WebLayer { weight, scale, angle, speed };
+            *layer = TextureLayer { weight, scale, angle, speed };
         }
         Ok(Self(layers))
     }
@@ -174,20 +175,24 @@ impl TryFrom<Vec<LayerTable>> for Layers {
 
 impl From<Layers> for Vec<LayerTable> {
     fn from(Layers(layers): Layers) -> Self {
-        let table =
-            |WebLayer { weight, scale, angle, speed }| LayerTable { weight, scale, angle, speed };
+        let table = |TextureLayer { weight, scale, angle, speed }| LayerTable {
+            weight,
+            scale,
+            angle,
+            speed,
+        };
         layers.map(table).into()
     }
 }
 
-impl From<Layers> for [WebLayer; LAYERS] {
+impl From<Layers> for [TextureLayer; LAYERS] {
     fn from(Layers(layers): Layers) -> Self {
         layers
     }
 }
 
-impl From<[WebLayer; LAYERS]> for Layers {
-    fn from(layers: [WebLayer; LAYERS]) -> Self {
+impl From<[TextureLayer; LAYERS]> for Layers {
+    fn from(layers: [TextureLayer; LAYERS]) -> Self {
         Self(layers)
     }
 }

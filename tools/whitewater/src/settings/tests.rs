@@ -328,5 +328,5 @@ fn no_field_is_forgotten() {
     let bubbles =
         "max_blobs variants bubbles seed impostor map_size steps layers sort film crossfade";
     same(&whitewater::bubbles::BubbleConfig::new(1), &words(bubbles));
-    same(&whitewater::shore::ShoreConfig::default(), &words("edge web_size seed"));
+    same(&whitewater::shore::ShoreConfig::default(), &words("edge texture_size seed"));
 }

@@ -225,7 +225,7 @@ fn cells(text: &str) -> Vec<HashMap<&str, &str>> {
         .collect()
 }
 
-const QUICK_MAP: &str = "[shore]\nmap = 256\nweb_size = 64\n";
+const QUICK_MAP: &str = "[shore]\nmap = 256\ntexture_size = 64\n";
 
 /// What foam along shores covers and costs, by each of its ways, beside the water.
 #[test]
