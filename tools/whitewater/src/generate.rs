@@ -8,8 +8,8 @@ use whitewater::{GeneratorSettings, PotentialRange};
 
 use crate::bounds::Bounds;
 use crate::failure::Outcome;
+use crate::looks::round;
 use crate::placing::Placing;
-use crate::render::round;
 use crate::session::PRE_ROLLED;
 use crate::settings::SettingsFile;
 use crate::settings::generate::GenerateTable;

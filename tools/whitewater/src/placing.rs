@@ -81,7 +81,7 @@ pub fn fastest(particles: &Particles) -> Option<f32> {
 
 /// A word on an extent that is no likely one of water in metres; `fastest`: of nearly all, where velocities are known.
 pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
-    let spans = format!("the water spans {} metres", crate::render::round(extent));
+    let spans = format!("the water spans {} metres", crate::looks::round(extent));
     let froude = fastest.map(|speed| speed * speed / (GRAVITY * extent));
     match froude {
         Some(number) if number.is_finite() && number > FASTEST => {
@@ -91,7 +91,7 @@ pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
             let unit = units.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
             Some(format!(
                 "{spans}, and moves at up to {}: too fast for gravity if the files are in metres (--unit {} fits)",
-                crate::render::round(fastest?),
+                crate::looks::round(fastest?),
                 unit.name()
             ))
         }

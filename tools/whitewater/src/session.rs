@@ -1,26 +1,25 @@
 //! One run of drawing: device, look, targets. `render` and `demo` feed it frames.
 
+mod room;
+
 use std::borrow::Cow;
 use std::path::PathBuf;
 
-use whitewater::ash::vk;
+use whitewater::GeneratorSettings;
 use whitewater::bubbles::BubbleConfig;
 use whitewater::headless::scene::Scene;
-use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Stepped};
+use whitewater::headless::{Background, Device, DeviceOptions, Headless, Stepped};
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Display, Layers};
-use whitewater::water::{
-    Kernels, Rule, Shading, SurfaceNoiseSettings, WaterSettings, WeberSettings,
-};
-use whitewater::{Config, DeviceSupport, LightVolume, Previous, Settings};
-use whitewater::{GeneratorSettings, WhitewaterConfig};
+use whitewater::water::{SurfaceNoiseSettings, WaterSettings, WeberSettings};
+use whitewater::{LightVolume, Previous, Settings};
 
-use crate::args::{DrawArgs, NoiseArg, ShadowArg};
+use crate::args::{DrawArgs, NoiseArg};
 use crate::blur::{self, Blur};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
-use crate::environment::{Environment, Panorama, Source};
-use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
+use crate::environment::Environment;
+use crate::failure::{Failure, Kind, Outcome};
 use crate::film::{self, Reel};
 use crate::films;
 use crate::fluids::Liquids;
@@ -152,11 +151,6 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
     }
 }
 
-/// Edge of the light's maps for a picture so many pixels wide.
-fn light_texels(width: u32) -> u32 {
-    (width / 2).next_multiple_of(16).clamp(256, 1024)
-}
-
 /// How the baseline's noise looks where nothing is said.
 pub fn noise(args: &DrawArgs) -> SurfaceNoiseSettings {
     match args.noise {
@@ -250,139 +244,6 @@ impl<'a> Session<'a> {
     /// Where a frame goes.
     pub fn paths(&self, frame: u64) -> Vec<PathBuf> {
         self.targets.iter().map(|t| t.path(frame)).collect()
-    }
-
-    /// Makes a renderer with room for that many particles, if the one there is has not. A new one
-    /// knows of no foam.
-    pub fn make_room(&mut self, count: usize) -> Outcome<()> {
-        self.make_room_with(count, 0)
-    }
-
-    /// What the sunlight does.
-    fn shadows(&self) -> ShadowArg {
-        let scene = self.look.file.is_thesis();
-        self.args.shadows.unwrap_or(if scene { ShadowArg::Scene } else { ShadowArg::All })
-    }
-
-    fn make_room_with(&mut self, count: usize, whitewater: usize) -> Outcome<()> {
-        let supersample = self.supersample();
-        let count = u32::try_from(count.max(self.look.fullest))
-            .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
-        let whitewater = whitewater_source::counted(whitewater)?;
-        let made = match &self.look.whitewater {
-            Some(WhitewaterSource::Made(made)) => Some(made),
-            _ => None,
-        };
-        // It is looked at in frames of the whole sequence before any is drawn.
-        let count = made.map_or(0, |made| made.probed() as u32).max(count);
-        let there = self.headless.as_ref().map(|h| *h.renderer().config());
-        let most =
-            |config: &Config| config.whitewater.map_or(0, |whitewater| whitewater.max_particles);
-        if there.is_some_and(|config| config.max_particles >= count && most(&config) >= whitewater)
-        {
-            return Ok(());
-        }
-        let device = match self.headless.take() {
-            Some(headless) => headless.finish()?,
-            None => self.device.take().ok_or_else(|| {
-                Failure::new(Kind::Device, "the device was lost earlier; run again")
-            })?,
-        };
-        let (args, times) = (self.args, self.times.clone());
-        let number = self.look.scene.frame;
-        let [width, height] = [args.size.0, args.size.1].map(|n| n.saturating_mul(supersample));
-        let extent = vk::Extent2D { width, height };
-        // Frames between those that were looked at may hold more: a quarter.
-        let room = |count: u32| count.saturating_add(count / 4).max(1024);
-        let before = there.as_ref();
-        let whitewater = room(whitewater).max(before.map_or(0, most));
-        let room = room(count).max(before.map_or(0, |config| config.max_particles));
-        let mut config = Config::new(extent, COLOR_FORMAT, room);
-        config.max_stride = 12;
-        // GPUs made for computing rasterize with a small part of themselves (docs/performance.md); elsewhere both take as long.
-        config.composite = Some(Shading::Compute);
-        config.smoothing_level = args.smoothing_level;
-        config.thickness_level = args.thickness_level;
-        let thesis = self.look.file.is_thesis();
-        config.sheets = args.sheets.unwrap_or(if thesis { 1 } else { 2 });
-        config.mirror_steps = self.look.file.water.mirror_steps(thesis);
-        // Of water alone the scene behind is another's: what leaves it goes straight on.
-        config.exit = self.look.file.water.exit(thesis || self.look.matte);
-        config.kernels = self.look.file.water.kernels(thesis);
-        config.surface_foam = self.look.foam.is_some();
-        config.spray = self.look.spray;
-        config.whitewater = self.look.whitewater.as_ref().map(|source| {
-            let (most, max_stride) = match source {
-                WhitewaterSource::Files(_) => (whitewater, 12),
-                WhitewaterSource::Made(made) => (made.max_particles(), 16),
-            };
-            let table = &self.look.file.whitewater;
-            let (occlusion, splat) = (table.occlusion(), table.splat());
-            WhitewaterConfig::new(most).with(|it| {
-                it.max_stride = max_stride;
-                it.occlusion = occlusion;
-                it.splat = splat;
-            })
-        });
-        config.bubbles = self.look.bubbles.as_ref().map(|(blobs, bubbles)| {
-            let max_splits = blobs.motion.as_ref().map_or(0, |motion| motion.max_splits);
-            let own = (blobs.blobs.len() as u32).max(1) << max_splits;
-            let max_blobs = if bubbles.crossfade { bubbles.max_blobs } else { own };
-            bubbles.with(|it| it.max_blobs = max_blobs)
-        });
-        config.shore = self.look.shores.as_ref().map(|shores| shores.config);
-        // Half the resolution of the picture, as it is drawn for one sample a pixel.
-        config.noise = (args.noise != NoiseArg::None).then_some(1);
-        let shadows = self.shadows();
-        config.shadow = (shadows != ShadowArg::None).then(|| self.look.file.shadows());
-        config.light_map_size = (shadows == ShadowArg::All).then(|| light_texels(width));
-        config.motion = self.motion;
-        config.depth_splat = args.splat.map(Into::into);
-        config.thickness_splat = args.splat.map(Into::into);
-        let rule = if thesis { Rule::Source } else { Rule::ConstantWidth };
-        config.rule = args.rule.unwrap_or(rule);
-        if config.kernels == Kernels::Ellipsoids && !self.look.file.water.says_kernels() {
-            // A device may not bind so many.
-            let offer = DeviceSupport::of(&device.instance, device.physical, COLOR_FORMAT);
-            let spheres = config.with(|it| it.kernels = Kernels::Spheres);
-            if offer.check(&config).is_err() && offer.check(&spheres).is_ok() {
-                times.say(&format!(
-                    "{room} particles are drawn as spheres: the device binds the shapes of fewer"
-                ));
-                config = spheres;
-            }
-        }
-        let mut headless = times
-            .step("set up", number, || Headless::new(device, &config))
-            .map_err(|error| too_large(error, supersample))?;
-        times.step("environment", number, || match &self.look.environment.source {
-            Source::Sky(sky) => Ok(headless.sky(sky)?),
-            Source::Picture { shown, without_sun } => {
-                let (width, height) = (shown.width as u32, shown.height as u32);
-                let extent = vk::Extent2D { width, height };
-                let [shown, without_sun] = [shown, without_sun].map(Panorama::texels);
-                let made =
-                    headless.equirectangular_with_sun(extent, &shown, &without_sun, (1.0, 0.0));
-                made.map_err(|error| bad_picture(error, &args.environment))
-            }
-        })?;
-        times.step("scene", number, || headless.scene(&self.look.scene, supersample == 1))?;
-        if shadows == ShadowArg::All {
-            headless.region(self.look.region);
-        }
-        if let Some((blobs, _)) = self.look.bubbles.as_ref().filter(|(_, own)| !own.crossfade) {
-            times.step("upload", number, || match &blobs.motion {
-                Some(own) => headless.heap(&blobs.blobs, own.field.as_ref(), own.max_splits),
-                None => headless.bubbles(&blobs.blobs),
-            })?;
-        }
-        if let Some(shores) = &self.look.shores {
-            times.step("shore", number, || shores.set_up(&mut headless, &self.look.scene))?;
-        }
-        self.staged = self.look.scene.frame;
-        self.headless = Some(headless);
-        self.memory = Memory::default();
-        Ok(())
     }
 
     /// Draws one frame and writes its pictures; `before`: number of the one before it in the sequence.

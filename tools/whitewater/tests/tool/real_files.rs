@@ -382,8 +382,9 @@ fn frames_in_one_file_are_drawn() {
     };
     folder.text("all.json", &format!("[{}, {}]", list(0), list(1)));
     [0, 1].into_iter().for_each(|i| folder.text(&format!("one_{i}.json"), &list(i)));
-    let common =
-        format!("{SMALL} --eye 0,0.35,2.35 --target 0,0.35,0 --fov 40 --radius 0.05 --foam none");
+    let common = format!(
+        "{SMALL} --eye 0,0.35,2.35 --target 0,0.35,0 --fov 40 --radius 0.05 --surface-foam none"
+    );
     folder.run(&format!("render all.json -o all.png {common} --frames 1")).ok();
     folder.run(&format!("render one_*.json -o one.png {common} --frames 1")).ok();
     folder.run("compare all.0001.png one.0001.png").ok();

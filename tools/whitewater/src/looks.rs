@@ -1,0 +1,392 @@
+//! How the water of files looks where nothing is said: camera, light, surroundings, liquid, foam and spray, found from the
+//! particles.
+
+use glam::{Quat, Vec3};
+use whitewater::headless::scene::Scene;
+use whitewater::io::particles::Particles;
+use whitewater::water::Medium;
+use whitewater::water::{SpraySettings, SurfaceFoamSettings};
+
+use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Whitewater};
+use crate::bounds::Bounds;
+use crate::camera::CameraFile;
+use crate::environment::Environment;
+use crate::failure::{Failure, Outcome};
+use crate::generate::Generate;
+use crate::placing;
+use crate::probes::Probes;
+use crate::progress::Progress;
+use crate::reader::DEFAULT_FPS;
+use crate::session::{self, Look};
+use crate::settings::{FoamBy, SettingsFile};
+use crate::spouts;
+use crate::stage;
+use crate::surface_foam;
+use crate::turntable::Turning;
+use crate::whitewater_source;
+
+/// The speed at which water of a sequence meets things, m/s: that of its fastest particles, or, where that is more or
+/// there are no velocities, of a fall from its highest particles to its lowest.
+pub fn impact_speed(frames: &[Particles]) -> f32 {
+    let fall = |frame: &Particles| {
+        let heights: Vec<f32> =
+            frame.positions.iter().map(|p| p[1]).filter(|y| y.is_finite()).collect();
+        let [low, high] = [0.02, 0.998].map(|part| surface_foam::quantile(heights.clone(), part));
+        Some((2.0 * 9.81 * (high? - low?)).sqrt())
+    };
+    let each = frames.iter().flat_map(|frame| [fall(frame), placing::fastest(frame)]);
+    each.flatten().fold(0.0, f32::max)
+}
+
+/// Of spray in caches: what is alone, or nearly, is. Solvers' densities read low at every surface, in a sheet and a jet, so
+/// that the library's 0.85 is met by most of a splash (of the highest tenth of two solid jets by 82 %, by these 23 %). One
+/// neighbour at a spacing makes 0.40, a line of particles 0.48.
+/// Sheets of one layer (0.70) hold; what is torn to less has droplets about it and is water still.
+const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
+
+/// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
+/// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
+/// of the time of a fall through a spacing.
+/// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
+pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
+    let mist = 0.14 * (speed / 6.0).min(1.0).powi(2);
+    *spray = spray.with(|it| {
+        [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
+        it.opacity = 0.95;
+        it.droplets = 64;
+        it.size = 0.2;
+        it.scatter_radius = 4.5;
+        it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
+        it.mist = mist;
+        it.mist_size = 2.0;
+        it.mist_contrast = 2.0;
+        it.exposure = 0.001;
+        it.shade = 2.0;
+    });
+}
+
+/// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
+/// it is lit by the shape of the splash. (Of the library's whole relief, which is as large as a particle, it is gravel; of its
+/// veil, a cloud.)
+pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
+    *foam = foam.with(|it| {
+        it.extinction = 0.35 / spacing;
+        it.front_extinction = 0.1 / spacing;
+        it.min_thickness = 0.1 * spacing;
+        it.normal_strength = 0.35;
+        it.lace = 1.0;
+        it.lace_size = 0.8;
+        it.aeration = 0.6;
+        it.shape = 0.8;
+        it.back_color = [0.62, 0.68, 0.73];
+        it.front_color = [0.97; 3];
+    });
+}
+
+/// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
+const SMALL: f32 = 2.0;
+/// The part of the colour of a pool's water that is the water's own, where its tiles are blue.
+const BLUE_TILES: f32 = 0.45;
+/// Metres across above which it is clearer than that, so that its ground is seen: by nature it is dark, and few solvers' units
+/// are metres.
+const LARGE: f32 = 10.0;
+
+/// What was found, or said, before the look.
+pub struct Found {
+    pub camera: Option<CameraFile>,
+    pub spacing: f32,
+    pub files: Option<whitewater_source::Files>,
+    /// The axis across which the particles lie in one layer.
+    pub sheet: Option<usize>,
+}
+
+/// What time is needed for.
+#[derive(Clone, Copy)]
+pub struct Sequence {
+    /// There is more than one frame.
+    pub is: bool,
+    /// Motion vectors are wanted.
+    pub motion: bool,
+    /// A film is wanted, whose frames are so many numbers apart.
+    pub film: Option<f32>,
+    /// The camera goes round.
+    pub turning: Option<Turning>,
+    /// All pictures are of this frame.
+    pub still: Option<u64>,
+    /// Numbers a second, where it was said.
+    pub said: Option<f32>,
+    /// Numbers from a frame to the next.
+    pub step: f32,
+}
+
+/// Where nothing is said: whitewater particles take the place of the water's own foam.
+pub fn foaming(args: &RenderArgs) -> Foaming {
+    if args.whitewater.is_empty() { Foaming::Auto } else { Foaming::None }
+}
+
+/// Particles as they are seen from eight sides, so that a camera that sees all of them sees them all the way round; and
+/// the box about them.
+fn from_all_sides(frames: &[Particles], bounds: &Bounds) -> (Vec<Vec<[f32; 3]>>, Bounds) {
+    let centre = bounds.center();
+    let mut all = Vec::new();
+    for positions in frames.iter().map(|frame| &frame.positions) {
+        let step = positions.len().div_ceil(20_000).max(1);
+        let inside = positions.iter().step_by(step).map(|p| Vec3::from(*p));
+        let inside: Vec<Vec3> = inside.filter(|p| bounds.contains(*p)).collect();
+        for side in 0..8_u8 {
+            let turned = Quat::from_rotation_y(f32::from(side) * std::f32::consts::FRAC_PI_4);
+            let at = |p: &Vec3| (centre + turned * (*p - centre)).to_array();
+            all.push(inside.iter().map(at).collect());
+        }
+    }
+    let reach = 0.5 * bounds.size().with_y(0.0).length();
+    let reach = Vec3::new(reach, 0.5 * bounds.size().y, reach);
+    (all, Bounds { min: centre - reach, max: centre + reach })
+}
+
+/// The look of a run: what arguments and settings say, and the rest as it is found.
+pub fn look(
+    args: &RenderArgs,
+    sequence: Sequence,
+    probes: &mut Probes,
+    found: Found,
+    mut file: SettingsFile,
+    environment: Environment,
+    progress: &Progress,
+) -> Outcome<Look> {
+    let Found { camera, spacing, mut files, sheet } = found;
+    let unit = Bounds { min: Vec3::splat(-1.0), max: Vec3::ONE };
+    let bounds = probes.bounds().unwrap_or(unit).padded(0.5 * spacing);
+    let mut settings = file.look(spacing, environment.light());
+    if let Some(density) = probes.rest_density() {
+        if density != settings.water.rest_density && file.water.rest_density.is_none() {
+            progress
+                .say(&format!("rest density {density} (estimated; water.rest_density sets it)"));
+        }
+        settings.water.rest_density = density;
+    }
+    settings.noise = session::noise(&args.draw);
+    if !file.is_thesis() {
+        spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
+        foam_of_caches(&mut settings.surface_foam, spacing);
+        let wide = bounds.size().x.max(bounds.size().z);
+        if wide < SMALL {
+            settings.water.medium = Medium::CLEAR;
+        } else if args.scene.is_none() && args.set.unwrap_or_default() == SetArg::Pool {
+            settings.water.medium = settings.water.medium.thinned(BLUE_TILES);
+        }
+        if wide > LARGE && file.water.medium.is_none() {
+            settings.water.medium = settings.water.medium.thinned(LARGE / wide);
+            let wide = round(wide);
+            progress.say(&format!(
+                "water {wide} metres wide is drawn as clear as a pool of {LARGE} (--unit, where lengths are no metres; \
+                 table [water] medium)"
+            ));
+        }
+    }
+    file.apply(&mut settings);
+    settings.water.spacing = spacing;
+    if let Some(files) = &mut files {
+        files.choose(&file, &mut settings);
+        if let Some([foam, spray, bubbles]) =
+            files.radii().filter(|_| file.whitewater.radii.is_none())
+        {
+            let copies = files.copies();
+            if copies > 1 {
+                progress
+                    .say(&format!("each whitewater particle as {copies}, scattered: they are few"));
+            }
+            progress.say(&format!(
+                "whitewater particles with radii of {}, {} and {} (foam, spray, bubbles) and half_intensity_thickness = {} (found; table \
+                 [whitewater] sets them)",
+                round(foam),
+                round(spray),
+                round(bubbles),
+                round(settings.whitewater.half_intensity_thickness),
+            ));
+        }
+        // What a picture was drawn with stands in it.
+        file.whitewater.radii = files.radii();
+        file.whitewater.copies = file.whitewater.radii.map(|_| files.copies());
+    }
+
+    let camera = camera.unwrap_or_else(|| {
+        let (fov, size) = (args.camera.fov, args.draw.size);
+        let camera = match sequence.turning {
+            Some(_) => {
+                let (frames, round) = from_all_sides(&probes.frames, &bounds);
+                let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
+                CameraFile::of_particles(&frames, &round, fov, size).over(bounds.center())
+            }
+            None => {
+                let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+                match sheet {
+                    Some(across) => CameraFile::of_sheet(across == 0, &frames, &bounds, fov, size),
+                    None => CameraFile::of_particles(&frames, &bounds, fov, size),
+                }
+            }
+        };
+        progress.say(&format!("camera {} (found; --camera sets it)", camera.json()));
+        camera
+    });
+    let mut environment = environment;
+    let set = args.set.unwrap_or_default();
+    let view = camera.at_frame(probes.first).camera(args.draw.size)?.view_matrix();
+    let eye = view.inverse().transform_point3(Vec3::ZERO);
+    // A sun that the walls of a basin don't keep out, and that shines through what flies.
+    let own_sky = args.scene.is_none() && args.draw.environment == "sky";
+    let sun = own_sky.then(|| stage::side_light(eye - bounds.center()));
+    let mut scene = match &args.scene {
+        None if set == SetArg::None => Scene::default(),
+        Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds, eye, set),
+        Some(path) => stage::read(path)?,
+        None => {
+            let inside = |frame: &Particles| -> Vec<[f32; 3]> {
+                let inside = frame.positions.iter().filter(|p| bounds.contains(Vec3::from(**p)));
+                inside.copied().collect()
+            };
+            let frames: Vec<_> = probes.frames.iter().map(inside).collect();
+            let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
+            let seen_from = (eye, sequence.turning.is_some());
+            let jets = probes.frames.iter().find_map(|frame| {
+                let velocities = frame.velocities.as_ref()?;
+                let found = spouts::find(&frame.positions, velocities, spacing, bounds.min.y);
+                (!found.is_empty()).then_some(found)
+            });
+            let jets = jets.unwrap_or_default();
+            let basin = stage::basin_round(&frames, &bounds, spacing, seen_from, set, &jets);
+            match basin.filter(|_| sheet.is_none()) {
+                Some(basin) => {
+                    progress
+                        .say("a basin round the water, which a box holds (--scene ground: none)");
+                    basin
+                }
+                None => stage::ground_under(&bounds, eye, set),
+            }
+        }
+    };
+    let plain = args.draw.environment == "sky" && args.draw.sun.is_none() && args.scene.is_none();
+    let own = if plain { stage::light(set, eye - bounds.center())? } else { None };
+    if sun.is_some() || own.is_some() {
+        environment = match own {
+            Some(own) => own,
+            None => session::environment(&args.draw, sun)?,
+        };
+        settings.light = file.in_light(environment.light());
+        file.light.put(&mut settings.light);
+    }
+    scene.sun = environment.sun_light();
+    // Whitewater particles take the place of the water's own foam and spray.
+    let has_whitewater = !args.whitewater.is_empty();
+    let spray =
+        args.draw.spray.unwrap_or(if has_whitewater { SprayArg::None } else { SprayArg::Auto });
+    let spray = spray == SprayArg::Auto;
+    // As `Session::frame` does it.
+    for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
+        frame.densities = session::guessed_densities(spray, frame, &settings.water);
+    }
+    let fps = sequence.said.or(probes.fps).unwrap_or(DEFAULT_FPS * sequence.step);
+    let camera = match sequence.turning {
+        Some(turning) => camera.turned(turning.turn(fps))?,
+        None => camera,
+    };
+    let seconds: Vec<f32> =
+        probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
+    let wanted = args.draw.surface_foam.unwrap_or(foaming(args));
+    // In a sequence by speed: where air is trapped changes from frame to frame, three times as much as foam by speed does.
+    let steady = sequence.is.then_some(FoamBy::Speed);
+    let by = file
+        .surface_foam
+        .by
+        .or(steady)
+        .unwrap_or_else(|| file.surface_foam.by(wanted, file.is_thesis()));
+    file.surface_foam.by = Some(by);
+    let foam = surface_foam::settings(
+        wanted,
+        (&file.surface_foam, by),
+        &probes.frames,
+        &seconds,
+        &settings,
+    );
+    if let Some(foam) = &foam {
+        let of = match by {
+            FoamBy::Air => "of trapped air ",
+            FoamBy::Speed => "",
+        };
+        let number = round(foam.threshold);
+        progress.say(&format!(
+            "surface foam from Weber number {of}{number} on (--surface-foam sets it; none)"
+        ));
+    } else if wanted == Foaming::Auto && probes.frames.iter().any(|f| f.velocities.is_some()) {
+        let onset = surface_foam::ONSET;
+        progress.say(&format!(
+            "no foam: the water is calm, or moves as a whole; it draws in air from {onset} metre a second on, by which it \
+             moves past its surroundings (--surface-foam N sets a Weber number; --unit, where lengths are no metres)"
+        ));
+    }
+    let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
+    let made = args.whitewater == [Whitewater::Generate];
+    if made && !probes.frames.iter().any(|frame| frame.velocities.is_some()) {
+        let why = "--whitewater generate: expected velocities in the files, or a sequence whose particles have ids or \
+             keep their order, found neither";
+        return Err(Failure::input(why));
+    }
+    if made && file.generate.max_particles == Some(0) {
+        let why = "[generate] max_particles: expected 1 or more, found 0";
+        return Err(Failure::input(why));
+    }
+    let remembers = sequence.is && (made || foam.is_some() && probes.frames.iter().any(moving));
+    let vectors = sequence.is && sequence.motion;
+    let film = fps / sequence.film.unwrap_or(1.0);
+    let fps = (remembers || vectors || sequence.is && sequence.film.is_some()).then(|| {
+        if args.fps.is_none() {
+            let found = if probes.fps.is_some() { "found; " } else { "" };
+            let fps = round(fps / sequence.step);
+            progress.say(&format!("{fps} frames a second ({found}--fps sets it)"));
+        }
+        fps
+    });
+    let region = bounds.region();
+    let rate = fps.filter(|_| vectors);
+    let fps = fps.filter(|_| remembers);
+    let fullest = probes.frames.iter().map(|f| f.positions.len()).max().unwrap_or(0);
+    let whitewater = match made {
+        true => {
+            let probes = std::mem::take(&mut probes.frames);
+            let seconds = fps.map(|_| seconds.last().copied().unwrap_or(0.0));
+            let table = file.generate.clone();
+            let generate = Generate::new(table, spacing, &bounds, seconds, probes)?;
+            Some(whitewater_source::WhitewaterSource::Made(Box::new(generate)))
+        }
+        false => files.map(whitewater_source::WhitewaterSource::Files),
+    };
+    let matte = set == SetArg::None;
+    Ok(Look {
+        camera,
+        settings,
+        fluids: Vec::new(),
+        photograph: args.fluids.is_empty()
+            && !(sequence.is || sequence.still.is_some() || matte || file.is_thesis()),
+        file,
+        environment,
+        scene,
+        matte,
+        still: sequence.still,
+        foam,
+        whitewater,
+        bubbles: None,
+        shores: None,
+        exposure: stage::exposure(set),
+        spray,
+        region,
+        fps,
+        rate,
+        film,
+        fullest,
+    })
+}
+
+/// Four digits are enough to read.
+pub fn round(value: f32) -> f32 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
