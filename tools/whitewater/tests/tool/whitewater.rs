@@ -143,7 +143,7 @@ fn few_particles_and_many_read_as_foam() {
     folder.text("own.toml", "[whitewater]\nradius = 0.02\nhalf_intensity_thickness = 2.0\n");
     folder.run(&format!("{common} --settings own.toml -o own.exr --whitewater few.ply")).ok();
     assert_eq!(setting("own.exr", "radii"), None);
-    for (key, value) in [("radius", 0.02), ("half", 2.0)] {
+    for (key, value) in [("radius", 0.02), ("half_intensity_thickness", 2.0)] {
         let found = setting("own.exr", key).unwrap().as_float().unwrap();
         assert!((found - value).abs() < 1.0e-6, "{key} {found}");
     }
