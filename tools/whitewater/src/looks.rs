@@ -29,8 +29,10 @@ use crate::whitewater_source;
 /// there are no velocities, of a fall from its highest particles to its lowest.
 pub fn impact_speed(frames: &[Particles]) -> f32 {
     let fall = |frame: &Particles| {
-        let heights: Vec<f32> =
-            frame.positions.iter().map(|p| p[1]).filter(|y| y.is_finite()).collect();
+        // Without strays, of which one is enough for any height.
+        let bulk = Bounds::of_bulk(&frame.positions)?;
+        let inside = frame.positions.iter().filter(|p| bulk.contains(Vec3::from(**p)));
+        let heights: Vec<f32> = inside.map(|p| p[1]).collect();
         let [low, high] = [0.02, 0.998].map(|part| surface_foam::quantile(heights.clone(), part));
         Some((2.0 * 9.81 * (high? - low?)).sqrt())
     };
