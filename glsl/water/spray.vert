@@ -1,7 +1,8 @@
 #version 460
 // Pass `spray` (thesis Sec. 4.9.5; several droplets per particle are new): a quad around each droplet, an ellipse that
 // faces the camera, stretched along its projected motion.
-// Reads: sprites, what sunlight.glsl reads. Writes: the quad's corners, the opacity and its sunlit part.
+// Reads: sprites, what sunlight.glsl reads. Writes: the quad's corners, its optical depth and visibility of the sun, and
+// the scale of the noise in mist.
 
 #include "frame.glsl"
 #include "random.glsl"

@@ -52,8 +52,8 @@ pub struct BubbleConfig {
     pub film: Film,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) film: Film,
-    /// Whether whitewater foam near the camera turns into blobs ([`BubbleSettings::crossfade`]), at most
-    /// `max_blobs` of them; frames then have no other blobs. Default false. Needs
+    /// Draws whitewater foam near the camera as blobs, at most `max_blobs` of them
+    /// ([`BubbleSettings::crossfade`] sets the distances). A frame then has no other blobs. Default false. Needs
     /// [`Config::whitewater`](crate::Config::whitewater). 36 bytes per blob more; adds the pass `near`.
     pub crossfade: bool,
 }

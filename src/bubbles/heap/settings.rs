@@ -1,4 +1,5 @@
-//! Settings of the blob simulation, in scene units and seconds, with defaults for metres: how blobs move, what they collide with, and how many there are.
+//! Settings of the blob simulation: motion, collisions, capacity. Lengths are in scene units, times in seconds; the
+//! defaults suit a scene in metres.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -186,8 +187,8 @@ pub struct BlobSimulationConfig {
     pub max_blobs: u32,
     /// Maximum number of solids per step, default 64.
     pub max_solids: u32,
-    /// Maximum number of successive splits of a blob ([`BlobSimulationSettings::split_support`]), 0 to 6, default 0. The heap
-    /// has 2^max_splits times `max_blobs` slots, at most 2^20.
+    /// Maximum number of successive splits of a blob ([`BlobSimulationSettings::split_support`]), 0 to 6, default 0.
+    /// The simulation allocates `max_blobs` × 2^`max_splits` blobs, which must be at most 2^20.
     pub max_splits: u32,
 }
 

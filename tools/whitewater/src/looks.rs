@@ -392,3 +392,40 @@ pub fn look(
 pub fn round(value: f32) -> f32 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A column of water 2 metres high, and strays high above it.
+    fn column(strays: usize) -> Particles {
+        let at =
+            |i: usize| [0.1 * (i % 10) as f32, 0.02 * (i / 100) as f32, 0.1 * (i / 10 % 10) as f32];
+        let mut positions: Vec<_> = (0..10_001).map(at).collect();
+        positions.extend((1..=strays).map(|i| [0.0, 1.0e3 * i as f32, 0.0]));
+        Particles::from_positions(positions)
+    }
+
+    #[test]
+    fn water_meets_things_as_fast_as_it_falls_or_flies() {
+        let fall = impact_speed(&[column(0)]);
+        // Free fall through 2 metres, less the share of the quantiles.
+        let free = (2.0_f32 * 9.81 * 2.0).sqrt();
+        assert!(fall < free && fall > 0.97 * free, "{fall}, not {free}");
+        assert_eq!(impact_speed(&[column(60)]), fall, "strays");
+        let mut fast = column(0);
+        fast.velocities = Some(vec![[0.0, -9.0, 12.0]; fast.positions.len()]);
+        assert!((impact_speed(&[column(0), fast]) - 15.0).abs() < 1.0e-4);
+    }
+
+    #[test]
+    fn mist_goes_with_the_square_of_the_speed() {
+        let mist = |speed: f32| {
+            let mut spray = SpraySettings::default();
+            spray_of_caches(&mut spray, 0.05, speed);
+            spray.mist
+        };
+        assert!((mist(6.0) - 4.0 * mist(3.0)).abs() < 1.0e-6 && mist(3.0) > 0.0);
+        assert_eq!(mist(20.0), mist(6.0));
+    }
+}
