@@ -12,6 +12,7 @@ use crate::water::settings::{
     Amplitude, Bed, Compositing, Fresnel, GREATEST, Medium, Rule, SpraySettings,
     SurfaceFoamSettings, WATER_INDEX, WaterSettings,
 };
+use crate::water::wavelets::WAVELETS;
 use crate::whitewater::settings::{OcclusionReach, ShadowMixing, Submerged};
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
@@ -93,6 +94,7 @@ pub struct FrameUniforms {
     pub up: [f32; 4],
     pub bed: [f32; 4],
     pub bed_light: [f32; 4],
+    pub wavelets: [[f32; 4]; WAVELETS],
 }
 
 shader::assert_layout!(
@@ -170,6 +172,7 @@ shader::assert_layout!(
         up,
         bed,
         bed_light,
+        wavelets,
     }
 );
 
@@ -363,7 +366,7 @@ impl FrameUniforms {
             ],
             slope: lens.slope(full, 1.0).to_array(),
             thick_slope: lens.slope(full, (1 << config.thickness_level) as f32).to_array(),
-            texel: [c_x, c_y, 0.0, 0.0],
+            texel: [c_x, c_y, water.wavelets.amplitude(), 0.0],
             scene_depth: ratio(frame.scene_depth.rect),
             scene_color: ratio(scene_color),
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
@@ -505,6 +508,7 @@ impl FrameUniforms {
             up: frame.settings.upward().extend(index(water).recip()).to_array(),
             bed: wet,
             bed_light,
+            wavelets: water.wavelets.sines(frame.settings.upward()),
         }
     }
 }
@@ -771,6 +775,7 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
     at_least("Settings.water.smoothing_width", water.smoothing_width, 0.0)?;
     at_least("Settings.water.depth_falloff", water.depth_falloff, 0.0)?;
     water.ellipsoids.check()?;
+    water.wavelets.check()?;
     at_least("Settings.water.refraction", water.refraction, 0.0)?;
     at_least("Settings.water.specular", water.specular, 0.0)?;
     at_least("Settings.water.shininess", water.shininess, 1.0)?;

@@ -79,6 +79,8 @@ mod temporal;
 mod thickness;
 #[path = "gpu/up.rs"]
 mod up;
+#[path = "gpu/wavelets.rs"]
+mod wavelets;
 #[path = "gpu/whitewater/mod.rs"]
 mod whitewater;
 #[path = "gpu/whitewater_parts.rs"]

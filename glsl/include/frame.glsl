@@ -14,7 +14,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 thick_extent;  // thickness width, height; size of its texels in pixels; 0
     vec4 slope;         // full pixel -> slope: scale xy, offset zw
     vec4 thick_slope;   // thickness pixel -> slope
-    vec4 texel;         // C_x C_y: world size of a pixel per depth; 0 0
+    vec4 texel;         // C_x C_y: world size of a pixel per depth; slope of a wavelet; 0
     vec4 scene_depth;   // scene-depth texels per pixel, size of the used part
     vec4 scene_color;   // the same for the scene's colour
     vec4 scene_origin;  // first texel of the used part: of the scene's depth, of its colour
@@ -76,6 +76,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 up;            // world, unit length; w: 1/n of the water
     vec4 bed;           // share of upward light that leaves the water; path of sky and sun light per metre of depth; 1/n, or 0: dry
     vec4 bed_light;     // pi over the irradiance; transmittance of sunlight relative to skylight
+    vec4 wavelets[15];  // wave vector in the world, cycles per metre; phase in cycles
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -13,7 +13,7 @@ const float BUBBLE_STRAY = 0.3;
 // Large, medium and small bubbles: size of their cells, offset of the cells, weight.
 const vec3 BUBBLE_CELLS = vec3(1.0, 0.4, 0.16);
 const vec3 BUBBLE_BEGIN = vec3(0.0, 31.7, 77.3);
-const vec3 BUBBLE_PART = vec3(0.5, 0.32, 0.18);
+const vec3 BUBBLE_PART = vec3(0.42, 0.34, 0.24);
 // Mean of their sum, used where cells are less than 1.5 pixels wide.
 const float BUBBLE_MEAN = 0.232;
 // Noise cell in cells of the large bubbles, displacement by the noise's slope in the same unit, and weight of
@@ -26,6 +26,8 @@ const float RAGGED = 0.3;
 const vec2 CLOSES = vec2(0.21, 0.115);
 // Half the width over which a thread ends: at least, and per cell of a pixel.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
+// The same for the other half of a thread's opacity: single bubbles at its edge.
+const float EDGE_ENDS = 0.16;
 
 // Period of the cells, centred on the world's origin, so that single precision resolves their fractions.
 const float LACE_WRAP = 65536.0;
@@ -96,5 +98,8 @@ float laced(float hidden, vec3 place, vec3 way, float pixels) {
             closes += part * (lace_at(at, pixels) - CLOSES.x);
         }
     }
-    return hidden > 0.0 ? smoothstep(closes - ends, closes + ends, much) : 0.0;
+    float wide = max(ends, EDGE_ENDS);
+    float thread = smoothstep(closes - ends, closes + ends, much);
+    float edge = smoothstep(closes - wide, closes + wide, much);
+    return hidden > 0.0 ? 0.5 * (thread + edge) : 0.0;
 }

@@ -34,6 +34,7 @@ layout(set = 0, binding = 26) uniform sampler2D soap;
 #include "surface_foam_drift.glsl"
 #include "lace.glsl"
 #include "march.glsl"
+#include "wavelets.glsl"
 
 // Slope of the unsmoothed depth, per pixel, limited to RIM_SLOPE.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
@@ -249,6 +250,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     bool ends = scene > 0.0 && surface.z < 0.5 * EMPTY;
     float room = max(scene - surface.z, 0.0);
     t = ends ? min(t, room) : t;
+
+    n = with_wavelets(n, position, t);
 
     Sheet sheet;
     sheet.at = position;

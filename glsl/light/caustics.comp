@@ -7,6 +7,7 @@
 #include "frame.glsl"
 #include "convolution.glsl"
 #include "scene_shadow.glsl"
+#include "wavelets.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
@@ -32,6 +33,16 @@ vec3 eye_at(vec2 place, float depth) {
          + rows[2].xyz * (off.z / dot(rows[2].xyz, rows[2].xyz));
 }
 
+// The surface's normal with its small waves, which focus light whatever their size. In the maps' axes.
+vec3 with_waves(vec3 n, vec2 place, float depth) {
+    mat3 rows = transpose(mat3(frame.to_light));
+    mat3 axes = mat3(normalize(rows[0]), normalize(rows[1]), normalize(rows[2]));
+    vec3 eye = axes * n;
+    float level = smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(eye, frame.up.xyz * mat3(frame.world)));
+    vec3 slope = wavelet_slope((frame.world * vec4(eye_at(place, depth), 1.0)).xyz, 0.0) * mat3(frame.world);
+    return normalize(eye - level * (slope - dot(slope, eye) * eye)) * axes;
+}
+
 float front_at(ivec2 texel, float here) {
     float there = texelFetch(smoothed, clamp(texel, ivec2(0), ivec2(frame.light_map.x) - 1), 0).x;
     return abs(there - here) <= frame.smoothing.y ? there : here;
@@ -54,7 +65,8 @@ void main() {
     vec2 rise = vec2(front_at(texel + aside.xy, here) - front_at(texel - aside.xy, here),
                      front_at(texel + aside.yx, here) - front_at(texel - aside.yx, here))
               / (2.0 * float(reach) * frame.light_map.y);
-    vec3 bent = refract(vec3(0.0, 0.0, 1.0), normalize(vec3(rise, -1.0)), 1.0 / INDEX);
+    vec3 n = with_waves(normalize(vec3(rise, -1.0)), (vec2(texel) + 0.5) / float(size), here);
+    vec3 bent = refract(vec3(0.0, 0.0, 1.0), n, 1.0 / INDEX);
     // Drops and thin sheets do not act as lenses: the light that they focus diverges again before it arrives.
     // Foam scatters it.
     float lens = deep.x * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep.x)

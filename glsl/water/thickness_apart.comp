@@ -1,7 +1,8 @@
 #version 460
 // Pass `thickness`, compute path, with two layers: their sums to metres. Where all water belongs to one layer the
-// boundary is removed. Not in the thesis.
-// Reads: sums, boundaries. Writes: sheets (RGBA32F: front, back, window), boundaries.
+// boundary is removed, except where the scene hides it at the texel's centre, beside which it may show. Not in the
+// thesis.
+// Reads: sums, boundaries, scene depth. Writes: sheets (RGBA32F: front, back, window), boundaries.
 
 #include "frame.glsl"
 #include "kernel.glsl"
@@ -12,6 +13,7 @@ layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Sums { uvec2 sums[]; };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D sheets;
+layout(set = 0, binding = 3) uniform sampler2D scene_depth;
 layout(set = 0, binding = 11, std430) buffer Boundaries { float boundaries[]; };
 
 void main() {
@@ -24,8 +26,9 @@ void main() {
     float all = metres(sums[at]);
     float front = metres(sums[at + (1u + FOAM) * texels]);
     float window = metres(sums[at + (2u + FOAM) * texels]);
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(p) + 0.5) * frame.thick_extent.z), 0).x);
     // With fixed point, one sheet's part is exactly the whole or zero.
-    bool two = boundaries[at] < EMPTY && front > 0.0 && front < all;
+    bool two = boundaries[at] < EMPTY && (front > 0.0 && front < all || scene > 0.0 && scene < boundaries[at]);
     imageStore(sheets, p, two ? vec4(front, all - front, window, 0.0) : vec4(all, 0.0, ONE_SHEET * all, 0.0));
     if (!two) {
         boundaries[at] = EMPTY;

@@ -21,6 +21,7 @@ mod sprites;
 mod surface_foam;
 mod thickness;
 mod tiles;
+pub(crate) mod wavelets;
 
 use ash::vk;
 
@@ -51,7 +52,7 @@ pub use settings::{
 };
 pub use settings::{
     Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium, Shading, ShadowFilter, Shadows,
-    SpraySettings, SurfaceFoamSettings, WaterSettings, WeberSettings,
+    SpraySettings, SurfaceFoamSettings, WaterSettings, Wavelets, WeberSettings,
 };
 pub(crate) use shape::{bytes_bound as shape_bytes, sets as shape_sets};
 pub(crate) use surface_foam::word_bytes as foam_bytes;

@@ -1,6 +1,8 @@
 //! Settings of the layered water. Lengths scale with the particle spacing, so the look does not change with
 //! resolution or unit.
 
+pub use super::wavelets::Wavelets;
+
 /// Drawn radius divided by particle spacing, as in the thesis' demo.
 pub const RADIUS_PER_SPACING: f32 = 0.656;
 
@@ -39,6 +41,7 @@ pub use crate::light::Convolution;
 
 crate::contract::with!(
     WaterSettings,
+    Wavelets,
     WeberSettings,
     SurfaceFoamSettings,
     SpraySettings,
@@ -185,6 +188,8 @@ pub struct WaterSettings {
     pub specular: f32,
     /// Blinn-Phong exponent of the highlight, [1, ∞), default 1500.
     pub shininess: f32,
+    /// Small waves on level water. Default none.
+    pub wavelets: Wavelets,
 }
 
 impl Default for WaterSettings {
@@ -205,6 +210,7 @@ impl Default for WaterSettings {
             refraction: 0.25,
             specular: 1.0,
             shininess: 1500.0,
+            wavelets: Wavelets::default(),
         }
     }
 }

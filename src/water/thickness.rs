@@ -304,6 +304,7 @@ impl Thickness {
                             (0, r.uniforms),
                             (1, Resource::buffer(sums)),
                             (2, Resource::storage(sheets)),
+                            (3, r.scene_depth),
                             (11, boundaries),
                         ],
                     )?;

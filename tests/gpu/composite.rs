@@ -65,7 +65,7 @@ impl Sky {
     /// Error of the cube: linear interpolation in it and in the image that it is made of misses
     /// h² / 8 of the second derivative (0.25) an axis, four samples a texel as much again; half
     /// precision keeps 2^-11 of 0.75; the weights are of `bits` bits of a texel's difference.
-    fn error(self, bits: u32) -> f64 {
+    pub fn error(self, bits: u32) -> f64 {
         if self == Self::Even {
             return 0.0;
         }

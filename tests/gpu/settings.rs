@@ -101,7 +101,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 60] = [
+    let changes: [Change; 63] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -127,6 +127,13 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("surface_foam.front_depth", |s| s.surface_foam.front_depth *= 2.0),
         ("surface_foam.motion_threshold", |s| s.surface_foam.motion_threshold = 4.0),
         ("surface_foam.pattern", |s| s.surface_foam.pattern = 0.5),
+        ("water.wavelets.slope", |s| s.water.wavelets.slope = 0.1),
+        ("water.wavelets.length", |s| {
+            (s.water.wavelets.slope, s.water.wavelets.length) = (0.05, 1.0);
+        }),
+        ("water.wavelets.time", |s| {
+            (s.water.wavelets.slope, s.water.wavelets.time) = (0.05, 2.0);
+        }),
         ("surface_foam.pattern_size", |s| s.surface_foam.pattern_size = 6.0),
         ("surface_foam.pattern_period", |s| s.surface_foam.pattern_period = 0.7),
         ("surface_foam.time", |s| s.surface_foam.time += 0.2),

@@ -10,6 +10,7 @@
 mod whitewater;
 
 use super::thickness::{J, kernel};
+use super::wavelets::Waves;
 use super::whole_steps;
 use super::{EMPTY, Image, is_surface};
 use crate::support::rounded::{Rounded, dot, exact, normalize, off, smoothstep};
@@ -37,7 +38,7 @@ pub struct Particle {
 }
 
 /// What the light's maps go by.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Light {
     /// World direction to the sun.
     pub sun: DVec3,
@@ -59,6 +60,8 @@ pub struct Light {
     pub foam_extinction: f64,
     /// Of whitewater particles: half and exponent of what they cover.
     pub intensity: [f64; 2],
+    /// Small waves on level water.
+    pub waves: Option<Waves>,
 }
 
 /// A frame's maps.
@@ -310,6 +313,32 @@ impl Light {
         self.smoothed(&self.smoothed(&front, (1, 0)), (0, 1))
     }
 
+    /// The normal with small waves on it.
+    fn with_waves(
+        &self,
+        waves: &Waves,
+        n: [Rounded; 3],
+        (x, y): (usize, usize),
+        depth: Rounded,
+    ) -> [Rounded; 3] {
+        let sun = self.sun.normalize();
+        let up = if sun.y.abs() > 0.99 { DVec3::X } else { DVec3::Y };
+        let right = up.cross(sun).normalize();
+        let axes = [right, sun.cross(right), -sun];
+        let place = self.point(DVec2::new(x as f64, y as f64) + 0.5, depth.v);
+        // The slope's error, and by how much it changes as far as the place may be off.
+        let off = depth.e + self.off(place);
+        let slope = waves.slope(place, 0.0);
+        let error = waves.error(place) + waves.steepest() * off;
+        let slope = axes.map(|axis| Rounded { v: axis.dot(slope), e: error + 16.0 * U });
+        let normal: DVec3 = axes.iter().zip(&n).map(|(axis, n)| *axis * n.v).sum();
+        let loose = n.iter().map(|n| n.e).sum::<f64>() + 16.0 * U;
+        // A smoothstep over 0.35 grows by 1.5 over that at most.
+        let level = Rounded { v: waves.level(normal), e: 1.5 / 0.35 * loose + 8.0 * U };
+        let along = dot(slope, n);
+        normalize([0, 1, 2].map(|i| n[i] - level * (slope[i] - along * n[i])))
+    }
+
     /// Where the light of each texel with water goes, in texels from the first one's centre on.
     pub fn landings(&self, maps: &Maps<'_>) -> Image<Option<[Rounded; 2]>> {
         let front = self.surface(maps);
@@ -341,6 +370,10 @@ impl Light {
                 Rounded { v, e: apart + low.e.max(high.e) }
             });
             let n = normalize([rise[0], rise[1], exact(-1.0)]);
+            let n = match &self.waves {
+                Some(waves) => self.with_waves(waves, n, (x, y), here),
+                None => n,
+            };
             let eta = off(ETA, 2.0);
             // refract((0, 0, 1), n, eta)
             let cosine = dot(n, [exact(0.0), exact(0.0), exact(1.0)]);

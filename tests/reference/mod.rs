@@ -31,6 +31,7 @@ pub mod spray;
 pub mod surface;
 pub mod surface_foam;
 pub mod thickness;
+pub mod wavelets;
 pub mod whitewater;
 pub mod whole_steps;
 

@@ -115,6 +115,18 @@ fn spoils() -> Vec<Spoil> {
             g.settings.water.smoothing_width = f32::INFINITY;
         }),
         ("falloff", "Settings.water.depth_falloff", |g| g.settings.water.depth_falloff = -1.0),
+        ("waves too steep", "Settings.water.wavelets.slope", |g| {
+            g.settings.water.wavelets.slope = 0.6;
+        }),
+        ("waves of no length", "Settings.water.wavelets.length", |g| {
+            g.settings.water.wavelets.length = 0.0;
+        }),
+        ("waves at no time", "Settings.water.wavelets.time", |g| {
+            g.settings.water.wavelets.time = f64::NAN;
+        }),
+        ("waves of no gravity", "Settings.water.wavelets.gravity", |g| {
+            g.settings.water.wavelets.gravity = -9.81;
+        }),
         ("refraction", "Settings.water.refraction", |g| g.settings.water.refraction = f32::NAN),
         ("specular", "Settings.water.specular", |g| g.settings.water.specular = -1.0),
         ("shininess", "Settings.water.shininess", |g| g.settings.water.shininess = 0.0),

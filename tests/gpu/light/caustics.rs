@@ -1,10 +1,12 @@
 //! The caustics against the twin, and the closed form of a flat pool.
 
-use glam::{DVec2, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use whitewater::water::Shadows;
 use whitewater::{LightVolume, Shadow};
 
+use crate::harness::fails;
 use crate::reference::light::{Light, Maps, ShadowMap};
+use crate::reference::wavelets::Waves;
 use crate::reference::{Image, is_surface};
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -61,6 +63,31 @@ fn the_caustics_are_the_twins() {
                 "{name}: {all} of the light is lost or won, of {wet} texels"
             );
         }
+    }
+}
+
+/// Small waves on a level pool focus light as the twin's do, and keep all of it.
+#[test]
+fn small_waves_focus_light() {
+    let gpu = Gpu::shared();
+    let config = casting(128);
+    let mut rig = Rig::new(&gpu, &config);
+    for sun in [[0.0, 1.0, 0.0], toward(-0.6, 0.7, 0.3)] {
+        let mut case = pool(sun, 0.0, 0);
+        case.shot.settings.water.wavelets.slope = 0.06;
+        case.shot.settings.water.wavelets.length = 0.5;
+        case.shot.settings.water.wavelets.time = 1.3;
+        let drawn = case.draw(&mut rig);
+        let maps = maps(&drawn);
+        let waves = |slope| Some(Waves::new(slope, 0.5, (1.3, 9.81), DVec3::Y));
+        let twin = |slope| Light { waves: waves(slope), ..twin(&case.shot, &config) };
+        let (bounds, _) = twin(f64::from(0.06_f32)).caustics(&maps, &|_, _| exact(1.0));
+        compare::between(&format!("wavelets-{}", sun[0]), maps.caustics, &bounds);
+        let (other, _) = twin(0.066).caustics(&maps, &|_, _| exact(1.0));
+        let seen = fails(|| compare::between("wavelets-planted", maps.caustics, &other));
+        assert!(seen, "a tenth more slope is not seen");
+        let all: f64 = maps.caustics.data.iter().map(|c| f64::from(*c) - 1.0).sum();
+        assert!(all.abs() < 2.0e-3 * maps.caustics.data.len() as f64, "{all} lost or won");
     }
 }
 

@@ -89,6 +89,7 @@ fn twin(shot: &Shot, config: &Config) -> Light {
             shot.settings.whitewater.exponent,
         ]
         .map(f64::from),
+        waves: None,
     }
 }
 

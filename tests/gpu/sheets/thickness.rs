@@ -193,3 +193,35 @@ fn where_nothing_is_to_be_told_apart_there_is_one_sheet() {
     }
     assert!(gone > 100 && kept > 100, "{gone} texels were of one sheet, {kept} of two");
 }
+
+/// What the scene hides at a texel's centre may show beside it: there the boundary stays, or the pixels along the
+/// scene's outline would be of one sheet, texel by texel.
+#[test]
+fn boundaries_stay_where_the_scene_hides_them() {
+    let gpu = Gpu::shared();
+    let size = extent(160, 110);
+    for level in 0..3 {
+        let config = unpruned(size, level);
+        let mut found = Rig::new(&gpu, &config);
+        let compute = config.with(|it| it.thickness_splat = Some(Splat::Compute));
+        let mut kept = Rig::new(&gpu, &compute);
+        let mut shot = shot(size, Lens::Standard);
+        // A wall before all water, whose upper edge is aslant.
+        let wall = |x: u32, y: u32| 3 * y > 100 + x;
+        shot.scene_depth(|x, y| wall(x, y).then_some(1.0));
+        let [found, kept] = [&mut found, &mut kept].map(|rig| rig.draw(&shot));
+        let [found, kept] = [&found, &kept].map(|drawn| &of(drawn).boundaries);
+        let (mut hidden, edge) = (0, 1_u32 << level);
+        for (i, (found, kept)) in found.data.iter().zip(&kept.data).enumerate() {
+            let middle = |i: usize, most: u32| (i as u32 * edge + edge / 2).min(most - 1);
+            let width = size.width.div_ceil(edge) as usize;
+            let (x, y) = (i % width, i / width);
+            if !wall(middle(x, size.width), middle(y, size.height)) {
+                continue;
+            }
+            assert_eq!(found.to_bits(), kept.to_bits(), "level {level}, texel ({x}, {y})");
+            hidden += usize::from(is_surface(f64::from(*found)));
+        }
+        assert!(hidden > 50 >> level, "level {level}: {hidden} hidden texels with a boundary");
+    }
+}

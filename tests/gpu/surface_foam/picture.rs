@@ -166,7 +166,7 @@ fn thin_foam_is_torn_into_lace() {
                     // closes it grows a cell: twice 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope
                     // draws places apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest.
                     let steepest =
-                        5.8 * (0.5 + 0.32 / 0.4 + 0.18 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
+                        5.8 * (0.42 + 0.34 / 0.4 + 0.24 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
                     let origin = to_world.w_axis.truncate().length() / cell;
                     let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
                     let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));

@@ -311,6 +311,7 @@ impl<'a> Liquids<'a> {
             let mut settings = settings.clone();
             settings.surface_foam.time = one.surface_foam.time;
             settings.shore.time = one.shore.time;
+            settings.water.wavelets.time = one.water.wavelets.time;
             Cow::Owned(settings)
         };
         let all = several.iter().map(timed).zip(ranges(particles, several.len()));

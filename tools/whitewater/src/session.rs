@@ -488,6 +488,7 @@ impl<'a> Session<'a> {
         }
         self.look.settings.surface_foam.time = time;
         self.look.settings.shore.time = time;
+        self.look.settings.water.wavelets.time = time;
         let background =
             if self.look.matte { Background::Color([0.0; 3]) } else { Background::Scene };
         let liquids = Liquids::new(&self.look.settings, &self.look.fluids, particles);

@@ -33,6 +33,7 @@ pub struct SettingsFile {
     pub look: Option<LookWord>,
     pub water: water::WaterTable,
     pub ellipsoids: water::EllipsoidTable,
+    pub wavelets: water::WaveletTable,
     pub surface_foam: water::SurfaceFoamTable,
     pub spray: water::SprayTable,
     pub whitewater: whitewater_table::WhitewaterTable,
@@ -125,6 +126,7 @@ impl SettingsFile {
         }
         self.water.apply(&mut settings.water);
         self.ellipsoids.put(&mut settings.water.ellipsoids);
+        self.wavelets.put(&mut settings.water.wavelets);
         self.surface_foam.put(&mut settings.surface_foam);
         self.spray.put(&mut settings.spray);
         self.whitewater.put(&mut settings.whitewater);
@@ -156,6 +158,7 @@ impl SettingsFile {
             look: self.look,
             water: self.water.all(water, self.is_thesis()),
             ellipsoids: water::EllipsoidTable::of(&water.ellipsoids),
+            wavelets: water::WaveletTable::of(&water.wavelets),
             surface_foam: self.surface_foam.all(surface_foam, found.foam),
             spray: water::SprayTable::of(spray),
             whitewater: self.whitewater.all(whitewater),

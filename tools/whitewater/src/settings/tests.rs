@@ -306,6 +306,7 @@ fn no_field_is_forgotten() {
     let all = Settings::default();
     same(&all.water, water::WaterTable::FIELDS);
     same(&all.water.ellipsoids, water::EllipsoidTable::FIELDS);
+    same(&all.water.wavelets, water::WaveletTable::FIELDS);
     same(&all.surface_foam, water::SurfaceFoamTable::FIELDS);
     same(&all.spray, water::SprayTable::FIELDS);
     same(&all.whitewater, whitewater_table::WhitewaterTable::FIELDS);

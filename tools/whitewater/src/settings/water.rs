@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use whitewater::water::{
     Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium,
-    ShadowFilter, Shadows, WaterSettings,
+    ShadowFilter, Shadows, WaterSettings, Wavelets,
 };
 use whitewater::water::{SpraySettings, SurfaceFoamSettings, SurfaceNoiseSettings, WeberSettings};
 use whitewater::{Config, Light};
@@ -31,7 +31,7 @@ table! {
         shininess: f32,
     }
     optional {}
-    not { medium, ellipsoids }
+    not { medium, ellipsoids, wavelets }
     beside {
         medium: MediumTable,
         /// Not of the settings, but of the passes.
@@ -213,6 +213,15 @@ table! {
     keys { reach: f32, ratio: f32, fewest: f32, lone: f32, centred: f32 }
     optional {}
     not {}
+    beside {}
+}
+
+table! {
+    /// Table `[wavelets]`: small waves on level water.
+    WaveletTable of Wavelets
+    keys { slope: f32, length: f32, gravity: f32 }
+    optional {}
+    not { time }
     beside {}
 }
 

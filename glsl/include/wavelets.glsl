@@ -1,0 +1,39 @@
+// Small waves that particles do not resolve: a sum of sines over the level plane (src/water/wavelets.rs; Max 1981,
+// "Vectorized procedural models for natural terrain"). Not in the thesis.
+// Needs frame.glsl. Reads: nothing.
+
+// Waves on water of full strength have at least this cosine between normal and vertical; at the first, none.
+const vec2 LEVEL_WATER = vec2(0.6, 0.95);
+// Width of a pixel on the water per wavelength where a wave is whole, and where it is gone.
+const vec2 SMALL_WAVE = vec2(0.2, 0.45);
+
+// Gradient of the height at a point of the world. pixel: width of a pixel on the water; with 0 all waves are whole.
+vec3 wavelet_slope(vec3 world, float pixel) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < frame.wavelets.length(); ++i) {
+        vec4 wave = frame.wavelets[i];
+        float cycles = length(wave.xyz);
+        float shown = 1.0 - smoothstep(SMALL_WAVE.x, SMALL_WAVE.y, pixel * cycles);
+        // Vulkan bounds the cosine's error within half a cycle of 0.
+        float turn = fract(dot(wave.xyz, world) + wave.w) - 0.5;
+        sum -= shown * cos(6.2831853 * turn) / cycles * wave.xyz;
+    }
+    return frame.texel.z * sum;
+}
+
+// The normal of a surface with the waves on it. All in eye space.
+vec3 with_wavelets(vec3 n, vec3 at, float thick) {
+    vec3 up = frame.up.xyz * mat3(frame.world);
+    float level = smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(n, up));
+    level *= smoothstep(frame.particle.y, 2.0 * frame.particle.y, thick);
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
+    bool any = frame.texel.z > 0.0 && level > 0.0;
+    while (any) {
+        float facing = max(-dot(n, normalize(at)), 0.05);
+        float pixel = frame.texel.y * -at.z / facing;
+        vec3 slope = wavelet_slope((frame.world * vec4(at, 1.0)).xyz, pixel) * mat3(frame.world);
+        n = normalize(n - level * (slope - dot(slope, n) * n));
+        any = false;
+    }
+    return n;
+}
