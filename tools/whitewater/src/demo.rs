@@ -9,7 +9,7 @@ use crate::args::{DemoArgs, Foaming, SetArg, SprayArg};
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
-use crate::looks::{foam_of_caches, impact_speed, spray_of_caches};
+use crate::looks::{foam_of_caches, impact_speed, spray_of_caches, waves_of_caches};
 use crate::output;
 use crate::progress::Progress;
 use crate::session::{self, Look, Session};
@@ -60,6 +60,10 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
         foam_of_caches(&mut settings.surface_foam, SPACING);
+        let bounds = Bounds::of_bulk(&particles.positions);
+        if let Some(bounds) = bounds {
+            waves_of_caches(&mut settings.water, SPACING, &bounds);
+        }
         let speed = impact_speed(std::slice::from_ref(&particles));
         spray_of_caches(&mut settings.spray, SPACING, speed);
         // Its particles are so large that whole ones would be no drops, and many drops each a star.

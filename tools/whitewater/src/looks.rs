@@ -5,7 +5,7 @@ use glam::{Quat, Vec3};
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::Particles;
 use whitewater::water::Medium;
-use whitewater::water::{SpraySettings, SurfaceFoamSettings};
+use whitewater::water::{SpraySettings, SurfaceFoamSettings, WaterSettings};
 
 use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Whitewater};
 use crate::bounds::Bounds;
@@ -51,7 +51,7 @@ const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.14 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.2 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -63,7 +63,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.mist_size = 2.0;
         it.mist_contrast = 2.0;
         it.exposure = 0.001;
-        it.shade = 2.0;
+        it.shade = 2.5;
     });
 }
 
@@ -83,6 +83,14 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.back_color = [0.62, 0.68, 0.73];
         it.front_color = [0.97; 3];
     });
+}
+
+/// Puts small waves on level water. Particles resolve waves of four spacings and more; a basin looks as large as the waves
+/// on it say, so they go by its width.
+pub fn waves_of_caches(water: &mut WaterSettings, spacing: f32, bounds: &Bounds) {
+    let wide = bounds.size().x.max(bounds.size().z);
+    water.wavelets.slope = 0.06;
+    water.wavelets.length = (4.0 * spacing).max(0.07 * wide);
 }
 
 /// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
@@ -171,6 +179,7 @@ pub fn look(
     if !file.is_thesis() {
         spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
         foam_of_caches(&mut settings.surface_foam, spacing);
+        waves_of_caches(&mut settings.water, spacing, &bounds);
         let wide = bounds.size().x.max(bounds.size().z);
         if wide < SMALL {
             settings.water.medium = Medium::CLEAR;

@@ -13,10 +13,12 @@ pub struct Liquid {
     index: Option<f32>,
     /// Albedo of much foam and of little; none: white.
     foam: Option<[[f32; 3]; 2]>,
+    /// So viscous that small waves die at once.
+    thick: bool,
 }
 
 /// Its foam is as white as that of water.
-const WATERY: Liquid = Liquid { index: None, foam: None };
+const WATERY: Liquid = Liquid { index: None, foam: None, thick: false };
 
 /// A liquid by its name, and how much of what absorbs and scatters is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
@@ -115,7 +117,9 @@ impl MediumName {
 
     /// Colours by eye: bubbles are as white as water's, tinted by what of the liquid is in their walls.
     pub fn liquid(self) -> Liquid {
-        let of = |index, much, little| Liquid { index: Some(index), foam: Some([much, little]) };
+        let thick = matches!(self.word, Word::Honey | Word::Lava);
+        let of =
+            |index, much, little| Liquid { index: Some(index), foam: Some([much, little]), thick };
         match self.word {
             Word::Clear | Word::Pool | Word::Lake | Word::Ocean | Word::Source => WATERY,
             Word::Glacier => of(1.333, [0.86, 0.9, 0.9], [0.55, 0.68, 0.7]),
@@ -136,6 +140,9 @@ impl Liquid {
     pub fn put(&self, settings: &mut Settings) {
         if let Some(index) = self.index {
             settings.water.fresnel = Fresnel::of_index(index);
+        }
+        if self.thick {
+            settings.water.wavelets.slope = 0.0;
         }
         if let Some([much, little]) = self.foam {
             settings.surface_foam.front_color = much;
@@ -180,6 +187,15 @@ mod tests {
         // ((n - 1)/(n + 1))^2 of 1.49.
         let Fresnel::Schlick { f0 } = honey.water.fresnel else { panic!("{honey:?}") };
         assert!((f0 - 0.0387).abs() < 1.0e-4, "{f0}");
+        // Small waves die on what is viscous.
+        let mut rough = Settings::default();
+        rough.water.wavelets.slope = 0.1;
+        let slope = |name: &str| {
+            let mut settings = rough.clone();
+            name.parse::<MediumName>().unwrap().liquid().put(&mut settings);
+            settings.water.wavelets.slope
+        };
+        assert_eq!(["lake", "beer", "honey", "lava"].map(slope), [0.1, 0.1, 0.0, 0.0]);
         // Cream, pink, dark.
         let [r, g, b] = of("beer").surface_foam.front_color;
         assert!(r > g && g > b && b > 0.5);
