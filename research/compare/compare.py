@@ -154,12 +154,54 @@ def table(results):
     return "".join("| " + " | ".join(row) + " |\n" for row in rows)
 
 
+def page(results, frames, options):
+    """Markdown: what was drawn with what, and a row a frame: FLIP, mean light and contrast of the path-traced picture and
+    of each variant, beside the first such numbers (`first` of a frame)."""
+    variants = [name for name, _ in options.variant]
+    names = [name for name in frames if all(variant in results.get(name, {}) for variant in variants)]
+    program = subprocess.run([options.whitewater, "--version"], capture_output=True, text=True).stdout.split("\n")[0]
+    commit = subprocess.run(["git", "-C", HERE, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    made = ", ".join(f"{name} {version}" for name, version in versions().items())
+    lines = [
+        "# Frames beside a path tracer: results", "",
+        f"Written by `compare.py --table` on {datetime.date.today()} with {program}, commit {commit or 'unknown'}; {made}, "
+        f"{options.spp} paths per pixel{', denoised' if options.denoise else ''}; {options.size[0]}x{options.size[1]} pixels. "
+        "[README.md](README.md) describes the columns' quantities and the limits of the path-traced picture. "
+        "Light and contrast are those of exposed linear light (1 is white).", "",
+        "Variants: " + "; ".join(f"*{name}*" + (f" is `{arguments}`" if arguments else " has no arguments") for name, arguments in options.variant) + ".", "",
+    ]
+    head = ["frame", "of", *(f"FLIP, {v}" for v in variants), "mean light, path-traced", *(v for v in variants),
+            "contrast, path-traced", *(v for v in variants), f"FLIP at first, {variants[0]}"]
+    rows = [head, ["---"] * 2 + ["---:"] * (len(head) - 2)]
+    for name in names:
+        numbers, first = results[name], frames[name].get("first")
+        cells = [name, frames[name]["of"], *(f"{numbers[v]['flip']:.3f}" for v in variants)]
+        for key in ("mean", "deviation"):
+            cells += [f"{numbers[variants[0]][key][0]:.3f}", *(f"{numbers[v][key][1]:.3f}" for v in variants)]
+        rows.append(cells + [f"{first['flip']:.3f}" if first else ""])
+    mean = lambda of: f"{np.mean([of(results[name]) for name in names]):.3f}"
+    rows.append([f"mean of {len(names)}", "", *(mean(lambda n, v=v: n[v]["flip"]) for v in variants), *[""] * (len(head) - 2 - len(variants))])
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    ratio = lambda n, v, key: n[v][key][1] / max(n[v][key][0], 1e-9)
+    lines += ["", "Ours over the path-traced:", ""]
+    head = ["frame", *(f"light, {v}" for v in variants), *(f"contrast, {v}" for v in variants), "light at first", "water lost, extra (share of its pixels)", "FLIP beside the water"]
+    rows = [head, ["---"] + ["---:"] * (len(head) - 1)]
+    for name in names:
+        n, first = results[name], frames[name].get("first")
+        v = variants[0]
+        rows.append([name, *(f"{ratio(n, v, key):.2f}" for key in ("mean", "deviation") for v in variants), f"{first['light']:.2f}" if first else "",
+                     f"{n[v]['lost'] / n[v]['pixels']:.3f}, {n[v]['extra'] / n[v]['pixels']:.3f}", f"{n[v]['dry']['flip']:.3f}"])
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=pathlib.Path, required=True, help="folder of the caches and environments")
     parser.add_argument("--frames", type=pathlib.Path, default=HERE / "frames.toml", help="which frames [default: frames.toml beside this]")
     parser.add_argument("--only", action="append", help="this frame of them; may be given several times")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder to write to")
+    parser.add_argument("--table", type=pathlib.Path, help="page of results to write, Markdown, of all frames that --out has numbers of")
     parser.add_argument("--variant", action="append", help="NAME=ARGUMENTS: a run of whitewater with these arguments "
                         "[default: 'water=--surface-foam none --spray none' and 'default=']")
     parser.add_argument("--whitewater", default="whitewater", help="the program [default: of the path]")
@@ -187,6 +229,8 @@ def main():
         stored.write_text(json.dumps(results, indent=1))
         (options.out / "table.md").write_text(table(results))
         print(table({name: results[name]}), end="", flush=True)
+    if options.table:
+        options.table.write_text(page(results, frames, options))
 
 
 if __name__ == "__main__":
