@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Measures how much sequences of `whitewater render` change from frame to frame beyond steady motion.
 
-  flicker.py --data DIR --out DIR [--sequences FILE.toml] [--only NAME]... [--whitewater PROGRAM] [--arguments ARGUMENTS]
+  flicker.py --data DIR --out DIR [--sequences FILE.toml] [--only NAME]... [--whitewater PROGRAM] [--arguments ARGUMENTS] [--table FILE.md]
 
 README.md says what is measured. Writes to DIR the frames, all numbers (flicker.json), a table (flicker.md), and of each
 sequence the frame that changes most in each kind of pixels, beside eight times its change (NAME_KIND.png).
 """
 import argparse
+import datetime
 import json
 import pathlib
 import re
@@ -187,6 +188,7 @@ def main():
     parser.add_argument("--whitewater", default="whitewater", help="the program [default: of the path]")
     parser.add_argument("--arguments", default="", help="more arguments of each run")
     parser.add_argument("--size", default="640x360", help="pixels [default: 640x360]")
+    parser.add_argument("--table", type=pathlib.Path, help="page of results to write, Markdown, of all sequences that --out has numbers of")
     parser.add_argument("--keep", action="store_true", help="keep frames that are there")
     options = parser.parse_args()
     sequences = tomllib.loads(options.sequences.read_text())
@@ -218,6 +220,13 @@ def main():
         stored.write_text(json.dumps(results, indent=1))
         (options.out / "flicker.md").write_text(table(results))
         print(table({name: results[name]}), end="", flush=True)
+    if options.table:
+        ran = lambda *command: subprocess.run(command, capture_output=True, text=True).stdout.split("\n")[0]
+        options.table.write_text(
+            "# Flicker: results\n\n"
+            f"Written by `flicker.py --table` on {datetime.date.today()} with {ran(options.whitewater, '--version')}, commit "
+            f"{ran('git', '-C', HERE, 'rev-parse', '--short', 'HEAD')}; {options.size} pixels. [README.md](README.md#flicker) describes "
+            "the columns.\n\n" + table(results))
 
 
 if __name__ == "__main__":
