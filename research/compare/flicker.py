@@ -107,6 +107,7 @@ class Frame:
 
         water = layers("w")
         self.wet = water["water.depth.Z"] < 1e9
+        self.vectors = np.stack([water["motion.X"], water["motion.Y"]], -1)
         self.motion = np.hypot(water["motion.X"], water["motion.Y"])
         picture = lambda kind: np.asarray(Image.open(folder / f"{kind}.{number}.png").convert("RGB")).astype("f4") @ LUMA
         self.pictures = {"default": picture("s"), "water": picture("w")}
@@ -131,6 +132,18 @@ def change(before, now, after):
     return np.abs(now - (before + after) / 2)
 
 
+def followed(before, vectors):
+    """A picture moved by vectors in pixels, x right and y down, from where each pixel was; between pixels linear."""
+    rows, columns = before.shape
+    y, x = np.mgrid[:rows, :columns]
+    x, y = (x - vectors[..., 0]).clip(0, columns - 1), (y - vectors[..., 1]).clip(0, rows - 1)
+    x0, y0 = x.astype(int).clip(0, columns - 2), y.astype(int).clip(0, rows - 2)
+    fx, fy = x - x0, y - y0
+    top = before[y0, x0] * (1 - fx) + before[y0, x0 + 1] * fx
+    low = before[y0 + 1, x0] * (1 - fx) + before[y0 + 1, x0 + 1] * fx
+    return top * (1 - fy) + low * fy
+
+
 def measure(frames, masks=kinds):
     """Numbers of each kind of pixels, and the maps of change of the frame that changes most in it."""
     numbers, worst = {}, {}
@@ -139,12 +152,15 @@ def measure(frames, masks=kinds):
         three = frames[k - 1:k + 2]
         of_kind = masks(*three)
         changes = {name: change(*(frame.pictures[name] for frame in three)) for name in three[1].pictures}
+        steps = {name: np.abs(three[1].pictures[name] - three[0].pictures[name]) for name in changes}
+        left = {name: np.abs(three[1].pictures[name] - followed(three[0].pictures[name], three[1].vectors)) for name in changes}
         for kind, mask in of_kind.items():
             if mask.sum() < 200:
                 continue
             step = three[1].pictures["default"] - three[0].pictures["default"]
             row = {name: float(map_[mask].mean()) for name, map_ in changes.items()}
             row |= {f"{name} deviation": float(three[1].pictures[name][mask].std()) for name in changes}
+            row |= {f"{name} unexplained": float(left[name][mask].mean() / max(steps[name][mask].mean(), 1e-3)) for name in changes}
             row |= {"frame": k, "pixels": int(mask.sum()), "step": float(np.median(step[mask])),
                     "large": float((changes["default"][mask] > 16).mean())}
             rows[kind].append(row)
@@ -160,7 +176,8 @@ def measure(frames, masks=kinds):
         top = int(np.argmax(pops))
         numbers[kind] = {
             "pixels": float(of["pixels"].mean()), "change": {name: float(of[name].mean()) for name in frames[0].pictures},
-            "relative": {name: relative(name) for name in frames[0].pictures}, "large": float(of["large"].mean()),
+            "relative": {name: relative(name) for name in frames[0].pictures},
+            "unexplained": {name: float(of[f"{name} unexplained"].mean()) for name in frames[0].pictures}, "large": float(of["large"].mean()),
             "step": float(np.abs(of["step"]).max()), "pop": float(pops[top]), "pop frame": int(of["frame"][top]), "frames": list_,
         }
     return numbers, worst
@@ -168,13 +185,15 @@ def measure(frames, masks=kinds):
 
 def table(results):
     head = ["sequence", "pixels", "share of the picture", "change, levels", "without foam and spray", "over 16 levels",
-            "relative change: ours", "surface, shaded", "particles, shaded", "largest step of the median", "largest pop (frame)"]
+            "relative change: ours", "surface, shaded", "particles, shaded", "left after motion: ours",
+            "without foam and spray", "surface, shaded", "particles, shaded", "largest step of the median", "largest pop (frame)"]
     rows = [head, ["---"] * len(head)]
     for name, result in results.items():
         for kind, n in result["kinds"].items():
             wet = kind != KINDS[0]
             rows.append([name, kind, f"{n['pixels'] / result['pixels']:.2f}", f"{n['change']['default']:.2f}", f"{n['change']['water']:.2f}",
                          f"{100 * n['large']:.2f} %", *(f"{n['relative'][key]:.2f}" if wet or key == "default" else "" for key in ("default", "surface", "particles")),
+                         *(f"{n['unexplained'][key]:.2f}" if kind == KINDS[2] else "" for key in ("default", "water", "surface", "particles")),
                          f"{n['step']:.1f}", f"{n['pop']:.1f} ({result['numbers'][n['pop frame']]})"])
     return "".join("| " + " | ".join(row) + " |\n" for row in rows)
 

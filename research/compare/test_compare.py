@@ -83,7 +83,7 @@ def sequence(picture, count=9):
     frames = []
     for k in range(count):
         image = np.asarray(picture(y, x, k), "f4") + np.zeros_like(x)
-        frames.append(types.SimpleNamespace(wet=wet, motion=np.zeros_like(x), pictures={n: image for n in ("default", "water", "particles", "surface")}))
+        frames.append(types.SimpleNamespace(wet=wet, motion=np.zeros_like(x), vectors=np.zeros((rows, columns, 2)), pictures={n: image for n in ("default", "water", "particles", "surface")}))
     return frames
 
 
@@ -103,6 +103,14 @@ class Flicker(unittest.TestCase):
         slope = (np.arange(32) - 15.5) * scale
         leaning = flicker.shaded(np.tile(2.0 / (1 - slope), (32, 1)))
         self.assertAlmostEqual(leaning[16, 16], 255 * np.sqrt(0.5), delta=6)
+
+    def test_followed(self):
+        picture = np.random.default_rng(4).random((20, 30))
+        vectors = np.zeros((20, 30, 2)) + [3.0, -2.0]
+        moved = flicker.followed(picture, vectors)
+        np.testing.assert_allclose(moved[:-2, 3:], picture[2:, :-3])
+        half = flicker.followed(picture, np.zeros((20, 30, 2)) + [0.5, 0.0])
+        np.testing.assert_allclose(half[:, 1:], (picture[:, 1:] + picture[:, :-1]) / 2)
 
     def test_what_moves_steadily_does_not_flicker(self):
         numbers, _ = flicker.measure(sequence(lambda y, x, k: 100 + 2 * k))
