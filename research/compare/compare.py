@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """Compares `whitewater render` with a path-traced picture of the same particles, basin, camera and light.
 
-  compare.py --data DIR [--frames FILE.toml] [--only NAME]... [--variant NAME=ARGUMENTS]... --out DIR
+  compare.py --data DIR [--frames FILE.toml] [--only NAME]... [--variant NAME=ARGUMENTS]... --out DIR [--table FILE.md]
 
 FILE.toml says which frames, README.md how. Writes to DIR the pictures (NAME_reference.png, NAME_VARIANT.png), one
-beside the other (NAME.png), all numbers (numbers.json) and a table (table.md). A path-traced picture that is there is
-kept: to draw it again, delete DIR/work/NAME.
+beside the other (NAME.png), all numbers (numbers.json) and a table (table.md); to FILE.md a page of results. A
+path-traced picture is kept in DIR/work, and drawn again if its particles, scene, light, size or samples change.
 """
 import argparse
+import datetime
+import hashlib
+import importlib.metadata
 import json
 import pathlib
 import shlex
@@ -26,6 +29,9 @@ from scene import LUMINANCE, to_srgb
 POOL = {"absorption": [1.1, 0.24, 0.11], "scattering": [0.014, 0.03, 0.04]}
 """`Medium::POOL`; both programs are told."""
 
+DEFAULTS = {"fov": 42.0, "medium": POOL, "solids": [], "walls": None, "sun": None, "scale": 1.0, "up": "y"}
+"""Of a frame's table."""
+
 HERE = pathlib.Path(__file__).parent
 
 
@@ -37,6 +43,7 @@ def draw(mi, frame, cache, work, arguments, options):
         options.whitewater, "render", str(cache), "--radius", str(frame["radius"]), "--scene", str(work / "scene.glb"),
         "--camera", str(work / "camera.json"), "--environment", str(work / "environment.hdr"),
         "--settings", str(work / "settings.toml"), "--size", "{}x{}".format(*options.size), "--overwrite",
+        "--up-axis", frame["up"], "--scale", str(frame["scale"]),
         "-o", str(picture), *shlex.split(arguments),
     ]
     began = time.monotonic()
@@ -48,6 +55,19 @@ def draw(mi, frame, cache, work, arguments, options):
     data = np.array(bitmap)
     light = np.stack([data[..., channels[name]] for name in "RGB"], -1).astype("f4")
     return light, data[..., channels["water.depth.Z"]] < 1e9, time.monotonic() - began
+
+
+def versions():
+    """Of what draws the path-traced picture."""
+    return {name: importlib.metadata.version(name) for name in ("mitsuba", "pysplashsurf")}
+
+
+def signature(files, points, settings):
+    """Tells whether a kept picture was drawn from the same files, particles and settings."""
+    made = hashlib.sha256(json.dumps(settings).encode())
+    for data in [file.read_bytes() for file in files] + [points.astype("f4").tobytes()]:
+        made.update(hashlib.sha256(data).digest())
+    return made.hexdigest()
 
 
 def measure(truth, ours, mask):
@@ -73,7 +93,7 @@ def save(path, linear):
 
 def compare(mi, name, frame, options):
     """The numbers of each variant of a frame."""
-    frame = {"fov": 42.0, "medium": POOL, "solids": [], "walls": None, "sun": None} | frame
+    frame = DEFAULTS | frame
     work = options.out / "work" / name
     work.mkdir(parents=True, exist_ok=True)
     kept = work / "reference.npz"
@@ -83,20 +103,22 @@ def compare(mi, name, frame, options):
         np.save(cache, particles.pool(frame["radius"], frame["box"], **frame["cache"]).astype("f4"))
     else:
         cache = options.data / cache
-    if not kept.exists():
-        points = particles.read(cache)
-        meshes = scene.basin(points, frame["radius"], frame["box"], frame["eye"], frame["walls"])
-        meshes += [scene.solid(**solid) for solid in frame["solids"]]
-        scene.write_glb(meshes, work / "scene.glb")
-        camera = {"eye": frame["eye"], "target": frame["target"], "up": [0, 1, 0], "fov_y_degrees": frame["fov"]}
-        (work / "camera.json").write_text(json.dumps(camera))
-        medium = ", ".join(f"{key} = {value}" for key, value in frame["medium"].items())
-        (work / "settings.toml").write_text(f"[water]\nmedium = {{{medium}}}\n")
-        white = scene.environment(mi, options.data / frame["environment"], frame["sun"], work / "environment.hdr")
+    points = particles.read(cache, frame["scale"], frame["up"])
+    meshes = scene.basin(points, frame["radius"], frame["box"], frame["eye"], frame["walls"])
+    meshes += [scene.solid(**solid) for solid in frame["solids"]]
+    scene.write_glb(meshes, work / "scene.glb")
+    camera = {"eye": frame["eye"], "target": frame["target"], "up": [0, 1, 0], "fov_y_degrees": frame["fov"]}
+    (work / "camera.json").write_text(json.dumps(camera))
+    medium = ", ".join(f"{key} = {value}" for key, value in frame["medium"].items())
+    (work / "settings.toml").write_text(f"[water]\nmedium = {{{medium}}}\n")
+    white = scene.environment(mi, options.data / frame["environment"], frame["sun"], work / "environment.hdr")
+    drawn_from = signature([work / file for file in ("scene.glb", "camera.json", "settings.toml", "environment.hdr")], points,
+                           [frame["radius"], options.size, options.spp, options.denoise, options.mitsuba, versions()])
+    if not kept.exists() or str(np.load(kept).get("signature")) != drawn_from:
         water = reference.surface(points, frame["radius"])
         began = time.monotonic()
         picture, mask = reference.path_traced(mi, frame, meshes, water, work, options)
-        np.savez(kept, picture=picture, mask=mask, white=white, seconds=time.monotonic() - began)
+        np.savez(kept, picture=picture, mask=mask, white=white, seconds=time.monotonic() - began, signature=drawn_from)
     stored = np.load(kept)
     # One exposure for both, a little over white level ground; no curve.
     exposure = 0.9 / float(stored["white"])
@@ -132,12 +154,54 @@ def table(results):
     return "".join("| " + " | ".join(row) + " |\n" for row in rows)
 
 
+def page(results, frames, options):
+    """Markdown: what was drawn with what, and a row a frame: FLIP, mean light and contrast of the path-traced picture and
+    of each variant, beside the first such numbers (`first` of a frame)."""
+    variants = [name for name, _ in options.variant]
+    names = [name for name in frames if all(variant in results.get(name, {}) for variant in variants)]
+    program = subprocess.run([options.whitewater, "--version"], capture_output=True, text=True).stdout.split("\n")[0]
+    commit = subprocess.run(["git", "-C", HERE, "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    made = ", ".join(f"{name} {version}" for name, version in versions().items())
+    lines = [
+        "# Frames beside a path tracer: results", "",
+        f"Written by `compare.py --table` on {datetime.date.today()} with {program}, commit {commit or 'unknown'}; {made}, "
+        f"{options.spp} paths per pixel{', denoised' if options.denoise else ''}; {options.size[0]}x{options.size[1]} pixels. "
+        "[README.md](README.md) describes the columns' quantities and the limits of the path-traced picture. "
+        "Light and contrast are those of exposed linear light (1 is white).", "",
+        "Variants: " + "; ".join(f"*{name}*" + (f" is `{arguments}`" if arguments else " has no arguments") for name, arguments in options.variant) + ".", "",
+    ]
+    head = ["frame", "of", *(f"FLIP, {v}" for v in variants), "mean light, path-traced", *(v for v in variants),
+            "contrast, path-traced", *(v for v in variants), f"FLIP at first, {variants[0]}"]
+    rows = [head, ["---"] * 2 + ["---:"] * (len(head) - 2)]
+    for name in names:
+        numbers, first = results[name], frames[name].get("first")
+        cells = [name, frames[name]["of"], *(f"{numbers[v]['flip']:.3f}" for v in variants)]
+        for key in ("mean", "deviation"):
+            cells += [f"{numbers[variants[0]][key][0]:.3f}", *(f"{numbers[v][key][1]:.3f}" for v in variants)]
+        rows.append(cells + [f"{first['flip']:.3f}" if first else ""])
+    mean = lambda of: f"{np.mean([of(results[name]) for name in names]):.3f}"
+    rows.append([f"mean of {len(names)}", "", *(mean(lambda n, v=v: n[v]["flip"]) for v in variants), *[""] * (len(head) - 2 - len(variants))])
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    ratio = lambda n, v, key: n[v][key][1] / max(n[v][key][0], 1e-9)
+    lines += ["", "Ours over the path-traced:", ""]
+    head = ["frame", *(f"light, {v}" for v in variants), *(f"contrast, {v}" for v in variants), "light at first", "water lost, extra (share of its pixels)", "FLIP beside the water"]
+    rows = [head, ["---"] + ["---:"] * (len(head) - 1)]
+    for name in names:
+        n, first = results[name], frames[name].get("first")
+        v = variants[0]
+        rows.append([name, *(f"{ratio(n, v, key):.2f}" for key in ("mean", "deviation") for v in variants), f"{first['light']:.2f}" if first else "",
+                     f"{n[v]['lost'] / n[v]['pixels']:.3f}, {n[v]['extra'] / n[v]['pixels']:.3f}", f"{n[v]['dry']['flip']:.3f}"])
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=pathlib.Path, required=True, help="folder of the caches and environments")
     parser.add_argument("--frames", type=pathlib.Path, default=HERE / "frames.toml", help="which frames [default: frames.toml beside this]")
     parser.add_argument("--only", action="append", help="this frame of them; may be given several times")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder to write to")
+    parser.add_argument("--table", type=pathlib.Path, help="page of results to write, Markdown, of all frames that --out has numbers of")
     parser.add_argument("--variant", action="append", help="NAME=ARGUMENTS: a run of whitewater with these arguments "
                         "[default: 'water=--surface-foam none --spray none' and 'default=']")
     parser.add_argument("--whitewater", default="whitewater", help="the program [default: of the path]")
@@ -165,6 +229,8 @@ def main():
         stored.write_text(json.dumps(results, indent=1))
         (options.out / "table.md").write_text(table(results))
         print(table({name: results[name]}), end="", flush=True)
+    if options.table:
+        options.table.write_text(page(results, frames, options))
 
 
 if __name__ == "__main__":

@@ -1,24 +1,30 @@
-"""Particles from files: classic .bgeo (gzip or not), legacy binary .vtk, .npy and .npz; or a calm pool of them."""
+"""Particles from files: classic .bgeo (gzip or not), legacy binary .vtk, .vtu, .npy and .npz; or a calm pool of them."""
 import gzip
 import struct
 
 import numpy as np
 
 
-def read(path):
-    """Finite positions, (N, 3), double precision."""
+def read(path, scale=1.0, up="y"):
+    """Finite positions, (N, 3), double precision, y up, in metres: a file's unit of length has `scale` of them."""
     path = str(path)
     if path.endswith(".npy"):
         points = np.load(path)
     elif path.endswith(".npz"):
         points = np.load(path)["position"]
+    elif path.endswith(".vtu"):
+        import meshio
+
+        points = meshio.read(path).points
     else:
         with open(path, "rb") as file:
             data = file.read()
         if data[:2] == b"\x1f\x8b":
             data = gzip.decompress(data)
         points = _vtk(data) if path.endswith(".vtk") else _bgeo(data, path)
-    points = np.asarray(points, "f8")[:, :3]
+    points = scale * np.asarray(points, "f8")[:, :3]
+    if up == "z":
+        points = points[:, [0, 2, 1]] * [1.0, 1.0, -1.0]  # as the tool turns them: right-handed
     return points[np.isfinite(points).all(axis=1)]
 
 

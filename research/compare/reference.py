@@ -46,7 +46,7 @@ def path_traced(mi, frame, meshes, water, work, options):
     texture = {"type": "bitmap", "bitmap": mi.Bitmap(scene.tiles()), "raw": False, "wrap_mode": "repeat"}
     for i, mesh in enumerate(meshes):
         albedo = texture if mesh.color is None else {"type": "rgb", "value": list(mesh.color)}
-        matte = {"type": "twosided", "inner": {"type": "whitewater", "reflectance": albedo}}
+        matte = {"type": "twosided", "inner": {"type": "diffuse", "reflectance": albedo}}
         dry[f"part{i}"] = _ply(mi, mesh, work / f"part{i}.ply") | {"bsdf": matte}
     absorption, scattering = (np.array(frame["medium"][key]) for key in ("absorption", "scattering"))
     extinction = absorption + scattering

@@ -93,15 +93,19 @@ def cylinder(center, radius, height, sides=96):
 
 
 def solid(kind, **numbers):
+    if kind == "box":
+        return cuboid(numbers["low"], numbers["high"], SOLID)
     return {"sphere": sphere, "cylinder": cylinder}[kind](**numbers)
 
 
 def basin(points, radius, box, eye, walls=None):
     """A tiled basin whose inner faces stand half a radius beyond the outermost water, so that its surface ends in them and
-    no air is left between; low walls towards the eye. On the ground."""
+    no air is left between; those that the water has not reached are the box's. Low walls towards the eye. On the ground."""
     low, high = np.quantile(points, 0.002, axis=0) - radius / 2, np.quantile(points, 0.998, axis=0) + radius / 2
     for axis in (0, 2):
-        low[axis], high[axis] = max(low[axis], box[2 * axis]), min(high[axis], box[2 * axis + 1])
+        least, most = box[2 * axis:2 * axis + 2]
+        low[axis] = least if low[axis] > least + 6 * radius else max(low[axis], least)
+        high[axis] = most if high[axis] < most - 6 * radius else min(high[axis], most)
     floor = max(low[1], box[2])
     wide = max(high[0] - low[0], high[2] - low[2])
     thick = 0.03 * wide

@@ -1,6 +1,6 @@
 //! One run of drawing: device, look, targets. `render` and `demo` feed it frames.
 
-mod room;
+pub mod room;
 
 use std::borrow::Cow;
 use std::path::PathBuf;

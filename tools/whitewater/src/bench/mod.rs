@@ -8,6 +8,7 @@ mod covered;
 mod heap;
 mod isles;
 mod pool;
+mod rendered;
 mod report;
 mod sea;
 mod shore;
@@ -35,6 +36,7 @@ use crate::failure::{Failure, Outcome};
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
 use crate::progress::Progress;
+use rendered::Rendered;
 use report::{Format, Report, Row};
 
 /// Arguments of `bench`.
@@ -179,6 +181,8 @@ pub enum Path {
     Baseline,
     /// The baseline with its noise and foam
     BaselineNoise,
+    /// As `render` draws a file by default: with surface foam, spray and mist, shadows, caustics and a basin
+    Render,
     /// Shores, as all that follow: v from a distance map
     Map,
     /// v from a strip
@@ -233,7 +237,8 @@ impl Path {
     fn configure(self, config: &mut Config) {
         let query = |gate| Some(Smoothing::Query(gate));
         match self {
-            Self::Default | Self::All => {}
+            // `Rendered` configures its own.
+            Self::Default | Self::All | Self::Render => {}
             // No ways to draw water.
             Self::Map
             | Self::Strip
@@ -430,9 +435,14 @@ fn measure_all(
                     path.name()
                 );
                 let extent = vk::Extent2D { width, height };
+                let rendered = match path {
+                    Path::Render => Some(Rendered::new(&pool, EYE)?),
+                    _ => None,
+                };
                 let outcome = steps.during(&what, || {
-                    Device::new(options)
-                        .and_then(|device| measure(device, args, &pool, extent, path))
+                    Device::new(options).and_then(|device| {
+                        measure(device, args, &pool, extent, (path, rendered.as_ref()))
+                    })
                 });
                 match outcome {
                     Ok(rows) => {
@@ -465,12 +475,15 @@ fn measure(
     args: &BenchArgs,
     pool: &pool::Pool,
     extent: vk::Extent2D,
-    path: Path,
+    (path, rendered): (Path, Option<&Rendered>),
 ) -> Result<Vec<Row>, Error> {
     let mut config = Config::new(extent, COLOR_FORMAT, pool.positions.len() as u32);
     path.configure(&mut config);
+    if let Some(rendered) = rendered {
+        rendered.configure(&mut config);
+    }
     let mut headless = Headless::new(device, &config)?;
-    let rows = sample(&mut headless, args, pool, config, path);
+    let rows = sample(&mut headless, args, pool, config, (path, rendered));
     headless.finish()?;
     rows
 }
@@ -480,24 +493,31 @@ fn sample(
     args: &BenchArgs,
     pool: &pool::Pool,
     config: Config,
-    path: Path,
+    (path, rendered): (Path, Option<&Rendered>),
 ) -> Result<Vec<Row>, Error> {
     let extent = config.extent;
     let camera = camera(extent);
-    let mut settings = plain();
+    let mut settings = match rendered {
+        Some(rendered) => rendered.stage(headless, pool)?,
+        None => {
+            if config.shadow.is_some() {
+                headless.scene(&plate(pool), false)?;
+            }
+            let densities = config.spray.then(|| densities(pool));
+            headless.particles(&pool.positions, densities.as_deref())?;
+            plain()
+        }
+    };
     settings.water.spacing = pool.spacing;
-    if config.shadow.is_some() {
-        headless.scene(&plate(pool), false)?;
-    }
     settings.noise = SurfaceNoiseSettings::SOURCE;
-    let densities = config.spray.then(|| densities(pool));
-    headless.particles(&pool.positions, densities.as_deref())?;
     if config.light_map_size.is_some() {
         headless.region(region(pool));
     }
     let mut foaming = 0;
     if config.surface_foam {
-        settings.surface_foam = SurfaceFoamSettings::of_spacing(pool.spacing);
+        if rendered.is_none() {
+            settings.surface_foam = SurfaceFoamSettings::of_spacing(pool.spacing);
+        }
         foaming = foam(headless, pool)?;
     }
     if config.motion {
@@ -667,11 +687,14 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
     })
 }
 
+/// Where the pool is seen from.
+const EYE: Vec3 = vec3(1.7, 1.15, 2.15);
+
 fn camera(extent: vk::Extent2D) -> Camera {
     let aspect = extent.width as f32 / extent.height as f32;
     let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));
     Camera::of(
-        Mat4::look_at_rh(vec3(1.7, 1.15, 2.15), vec3(0.0, 0.12, 0.0), Vec3::Y),
+        Mat4::look_at_rh(EYE, vec3(0.0, 0.12, 0.0), Vec3::Y),
         flip * Mat4::perspective_infinite_reverse_rh(45f32.to_radians(), aspect, 0.05),
     )
 }

@@ -9,11 +9,23 @@ use super::{Memory, Session};
 use crate::args::{NoiseArg, ShadowArg};
 use crate::environment::{Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
+use crate::settings::SettingsFile;
 use crate::whitewater_source::{self, WhitewaterSource};
 
 /// Edge of the light's maps for a picture so many pixels wide.
-fn light_texels(width: u32) -> u32 {
+pub fn light_texels(width: u32) -> u32 {
     (width / 2).next_multiple_of(16).clamp(256, 1024)
+}
+
+/// What settings say of the passes; `matte`: of water alone.
+pub fn passes_of(file: &SettingsFile, matte: bool, config: &mut Config) {
+    let thesis = file.is_thesis();
+    // GPUs made for computing rasterize with a small part of themselves (docs/performance.md); elsewhere both take as long.
+    config.composite = Some(Shading::Compute);
+    config.mirror_steps = file.water.mirror_steps(thesis);
+    // Of water alone the scene behind is another's: what leaves it goes straight on.
+    config.exit = file.water.exit(thesis || matte);
+    config.kernels = file.water.kernels(thesis);
 }
 
 impl Session<'_> {
@@ -64,16 +76,11 @@ impl Session<'_> {
         let room = room(count).max(before.map_or(0, |config| config.max_particles));
         let mut config = Config::new(extent, COLOR_FORMAT, room);
         config.max_stride = 12;
-        // GPUs made for computing rasterize with a small part of themselves (docs/performance.md); elsewhere both take as long.
-        config.composite = Some(Shading::Compute);
+        passes_of(&self.look.file, self.look.matte, &mut config);
         config.smoothing_level = args.smoothing_level;
         config.thickness_level = args.thickness_level;
         let thesis = self.look.file.is_thesis();
         config.sheets = args.sheets.unwrap_or(if thesis { 1 } else { 2 });
-        config.mirror_steps = self.look.file.water.mirror_steps(thesis);
-        // Of water alone the scene behind is another's: what leaves it goes straight on.
-        config.exit = self.look.file.water.exit(thesis || self.look.matte);
-        config.kernels = self.look.file.water.kernels(thesis);
         config.surface_foam = self.look.foam.is_some();
         config.spray = self.look.spray;
         config.whitewater = self.look.whitewater.as_ref().map(|source| {

@@ -48,6 +48,28 @@ fn check(format: &str, text: &str) {
     }
 }
 
+/// The pool as `render` draws a file: its passes are there, each once, and they sum to the frame.
+#[test]
+fn what_render_draws_is_timed() {
+    let folder = Folder::new();
+    let command = "bench --particles 1k --frames 1 --warmup 0 --size 64x48 --path render";
+    let all: Value =
+        serde_json::from_str(&folder.run(&format!("{command} --format json")).ok().stdout())
+            .unwrap();
+    let rows = all["rows"].as_array().unwrap();
+    let of = |pass: &str| -> Vec<f64> {
+        let found = rows.iter().filter(|row| row["pass"] == pass);
+        found.map(|row| row["median"].as_f64().unwrap()).collect()
+    };
+    for pass in ["shape", "light", "caustics", "lit", "surface_foam", "spray", "back", "frame"] {
+        assert!(matches!(of(pass)[..], [ms] if ms > 0.0), "{pass}: {rows:?}");
+    }
+    let passes = rows.iter().filter(|row| row["pass"] != "frame");
+    let sum: f64 = passes.map(|row| row["median"].as_f64().unwrap()).sum();
+    assert!((sum - of("frame")[0]).abs() < 1.0e-6 * sum, "{rows:?}");
+    assert!(rows.iter().all(|row| row["path"] == "render"), "{rows:?}");
+}
+
 /// Blobs are drawn, and moved on the GPU and on the CPU.
 #[test]
 fn bubble_foam_is_timed() {
