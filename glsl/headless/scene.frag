@@ -40,7 +40,7 @@ layout(push_constant, std430) uniform Push {
     vec4 origin;    // origin of the mesh's frame (world)
     vec4 color;     // base colour, roughness
     vec4 pattern;   // size, height of the tiles' band (m) or of the beach above the sea; z: 1 for the backdrop,
-                    // whose visibility of the sun is baked
+                    // whose visibility of the sun is baked; w: 1 for stone in blocks
 } push;
 
 layout(location = 0) in vec3 position;
@@ -149,16 +149,25 @@ Surface concrete(vec3 p, vec3 n, float width) {
 // Dressed stone in courses, warm and cool veins.
 Surface stone(vec3 p, vec3 n, vec2 footprint, float width) {
     float size = push.pattern.x;
-    float course = floor(p.y / size);
-    float joint = n.y < 0.6 ? lines(p.y / size, 0.012 / size, footprint.y / size) : 0.0;
+    // Of blocks: courses from the ground up, in each the upright joints where the next has none.
+    bool blocks = push.pattern.w > 0.5;
+    float row = p.y - (blocks && scene.shadow_texel.w > -1.0e8 ? scene.air.y * scene.shadow_texel.w : 0.0);
+    float course = floor(row / size);
+    float joint = n.y < 0.6 ? lines(row / size, 0.012 / size, footprint.y / size) : 0.0;
     float seed = hash(ivec3(int(course), 3, 9)) - 0.5;
+    if (blocks && n.y < 0.6) {
+        float wide = size * (1.9 + 0.5 * seed);
+        float along = (n.x > n.z ? p.z : p.x) / wide + 0.5 * course + 0.4 * seed;
+        joint = max(joint, lines(along, 0.009 / wide, footprint.x / wide));
+        seed = 0.75 * (hash(ivec3(int(floor(along)), int(course), n.x > n.z ? 11 : 12)) - 0.5);
+    }
     float cloud = octaves(p + 5.0 * seed, 2.3, 4, width);
     float strata = octaves(vec3(p.x, 5.0 * p.y, p.z) + 11.0 * seed, 5.0, 3, width);
     float grain = octaves(p, 70.0, 2, width);
     vec3 tone = push.color.rgb * (1.0 + 0.18 * seed + 0.30 * cloud + 0.22 * strata + 0.22 * grain);
     tone *= 1.0 + vec3(0.07, 0.0, -0.09) * (cloud + seed);
     Surface s;
-    s.albedo = mix(tone, tone * 0.35, joint);
+    s.albedo = mix(tone, tone * (blocks ? 0.55 : 0.35), joint);
     s.roughness = push.color.a;
     s.tilt = 0.08 * vec3(grain, 0.0, cloud);
     return s;
@@ -192,8 +201,14 @@ Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
     float large = octaves(p, 0.5, 3, width);
     float cloud = octaves(p + 9.0 * seed, 6.0, 3, width);
     float grain = octaves(p, 90.0, 2, width);
-    vec3 tone = push.color.rgb * (1.0 + one * 0.20 * seed + 0.16 * large + 0.14 * cloud + 0.14 * grain);
-    tone *= 1.0 + one * vec3(0.06, 0.0, -0.07) * warm;
+    // Some were laid later, or come from another bed; what dripped and was trodden in stays as stains.
+    float other = step(0.86, hash(ivec3(int(floor(q.x)), int(row), 23)));
+    float stain = smoothstep(0.05, 0.45, octaves(p + 71.0, 0.8, 4, width));
+    vec2 rim = abs(fract(q) - 0.5) * 2.0;
+    float worn = pow(max(rim.x, rim.y), 9.0);
+    vec3 tone = push.color.rgb * (1.0 + one * (0.26 * seed - 0.12 * other) + 0.20 * large + 0.20 * cloud + 0.18 * grain);
+    tone *= 1.0 - 0.20 * stain - 0.14 * one * worn * (0.7 + cloud);
+    tone *= 1.0 + one * vec3(0.07, 0.0, -0.09) * warm;
     Surface s;
     s.albedo = mix(tone, push.color.rgb * vec3(0.62, 0.58, 0.52), 0.75 * gap);
     s.roughness = mix(push.color.a, 0.95, gap);
@@ -454,7 +469,9 @@ void main() {
     // Where a pixel's centre lies outside of its triangle, interpolation may extrapolate the baked light
     // below zero.
     float sky_seen = clamp(light.x, 0.0, 1.0);
-    vec3 sky = sky_seen * sky_irradiance(n);
+    // Thin clouds scatter some of the sun's light down.
+    vec3 clouds = 0.09 * scene.air.z * (0.5 + 0.5 * n.y) * scene.sun_color.rgb;
+    vec3 sky = sky_seen * (sky_irradiance(n) + clouds);
     // Surrounding surfaces see about half of the sky themselves.
     vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around.rgb, 0.0) * up;
     for (int i = 0; SEA == WATER && i < wet; ++i) {
@@ -489,8 +506,11 @@ void main() {
     if ((PART == GROUND || push.pattern.z > 0.5) && scene.air.x > 0.0) {
         // The horizon's colour in the direction of the ray.
         vec3 level = normalize(vec3(-v.x, max(-v.y, 0.02), -v.z));
-        float clear = exp(-length(to_eye) * scene.air.x);
-        c = mix(textureLod(environment, level, 2.0).rgb, c, clear);
+        vec3 clear = clear_air(length(to_eye));
+        vec3 air = with_band(textureLod(environment, level, 2.0).rgb, level.y);
+        // What the air itself scatters is bluer than what is left of it from the horizon.
+        air *= SEA == WATER ? mix(vec3(1.0), vec3(0.90, 0.90, 1.15), clear) : vec3(1.0);
+        c = mix(air, c, clear);
     }
     if (PART == GROUND) {
         float away = distance(position.xz, scene.ground.xy);

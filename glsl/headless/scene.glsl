@@ -15,7 +15,8 @@ layout(set = 0, binding = 0, std140) uniform Scene {
     vec4 sun_color;     // irradiance on a surface that faces the sun; w: radiance of the disc over it, 0 if a picture shows it
     vec4 shadow_texel;  // texel of the shadow map in uv and in world units, height of the ground
     vec4 ground;        // centre x and z, distances at which the ground begins and ends to fade into the sky
-    vec4 air;           // 1 / length of the haze, 0: clear; metres per world unit for procedural surfaces
+    vec4 air;           // 1 / length of the haze, 0: clear; metres per world unit for procedural surfaces;
+                        // clouds and band over the horizon, 0 to 1
     vec4 sea;           // level, length of the largest waves or of a plate of lava, unused, path of sunlight per metre of depth
     vec4 absorption;    // of water, 1/m; w: variance of the slopes of all waves
     vec4 scattering;    // of water, 1/m; w: fraction of the loop that has passed (lava)

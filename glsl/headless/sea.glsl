@@ -118,6 +118,19 @@ vec3 wobble(Surf s, float depth) {
     return vec3(aside.x, 0.0, aside.y);
 }
 
+// What is left of the contrast after a distance through hazy air. By the sea it is clean and blue: what scatters is mostly
+// the air itself, as the wavelength to the power -4, and some droplets.
+vec3 clear_air(float distant) {
+    vec3 rate = SEA == WATER ? vec3(0.60, 0.90, 2.1) : vec3(1.0);
+    return exp(-distant * scene.air.x * rate);
+}
+
+// Droplets low over the sea make a bright band above the horizon. `up`: the sine of the height.
+vec3 with_band(vec3 sky, float up) {
+    vec3 bright = scene.sun_color.rgb * vec3(0.124, 0.144, 0.170);
+    return mix(sky, max(bright, sky), min(scene.air.z, 1.0) * 0.8 * exp(-max(up, 0.0) / 0.07));
+}
+
 float fresnel(float cosine) {
     return MIRRORED + (1.0 - MIRRORED) * pow(1.0 - cosine, 5.0);
 }
@@ -182,7 +195,7 @@ vec3 mirror(vec3 n, vec3 v, float variance) {
     r.y = abs(r.y);
     float size = float(textureSize(environment, 0).x);
     float lod = clamp(log2(1.3 * sqrt(variance) * size), 0.0, log2(size) - 3.0);
-    return textureLod(environment, r, lod).rgb;
+    return with_band(textureLod(environment, r, lod).rgb, r.y);
 }
 
 // The sun's reflection in facets of all slopes (Cox and Munk 1954).
@@ -296,11 +309,15 @@ vec3 lava(Place place, vec3 lit) {
 // The sea over what lies `depth` below its level. `lit`: irradiance on it, used for lava.
 vec3 sea_over(vec3 under, float depth, vec3 lit, Surf s) {
     vec3 c = SEA == WATER ? water(under, depth, s) : lava(s.place, lit);
-    // Far away the sea fades into the sky at the horizon, and earlier than the ground, because it has less
-    // detail.
-    vec3 horizon = textureLod(environment, vec3(s.ray.x, 0.0, s.ray.z), 2.0).rgb;
-    float away = distance(s.place.at, scene.eye.xz) / scene.ground.w;
-    return mix(c, horizon, max(1.0 - exp(-7.0 * away * away / (0.1 + away)), smoothstep(0.2, 1.0, away)));
+    // Far away the sea fades into the sky at the horizon: through hazy air as all does, in clear air earlier than the
+    // ground, because it has less detail.
+    vec3 horizon = textureLod(environment, normalize(vec3(s.ray.x, 0.02 * length(s.ray.xz), s.ray.z)), 2.0).rgb;
+    float distant = distance(s.place.at, scene.eye.xz);
+    float away = distant / scene.ground.w;
+    float faded = max(1.0 - exp(-7.0 * away * away / (0.1 + away)), smoothstep(0.2, 1.0, away));
+    horizon = with_band(horizon, 0.0);
+    vec3 veil = scene.air.x > 0.0 ? 1.0 - clear_air(distant) : vec3(faded);
+    return mix(c, horizon, veil);
 }
 
 // Irradiance from lava on what stands over it: an estimate from height and slope alone, as if lava were below

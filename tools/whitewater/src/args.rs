@@ -199,7 +199,7 @@ pub struct RenderArgs {
     pub scene: Option<PathBuf>,
     /// Surroundings if no --scene is given: pool, studio, beach, lab or none [default: pool]
     ///
-    /// 'pool' is a terrace in a garden, 'studio' a plain floor under a soft box, 'beach' sand in front of a
+    /// 'pool' is a terrace over the sea, 'studio' a plain floor under a soft box, 'beach' sand in front of a
     /// sea, 'lab' a tiled hall with lamps. Studio and lab bring their own light unless you set one. With 'none'
     /// only water, foam and spray are drawn, premultiplied; A holds how much of the background they hide (the
     /// mean of three channels), in EXR and PNG.
@@ -546,7 +546,7 @@ impl From<SplatArg> for Splat {
 /// What stands round the water.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum SetArg {
-    /// A terrace in a garden
+    /// A terrace over the sea
     #[default]
     Pool,
     /// A plain floor that passes into the dark.

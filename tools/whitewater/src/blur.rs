@@ -12,8 +12,8 @@ use crate::failure::Outcome;
 
 /// Of a photograph: seconds, diameter of the lens over the distance in focus, and at most in metres.
 const SHUTTER: f32 = 0.01;
-const LENS: f32 = 0.009;
-const LARGEST: f32 = 0.09;
+const LENS: f32 = 0.0035;
+const LARGEST: f32 = 0.035;
 
 /// What is averaged.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -24,6 +24,7 @@ mod generate;
 mod info;
 mod layers;
 mod looks;
+mod masonry;
 mod out;
 mod output;
 mod pattern;

@@ -1,12 +1,13 @@
-//! Surroundings of the water, near and far: a terrace in a garden, a studio, a shore, a laboratory. All sizes
+//! Surroundings of the water, near and far: a terrace over the sea, a studio, a shore, a laboratory. All sizes
 //! are relative to the width of the water, so a beaker and a lake get the same picture; nothing is metric.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3, vec2, vec3};
 use whitewater::headless::scene::{Ground, Material, Mesh, Pattern, Scene, Sea};
 
 use crate::args::SetArg;
+use crate::masonry;
 use crate::shore::terrain::{Lump, block, lumps, number, octaves, rise, smooth_normals};
 
 /// Where the water is.
@@ -48,7 +49,7 @@ pub fn furnish(scene: &mut Scene, set: SetArg, ground: Material, place: &Place) 
     scene.metre = Some(wide / METRES);
     scene.ground = Some(Ground { y: place.middle.y, material: ground, reach: None });
     match set {
-        SetArg::Pool => garden(scene, place),
+        SetArg::Pool => terrace(scene, place),
         SetArg::Studio => studio(scene, place),
         SetArg::Beach => beach(scene, place),
         SetArg::Lab => laboratory(scene, place),
@@ -87,84 +88,138 @@ impl Builder {
     }
 }
 
-/// Lawn and hills; level round the middle.
-fn land(p: Vec2) -> f32 {
-    let far = rise(3.0, 16.0, p.length());
-    0.012
-        + far * 0.55 * octaves(p / 9.0, 3, 5)
-        + 2.6 * rise(22.0, 60.0, p.length()) * (0.55 + octaves(p / 19.0, 4, 21))
-}
+/// How high the terrace lies over the sea, how far it reaches round the basin and how high its parapet is, metres.
+const CLIFF: f32 = 11.0;
+const REACH: f32 = 3.6;
+const PARAPET: f32 = 0.46;
 
-/// A paved terrace in a lawn, a clipped hedge behind it, trees, and hills.
-fn garden(scene: &mut Scene, place: &Place) {
+/// A paved terrace over the sea, behind a low white wall with a coping; headlands in blue air.
+fn terrace(scene: &mut Scene, place: &Place) {
     let mut b = Builder::new(place);
-    let half = place.half / b.wide;
-    let lawn = material([0.068, 0.112, 0.022], 0.9, Pattern::Lawn { stripe: 0.13 * b.wide });
-    let [hedge_green, oak, ash] =
-        [[0.036, 0.064, 0.016], [0.050, 0.082, 0.018], [0.078, 0.108, 0.026]]
-            .map(|green| material(green, 0.85, Pattern::Foliage));
+    let m = b.wide / METRES;
+    let half = place.half * METRES / b.wide;
+    // The ground lies about the middle of all that stands on it.
+    let (low, high) = scene.bounds();
+    let middle = 0.5 * (low + high) - b.middle;
+    let middle = vec2(middle.x, middle.z) * b.away / m;
+    let reach = half.max_element() + REACH;
+    if let Some(ground) = &mut scene.ground {
+        ground.reach = Some(reach * m);
+    }
     // As the basin's: each pattern costs a pipeline.
     let slabs = Pattern::Stone { course: b.wide };
-    let [stone, bark] =
-        [[0.52, 0.48, 0.42], [0.10, 0.075, 0.055]].map(|c| material(c, 0.85, slabs));
+    let blocks = Pattern::Blocks { course: 0.155 * m };
+    let wall = material([0.45, 0.41, 0.345], 0.9, blocks);
+    let coping = material([0.50, 0.455, 0.385], 0.8, slabs);
+    let paving = scene.ground.as_ref().map(|ground| ground.material.clone()).unwrap_or_default();
 
-    // The terrace: less of it behind than before.
-    let (low, high) = (-half - vec2(0.95, 0.95), half + vec2(0.5, 0.5));
-    let (kerb, proud) = (0.055, 0.016);
-    for (name, from, to) in [
-        ("kerb", vec2(low.x - kerb, low.y - kerb), vec2(low.x, high.y + kerb)),
-        ("kerb", vec2(high.x, low.y - kerb), vec2(high.x + kerb, high.y + kerb)),
-        ("kerb", vec2(low.x, low.y - kerb), vec2(high.x, low.y)),
-        ("kerb", vec2(low.x, high.y), vec2(high.x, high.y + kerb)),
+    // Towards the eye the terrace goes on.
+    let (far, near) = (middle + reach, -26.0_f32);
+    let metres = |v: Vec3| v / METRES;
+    let put =
+        |b: &mut Builder, name: &str, from: Vec3, to: Vec3, cell: f32, material: &Material| {
+            b.push(name, block(metres(from), metres(to), cell / METRES, material.clone()));
+        };
+    let back = middle - reach;
+    put(&mut b, "terrace", vec3(near, -0.1, near), vec3(far.x, 0.0, back.y), 2.0, &paving);
+    put(&mut b, "terrace", vec3(near, -0.1, back.y), vec3(back.x, 0.0, far.y), 2.0, &paving);
+    let (thick, over, slab) = (0.34, 0.035, 0.07);
+    let inner = far - 0.06;
+    // Its inner faces in small cells: light falls off under the coping and at the foot.
+    let face = inner + 0.02;
+    put(&mut b, "parapet", vec3(near, -0.1, inner.y), vec3(face.x, PARAPET, face.y), 0.15, &wall);
+    put(&mut b, "parapet", vec3(inner.x, -0.1, near), vec3(face.x, PARAPET, inner.y), 0.15, &wall);
+    let (foot, outer) = (-CLIFF - 2.0, inner + thick);
+    put(&mut b, "cliff", vec3(near, foot, face.y), vec3(outer.x, PARAPET, outer.y), 2.0, &wall);
+    put(&mut b, "cliff", vec3(face.x, foot, near), vec3(outer.x, PARAPET, face.y), 2.0, &wall);
+    let (from, to) = (PARAPET, PARAPET + slab);
+    let corner = inner - over;
+    let outer = inner + thick + over;
+    for (low, high, axis) in [
+        (vec3(near, from, corner.y), vec3(corner.x, to, outer.y), 0),
+        (vec3(corner.x, from, near), vec3(outer.x, to, outer.y), 2),
     ] {
-        let (from, to) = (vec3(from.x, -0.02, from.y), vec3(to.x, proud, to.y));
-        b.push(name, block(from, to, 0.25, stone.clone()));
+        for mesh in masonry::row(
+            (metres(low), metres(high)),
+            axis,
+            1.0 / METRES,
+            0.012 / METRES,
+            &coping,
+            60,
+        ) {
+            b.push("coping", mesh);
+        }
     }
-    b.push("lawn", ring_of_cells(low - 0.6 * kerb, high + 0.6 * kerb, 60.0, lawn, land));
+    // Headlands: directions from the line of sight, to the right; how far away and how high.
+    let sight =
+        vec2(place.middle.x - place.eye.x, place.middle.z - place.eye.z).normalize_or(Vec2::NEG_Y);
+    let land = material([0.052, 0.052, 0.042], 0.95, slabs);
+    for (from, to, away, height, seed) in
+        [(-38.0, -7.0, 1900.0, 105.0, 3_u32), (4.0, 40.0, 5200.0, 190.0, 8)]
+    {
+        let way = |degrees: f32| {
+            let turned = Vec2::from_angle(f32::to_radians(degrees)).rotate(sight);
+            turned * b.away
+        };
+        b.push("headland", headland([from, to], way, away, height, seed, land.clone()));
+    }
+    scene.backdrop.append(&mut b.meshes);
+    scene.haze = Some(4200.0 * m);
+    scene.clouds = 1.0;
+    let calm = Sea::default();
+    scene.sea = Some(Sea {
+        level: b.middle.y - CLIFF * m,
+        absorption: calm.absorption.map(|a| a / m),
+        scattering: calm.scattering.map(|s| s / m),
+        waves: 0.13 * m,
+        length: 8.0 * m,
+        // Across the line of sight: crests along it, not in lines from side to side.
+        towards: Vec2::from_angle(1.0).rotate(sight).to_array(),
+        ..calm
+    });
+}
 
-    // A hedge round the far corner.
-    let corner = high + vec2(1.25, 1.05);
-    let profile = [0.24, 0.33];
-    let line = [vec2(corner.x, low.y - 2.5), corner, vec2(low.x - 3.5, corner.y)];
-    b.push("hedge", hedge(&line, profile, 0.07, hedge_green.clone()));
-
-    // Trees behind it, and bushes at its foot.
-    let (mut crowns, mut wood) = ([Vec::new(), Vec::new(), Vec::new()], [Vec::new(), Vec::new()]);
-    let mut trunks = Mesh::default();
-    const TREES: usize = 22;
-    for i in 0..TREES {
-        let n = |seed| number(i, seed);
-        // From the left of the far corner to its right, crown by crown: dark and even behind what is white.
-        let part = (i as f32 + 0.7 * (n(31) - 0.5)) / (TREES - 1) as f32;
-        let around = PI * (1.3 * part - 0.15) - 0.25 * PI;
-        let away = 4.6 + 2.2 * n(32);
-        let at = away * Vec2::from_angle(around);
-        let height = (1.35 + 0.75 * n(33)) * (0.7 + 0.06 * away);
-        tree(at, height, i, &mut crowns[(3.0 * n(34)) as usize % 3], &mut trunks);
+/// A ridge that runs out into the sea, between two directions, so many metres away and high.
+fn headland(
+    [from, to]: [f32; 2],
+    way: impl Fn(f32) -> Vec2,
+    away: f32,
+    height: f32,
+    seed: u32,
+    material: Material,
+) -> Mesh {
+    const ALONG: usize = 150;
+    const UP: usize = 22;
+    let mut mesh = Mesh { material, ..Mesh::default() };
+    let wide = (to - from).to_radians() * away;
+    for i in 0..=ALONG {
+        let t = i as f32 / ALONG as f32;
+        // High where it leaves the picture, low where it ends in the sea.
+        let inland = if from.abs() > to.abs() { 1.0 - t } else { t };
+        let s = t * wide / height;
+        let ridge = height
+            * rise(0.0, 1.0, inland).powf(0.7)
+            * (0.75 + 0.9 * octaves(vec2(0.35 * s, 0.0), 5, seed) + 0.35 * inland);
+        for k in 0..=UP {
+            let u = k as f32 / UP as f32;
+            let spur = octaves(vec2(1.3 * s, 1.5 * u), 4, seed + 20);
+            let y = (ridge * rise(0.0, 1.0, u) * (1.0 + 0.25 * spur)) - 6.0 * (1.0 - u);
+            let out = away + height * (3.0 * u + 1.2 * spur);
+            let at = out * way(from + t * (to - from)) / METRES;
+            mesh.positions.push([at.x, (y - CLIFF) / METRES, at.y]);
+            if i < ALONG && k < UP {
+                let a = (i * (UP + 1) + k) as u32;
+                let b = a + UP as u32 + 1;
+                mesh.indices.extend([a, a + 1, b + 1, a, b + 1, b]);
+            }
+        }
     }
-    // A wood before the hills, all round.
-    for i in 0..320 {
-        let n = |seed| number(i, seed);
-        let at = (16.0 + 9.0 * n(41)) * Vec2::from_angle(TAU * (i as f32 + n(42)) / 320.0);
-        let size = 0.35 + 0.55 * n(43);
-        let half = size * vec3(1.0, 0.8 + 0.3 * n(44), 1.0);
-        let middle = vec3(at.x, land(at) + (0.4 + 1.1 * n(45)) * half.y, at.y);
-        wood[i % 2].push(Lump { middle, half, rough: 0.3, seed: 900 + 3 * i as u32 });
+    mesh.normals = smooth_normals(&mesh.positions, &mesh.indices);
+    if mesh.normals.iter().map(|n| n[1]).sum::<f32>() < 0.0 {
+        mesh.normals.iter_mut().flatten().for_each(|v| *v = -*v);
+        mesh.indices.chunks_exact_mut(3).for_each(|t| t.swap(1, 2));
     }
-    let greens = [hedge_green, oak.clone(), ash.clone(), oak, ash];
-    for (i, (crowns, green)) in crowns.iter().chain(&wood).zip(greens).enumerate() {
-        let mut mesh = lumps(crowns, if i < 3 { 4 } else { 7 }, green);
-        sprays(&mut mesh, crowns, i as u32);
-        b.push("leaves", mesh);
-    }
-    trunks.material = bark;
-    trunks.normals = smooth_normals(&trunks.positions, &trunks.indices);
-    b.push("trunks", trunks);
-    if let Some(ground) = &mut scene.ground {
-        ground.reach = Some((half.max_element() + 1.1) * b.wide);
-    }
-    scene.backdrop = b.meshes;
-    scene.haze = Some(130.0 * b.wide);
+    mesh
 }
 
 /// A floor that passes into the backdrop without a seam, as a cyclorama's does: by haze.
@@ -217,7 +272,7 @@ fn beach(scene: &mut Scene, place: &Place) {
         });
     }
     b.push("headland", lumps(&heads, 12, rock));
-    scene.backdrop = b.meshes;
+    scene.backdrop.append(&mut b.meshes);
     scene.haze = Some(110.0 * b.wide);
     let calm = Sea::default();
     scene.sea = Some(Sea {
@@ -250,7 +305,7 @@ fn laboratory(scene: &mut Scene, place: &Place) {
         let (behind, beside) = (vec3(far, from, near), vec3(far + 0.2, to, far));
         b.push(name, block(behind, beside, cell, what.clone()));
     }
-    scene.backdrop = b.meshes;
+    scene.backdrop.append(&mut b.meshes);
 }
 
 /// A height field round a rectangle, out to a distance, ever coarser.
@@ -297,117 +352,4 @@ fn ring_of_cells(
         }
     }
     mesh
-}
-
-/// A clipped hedge along a line, so thick and so high, in steps; its ends are round.
-fn hedge(line: &[Vec2], [thick, high]: [f32; 2], step: f32, material: Material) -> Mesh {
-    const ACROSS: usize = 13;
-    let mut mesh = Mesh { material, ..Mesh::default() };
-    let mut along = Vec::new();
-    for pair in line.windows(2) {
-        let count = (pair[0].distance(pair[1]) / step).ceil() as usize;
-        along.extend((0..count).map(|i| pair[0].lerp(pair[1], i as f32 / count as f32)));
-    }
-    along.extend(line.last());
-    let last = along.len() - 1;
-    for (i, at) in along.iter().enumerate() {
-        let way = (along[(i + 1).min(last)] - along[i.saturating_sub(1)]).normalize_or(Vec2::X);
-        let side = vec2(-way.y, way.x);
-        let end = 1.0 - (1.0 - i.min(last - i) as f32 / 2.0).clamp(0.0, 1.0).powi(2);
-        for k in 0..ACROSS {
-            // Up one side, over the top, down the other: a rectangle with round edges.
-            let t = k as f32 / (ACROSS - 1) as f32;
-            let angle = PI * t;
-            let (c, s) = (angle.cos(), angle.sin());
-            let square = |v: f32| v.signum() * v.abs().powf(0.28);
-            let dent = 0.022 * octaves(vec2(11.0 * i as f32 * step, 7.0 * t), 3, 77)
-                + 0.012 * octaves(vec2(2.0 * i as f32 * step, 2.0 * t), 2, 78);
-            let across = (0.5 * thick * end + dent) * square(c);
-            let y = (high * (0.25 + 0.75 * end) + dent) * square(s);
-            let p = *at + side * across;
-            mesh.positions.push([p.x, y, p.y]);
-            if i < last && k + 1 < ACROSS {
-                let a = (i * ACROSS + k) as u32;
-                let b = a + ACROSS as u32;
-                mesh.indices.extend([a, a + 1, b + 1, a, b + 1, b]);
-            }
-        }
-    }
-    mesh.normals = smooth_normals(&mesh.positions, &mesh.indices);
-    // Outside is away from the line.
-    let outside = |p: &[f32; 3], n: &[f32; 3]| p[1] < 0.5 * high || n[1] > 0.0;
-    let wrong = mesh.positions.iter().zip(&mesh.normals).filter(|(p, n)| !outside(p, n)).count();
-    if 2 * wrong > mesh.positions.len() / 3 {
-        mesh.normals.iter_mut().flatten().for_each(|v| *v = -*v);
-        mesh.indices.chunks_exact_mut(3).for_each(|t| t.swap(1, 2));
-    }
-    mesh
-}
-
-/// Leaves that stand out of lumps, so that their outlines are ragged: triangles, lit as the lump is.
-fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
-    const EACH: usize = 40;
-    for (i, lump) in lumps.iter().enumerate() {
-        for k in 0..EACH {
-            let n = |of: u32| number(EACH * i + k, 10 * seed + 400 + of);
-            let around = TAU * n(0);
-            let up = 1.0 - 1.6 * n(1);
-            let level = (1.0 - up * up).max(0.0).sqrt();
-            let out = vec3(level * around.cos(), up, level * around.sin());
-            let at = lump.middle + lump.half * out * (0.80 + 0.25 * n(2));
-            let size = lump.half.min_element().min(0.2) * (0.14 + 0.22 * n(3));
-            let (a, b) = (TAU * n(4), PI * n(5));
-            let along = vec3(a.cos() * b.sin(), b.cos(), a.sin() * b.sin());
-            let across = along.cross(out).normalize_or(Vec3::X);
-            let first = mesh.positions.len() as u32;
-            for corner in [
-                size * along,
-                size * (0.5 * across - 0.6 * along),
-                -size * (0.7 * across + 0.3 * along),
-            ] {
-                mesh.positions.push((at + corner).to_array());
-                mesh.normals.push(out.to_array());
-            }
-            mesh.indices.extend([first, first + 1, first + 2]);
-        }
-    }
-}
-
-/// A crown of lumps on a trunk.
-fn tree(at: Vec2, height: f32, seed: usize, crown: &mut Vec<Lump>, wood: &mut Mesh) {
-    const LUMPS: usize = 38;
-    const SIDES: usize = 7;
-    let ground = land(at);
-    let n = |i: usize, of: u32| number(40 * seed + i, 70 + of);
-    let reach = height * vec3(0.30 + 0.1 * n(0, 0), 0.36, 0.30 + 0.1 * n(0, 1));
-    let middle = vec3(at.x, ground + 0.60 * height, at.y);
-    crown.push(Lump { middle, half: 0.66 * reach, rough: 0.3, seed: 7 * seed as u32 });
-    for i in 0..LUMPS {
-        // Over the sphere by the golden angle, less of it below.
-        let up = 1.0 - 1.75 * (i as f32 + 0.5) / LUMPS as f32;
-        let around = 2.399_963_1 * (i as f32 + n(i, 2));
-        let level = (1.0 - up * up).max(0.0).sqrt();
-        let out = vec3(level * around.cos(), up, level * around.sin());
-        let size = height * (0.055 + 0.065 * n(i, 3));
-        crown.push(Lump {
-            middle: middle + reach * out * (0.60 + 0.36 * n(i, 4)),
-            half: size * vec3(1.0, 0.72, 1.0),
-            rough: 0.35,
-            seed: 31 * (seed * LUMPS + i) as u32,
-        });
-    }
-    let first = wood.positions.len() as u32;
-    for (ring, (y, radius)) in [(-0.02, 0.032), (0.1, 0.022), (0.45, 0.015)].into_iter().enumerate()
-    {
-        for side in 0..SIDES {
-            let out = Vec2::from_angle(TAU * side as f32 / SIDES as f32) * radius * height;
-            wood.positions.push([at.x + out.x, ground + y * height, at.y + out.y]);
-            if ring < 2 {
-                let up = |i: usize| first + (ring * SIDES + i % SIDES) as u32;
-                let (a, b) = (up(side), up(side + 1));
-                let (c, d) = (a + SIDES as u32, b + SIDES as u32);
-                wood.indices.extend([a, c, d, a, d, b]);
-            }
-        }
-    }
 }

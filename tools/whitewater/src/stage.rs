@@ -9,6 +9,7 @@ use crate::args::SetArg;
 use crate::bounds::Bounds;
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
+use crate::masonry;
 use crate::sets::{self, Place, material};
 use crate::spouts::Spout;
 
@@ -26,7 +27,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
         SetArg::Pool | SetArg::None => [
             of([0.175, 0.16, 0.145], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
             of([0.29, 0.43, 0.48], 0.22, tiles(36.0)),
-            of([0.36, 0.335, 0.295], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
+            of([0.40, 0.365, 0.305], 0.85, Pattern::Blocks { course: 0.036 * longest }),
         ],
         SetArg::Studio => [
             of([0.46; 3], 0.95, Pattern::Plain),
@@ -57,7 +58,7 @@ pub fn ground_under(bounds: &Bounds, eye: Vec3, set: SetArg) -> Scene {
     scene
 }
 
-/// The terrace and the garden round a scene that stands on level ground.
+/// The terrace over the sea round a scene that stands on level ground.
 pub fn furnish(scene: &mut Scene, eye: Vec3) {
     let (low, high) = scene.bounds();
     let ground = scene.ground.as_ref().map_or(low.y, |ground| ground.y);
@@ -181,10 +182,11 @@ pub fn basin_round(
     // A slab on the wall, and how far it juts out.
     let (slab, over) = (0.011 * wide, 0.008 * wide);
     // Of panes of glass.
-    let edge = 0.0036 * wide;
+    let edge = 0.0028 * wide;
     let floor = bounds.min.y;
     let [ground, tiles, stone] = materials(set, wide);
-    let glass = material([0.20, 0.30, 0.27], 0.15, Pattern::Plain);
+    let slabs = |color, roughness| material(color, roughness, Pattern::Stone { course: wide });
+    let glass = material([0.42, 0.56, 0.52], 0.15, Pattern::Plain);
     let steel = material([0.30, 0.31, 0.32], 0.3, Pattern::Plain);
     // Inner faces: within the drawn spheres, so that water reaches its walls.
     let reach = 0.25 * spacing;
@@ -195,16 +197,22 @@ pub fn basin_round(
         glam::Vec3::new(face(right), floor, face(front)),
     );
     let middle = 0.5 * (low + high);
+    let paved = set == SetArg::Pool;
+    let (coping, damp) = match paved {
+        true => (slabs([0.47, 0.435, 0.375], 0.8), slabs([0.125, 0.117, 0.105], 0.55)),
+        false => (stone.clone(), stone.clone()),
+    };
     // Without the faces that others hide: each vertex that is lit takes rays.
-    let mut push = |name: &str, from: Vec3, to: Vec3, material: &Material, hidden: &[usize]| {
+    let cuboid = |name: &str, from: Vec3, to: Vec3, material: &Material, hidden: &[usize]| {
         let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
         let turn = [0.0, 0.0, 0.0, 1.0];
         let mut mesh = Mesh::cuboid(centre.into(), half.into(), turn, material.clone());
         let faces = mesh.indices.chunks(6).enumerate().filter(|(face, _)| !hidden.contains(face));
         mesh.indices = faces.flat_map(|(_, indices)| indices).copied().collect();
         mesh.name = name.into();
-        scene.meshes.push(mesh);
+        mesh
     };
+    let (mut meshes, mut panes) = (Vec::new(), Vec::new());
     // All near walls are as high as one another, and all far ones.
     let towards_eye =
         |side: &Side| from_all_sides || side.sign * (eye[side.axis] - face(side)) > 0.0;
@@ -226,7 +234,8 @@ pub fn basin_round(
     let held = sides.iter().filter(|side| side.reach > foot(side) + 4.0 * spacing);
     let head = held.map(|side| side.reach + spacing + 2.0 * edge).fold(floor, f32::max);
     let sheet = 1.0e-3 * longest;
-    push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles, &[3]);
+    let (from, to) = (low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet);
+    meshes.push(cuboid("basin floor", from, to, &tiles, &[3]));
     for side in &sides {
         let top = top_of(towards_eye(side));
         let across = 2 - side.axis;
@@ -242,14 +251,34 @@ pub fn basin_round(
         // Faces of a box: +x -x +y -y +z -z.
         let outside = 2 * side.axis + usize::from(side.sign < 0.0);
         let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
-        push("basin lining", from, to, &tiles, &[2, 3, outside]);
+        meshes.push(cuboid("basin lining", from, to, &tiles, &[2, 3, outside]));
         let outer = inner + side.sign * thick;
         // Into the slab: what is inside of a solid takes its light from what is beside it.
         let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
-        push("basin wall", from, to, &stone, &[2, 3]);
+        let mut mesh = masonry::dressed(from, to, 0.3 * lining, stone.clone(), &[2, 3]);
+        mesh.name = "basin wall".into();
+        meshes.push(mesh);
         let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
         from.y = top;
-        push("basin coping", from, to, &stone, &[]);
+        // Those of two sides share their corners; one of them is cut off there.
+        let (length, chamfer) = (0.16 * wide, 0.14 * slab);
+        let seed = 20 + 2 * outside as u32;
+        for mut mesh in masonry::row((from, to), across, length, chamfer, &coping, seed) {
+            mesh.name = "basin coping".into();
+            meshes.push(mesh);
+        }
+        if paved {
+            // A course of darker, damp stones in the paving, along the foot.
+            let course = outer + side.sign * 0.055 * wide;
+            let (from, mut to) = wall(outer, course, floor, thick + 0.055 * wide);
+            to.y = floor + 0.0002 * wide;
+            let stones = (from, to);
+            for mut mesh in masonry::row(stones, across, 0.1 * wide, 0.01 * slab, &damp, 40 + seed)
+            {
+                mesh.name = "basin foot".into();
+                meshes.push(mesh);
+            }
+        }
         // Of clear glass the edges are seen, and what holds it.
         let foot = foot(side);
         if head > foot + 4.0 * spacing {
@@ -264,9 +293,20 @@ pub fn basin_round(
                     false,
                 ),
                 ("pane edge", &glass, inner, inner + side.sign * edge, head - edge, head, false),
-                ("pane edge", &glass, inner, inner + side.sign * edge, foot, head, true),
+                // From where it stands out of its foot.
+                (
+                    "pane edge",
+                    &glass,
+                    inner,
+                    inner + side.sign * edge,
+                    foot + 3.2 * edge,
+                    head,
+                    true,
+                ),
             ] {
-                let (mut from, to) = wall(inner, outer, high, edge);
+                // The level ones end before those at the corners: what is inside of a solid is dark.
+                let (mut from, to) =
+                    wall(inner, outer, high, if ends { edge } else { -0.1 * edge });
                 from.y = low;
                 if ends {
                     let (mut first, mut last) = (to, from);
@@ -278,17 +318,21 @@ pub fn basin_round(
                         sides.iter().find(at).is_some_and(towards_eye)
                     };
                     if towards_eye(side) || beside(-1.0) {
-                        push(name, from, first, material, &[]);
+                        panes.push(cuboid(name, from, first, material, &[]));
                     }
                     if towards_eye(side) || beside(1.0) {
-                        push(name, last, to, material, &[]);
+                        panes.push(cuboid(name, last, to, material, &[]));
                     }
                 } else {
-                    push(name, from, to, material, &[]);
+                    let mesh = cuboid(name, from, to, material, &[]);
+                    if name == "pane foot" { meshes.push(mesh) } else { panes.push(mesh) }
                 }
             }
         }
     }
+    scene.meshes.extend(meshes);
+    // Edges of glass let light through and are thin: the sun's disc blurs what shadow they have.
+    scene.backdrop = panes;
     for spout in spouts {
         // To behind the wall that it comes through.
         let way = -spout.frame.z_axis;
@@ -309,10 +353,19 @@ pub fn basin_round(
     Some(scene)
 }
 
-/// Towards a sun that stands high and to the left of one who looks along `-towards_eye`.
+/// From the direction towards the eye to the sun's, degrees: before the water, so that what faces the eye is lit, and far
+/// enough aside to show its relief.
+const SUN_ASIDE: f32 = 72.0;
+
+/// Towards a sun that stands high, on the side to which the face of a box turns that the eye sees more of.
 pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
     let level = glam::Vec3::new(towards_eye.x, 0.0, towards_eye.z).normalize_or(glam::Vec3::Z);
-    let turned = glam::Quat::from_rotation_y(-122.0_f32.to_radians()) * level;
+    let faces = match level.x.abs() > level.z.abs() {
+        true => level.x.signum() * glam::Vec3::X,
+        false => level.z.signum() * glam::Vec3::Z,
+    };
+    let aside = if level.cross(faces).y > 0.0 { SUN_ASIDE } else { -SUN_ASIDE };
+    let turned = glam::Quat::from_rotation_y(aside.to_radians()) * level;
     (0.36 * turned + 0.933 * glam::Vec3::Y).to_array()
 }
 
@@ -431,7 +484,7 @@ mod tests {
             let bounds = Bounds::of_bulk(points).unwrap();
             let seen_from = (Vec3::new(9.0, 5.0, 9.0), false);
             let scene = basin_round(&[points], &bounds, 0.1, seen_from, SetArg::Pool, &[]).unwrap();
-            let panes = scene.meshes.iter().filter(|mesh| mesh.name == "pane edge");
+            let panes = scene.backdrop.iter().filter(|mesh| mesh.name == "pane edge");
             let top = |mesh: &Mesh| {
                 let points = mesh.positions.iter();
                 let heights = points.map(|p| mesh.transform.transform_point3((*p).into()).y);

@@ -173,7 +173,7 @@ impl Draw {
             Pattern::Tiles { size, band } => (1, size, band),
             Pattern::Planks { width } => (2, width, None),
             Pattern::Concrete => (3, 1.0, None),
-            Pattern::Stone { course } => (4, course, None),
+            Pattern::Stone { course } | Pattern::Blocks { course } => (4, course, None),
             Pattern::Sand => (5, 1.0, None),
             Pattern::Paving { size } => (6, size, None),
             Pattern::Island { beach } => (7, beach, None),
@@ -208,7 +208,7 @@ impl Draw {
                     (size * metres).max(1e-4),
                     band.map_or(-1e6, |y| y * metres),
                     backdrop,
-                    0.0,
+                    if matches!(material.pattern, Pattern::Blocks { .. }) { 1.0 } else { 0.0 },
                 ],
             },
         }

@@ -87,6 +87,10 @@ impl Surroundings {
                 return Err(Error::bad(field, format!("expected above 0, found {length}")));
             }
         }
+        if !(0.0..=1.0).contains(&scene.clouds) {
+            let why = format!("expected 0 to 1, found {}", scene.clouds);
+            return Err(Error::bad("Scene.clouds", why));
+        }
         let (low, high) = scene.bounds();
         let (centre, size) = (0.5 * (low + high), (high - low).length());
         let [begin, end] = GROUND_FADE;
@@ -95,7 +99,7 @@ impl Surroundings {
             sun_color: color.into(),
             ground: scene.ground.as_ref().map(|g| g.y),
             backdrop: !scene.backdrop.is_empty(),
-            air: [scene.haze.map_or(0.0, f32::recip), scene.metres_per_unit(), 0.0, 0.0],
+            air: [scene.haze.map_or(0.0, f32::recip), scene.metres_per_unit(), scene.clouds, 0.0],
             fade: [centre.x, centre.z, begin * size, end * size],
             sea: Sea::new(scene, to_sun)?,
         })
