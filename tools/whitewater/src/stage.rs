@@ -123,8 +123,11 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
         let mut places: Vec<f32> = all.map(|p| sign * p[axis]).collect();
         places.sort_unstable_by(f32::total_cmp);
         // Without strays.
-        let at = sign * *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;
-        let touches = |p: &&[f32; 3]| (p[axis] - at).abs() < 1.5 * spacing;
+        let last = *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;
+        // The middle of the outermost layer: what is pressed farther out at the floor would leave a gap above.
+        let layer = &places[places.partition_point(|p| *p < last - spacing)..];
+        let at = sign * *layer.get(layer.len() / 2)?;
+        let touches = |p: &&[f32; 3]| sign * (p[axis] - at) > -1.5 * spacing;
         let mut touching: Vec<f32> =
             frames.iter().copied().flatten().filter(touches).map(|p| p[1]).collect();
         touching.sort_unstable_by(|a, b| b.total_cmp(a));
@@ -138,7 +141,7 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
         let mut heights = Vec::new();
         for frame in frames {
             let mut bins = vec![(0, f32::MIN); count];
-            for p in frame.iter().filter(|p| (p[axis] - at).abs() < 2.0 * spacing) {
+            for p in frame.iter().filter(|p| sign * (p[axis] - at) > -2.0 * spacing) {
                 let bin = ((p[across] - low) / length * count as f32) as usize;
                 let bin = &mut bins[bin.min(count - 1)];
                 *bin = (bin.0 + 1, bin.1.max(p[1]));
@@ -188,9 +191,8 @@ pub fn basin_round(
     let slabs = |color, roughness| material(color, roughness, Pattern::Stone { course: wide });
     let glass = material([0.42, 0.56, 0.52], 0.15, Pattern::Plain);
     let steel = material([0.30, 0.31, 0.32], 0.3, Pattern::Plain);
-    // Inner faces: within the drawn spheres, so that water reaches its walls.
-    let reach = 0.25 * spacing;
-    let face = |side: &Side| side.at + side.sign * reach;
+    // Inner faces. They cut the drawn spheres of the outermost layer, so that water reaches its walls.
+    let face = |side: &Side| side.at;
     let [left, right, back, front] = &sides;
     let (low, high) = (
         glam::Vec3::new(face(left), floor, face(back)),
@@ -476,6 +478,20 @@ mod tests {
         let pile: Vec<_> = pile.iter().map(|p| [p[0] - p[2], p[1], p[0] + p[2]]).collect();
         assert!(basin(&pile).is_none(), "a pile leans on nothing");
         assert!(basin(&[[0.0; 3]]).is_none());
+    }
+
+    /// Few particles that are pressed out at the floor leave no gap between the water above and its wall.
+    #[test]
+    fn walls_touch_most_of_the_water() {
+        let right = |points: &[[f32; 3]]| {
+            let bounds = Bounds::of_bulk(points).unwrap();
+            sides(&[points], &bounds, 0.1).unwrap()[1].at
+        };
+        let mut points = block(false);
+        let still = right(&points);
+        assert!((still - 1.9).abs() < 1.0e-4, "{still}");
+        points.extend((0..10).map(|z| [1.97, 0.0, 0.3 * z as f32]));
+        assert!((right(&points) - still).abs() < 0.011, "{}", right(&points));
     }
 
     #[test]
