@@ -2,8 +2,8 @@
 // "Vectorized procedural models for natural terrain"). Not in the thesis.
 // Needs frame.glsl. Reads: nothing.
 
-// Waves on water of full strength have at least this cosine between normal and vertical; at the first, none.
-const vec2 LEVEL_WATER = vec2(0.6, 0.95);
+// Cosine between normal and vertical up to which water has no waves, and from which on it has all of them.
+const vec2 LEVEL_WATER = vec2(0.2, 0.7);
 // Width of a pixel on the water per wavelength where a wave is whole, and where it is gone.
 const vec2 SMALL_WAVE = vec2(0.2, 0.45);
 

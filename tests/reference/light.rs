@@ -333,8 +333,8 @@ impl Light {
         let slope = axes.map(|axis| Rounded { v: axis.dot(slope), e: error + 16.0 * U });
         let normal: DVec3 = axes.iter().zip(&n).map(|(axis, n)| *axis * n.v).sum();
         let loose = n.iter().map(|n| n.e).sum::<f64>() + 16.0 * U;
-        // A smoothstep over 0.35 grows by 1.5 over that at most.
-        let level = Rounded { v: waves.level(normal), e: 1.5 / 0.35 * loose + 8.0 * U };
+        // A smoothstep over 0.5 grows by 1.5 over that at most.
+        let level = Rounded { v: waves.level(normal), e: 1.5 / 0.5 * loose + 8.0 * U };
         let along = dot(slope, n);
         normalize([0, 1, 2].map(|i| n[i] - level * (slope[i] - along * n[i])))
     }

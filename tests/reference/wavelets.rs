@@ -13,7 +13,7 @@ const OCTAVES: f64 = 3.0;
 const GOLDEN: f64 = 2.399_963_229_728_653;
 const PHASE: f64 = 0.382;
 /// Cosines between normal and vertical of water without any and with all of them.
-const LEVEL: (f64, f64) = (0.6, 0.95);
+const LEVEL: (f64, f64) = (0.2, 0.7);
 /// Waves a pixel where one begins to fade, and where it is gone.
 const FADES: (f64, f64) = (0.2, 0.45);
 
