@@ -267,7 +267,7 @@ pub struct DrawArgs {
     /// Settings file in TOML
     ///
     /// Tables: [water], [surface_foam], [spray], [whitewater], [bubbles], [generate], [shore], [shoreline], [contact],
-    /// [shadow], [noise] and [light]. An EXR's attribute 'settings' holds all settings that it was drawn with.
+    /// [ellipsoids], [wavelets], [shadow], [noise] and [light]. An EXR's attribute 'settings' holds all settings that it was drawn with.
     /// [water] medium takes the names of --medium, or numbers per metre: {absorption = [r, g, b],
     /// reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple scattering, {absorption = [r, g, b],
     /// scattering = [r, g, b]} for single scattering. [surface_foam] also sets which water foams: by = 'air' (the speed
@@ -343,7 +343,8 @@ pub struct DrawArgs {
     ///
     /// It uses densities from the files, or estimated ones. all_spray_density, full_water_density and
     /// no_spray_density in table [spray] set the limits as fractions of the rest density [default: 0.42, 0.66,
-    /// 0.7].
+    /// 0.7]. With 'none' these particles are drawn as drops of water; with --whitewater and without this option they
+    /// are left out.
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or

@@ -46,6 +46,9 @@ pub fn impact_speed(frames: &[Particles]) -> f32 {
 /// Sheets of one layer (0.70) hold; what is torn to less has droplets about it and is water still.
 const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
 
+/// Densities by which a lone particle (0.318) is a whole drop of water.
+const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
+
 /// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
 /// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
 /// of the time of a fall through a spacing.
@@ -179,6 +182,10 @@ pub fn look(
     if !file.is_thesis() {
         spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
         foam_of_caches(&mut settings.surface_foam, spacing);
+        if args.draw.spray == Some(SprayArg::None) {
+            // Nothing is lost: what would be spray is water.
+            (settings.water.density_threshold, settings.water.density_full) = WHOLE_DROPS;
+        }
         waves_of_caches(&mut settings.water, spacing, &bounds);
         let wide = bounds.size().x.max(bounds.size().z);
         if wide < SMALL {

@@ -158,6 +158,28 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
     );
 }
 
+/// Without spray a particle that is alone is a drop of water: nothing is lost. That of foam files is left out.
+#[test]
+fn without_spray_lone_particles_are_drops() {
+    let folder = Folder::new();
+    let mut points = block(6);
+    points.push([0.0, 1.5, 0.0]);
+    let mut water = Particles::from_positions(points);
+    let count = water.positions.len();
+    water.densities =
+        Some((0..count).map(|i| if i + 1 < count { 1000.0 } else { 318.0 }).collect());
+    folder.write("a.vtu", &water);
+    folder.particles("foam.ply", vec![[0.0, -9.0, 0.0]]);
+    let drop = |more: &str| {
+        let view = "--eye 0,1.5,2 --target 0,1.5,0 --fov 30 --set none --medium milk --surface-foam none --size 96x64";
+        folder.run(&format!("render a.vtu -o a.exr {view} {more}")).ok();
+        let exr = folder.picture("a.exr");
+        exr.channel("A").unwrap()[32 * 96 + 48]
+    };
+    assert!(drop("--spray none") > 0.9);
+    assert!(drop("--whitewater foam.ply") < 0.1);
+}
+
 /// Of what is drawn once nothing is averaged: EXR, sequences, and what is told not to be. A single PNG is.
 #[test]
 fn single_pngs_are_photographs() {
