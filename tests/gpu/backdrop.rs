@@ -109,6 +109,40 @@ fn haze_takes_the_contrast_of_the_backdrop() {
     finish(headless);
 }
 
+/// Thin clouds and haze brighten the sky at the horizon, less so above, and what lies under it; no share of them but 0 to 1
+/// is one.
+#[test]
+fn clouds_brighten_the_sky_and_the_ground() {
+    let mut headless = headless(SIZE);
+    under_a_grey_sky(&mut headless);
+    let camera = camera(Vec3::new(0.0, 1.5, 5.0), Vec3::new(0.0, 2.5, 0.0));
+    // Brighter than the sky is the band only where the sun is.
+    let sun = SunLight { color: [8.0; 3], ..stage(true).sun };
+    let (_, depths) = shot(&mut headless, &stage(true), &camera);
+    let mut of = |clouds: f32| {
+        let scene = Scene { clouds, sun, ..stage(true) };
+        shot(&mut headless, &scene, &camera).0
+    };
+    let [clear, some, all] = [of(0.0), of(0.5), of(1.0)];
+    let row = |picture: &[[f32; 4]], y: u32| -> f32 {
+        let pixels = (0..SIZE.width).map(|x| (y * SIZE.width + x) as usize);
+        pixels.filter(|i| depths[*i] == 0.0).map(|i| picture[i][1]).sum()
+    };
+    let skies: Vec<u32> = (0..SIZE.height).filter(|y| row(&clear, *y) > 0.0).collect();
+    let [top, low] = [skies[0], skies[skies.len() - 1]];
+    let [none, half, full] = [&clear, &some, &all].map(|picture| row(picture, low));
+    assert!(none < half && half < full, "{none} {half} {full}");
+    let gain = |y: u32| row(&all, y) / row(&clear, y);
+    assert!(gain(low) > gain(top), "{} {}", gain(low), gain(top));
+    let ground = (SIZE.height * SIZE.width - 1) as usize;
+    assert!(all[ground][1] > clear[ground][1]);
+    for clouds in [-0.1, 1.1, f32::NAN] {
+        let scene = Scene { clouds, ..stage(true) };
+        assert!(matches!(headless.scene(&scene, false), Err(Error::BadInput { .. })), "{clouds}");
+    }
+    finish(headless);
+}
+
 /// A roof of the backdrop keeps the sun from the backdrop, and from nothing else.
 #[test]
 fn a_backdrop_shades_itself_alone() {

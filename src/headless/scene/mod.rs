@@ -48,7 +48,7 @@ pub struct Scene {
     /// [`backdrop`](Self::backdrop) to 1/e, towards the environment's colour at the horizon. World units, (0,
     /// ∞). `None`, the default: clear air. Meshes are always in clear air.
     pub haze: Option<f32>,
-    /// Thin high clouds in the sky that is seen, and a bright band of haze over the horizon: their share, [0, 1]. Default 0:
+    /// Thin high clouds in the sky that is seen, a bright band of haze over the horizon and bluer air above it: their share, [0, 1]. Default 0:
     /// none. The [`sea`](Self::sea) mirrors the band; the water and what is lit know of neither.
     pub clouds: f32,
     /// World units per metre for procedural surfaces, whose grain is metric, (0, ∞). `None`, the default: 1.

@@ -155,7 +155,7 @@ fn terrace(scene: &mut Scene, place: &Place) {
         vec2(place.middle.x - place.eye.x, place.middle.z - place.eye.z).normalize_or(Vec2::NEG_Y);
     let land = material([0.052, 0.052, 0.042], 0.95, slabs);
     for (from, to, away, height, seed) in
-        [(-38.0, -7.0, 1900.0, 105.0, 3_u32), (4.0, 40.0, 5200.0, 190.0, 8)]
+        [(-80.0, -7.0, 1900.0, 105.0, 3_u32), (4.0, 80.0, 5200.0, 190.0, 8)]
     {
         let way = |degrees: f32| {
             let turned = Vec2::from_angle(f32::to_radians(degrees)).rotate(sight);
@@ -188,7 +188,7 @@ fn headland(
     seed: u32,
     material: Material,
 ) -> Mesh {
-    const ALONG: usize = 150;
+    const ALONG: usize = 330;
     const UP: usize = 22;
     let mut mesh = Mesh { material, ..Mesh::default() };
     let wide = (to - from).to_radians() * away;
@@ -198,8 +198,11 @@ fn headland(
         let inland = if from.abs() > to.abs() { 1.0 - t } else { t };
         let s = t * wide / height;
         let ridge = height
-            * rise(0.0, 1.0, inland).powf(0.7)
-            * (0.75 + 0.9 * octaves(vec2(0.35 * s, 0.0), 5, seed) + 0.35 * inland);
+            * rise(0.0, 0.43, inland).powf(0.7)
+            * (1.0 - rise(0.75, 1.0, inland))
+            * (0.75
+                + 0.9 * octaves(vec2(0.35 * s, 0.0), 5, seed)
+                + 0.35 * (inland / 0.43).min(1.0));
         for k in 0..=UP {
             let u = k as f32 / UP as f32;
             let spur = octaves(vec2(1.3 * s, 1.5 * u), 4, seed + 20);

@@ -494,6 +494,21 @@ mod tests {
         assert!((right(&points) - still).abs() < 0.011, "{}", right(&points));
     }
 
+    /// Whichever face of a box the eye sees more of, the sun shines on it.
+    #[test]
+    fn the_sun_shines_on_the_face_that_is_seen() {
+        for degrees in (0..360).step_by(7) {
+            let (sin, cos) = f32::to_radians(degrees as f32).sin_cos();
+            let eye = Vec3::new(5.0 * sin, 2.0, 5.0 * cos);
+            let face = match sin.abs() > cos.abs() {
+                true => sin.signum() * Vec3::X,
+                false => cos.signum() * Vec3::Z,
+            };
+            let sun = Vec3::from(side_light(eye));
+            assert!(sun.dot(face) > 0.1 && sun.y > 0.9, "{degrees}: {sun}");
+        }
+    }
+
     #[test]
     fn panes_hold_what_would_stand_in_the_air() {
         let edges = |points: &[[f32; 3]]| -> Vec<f32> {
