@@ -55,23 +55,35 @@ vec3 into_water(Sheet sheet) {
     return ratio * (sheet.normal * facing - v) - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
 }
 
-// Offset from a pixel to where the refracted ray meets the scene under the sheet. Fixed-point iteration from
-// straight behind: the ray goes as deep as the scene lies below the surface at the last end point. Objects
-// before the water are skipped.
-const int BED_LOOKS = 3;
+// Offset from a pixel to where the refracted ray meets the scene under the sheet: false position between a length at
+// which the ray is before the scene and one at which it is behind it. (Fixed-point iteration jumps between floor and
+// wall where they meet.) The first length is that to the depth straight behind; lengths at most double. Objects before
+// the water are skipped.
+const int BED_LOOKS = 5;
+// Part of an interval that each step leaves at either end.
+const float BED_ENDS = 0.1;
 vec2 bed_offset(Sheet sheet, vec2 pixel) {
     vec3 inside = into_water(sheet);
     float z = -sheet.at.z;
     float along = max(-inside.z, FLATTEST);
-    float far = 0.0;
-    float most = EMPTY;
-    vec2 at = pixel;
+    // Length, and depth of the scene there relative to the ray.
+    vec2 before = vec2(0.0, max(met_depth(pixel) - z, 0.0));
+    vec2 beyond = vec2(-1.0);
+    float far = before.y / along;
     for (int i = 0; i < BED_LOOKS; ++i) {
-        float below = (met_depth(at) - z) / along;
-        far = below > 0.0 ? min(below, most) : far;
-        most = min(most, 2.0 * far);
-        at = clamp(on_screen(sheet.at + inside * far).xy, vec2(0.5), frame.extent.xy - 0.5);
+        vec3 end = sheet.at + inside * far;
+        float scene = met_depth(clamp(on_screen(end).xy, vec2(0.5), frame.extent.xy - 0.5));
+        vec2 here = vec2(far, scene + end.z);
+        bool skipped = scene <= z;
+        bool passed = here.y <= 0.0;
+        before = skipped || passed ? before : here;
+        beyond = skipped || !passed ? beyond : here;
+        float open = min(far + before.y / along, 2.0 * far);
+        float part = clamp(before.y / max(before.y - beyond.y, 1.0e-20), BED_ENDS, 1.0 - BED_ENDS);
+        float next = beyond.x < 0.0 ? open : mix(before.x, beyond.x, part);
+        far = skipped ? far : next;
     }
+    vec2 at = clamp(on_screen(sheet.at + inside * far).xy, vec2(0.5), frame.extent.xy - 0.5);
     return at - pixel;
 }
 

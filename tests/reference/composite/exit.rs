@@ -66,8 +66,9 @@ pub fn bend(ray: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     (square > 0.0).then(|| along - normal * square.sqrt())
 }
 
-/// By how many pixels the refracted ray meets the scene under water beside what lies straight behind. Thrice: the ray goes to
-/// the depth that the scene has where it was last found to end, at most twice as far as the time before.
+/// By how many pixels the refracted ray meets the scene under water beside what lies straight behind: five steps of false
+/// position, from the depth straight behind on. While the ray is before the scene, it goes as far as the scene lies deeper, at
+/// most twice as far as before.
 pub fn bed_offset(
     inputs: &Inputs<'_>,
     surface: &Surface,
@@ -79,17 +80,36 @@ pub fn bed_offset(
     let normal = (surface.normal + off.front).normalize();
     let inside =
         bend(position.normalize(), normal, index.recip()).expect("into water it always goes");
-    let (mut at, mut far, mut most) = (pixel, 0.0, f64::INFINITY);
-    for _ in 0..3 {
-        let below = (depth(inputs, view, at) + position.z) / (-inside.z).max(0.25);
-        if below > 0.0 {
-            far = below.min(most);
-        }
-        most = most.min(2.0 * far);
+    let along = (-inside.z).max(0.25);
+    let ends = |far: f64| {
         let end = on_screen(view, position + inside * far).truncate();
-        at = end.clamp(DVec2::splat(0.5), view.extent() - 0.5);
+        end.clamp(DVec2::splat(0.5), view.extent() - 0.5)
+    };
+    // Lengths, and by how much the scene lies deeper there.
+    let mut before = (0.0, (depth(inputs, view, pixel) + position.z).max(0.0));
+    let mut beyond: Option<(f64, f64)> = None;
+    let mut far = before.1 / along;
+    for _ in 0..5 {
+        let scene = depth(inputs, view, ends(far));
+        if scene <= -position.z {
+            // Something before the water.
+            continue;
+        }
+        let deeper = scene + position.z + inside.z * far;
+        if deeper > 0.0 {
+            before = (far, deeper);
+        } else {
+            beyond = Some((far, deeper));
+        }
+        far = match beyond {
+            Some((length, less)) => {
+                let part = (before.1 / (before.1 - less)).clamp(0.1, 0.9);
+                before.0 + part * (length - before.0)
+            }
+            None => (far + before.1 / along).min(2.0 * far),
+        };
     }
-    at - pixel
+    ends(far) - pixel
 }
 
 /// The same, and how far off it may be.
