@@ -822,7 +822,11 @@ mod tests {
     }
 
     fn camera(projection: Mat4) -> Camera {
-        Camera::of(Mat4::IDENTITY, projection)
+        seen(Mat4::IDENTITY, projection)
+    }
+
+    fn seen(view: Mat4, projection: Mat4) -> Camera {
+        Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d())
     }
 
     /// Every convention must give back the depth and the slope of a point it projected.
@@ -862,7 +866,7 @@ mod tests {
         for bad in [flat, Mat4::ZERO, Mat4::NAN] {
             assert!(matches!(Lens::new(&camera(bad)), Err(Error::BadInput { .. })));
         }
-        let singular = Camera::of(Mat4::ZERO, Mat4::perspective_rh(1.0, 1.0, 0.1, 9.0));
+        let singular = seen(Mat4::ZERO, Mat4::perspective_rh(1.0, 1.0, 0.1, 9.0));
         assert!(matches!(Lens::new(&singular), Err(Error::BadInput { .. })));
     }
 }

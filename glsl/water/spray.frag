@@ -12,6 +12,7 @@ layout(location = 4) flat in vec2 amount;
 layout(location = 5) flat in int aside;
 layout(location = 6) flat in uint chance;
 layout(location = 7) flat in vec3 grain;
+layout(location = 8) flat in vec2 turn;
 
 // 1: sums in single precision, 0: in half precision.
 layout(constant_id = 34) const uint SINGLE = 1;
@@ -48,7 +49,9 @@ float value_noise(vec2 p, uint salt) {
 
 // Density of mist over its mean. Drops come in clumps of all sizes: the logarithm is a sum of octaves of noise.
 float clumps(vec2 place) {
-    vec2 at = place * grain.xy + vec2(chance & 0xFFFFu, chance >> 16) / 65536.0;
+    vec2 cells = place * grain.xy;
+    vec2 at = vec2(cells.x * turn.x - cells.y * turn.y, cells.x * turn.y + cells.y * turn.x);
+    at += vec2(chance & 0xFFFFu, chance >> 16) / 65536.0;
     float sum = 0.0;
     for (uint k = 0u; float(k) < grain.z; ++k) {
         float amplitude = frame.spray_mist.x * min(grain.z - float(k), 1.0);

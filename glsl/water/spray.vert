@@ -22,6 +22,7 @@ layout(location = 4) flat out vec2 amount; // optical depth at its centre; visib
 layout(location = 5) flat out int aside;   // distance in pixels to water beside it
 layout(location = 6) flat out uint chance; // random bits
 layout(location = 7) flat out vec3 grain;  // cells of the mist's noise per half-axis; number of octaves
+layout(location = 8) flat out vec2 turn;   // cosine and sine from the noise's axes to the half-axes
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
@@ -75,7 +76,8 @@ void main() {
     vec3 side = abs(normal.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     // Motion straight towards the eye leaves only rounding errors, which give no direction.
     float still_below = max(1.0e-6 * frame.particle.y, 1.0e-3 * length(sprite.velocity.xyz));
-    vec3 e1 = speed > still_below ? motion / speed : normalize(cross(side, normal));
+    vec3 level = normalize(cross(side, normal));
+    vec3 e1 = speed > still_below ? motion / speed : level;
     vec3 e2 = cross(e1, normal);
     // A streak covers more than the droplet, but each point for a shorter time. No narrower than 1.5 pixels,
     // to avoid flicker; then it is thinner in proportion.
@@ -93,6 +95,9 @@ void main() {
     vec2 cell = frame.particle.x + vec2(speed * frame.spray.w, 0.0);
     float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(cell.y / pixel), 0.0, OCTAVES) : 0.0;
     grain = vec3(axes / cell, mist ? octaves : 0.0);
+    // The noise is lengthened along the motion, and does not turn with it: that of a particle that hardly moves has any
+    // direction, another one in each frame.
+    turn = vec2(dot(e1, level), dot(e1, cross(level, normal)));
     along = e1 / axes.x;
     across = e2 / axes.y;
 

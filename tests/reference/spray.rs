@@ -234,6 +234,8 @@ struct Droplet {
     aside: [isize; 2],
     /// Of mist that is not smooth.
     grain: Option<Grain>,
+    /// Cosine and sine of the motion's angle in the plane of the ellipse.
+    turn: [Rounded; 2],
     /// Whether it is drawn, and surely.
     drawn: More,
 }
@@ -243,6 +245,8 @@ struct Droplet {
 struct Grain {
     /// Cells in a half-axis.
     cells: [Rounded; 2],
+    /// Cosine and sine from the noise's axes to the half-axes.
+    turn: [Rounded; 2],
     octaves: Rounded,
     contrast: f64,
     /// Random bits of the particle.
@@ -253,7 +257,9 @@ impl Grain {
     /// The density over its mean at a place in half-axes.
     fn at(&self, place: [Rounded; 2]) -> Rounded {
         let begin = [self.bits % 65536, self.bits / 65536].map(|n| exact(f64::from(n) / 65536.0));
-        let mut at = [0, 1].map(|i| place[i] * self.cells[i] + begin[i]);
+        let [x, y] = [0, 1].map(|i| place[i] * self.cells[i]);
+        let [c, s] = self.turn;
+        let mut at = [x * c - y * s + begin[0], x * s + y * c + begin[1]];
         let mut sum = exact(0.0);
         for k in 0..OCTAVES {
             let part = (self.octaves - exact(f64::from(k))).clamp(0.0, 1.0);
@@ -332,6 +338,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             let bits = whole_steps::chance(particle.id, 0);
             one.grain = (settings.contrast > 0.0).then_some(Grain {
                 cells: [a / along, b / radius],
+                turn: one.turn,
                 octaves,
                 contrast: settings.contrast,
                 bits,
@@ -404,7 +411,11 @@ fn droplet(
         _ => 0.0,
     };
     let side = if n.v.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
-    let e1 = if moving.is { m.v.normalize() } else { side.cross(n.v).normalize() };
+    let level = side.cross(n.v).normalize();
+    let e1 = if moving.is { m.v.normalize() } else { level };
+    // Two axes that are off by 24 ulp each, their product, and the angle.
+    let turned = [level, level.cross(n.v)]
+        .map(|axis| Rounded { v: e1.dot(axis), e: 52.0 * U + turn.min(2.0) });
     // A cross product over the least sine, 0.43, and a quotient.
     let e1 = Off { v: e1, e: 24.0 * U };
     let e2 = e1.cross(n);
@@ -418,7 +429,7 @@ fn droplet(
     let drawn = More { is: true, surely: true, maybe: true };
     let radii = off(ASIDE * RADIUS * settings.spacing, 4.0) / pixel + exact(0.5);
     let aside = [radii.v - radii.e, radii.v + radii.e].map(|n| (n as isize).clamp(1, 64));
-    (Droplet { ellipse, amount, aside, grain: None, drawn }, pixel, speed)
+    (Droplet { ellipse, amount, aside, grain: None, turn: turned, drawn }, pixel, speed)
 }
 
 /// The depth of the body of water that hides spray in a pixel: of a drop that shows what is behind it
@@ -609,7 +620,8 @@ mod tests {
             let all = (0..40_000_u32).map(|id| {
                 let bits = whole_steps::chance(id, 0);
                 let cells = [exact(7.0), exact(5.0)];
-                Grain { cells, octaves: exact(octaves), contrast, bits }.at([exact(0.3); 2]).v
+                let turn = [exact(0.6), exact(0.8)];
+                Grain { cells, turn, octaves: exact(octaves), contrast, bits }.at([exact(0.3); 2]).v
             });
             let all: Vec<f64> = all.collect();
             let mean = all.iter().sum::<f64>() / all.len() as f64;
@@ -617,6 +629,27 @@ mod tests {
             let chance = 4.0 * (square / all.len() as f64).sqrt();
             assert!((mean - 1.0).abs() < 0.04 + chance, "{contrast}, {octaves}: {mean}");
             assert!(square > 0.03, "{contrast}, {octaves}: {square}");
+        }
+    }
+
+    /// Mist that hardly moves is the same whatever way it goes: a direction that changes with each frame does not flicker.
+    #[test]
+    fn clumps_do_not_turn_with_the_motion() {
+        let base = settings();
+        let look = Settings { droplets: 64, mist: [0.9, 2.0], contrast: 2.0, ..base };
+        let view = view(DVec2::splat(3.0), DVec2::ZERO, 101, 101);
+        let image = |velocity: DVec3| {
+            let one = Particle { velocity, density: 700.0, ..particle([0.2, -0.1, -9.0]) };
+            let none = open(&view);
+            spray(&[one], &view, &look, &none, &none).depth.data
+        };
+        let ways = [DVec3::X, DVec3::Y, DVec3::new(-0.6, 0.8, 0.0), DVec3::ZERO];
+        let images = ways.map(|way| image(1.0e-4 * way));
+        let sum: f64 = images[3].iter().sum();
+        assert!(sum > 1.0, "{sum}");
+        for (way, other) in ways.iter().zip(&images) {
+            let apart: f64 = other.iter().zip(&images[3]).map(|(a, b)| (a - b).abs()).sum();
+            assert!(apart < 1.0e-3 * sum, "{way}: {apart} of {sum}");
         }
     }
 

@@ -42,6 +42,7 @@ impl Rendered {
         let speed = looks::impact_speed(std::slice::from_ref(&particles));
         looks::spray_of_caches(&mut settings.spray, pool.spacing, speed);
         looks::foam_of_caches(&mut settings.surface_foam, pool.spacing);
+        looks::waves_of_caches(&mut settings.water, pool.spacing, &bounds);
         file.apply(&mut settings);
         let rest = settings.water.rest_density;
         let shares = particles::estimate_densities(&pool.positions, pool.spacing);
