@@ -62,8 +62,9 @@ void main() {
     float part = 0.2 + 0.8 * uniform_of(PLACE, id, SPINDLE + 3u);
     float kept = several ? 0.5 + torn * part * float(droplets) : 1.0;
     // Many droplets are small, few are large; the first one is mist.
-    float small = uniform_of(PLACE, id, number + 3u);
-    float size = several ? (0.35 + 1.15 * small * small * small) * inversesqrt(torn) : 1.0;
+    float rare = uniform_of(PLACE, id, number + 3u);
+    rare *= rare * rare;
+    float size = several ? (0.2 + 2.135 * rare * rare) * inversesqrt(torn) : 1.0;
     bool mist = several && gl_InstanceIndex % droplets == 0u;
 
     // In world space, so that it does not turn with the camera.

@@ -78,8 +78,8 @@ fn kept(name: &str, wanted: f64, sum: impl FnMut(f32) -> f64) {
     assert!(parts.iter().all(|part| (part - 1.0).abs() < LOSS), "{name}: {parts:.3?}");
 }
 
-/// The mean over sizes of droplets 0.35 + 1.15 u³ of their square.
-const SQUARES: f64 = 0.1225 + 0.805 / 4.0 + 1.3225 / 7.0;
+/// The mean over sizes of droplets 0.2 + 2.135 u⁶ of their square.
+const SQUARES: f64 = 0.04 + 0.4 * 2.135 / 7.0 + 2.135 * 2.135 / 13.0;
 /// The integral of a sprite's kernel over its disc, over that of 1 and over π.
 const KERNEL: f64 = 0.340_003;
 

@@ -211,7 +211,7 @@ impl Settings {
         let squares = if many { SQUARES * f64::from(self.droplets) } else { 1.0 };
         // Radius 2u, products 3u, root 9u, quotient 5u; the size three products and a sum.
         let whole = off(self.size * RADIUS * self.spacing / squares.sqrt(), 19.0);
-        let size = if many { off(0.35 + 1.15 * u * u * u, 5.0) } else { exact(1.0) };
+        let size = if many { off(0.2 + 2.135 * u.powi(6), 9.0) } else { exact(1.0) };
         (size * whole, optical_depth(self.opacity))
     }
 }
@@ -741,7 +741,7 @@ mod tests {
             let e2 = e2 / e2.length();
             let e1 = normal.cross(e2);
             let squares = if n > 1 { 0.6 * 0.513 * n as f32 } else { 1.0 };
-            let g = if n > 1 { (0.35 + 1.15 * u[3] * u[3] * u[3]) / torn.sqrt() } else { 1.0 };
+            let g = if n > 1 { (0.2 + 2.135 * u[3].powi(6)) / torn.sqrt() } else { 1.0 };
             let mist = n > 1 && k == 0;
             let h = g * settings.size as f32 * 0.656 * s / squares.sqrt();
             let [taken, wide] = settings.mist.map(|v| v as f32);

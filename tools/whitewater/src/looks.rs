@@ -54,7 +54,7 @@ const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.2 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.26 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -81,6 +81,8 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.normal_strength = 0.35;
         it.lace = 1.0;
         it.lace_size = 0.8;
+        // Water that speeds up slides the lace, the longer a period the farther.
+        it.pattern_period = (5.0 * (spacing / 9.81).sqrt()).min(1.0);
         it.aeration = 0.6;
         it.shape = 0.8;
         it.back_color = [0.62, 0.68, 0.73];

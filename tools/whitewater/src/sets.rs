@@ -171,8 +171,8 @@ fn terrace(scene: &mut Scene, place: &Place) {
         level: b.middle.y - CLIFF * m,
         absorption: calm.absorption.map(|a| a / m),
         scattering: calm.scattering.map(|s| s / m),
-        waves: 0.13 * m,
-        length: 8.0 * m,
+        waves: 0.05 * m,
+        length: 3.0 * m,
         // Across the line of sight: crests along it, not in lines from side to side.
         towards: Vec2::from_angle(1.0).rotate(sight).to_array(),
         ..calm
