@@ -148,7 +148,7 @@ impl Tool {
     pub fn demo(&self) -> Outcome<RgbImage> {
         let png = self.temporary("demo.png");
         let to = format!("--output={}", png.display());
-        self.run(&["demo", "--shutter=1/100", "--aperture=0.025", &to].map(str::to_owned))?;
+        self.run(&["demo", &to].map(str::to_owned))?;
         Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
     }
 
