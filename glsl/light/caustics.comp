@@ -39,8 +39,14 @@ vec3 with_waves(vec3 n, vec2 place, float depth) {
     mat3 axes = mat3(normalize(rows[0]), normalize(rows[1]), normalize(rows[2]));
     vec3 eye = axes * n;
     float level = smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(eye, frame.up.xyz * mat3(frame.world)));
-    vec3 slope = wavelet_slope((frame.world * vec4(eye_at(place, depth), 1.0)).xyz, 0.0) * mat3(frame.world);
-    return normalize(eye - level * (slope - dot(slope, eye) * eye)) * axes;
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
+    bool any = frame.texel.z > 0.0 && level > 0.0;
+    while (any) {
+        vec3 slope = wavelet_slope((frame.world * vec4(eye_at(place, depth), 1.0)).xyz, 0.0) * mat3(frame.world);
+        n = normalize(eye - level * (slope - dot(slope, eye) * eye)) * axes;
+        any = false;
+    }
+    return n;
 }
 
 float front_at(ivec2 texel, float here) {

@@ -115,6 +115,7 @@ fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> 
                 format!("--frames={frame}"),
                 format!("--scene={}", folder.join("scene.json").display()),
                 format!("--camera={}", folder.join("camera.json").display()),
+                "--set=pool".into(),
             ])
         }
         Of::Cache(file, more) => {
@@ -141,7 +142,7 @@ fn page() -> String {
         let about = about.replace("{splishsplash}", SPLISHSPLASH);
         let command = match of {
             Of::Scene(scene, frame) => format!(
-                "'DIR/{scene}/{scene}_%04d.bgeo' --frames {frame} --scene DIR/{scene}/scene.json --camera DIR/{scene}/camera.json"
+                "'DIR/{scene}/{scene}_%04d.bgeo' --frames {frame} --scene DIR/{scene}/scene.json --camera DIR/{scene}/camera.json --set pool"
             ),
             Of::Cache(file, more) => {
                 format!("CACHES/{file} {}", more.replace("{caches}", "CACHES"))

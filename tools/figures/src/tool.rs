@@ -169,7 +169,7 @@ impl Tool {
             format!("--every={step}"),
             format!("--scene={}", folder.join("scene.json").display()),
             format!("--size={}x{}", SIZE.0, SIZE.1),
-            format!("--sun={SUN}"),
+            "--set=pool".to_owned(),
             format!("--output={}", self.temporary("film_%04d.png").display()),
             "--overwrite".to_owned(),
         ];

@@ -197,13 +197,14 @@ pub struct RenderArgs {
     /// simulate' writes them.
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
-    /// Surroundings if no --scene is given: pool, studio, beach, lab or none [default: pool]
+    /// Surroundings: pool, studio, beach, lab or none [default: pool; with --scene its own]
     ///
+    /// With --scene and this option the scene stands on level ground in these surroundings, in their light.
     /// 'pool' is a terrace over the sea, 'studio' a plain floor under a soft box, 'beach' sand in front of a
     /// sea, 'lab' a tiled hall with lamps. Studio and lab bring their own light unless you set one. With 'none'
     /// only water, foam and spray are drawn, premultiplied; A holds how much of the background they hide (the
     /// mean of three channels), in EXR and PNG.
-    #[arg(long, value_enum, conflicts_with = "scene")]
+    #[arg(long, value_enum)]
     pub set: Option<SetArg>,
     #[command(flatten)]
     pub camera: CameraArgs,

@@ -54,7 +54,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let environment = session::environment(&args.draw, Some(stage::side_light(eye)))?;
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
     let mut scene = Scene::parse_json(SCENE).map_err(Failure::input)?;
-    stage::furnish(&mut scene, eye);
+    stage::furnish(&mut scene, eye, SetArg::Pool);
     scene.sun = environment.sun_light();
     let mut settings = file.look(SPACING, environment.light());
     settings.noise = session::noise(&args.draw);

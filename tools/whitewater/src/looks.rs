@@ -254,12 +254,24 @@ pub fn look(
     let view = camera.at_frame(probes.first).camera(args.draw.size)?.view_matrix();
     let eye = view.inverse().transform_point3(Vec3::ZERO);
     // A sun that the walls of a basin don't keep out, and that shines through what flies.
-    let own_sky = args.scene.is_none() && args.draw.environment == "sky";
+    if set == SetArg::None && args.scene.is_some() {
+        return Err(Failure::usage(
+            "--set none draws no scene, but --scene names one; leave one of them out",
+        ));
+    }
+    let surrounded = args.scene.is_none() || args.set.is_some();
+    let own_sky = surrounded && args.draw.environment == "sky";
     let sun = own_sky.then(|| stage::side_light(eye - bounds.center()));
     let mut scene = match &args.scene {
         None if set == SetArg::None => Scene::default(),
         Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds, eye, set),
-        Some(path) => stage::read(path)?,
+        Some(path) => {
+            let mut scene = stage::read(path)?;
+            if args.set.is_some() {
+                stage::furnish(&mut scene, eye, set);
+            }
+            scene
+        }
         None => {
             let inside = |frame: &Particles| -> Vec<[f32; 3]> {
                 let inside = frame.positions.iter().filter(|p| bounds.contains(Vec3::from(**p)));
@@ -285,7 +297,7 @@ pub fn look(
             }
         }
     };
-    let plain = args.draw.environment == "sky" && args.draw.sun.is_none() && args.scene.is_none();
+    let plain = args.draw.environment == "sky" && args.draw.sun.is_none() && surrounded;
     let own = if plain { stage::light(set, eye - bounds.center())? } else { None };
     if sun.is_some() || own.is_some() {
         environment = match own {

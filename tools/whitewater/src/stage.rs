@@ -58,14 +58,14 @@ pub fn ground_under(bounds: &Bounds, eye: Vec3, set: SetArg) -> Scene {
     scene
 }
 
-/// The terrace over the sea round a scene that stands on level ground.
-pub fn furnish(scene: &mut Scene, eye: Vec3) {
+/// A set round a scene that stands on level ground.
+pub fn furnish(scene: &mut Scene, eye: Vec3, set: SetArg) {
     let (low, high) = scene.bounds();
     let ground = scene.ground.as_ref().map_or(low.y, |ground| ground.y);
     let middle = Vec3::new(0.5 * (low.x + high.x), ground, 0.5 * (low.z + high.z));
     let place = Place { middle, half: 0.5 * Vec2::new(high.x - low.x, high.z - low.z), eye };
-    let [material, ..] = materials(SetArg::Pool, place.wide());
-    sets::furnish(scene, SetArg::Pool, material, &place);
+    let [material, ..] = materials(set, place.wide());
+    sets::furnish(scene, set, material, &place);
 }
 
 /// A paved plain and nothing else.

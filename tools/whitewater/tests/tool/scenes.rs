@@ -99,3 +99,32 @@ fn blobs_fall_on_the_scene() {
     folder.particles("a.ply", block(2));
     folder.run(&format!("render a.ply --bubbles b.json -o n.png {look}")).fails(3, &[text]);
 }
+
+/// A scene stands in a set where one is named; it has its own ground and sky otherwise. Water alone has no scene.
+#[test]
+fn a_scene_stands_in_a_set() {
+    let folder = Folder::new();
+    folder.text(
+        "s.json",
+        r#"{"boxes":[{"name":"table","material":"timber","centre":[0,0.2,0],"half":[0.5,0.2,0.5]}],
+            "ground":{"y":0,"material":"sand"}}"#,
+    );
+    folder.particles("a.ply", block(4));
+    let view = "--eye 2,1.2,2 --target 0,0.2,0 --fov 60 --supersample 1";
+    let draw = |more: &str| {
+        let command = format!("render a.ply -o a.png {view} {SIZE} --scene s.json {more}");
+        folder.run(&command).ok();
+        folder.picture("a.png").rgb().unwrap()
+    };
+    let (own, pool, lab) = (draw(""), draw("--set pool --validate"), draw("--set lab"));
+    // The corners of the picture are ground and sky.
+    let changed = |a: &[[f32; 3]], b: &[[f32; 3]], i: usize| {
+        a[i].iter().zip(b[i]).any(|(a, b)| (a - b).abs() > 0.02)
+    };
+    for (one, other) in [(&own, &pool), (&own, &lab), (&pool, &lab)] {
+        assert!(changed(one, other, 0) && changed(one, other, one.len() - 1));
+    }
+    folder
+        .run("render a.ply -o a.png --scene s.json --set none")
+        .fails(2, &["--set none", "--scene"]);
+}
