@@ -396,7 +396,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
             blobs.motion = Some(Motion::on(&scene, largest(&blobs.blobs))?);
         }
     }
-    scene.sun = environment.sun_light();
+    environment.light_scene(&mut scene);
     let mut settings = Settings::default().with(|it| it.light = environment.light());
     file.apply(&mut settings);
     let LightVolume { center, radius } = lit.region();

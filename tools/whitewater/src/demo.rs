@@ -55,7 +55,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
     let mut scene = Scene::parse_json(SCENE).map_err(Failure::input)?;
     stage::furnish(&mut scene, eye, SetArg::Pool);
-    scene.sun = environment.sun_light();
+    environment.light_scene(&mut scene);
     let mut settings = file.look(SPACING, environment.light());
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {

@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
 use glam::Vec3;
-use whitewater::headless::scene::SunLight;
+use whitewater::headless::scene::{Scene, SunLight};
 use whitewater::io::picture::{self, Encoding};
 use whitewater::{Light, Sky};
 
@@ -138,6 +138,14 @@ impl Environment {
     fn shade(&self) -> Vec3 {
         let sky = 0.5 * (self.sky_irradiance + self.sky_irradiance.dot(LUMINANCE));
         sky + THROWN_BACK * self.sun_irradiance * self.sun.y.max(0.0)
+    }
+
+    /// Puts the sun into a scene, and takes the clouds of its set from a sky that is a picture.
+    pub fn light_scene(&self, scene: &mut Scene) {
+        scene.sun = self.sun_light();
+        if !matches!(self.source, Source::Sky(_)) {
+            scene.clouds = 0.0;
+        }
     }
 
     /// The same sun for the scene behind the water.

@@ -54,7 +54,7 @@ const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.26 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.2 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -307,7 +307,7 @@ pub fn look(
         settings.light = file.in_light(environment.light());
         file.light.put(&mut settings.light);
     }
-    scene.sun = environment.sun_light();
+    environment.light_scene(&mut scene);
     // Whitewater particles take the place of the water's own foam and spray.
     let has_whitewater = !args.whitewater.is_empty();
     let spray =

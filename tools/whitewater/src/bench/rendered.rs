@@ -53,7 +53,7 @@ impl Rendered {
         let basin =
             stage::basin_round(&[&pool.positions], &bounds, pool.spacing, from, SetArg::Pool, &[]);
         let mut scene = basin.unwrap_or_else(|| stage::ground_under(&bounds, eye, SetArg::Pool));
-        scene.sun = environment.sun_light();
+        environment.light_scene(&mut scene);
         let sky = Sky::default().with(|it| it.sun = environment.sun.to_array());
         Ok(Self { file, settings, scene, sky, densities })
     }

@@ -197,7 +197,7 @@ fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option
     scene.frame = 1;
     part = part.or_else(|| changed(&scene, 2));
     let environment = Environment::sky(Some(shown.sun))?;
-    scene.sun = environment.sun_light();
+    environment.light_scene(&mut scene);
     settings.light = environment.light();
     file.apply(&mut settings);
     if path == Path::Everything {

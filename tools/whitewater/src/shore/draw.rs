@@ -288,7 +288,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     file.apply(&mut settings);
     let mut scene = shown.scene;
     scene.frame = frames.first().copied().unwrap_or(1);
-    scene.sun = environment.sun_light();
+    environment.light_scene(&mut scene);
     let reach = [settings.shore.shoreline.sea_reach, settings.shore.shoreline.land_reach];
     let shores = Shores::of(&file, &scene, shown.level, shown.strip, (reach, by))?;
     file.shore.by.get_or_insert(by);

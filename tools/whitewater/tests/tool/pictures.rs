@@ -198,7 +198,7 @@ fn single_pngs_are_photographs() {
     let usual = png("render a_1.vtu -o o.png");
     let sharp = png("render a_1.vtu -o o.png --shutter 0 --aperture 0");
     assert!(usual != sharp && sharp == png("render a_1.vtu -o o.png --samples 1"));
-    assert!(usual == png("render a_1.vtu -o o.png --shutter 1/250"));
+    assert!(usual == png("render a_1.vtu -o o.png --shutter 1/125"));
     assert!(sharp == png("render a_1.vtu -o o.png -o o.exr"));
     folder.run(&format!("render a_*.vtu -o s_%d.png {look}")).ok();
     assert!(folder.picture("s_1.png").rgb().unwrap() == sharp);
@@ -439,7 +439,7 @@ fn sets_differ() {
         let middle = |name: &str| folder.picture(name).channel("scene.Z").unwrap()[48 * 96 + 48];
         assert_eq!(middle("pool.exr"), middle(&format!("{set}.exr")), "{set}");
     }
-    folder.run(&format!("{common} -o b.exr --set lab --scene ground")).fails_at_once();
+    folder.run(&format!("{common} -o b.exr --set lab --scene ground")).ok();
 }
 
 /// A tub's water is as clear as water is, a pool's is a pool's; and as it is said.
