@@ -161,11 +161,11 @@ pub struct RenderArgs {
     /// For example one file per phase, or per processor of a run.
     #[arg(long)]
     pub join: bool,
-    /// Up axis of the particles; z is turned to y [default: z if the water lies at the low end of z and is open
-    /// above, or falls along z (which is reported); otherwise y]
+    /// Axis that points up in the files; it becomes y [default: the one of z, -y and -z at whose low end the water lies,
+    /// open above, or along which it comes down (which is reported); otherwise y]
     ///
-    /// Scene and camera are always y-up.
-    #[arg(long, value_enum)]
+    /// -y is y pointing down, as in images. Scene and camera are always y-up.
+    #[arg(long, value_enum, allow_hyphen_values = true)]
     pub up_axis: Option<Up>,
     /// Draw only particles whose attribute satisfies a comparison, such as Type=3 (= != < > <= >=)
     ///
@@ -498,6 +498,13 @@ pub struct PatternArgs {
 pub enum Up {
     Y,
     Z,
+    X,
+    #[value(name = "-y")]
+    MinusY,
+    #[value(name = "-z")]
+    MinusZ,
+    #[value(name = "-x")]
+    MinusX,
 }
 
 /// A unit of length.

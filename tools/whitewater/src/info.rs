@@ -118,9 +118,21 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "phases": phases,
         "missing": missing(Has::of(particles)),
         "unit": unit(particles),
-        "z_is_up": upright::is_z(std::slice::from_ref(particles)),
+        "up": up(particles),
         "warnings": particles.warnings,
     })
+}
+
+/// The axis that points up.
+fn up(particles: &Particles) -> Value {
+    match upright::find(std::slice::from_ref(particles)) {
+        Some(found) => json!({"axis": found.up.name(), "sure": found.sure, "why": found.why}),
+        None => json!({
+            "axis": "y",
+            "sure": "assumed",
+            "why": "neither where the water lies nor how it moves tells",
+        }),
+    }
 }
 
 /// A word on an extent that is no likely one of water in metres.
@@ -226,9 +238,9 @@ fn text(value: &Value) -> String {
             values.map(|(value, count)| format!("{value} ({count} particles)")).collect();
         lines.push(format!("  values      {name}: {}", all.join(", ")));
     }
-    if let Some(why) = value["z_is_up"].as_str() {
-        lines.push(format!("  up          z: {why}"));
-    }
+    let [axis, sure, why] =
+        ["axis", "sure", "why"].map(|key| value["up"][key].as_str().unwrap_or("-"));
+    lines.push(format!("  up          {axis}, {sure}: {why}"));
     if let Some(unit) = value["unit"].as_str() {
         lines.push(format!("  unit        {unit}"));
     }
