@@ -93,6 +93,9 @@ pub fn find(frames: &[Particles]) -> Option<Found> {
     let axes = of(frames)?;
     let by_frames = || {
         // Water that sinks from frame to frame lies on no floor of all of them: most frames by themselves tell as well.
+        if frames.len() < 2 {
+            return None;
+        }
         let all = frames.iter().map(std::slice::from_ref);
         let said: Vec<_> = all.filter_map(|frame| other(&of(frame)?)).collect();
         let first = said.first()?;
