@@ -130,7 +130,7 @@ fn up(particles: &Particles) -> Value {
         None => json!({
             "axis": "y",
             "sure": "assumed",
-            "why": "neither where the water lies nor how it moves tells",
+            "why": "neither where the water lies nor how it moves shows another axis",
         }),
     }
 }
@@ -176,10 +176,10 @@ fn missing(has: Has) -> Option<&'static str> {
         (true, true) => None,
         (true, false) => Some("no ids: foam of a sequence is found anew in each frame"),
         (false, true) => Some(
-            "no velocities: of this file alone no foam; of a sequence they are found by its ids",
+            "no velocities: drawn alone this file has no foam; in a sequence velocities are found by the ids",
         ),
         (false, false) => Some(
-            "no velocities and no ids: of this file alone no foam; of a sequence only where its order stays",
+            "no velocities and no ids: drawn alone this file has no foam; in a sequence velocities are found if the particles keep their order",
         ),
     }
 }
@@ -208,7 +208,7 @@ fn text(value: &Value) -> String {
         format!("  particles   {}", value["particles"]),
     ];
     if value["non_finite"] != json!(0) {
-        lines.push(format!("  no numbers  {}", value["non_finite"]));
+        lines.push(format!("  not finite  {}", value["non_finite"]));
     }
     if let Some(bounds) = value["bounds"].as_object() {
         lines.push(format!("  from        {}", vector(&bounds["min"])));
@@ -229,7 +229,7 @@ fn text(value: &Value) -> String {
     }
     for a in value["attributes"].as_array().map(Vec::as_slice).unwrap_or_default() {
         let [name, ty] = ["name", "type"].map(|key| a[key].as_str().unwrap_or_default());
-        let meaning = a["meaning"].as_str().unwrap_or("passed over");
+        let meaning = a["meaning"].as_str().unwrap_or("not used");
         lines.push(format!("  attribute   {name} ({ty} x {}): {meaning}", a["components"]));
     }
     for (name, values) in value["phases"].as_object().into_iter().flatten() {
