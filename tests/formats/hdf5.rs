@@ -89,7 +89,7 @@ fn steps_are_frames() {
     // One that is not named is none.
     let error = read(&path("steps.vtkhdf")).unwrap_err().to_string();
     assert!(error.contains("3 frames") && error.contains("steps.vtkhdf"), "{error}");
-    let none = Step { index: 3, time: None };
+    let none = Step::new(3, None);
     read_step(&path("steps.vtkhdf"), none, &[]).unwrap_err();
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::folder::Folder;
 use super::samples::{self, gzip};
 use whitewater::io::particles::sequence::{SequenceError, expand, expand_joined};
-use whitewater::io::particles::{Particles, read, read_step, read_with, steps};
+use whitewater::io::particles::{Particles, Step, read, read_step, read_with, steps};
 
 /// The cloud, moved along x by the number of the frame and without as many particles.
 fn cloud(frame: usize) -> Particles {
@@ -310,6 +310,48 @@ fn json_of_frames() {
         let path = folder.put("one.json", text);
         assert!(steps(&path).unwrap().is_empty(), "{}", std::fs::read_to_string(&path).unwrap());
         assert_eq!(read(&path).unwrap().positions, cloud(0).positions);
+    }
+}
+
+/// Of a list of frames each is read where it is: what the others hold is not looked at.
+#[test]
+fn json_frames_are_read_alone() {
+    let folder = Folder::new("json-parts");
+    let frame = |i: usize| {
+        format!(
+            "{{\"note\": \"a ] \\\" {{\", \"positions\": [[{i}, NaN, 2], [0, 1, 2], [1, 0, 2]]}}"
+        )
+    };
+    let all = |between: &str| (0..3).map(frame).collect::<Vec<_>>().join(between);
+    let named = |i: usize| format!("\"t\\u0031_{}\": {}", 12 - i, frame(i));
+    let named = (0..3).map(named).collect::<Vec<_>>().join(", ");
+    let texts = [
+        format!("[{}]", all(", ")),
+        all("\n"),
+        format!("\u{feff}{{\"dt\": 0.1, \"no\": [], \"frames\": [{}]}}", all(", ")),
+        format!("{{{named}}}"),
+    ];
+    for (i, text) in texts.into_iter().enumerate() {
+        let path = folder.put(&format!("{i}.json"), &text);
+        let steps = steps(&path).unwrap();
+        assert_eq!(steps.len(), 3, "{text}");
+        // Names say another order than the file's.
+        let first = |k: usize| if i == 3 { 2 - k } else { k };
+        for (k, step) in steps.iter().enumerate() {
+            let alone = frame(first(k));
+            let at = text.find(&alone).unwrap();
+            let others = "#".repeat(at) + &alone + &"#".repeat(text.len() - at - alone.len());
+            let of = |text: &str| {
+                folder.put(&format!("{i}.json"), text);
+                read_step(&path, *step, &[]).unwrap().positions[0][0]
+            };
+            assert_eq!(of(&text), first(k) as f32, "{text}");
+            assert_eq!(of(&others), first(k) as f32, "{others}");
+            read_step(&path, Step::new(k, step.time), &[]).unwrap_err();
+        }
+        // One that has become another file is read as that.
+        let path = folder.put(&format!("{i}.json"), format!("[[], {}]", frame(7)));
+        let _ = read_step(&path, steps[1], &[]);
     }
 }
 

@@ -18,13 +18,27 @@ use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
 use super::names;
 use super::source::Content;
+use super::steps::Step;
 use super::{Format, Particles, json_frames};
 
-/// The times of the frames of a file; empty for one frame.
-pub(super) fn times(content: &Content<'_>) -> Result<Vec<Option<f64>>, ReadError> {
+/// The frames of a file; empty for one frame.
+pub(super) fn steps(content: &Content<'_>) -> Result<Vec<Step>, ReadError> {
     let mut bytes = Vec::new();
     content.open(0, content.length())?.fill(content.length(), &mut bytes)?;
-    Ok(json_frames::times(&value(&bytes)?))
+    let value = value(&bytes)?;
+    let times = json_frames::times(&value).into_iter().enumerate();
+    let parts = json_frames::parts(&value, &bytes).unwrap_or_default();
+    let part =
+        |index: usize| parts.get(index).map(|part| [part.start, part.end].map(|at| at as u64));
+    Ok(times.map(|(index, time)| Step { part: part(index), ..Step::new(index, time) }).collect())
+}
+
+/// The frame that is asked for, read where it is in the file; none where that is not known, or no frame is there any more.
+pub(super) fn read_part(content: &Content<'_>, asked: &Asked) -> Option<Particles> {
+    let [start, end] = asked.step()?.part?;
+    let mut bytes = Vec::new();
+    content.open(start, end).and_then(|mut part| part.fill(end - start, &mut bytes)).ok()?;
+    of_value(value(&bytes).ok()?, asked).ok()
 }
 
 fn value(bytes: &[u8]) -> Result<Value, ReadError> {
@@ -45,6 +59,10 @@ pub(super) fn read(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> 
         Some(step) => json_frames::one(value, step.index),
         None => value,
     };
+    of_value(value, asked)
+}
+
+fn of_value(value: Value, asked: &Asked) -> Result<Particles, ReadError> {
     let value = json_frames::alone(value);
     let mut table = Table::new(asked);
     if let Value::Object(map) = &value {

@@ -1,5 +1,8 @@
 //! Separates the frames of a JSON file that holds several.
 
+use std::collections::HashMap;
+use std::ops::Range;
+
 use serde_json::{Map, Value};
 
 use super::json::is_list_of_particles;
@@ -152,4 +155,76 @@ pub(super) fn one(value: Value, index: usize) -> Value {
         }
         (_, value) => value,
     }
+}
+
+/// Where in the text each frame begins and ends; none for one frame, and where a frame is in several places.
+pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Range<usize>>> {
+    let named = || {
+        let name =
+            |(name, part): (&[u8], _)| Some((serde_json::from_slice::<String>(name).ok()?, part));
+        // Of two of one name the last one is read.
+        held(text, 1).into_iter().filter_map(name).collect::<HashMap<_, _>>()
+    };
+    match (frames(value)?, value) {
+        (Frames::List(count), _) => {
+            // A value on each line, or an array.
+            let lines = held(text, 0);
+            let all = if lines.len() == 1 { held(text, 1) } else { lines };
+            let parts: Vec<_> = all.into_iter().map(|(_, part)| part).collect();
+            (parts.len() == count).then_some(parts)
+        }
+        (Frames::Named(all), _) => {
+            let named = named();
+            all.iter().map(|name| named.get(name).cloned()).collect()
+        }
+        (Frames::Behind(name), Value::Object(map)) => {
+            let inner = named().get(&name)?.clone();
+            let parts = parts(map.get(&name)?, text.get(inner.clone())?)?;
+            let moved = |part: Range<usize>| part.start + inner.start..part.end + inner.start;
+            Some(parts.into_iter().map(moved).collect())
+        }
+        _ => None,
+    }
+}
+
+/// The arrays and objects that lie in so many others, in valid text: the string before each, which is its name in an object,
+/// and where it begins and ends.
+fn held(text: &[u8], level: usize) -> Vec<(&[u8], Range<usize>)> {
+    let mut all = Vec::new();
+    let (mut depth, mut begin) = (0_usize, 0);
+    let (mut quote, mut escaped) = (None, false);
+    let mut name: &[u8] = &[];
+    for (at, byte) in text.iter().enumerate() {
+        if let Some(from) = quote {
+            match byte {
+                _ if escaped => escaped = false,
+                b'\\' => escaped = true,
+                b'"' => {
+                    quote = None;
+                    if depth == level {
+                        name = text.get(from..=at).unwrap_or_default();
+                    }
+                }
+                _ => {}
+            }
+            continue;
+        }
+        match byte {
+            b'"' => quote = Some(at),
+            b'[' | b'{' => {
+                if depth == level {
+                    begin = at;
+                }
+                depth += 1;
+            }
+            b']' | b'}' => {
+                depth = depth.saturating_sub(1);
+                if depth == level {
+                    all.push((name, begin..at + 1));
+                }
+            }
+            _ => {}
+        }
+    }
+    all
 }

@@ -208,6 +208,13 @@ fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
         let mut start = Vec::new();
         source::Source::new(&input, &input.whole(false)).fill(2, &mut start)?;
         let gzip = bytes::is_gzip(&start);
+        if asked.step().is_some_and(|step| step.part.is_some()) {
+            let content = source::Content::new(&input, gzip);
+            let content = content.map_err(|error| parts::named(path, error))?;
+            if let Some(read) = json::read_part(&content, asked) {
+                return Ok(read);
+            }
+        }
         let read = parts::plan(&input, Extension::from_path(path), gzip, asked)
             .and_then(|plan| plan.map(plan::Plan::read).transpose());
         if let Some(read) = read.map_err(|error| parts::named(path, error))? {

@@ -16,6 +16,16 @@ pub struct Step {
     /// Time in the file's unit, if the file has it. In a table with a column of times it selects the rows of
     /// the frame.
     pub time: Option<f64>,
+    /// Bytes of the content from and to which the frame goes, where nothing else of the file is needed.
+    pub(super) part: Option<[u64; 2]>,
+}
+
+impl Step {
+    /// A frame by its index, from 0, and its time where a table selects by that. [`steps`] also knows where a frame of JSON is
+    /// in the file; of one made here the file is read as a whole.
+    pub fn new(index: usize, time: Option<f64>) -> Self {
+        Self { index, time, part: None }
+    }
 }
 
 /// Where a frame begins in a text.
@@ -38,11 +48,8 @@ pub fn steps(path: &Path) -> Result<Vec<Step>, ReadError> {
     if index::Pieces::of(path)?.is_some() {
         return Ok(Vec::new());
     }
-    let times = times(path).map_err(|error| parts::named(path, error))?;
-    if times.len() < 2 {
-        return Ok(Vec::new());
-    }
-    Ok(times.into_iter().enumerate().map(|(index, time)| Step { index, time }).collect())
+    let steps = found(path).map_err(|error| parts::named(path, error))?;
+    Ok(if steps.len() < 2 { Vec::new() } else { steps })
 }
 
 /// Reads one frame of a file that holds several, like [`read_with`](super::read_with).
@@ -53,10 +60,13 @@ pub fn read_step(path: &Path, step: Step, extras: &[&str]) -> Result<Particles, 
     read_asked(path, &Asked::new(extras).of_step(Some(step)))
 }
 
-fn times(path: &Path) -> Result<Vec<Option<f64>>, ReadError> {
+fn found(path: &Path) -> Result<Vec<Step>, ReadError> {
+    let of = |times: Vec<Option<f64>>| {
+        times.into_iter().enumerate().map(|(index, time)| Step::new(index, time)).collect()
+    };
     #[cfg(feature = "hdf5")]
     if let Some(times) = super::hdf5::times(path).or_else(|| super::xdmf::times(path)) {
-        return times;
+        return times.map(of);
     }
     let hint = Extension::from_path(path);
     let file = std::fs::File::open(path).map_err(super::source::io_error)?;
@@ -71,27 +81,27 @@ fn times(path: &Path) -> Result<Vec<Option<f64>>, ReadError> {
             let content = Content::new(&input, gzip)?;
             let times = tecplot::times(&content)?;
             if !times.is_empty() {
-                return Ok(times);
+                return Ok(of(times));
             }
             xyz::starts(&content, None)?
         }
         Ok(format::Reader::Lammps) => lammps::starts(&Content::new(&input, gzip)?, None)?,
-        Ok(format::Reader::Json) => return json::times(&Content::new(&input, gzip)?),
+        Ok(format::Reader::Json) => return json::steps(&Content::new(&input, gzip)?),
         Ok(kind @ (format::Reader::Npy | format::Reader::Npz)) if !gzip => {
             let times = numpy::times(&input, kind == format::Reader::Npz)?;
             if !times.is_empty() {
-                return Ok(times);
+                return Ok(of(times));
             }
             Vec::new()
         }
         _ => Vec::new(),
     };
     if starts.len() > 1 {
-        return Ok(starts.into_iter().map(|start| start.time).collect());
+        return Ok(of(starts.into_iter().map(|start| start.time).collect()));
     }
     let plan = parts::plan(&input, hint, gzip, &Asked::default())?;
     let times = plan.map_or(Ok(Vec::new()), |plan| plan.times())?;
-    Ok(times.into_iter().map(Some).collect())
+    Ok(of(times.into_iter().map(Some).collect()))
 }
 
 /// The part of a text that holds a frame, given where the frames begin.

@@ -69,6 +69,9 @@ pub enum Command {
     #[command(after_help = SIMULATE_HELP)]
     Simulate(SimulateArgs),
     /// Report what particle files hold
+    ///
+    /// Of each frame: format, number of particles, bounds, spacing, what each attribute is taken as, the axis that points up,
+    /// and what is missing for foam.
     #[command(after_help = EXIT_CODES)]
     Info(InfoArgs),
     /// Compare two pictures
@@ -87,8 +90,8 @@ pub struct RenderArgs {
     /// 'fluid_%04d.bgeo', or one file that holds all frames
     ///
     /// Use %d for numbers without leading zeros. One file holds all frames if it is a table with a column of times, XYZ, a
-    /// LAMMPS dump, VTKHDF, XDMF, zones of Tecplot, a NumPy array of shape (frames, particles, 3) or a JSON list of frames; they
-    /// are counted from 0. 'whitewater info' lists what the files hold.
+    /// LAMMPS dump, VTKHDF, XDMF, zones of Tecplot, a NumPy array of shape (frames, particles, 3) or a JSON list of frames; its
+    /// frames are counted from 0. 'whitewater info' lists what the files hold.
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Draw bubble foam: one, slope, box, or a .json file of blobs, alone or with particles
@@ -117,7 +120,7 @@ pub struct RenderArgs {
     /// Camera, radius and ground are found from the whole sequence, so that separately drawn parts match.
     #[arg(long, value_name = "A-B")]
     pub frames: Option<String>,
-    /// Render every Nth frame of these
+    /// Draw every Nth of the selected frames
     ///
     /// Foam is still simulated on all frames.
     #[arg(long, value_name = "N", default_value = "1")]
@@ -161,11 +164,11 @@ pub struct RenderArgs {
     /// For example one file per phase, or per processor of a run.
     #[arg(long)]
     pub join: bool,
-    /// Up axis of the particles; z is turned to y [default: z if the water lies at the low end of z and is open
-    /// above, or falls along z (which is reported); otherwise y]
+    /// Axis that points up in the files, which are turned so that it is y [default: y, z, -y or -z, by how the water lies
+    /// and falls; y if that does not tell]
     ///
-    /// Scene and camera are always y-up.
-    #[arg(long, value_enum)]
+    /// -y: y points down, as in images. An axis other than y that is found is reported. Scene and camera are always y-up.
+    #[arg(long, value_enum, allow_hyphen_values = true)]
     pub up_axis: Option<Up>,
     /// Draw only particles whose attribute satisfies a comparison, such as Type=3 (= != < > <= >=)
     ///
@@ -175,7 +178,7 @@ pub struct RenderArgs {
     pub conditions: Vec<Condition>,
     /// Draw some particles as another liquid, such as 'Type=2:honey' or 'oil_*.vtk:beer:0.1'; several times for several fluids
     ///
-    /// WHICH is a comparison as in --where, or files of the same frames, whose own water the inputs stay. LIQUID is a name
+    /// WHICH is a comparison as in --where, or more files of the same frames, which are drawn beside the inputs. LIQUID is a name
     /// of --medium, 'water' for what is drawn without --fluid, or a settings file (.toml) over --settings. Once a fluid is
     /// chosen by a comparison, particles that none chooses are not drawn. Each fluid is drawn over the picture of the
     /// others, and a pixel shows the one in front with the others behind it, whose surface mirrors nothing there: two
@@ -401,8 +404,10 @@ pub struct CameraArgs {
     /// a Catmull-Rom spline over the frame numbers, at rest at the first and last key.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub file: Option<PathBuf>,
-    /// Position of the camera; beside particles that lie far from the origin, which is then taken off them, as the files have
-    /// it or without that [default: found from the particles]
+    /// Position of the camera [default: found from the particles]
+    ///
+    /// Particles that lie far from the origin, as in map coordinates, are moved near it; --eye and --target may be given as
+    /// in the files or as moved.
     #[arg(long, value_name = "X,Y,Z", requires = "target", value_parser = vector, allow_hyphen_values = true)]
     pub eye: Option<[f32; 3]>,
     /// Point the camera looks at
@@ -499,6 +504,13 @@ pub struct PatternArgs {
 pub enum Up {
     Y,
     Z,
+    X,
+    #[value(name = "-y")]
+    MinusY,
+    #[value(name = "-z")]
+    MinusZ,
+    #[value(name = "-x")]
+    MinusX,
 }
 
 /// A unit of length.

@@ -118,9 +118,21 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "phases": phases,
         "missing": missing(Has::of(particles)),
         "unit": unit(particles),
-        "z_is_up": upright::is_z(std::slice::from_ref(particles)),
+        "up": up(particles),
         "warnings": particles.warnings,
     })
+}
+
+/// The axis that points up.
+fn up(particles: &Particles) -> Value {
+    match upright::find(std::slice::from_ref(particles)) {
+        Some(found) => json!({"axis": found.up.name(), "sure": found.sure, "why": found.why}),
+        None => json!({
+            "axis": "y",
+            "sure": "assumed",
+            "why": "neither where the water lies nor how it moves shows another axis",
+        }),
+    }
 }
 
 /// A word on an extent that is no likely one of water in metres.
@@ -164,10 +176,10 @@ fn missing(has: Has) -> Option<&'static str> {
         (true, true) => None,
         (true, false) => Some("no ids: foam of a sequence is found anew in each frame"),
         (false, true) => Some(
-            "no velocities: of this file alone no foam; of a sequence they are found by its ids",
+            "no velocities: drawn alone this file has no foam; in a sequence velocities are found by the ids",
         ),
         (false, false) => Some(
-            "no velocities and no ids: of this file alone no foam; of a sequence only where its order stays",
+            "no velocities and no ids: drawn alone this file has no foam; in a sequence velocities are found if the particles keep their order",
         ),
     }
 }
@@ -196,7 +208,7 @@ fn text(value: &Value) -> String {
         format!("  particles   {}", value["particles"]),
     ];
     if value["non_finite"] != json!(0) {
-        lines.push(format!("  no numbers  {}", value["non_finite"]));
+        lines.push(format!("  not finite  {}", value["non_finite"]));
     }
     if let Some(bounds) = value["bounds"].as_object() {
         lines.push(format!("  from        {}", vector(&bounds["min"])));
@@ -217,7 +229,7 @@ fn text(value: &Value) -> String {
     }
     for a in value["attributes"].as_array().map(Vec::as_slice).unwrap_or_default() {
         let [name, ty] = ["name", "type"].map(|key| a[key].as_str().unwrap_or_default());
-        let meaning = a["meaning"].as_str().unwrap_or("passed over");
+        let meaning = a["meaning"].as_str().unwrap_or("not used");
         lines.push(format!("  attribute   {name} ({ty} x {}): {meaning}", a["components"]));
     }
     for (name, values) in value["phases"].as_object().into_iter().flatten() {
@@ -226,9 +238,9 @@ fn text(value: &Value) -> String {
             values.map(|(value, count)| format!("{value} ({count} particles)")).collect();
         lines.push(format!("  values      {name}: {}", all.join(", ")));
     }
-    if let Some(why) = value["z_is_up"].as_str() {
-        lines.push(format!("  up          z: {why}"));
-    }
+    let [axis, sure, why] =
+        ["axis", "sure", "why"].map(|key| value["up"][key].as_str().unwrap_or("-"));
+    lines.push(format!("  up          {axis}, {sure}: {why}"));
     if let Some(unit) = value["unit"].as_str() {
         lines.push(format!("  unit        {unit}"));
     }

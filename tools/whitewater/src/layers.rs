@@ -1,6 +1,5 @@
 //! From the renderer's images to named channels.
 
-use glam::Vec3;
 use whitewater::headless::{Background, Headless, Picture};
 use whitewater::io::picture::{EMPTY, Layers, normals};
 use whitewater::water::DebugView;
@@ -305,22 +304,6 @@ pub fn matte(
         alpha.data = hidden;
     }
     Ok(())
-}
-
-/// Vectors of a z-up world, turned to y up.
-pub fn turn_up<'a>(vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
-    for p in vectors {
-        let [x, y, z] = *p;
-        *p = Vec3::new(x, z, -y).to_array();
-    }
-}
-
-/// The same back.
-pub fn turn_back<'a>(vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
-    for p in vectors {
-        let [x, y, z] = *p;
-        *p = [x, -z, y];
-    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,71 @@
 //! Converts axes and units of files to those of the scene: y up, metres.
 
+use std::ops::Neg;
+
 use glam::Vec3;
 use whitewater::io::particles::Particles;
 
 use crate::args::{Unit, Up};
-use crate::layers;
 use crate::surface_foam::quantile;
+
+impl Up {
+    /// The one of this index, or against it.
+    pub fn along(axis: usize, against: bool) -> Self {
+        match (axis, against) {
+            (0, false) => Self::X,
+            (0, true) => Self::MinusX,
+            (2, false) => Self::Z,
+            (2, true) => Self::MinusZ,
+            (_, false) => Self::Y,
+            (_, true) => Self::MinusY,
+        }
+    }
+
+    /// The index of its axis.
+    pub fn axis(self) -> usize {
+        match self {
+            Self::X | Self::MinusX => 0,
+            Self::Y | Self::MinusY => 1,
+            Self::Z | Self::MinusZ => 2,
+        }
+    }
+
+    /// As the option has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::MinusX => "-x",
+            Self::Y => "y",
+            Self::MinusY => "-y",
+            Self::Z => "z",
+            Self::MinusZ => "-z",
+        }
+    }
+
+    /// A vector of the files turned so that this axis is y. Nothing is mirrored.
+    pub fn turn<T: Neg<Output = T>>(self, [x, y, z]: [T; 3]) -> [T; 3] {
+        match self {
+            Self::Y => [x, y, z],
+            Self::MinusY => [x, -y, -z],
+            Self::Z => [x, z, -y],
+            Self::MinusZ => [x, -z, y],
+            Self::X => [-y, x, z],
+            Self::MinusX => [y, -x, z],
+        }
+    }
+
+    /// The same back.
+    pub fn turn_back<T: Neg<Output = T>>(self, vector: [T; 3]) -> [T; 3] {
+        let inverse = match self {
+            Self::Z => Self::MinusZ,
+            Self::MinusZ => Self::Z,
+            Self::X => Self::MinusX,
+            Self::MinusX => Self::X,
+            same => same,
+        };
+        inverse.turn(vector)
+    }
+}
 
 /// How the particles of files are put into the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,16 +88,16 @@ impl Placing {
         particles.move_to(self.origin);
         let Particles { positions, velocities, .. } = particles;
         self.scale(positions.iter_mut().chain(velocities.iter_mut().flatten()));
-        if self.up == Up::Z {
-            layers::turn_up(positions.iter_mut().chain(velocities.iter_mut().flatten()));
+        if self.up != Up::Y {
+            let vectors = positions.iter_mut().chain(velocities.iter_mut().flatten());
+            vectors.for_each(|v| *v = self.up.turn(*v));
         }
     }
 
     /// A point in the axes and the unit of the scene that is where the files have it, less what is taken off their positions;
     /// none where it is nearer to the water as it is.
     pub fn moved(&self, point: [f32; 3]) -> Option<[f32; 3]> {
-        let [x, y, z] = self.origin.map(|c| c * f64::from(self.scale));
-        let origin = if self.up == Up::Z { [x, z, -y] } else { [x, y, z] };
+        let origin = self.up.turn(self.origin.map(|c| c * f64::from(self.scale)));
         let moved: [f64; 3] = std::array::from_fn(|i| f64::from(point[i]) - origin[i]);
         let length = |p: [f64; 3]| p.iter().map(|c| c * c).sum::<f64>();
         (length(moved) < length(point.map(f64::from))).then(|| moved.map(|c| c as f32))
@@ -51,8 +111,9 @@ impl Placing {
 
     /// As the files have them.
     pub fn back(&self, positions: &mut [[f32; 3]], velocities: &mut [[f32; 3]]) {
-        if self.up == Up::Z {
-            layers::turn_back(positions.iter_mut().chain(velocities.iter_mut()));
+        if self.up != Up::Y {
+            let vectors = positions.iter_mut().chain(velocities.iter_mut());
+            vectors.for_each(|v| *v = self.up.turn_back(*v));
         }
         Self { scale: self.scale.recip(), ..*self }
             .scale(positions.iter_mut().chain(velocities.iter_mut()));
@@ -144,6 +205,29 @@ mod tests {
         assert_eq!(far.moved([2050.0, 33.0, -512.0]), Some([2.0, 1.0, 0.0]));
         assert_eq!(far.moved([2.0, 1.0, 0.0]), None);
         assert_eq!(Placing::default().moved([9.0, 1.0, 0.0]), None);
+    }
+
+    /// Each axis that is up becomes y, by a rotation, and comes back.
+    #[test]
+    fn every_axis_is_turned_to_y() {
+        for axis in 0..3 {
+            for against in [false, true] {
+                let up = Up::along(axis, against);
+                assert_eq!(up.axis(), axis);
+                let mut points_up = [0.0_f32; 3];
+                points_up[axis] = if against { -1.0 } else { 1.0 };
+                assert_eq!(up.turn(points_up), [0.0, 1.0, 0.0], "{}", up.name());
+                let [x, y, z] =
+                    [Vec3::X, Vec3::Y, Vec3::Z].map(|v| Vec3::from(up.turn(v.to_array())));
+                assert_eq!(x.cross(y).dot(z), 1.0, "{} mirrors", up.name());
+                assert_eq!(
+                    up.turn_back(up.turn([1.0, 2.0, 3.0])),
+                    [1.0, 2.0, 3.0],
+                    "{}",
+                    up.name()
+                );
+            }
+        }
     }
 
     #[test]

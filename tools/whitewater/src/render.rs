@@ -21,7 +21,7 @@ use crate::settings::SettingsFile;
 use crate::shore::{self, Shores};
 use crate::surface_foam;
 use crate::turntable::{Turning, stills};
-use crate::upright;
+use crate::upright::{self, Found as Upright};
 use crate::whitewater_source;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
@@ -143,18 +143,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
     probes.fps = probes.fps.or(by_time);
-    let flat = upright::flat(&probes.frames);
-    let z_is_up = match flat {
-        // Of a plane of x and z.
-        Some(1) => Some("they are two-dimensional, with z beside x"),
-        Some(2) => None,
-        _ => upright::is_z(&probes.frames),
-    };
-    if let (None, Some(why)) = (args.up_axis, z_is_up) {
-        progress.say(&format!("z is up in the files: {why} (--up-axis y: not turned)"));
-        placing.up = Up::Z;
-        reader.turn(Up::Z);
-        let turned = Placing { up: Up::Z, scale: 1.0, origin };
+    let found = upright::find(&probes.frames).filter(|found| found.up != Up::Y);
+    if let (None, Some(Upright { up, why, .. })) = (args.up_axis, found) {
+        progress.say(&format!("{} is up in the files: {why} (--up-axis y: not turned)", up.name()));
+        placing.up = up;
+        reader.turn(up);
+        let turned = Placing { up, scale: 1.0, origin };
         probes.frames.iter_mut().for_each(|frame| turned.place(frame));
     }
     let sheet = upright::flat(&probes.frames).filter(|across| *across != 1);

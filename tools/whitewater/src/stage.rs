@@ -128,12 +128,16 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
         let layer = &places[places.partition_point(|p| *p < last - spacing)..];
         let at = sign * *layer.get(layer.len() / 2)?;
         let touches = |p: &&[f32; 3]| sign * (p[axis] - at) > -1.5 * spacing;
-        let mut touching: Vec<f32> =
-            frames.iter().copied().flatten().filter(touches).map(|p| p[1]).collect();
-        touching.sort_unstable_by(|a, b| b.total_cmp(a));
-        // Drops are no sheet: above it there is less than a row of particles, of each frame.
-        let rows = (bounds.size()[2 - axis] / spacing + 1.5) * frames.len() as f32;
-        let reach = touching.get(rows as usize).copied().unwrap_or(bounds.min.y);
+        let reach = |frames: &[&[[f32; 3]]]| {
+            let mut touching: Vec<f32> =
+                frames.iter().copied().flatten().filter(touches).map(|p| p[1]).collect();
+            touching.sort_unstable_by(|a, b| b.total_cmp(a));
+            // Drops are no sheet: above it there is less than a row of particles, of each frame.
+            let rows = (bounds.size()[2 - axis] / spacing + 1.5) * frames.len() as f32;
+            touching.get(rows as usize).copied().unwrap_or(bounds.min.y)
+        };
+        // A dam stands in the first frame alone: among the rest it is few.
+        let reach = reach(frames).max(reach(&frames[..frames.len().min(1)]));
         let across = 2 - axis;
         let (low, length) = (bounds.min[across], bounds.size()[across]);
         let count = ((length / (4.0 * spacing)) as usize).clamp(4, 64);
@@ -538,6 +542,29 @@ mod tests {
         assert!(found.iter().all(|top| (1.9..2.2).contains(top)), "{found:?}");
         assert!(found.iter().all(|top| (top - found[0]).abs() < 1.0e-4), "{found:?}");
         assert!(edges(&on_wall(1)).is_empty(), "drops");
+    }
+
+    /// A dam of the first frame that falls in all others stands between panes, as high as it.
+    #[test]
+    fn panes_hold_the_dam_that_falls() {
+        let dam: Vec<_> =
+            (0..12_000).map(|i| [i % 20, i / 20 % 30, i / 600].map(|i| 0.1 * i as f32)).collect();
+        let pool = block(false);
+        let mut frames = vec![&pool[..]; 12];
+        let top = |frames: &[&[[f32; 3]]]| {
+            let bounds = frames.iter().filter_map(|frame| Bounds::of_bulk(frame));
+            let bounds = bounds.reduce(|a, b| a.union(&b)).unwrap();
+            let seen_from = (Vec3::new(9.0, 5.0, 9.0), false);
+            let scene = basin_round(frames, &bounds, 0.1, seen_from, SetArg::Pool, &[]).unwrap();
+            let panes = scene.backdrop.iter().filter(|mesh| mesh.name == "pane edge");
+            let points = panes.flat_map(|mesh| {
+                mesh.positions.iter().map(|p| mesh.transform.transform_point3((*p).into()).y)
+            });
+            points.fold(f32::MIN, f32::max)
+        };
+        assert_eq!(top(&frames), f32::MIN, "the walls hold it");
+        frames[0] = &dam;
+        assert!((2.8..3.2).contains(&top(&frames)), "{}", top(&frames));
     }
 
     #[test]

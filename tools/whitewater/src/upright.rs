@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::Vec3;
 use whitewater::io::particles::{self, Particles};
 
+use crate::args::Up;
 use crate::bounds::Bounds;
 
 /// Columns that are looked at are so many spacings wide.
@@ -25,39 +26,117 @@ const SOME: f32 = 0.03;
 /// What an axis looks like as the one that points up.
 #[derive(Clone, Copy, Debug)]
 struct Axis {
+    up: Up,
     /// Share of the columns along it that begin at its lower end, less those that end at its upper end.
     open: f32,
     /// Mean velocity along it, in root mean square speeds.
     moves: f32,
 }
 
-/// Whether z points up in the files and y does not, told by frames of a sequence as they are in the files: water lies on a
-/// floor and is open above, and as a whole it comes down. Says what speaks for it. Where both may be up, or neither is told,
-/// it is y.
-pub fn is_z(frames: &[Particles]) -> Option<&'static str> {
-    told(frames).or_else(|| {
-        // Water that sinks from frame to frame lies on no floor of all of them: most frames by themselves tell as well.
-        let all = frames.iter().map(std::slice::from_ref);
-        let said: Vec<_> = all.filter_map(told).collect();
-        said.first().copied().filter(|_| 2 * said.len() > frames.len())
-    })
+impl Axis {
+    /// The same seen from its other end.
+    fn against(self) -> Self {
+        Self { up: Up::along(self.up.axis(), true), open: -self.open, moves: -self.moves }
+    }
+
+    /// Whether water lies at its lower end and is open above.
+    fn lies(&self) -> bool {
+        self.open >= OPEN && self.moves <= MOVES
+    }
+
+    fn found(&self, lies: bool) -> Found {
+        let falls = self.moves < -MOVES;
+        let name = self.up.name();
+        let (end, axis) = match name.strip_prefix('-') {
+            Some(axis) => ("upper", axis),
+            None => ("lower", name),
+        };
+        let why = match (lies, falls, end) {
+            (false, _, _) => format!("the water comes down along {name}"),
+            (true, true, _) => {
+                format!("the water lies at the {end} end of {axis}, and comes down towards it")
+            }
+            (true, false, "lower") => {
+                format!("the water lies at the lower end of {axis}, and is open above")
+            }
+            (true, false, _) => {
+                format!("the water lies at the upper end of {axis}, its open side at the lower")
+            }
+        };
+        Found { up: self.up, why, sure: if lies && falls { CLEAR } else { LIKELY } }
+    }
 }
 
-fn told(frames: &[Particles]) -> Option<&'static str> {
-    let [y, z] = [1, 2].map(|axis| look(frames, axis));
-    let (y, z) = (y?, z?);
-    let lies = z.open >= OPEN && z.moves <= MOVES;
-    if lies && z.open - y.open >= OPEN {
-        return Some("the water lies at the lower end of z, and is open above");
+/// Where the water lies and how it moves say the same.
+const CLEAR: &str = "clear";
+/// One of the two tells.
+const LIKELY: &str = "likely";
+
+/// Which axis points up in files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    pub up: Up,
+    /// What speaks for it.
+    pub why: String,
+    pub sure: &'static str,
+}
+
+/// Which axis points up, told by frames of a sequence as they are in the files: water lies on a floor and is open above,
+/// and as a whole it comes down. Asked are y and z, either way; x is too often the one along which a dam breaks. None where
+/// it is not told, or several may be it: it is y then, as is usual.
+pub fn find(frames: &[Particles]) -> Option<Found> {
+    let across = flat(frames);
+    let of = |frames: &[Particles]| {
+        let asked = [1, 2].into_iter().filter(|axis| across != Some(*axis));
+        asked.map(|axis| look(frames, axis)).collect::<Option<Vec<_>>>()
+    };
+    let axes = of(frames)?;
+    let by_frames = || {
+        // Water that sinks from frame to frame lies on no floor of all of them: most frames by themselves tell as well.
+        if frames.len() < 2 {
+            return None;
+        }
+        let all = frames.iter().map(std::slice::from_ref);
+        let said: Vec<_> = all.filter_map(|frame| other(&of(frame)?)).collect();
+        let first = said.first()?;
+        let same = said.iter().filter(|found| found.up == first.up).count();
+        (2 * same > frames.len()).then(|| first.clone())
+    };
+    let usual = || match (across, axes.as_slice()) {
+        (Some(1), _) => Some(Found {
+            up: Up::Z,
+            why: "they are two-dimensional, with z beside x".into(),
+            sure: LIKELY,
+        }),
+        (_, [y, ..]) => y.lies().then(|| y.found(true)),
+        _ => None,
+    };
+    other(&axes).or_else(by_frames).or_else(usual)
+}
+
+/// Whether it is another than y, of y and z, or one of them.
+fn other(axes: &[Axis]) -> Option<Found> {
+    if let [y, z] = axes {
+        if z.lies() && z.open - y.open >= OPEN {
+            return Some(z.found(true));
+        }
+        // Against a wall it lies as on a floor: it goes away from one, and down on the other. Of a block that has just
+        // begun to fall the surface is nearly a lid.
+        let from_wall = z.lies() && z.moves < -MOVES && y.moves > MOVES;
+        let falls = z.moves < -FALLS && y.moves.abs() < MOVES && z.open - y.open > SOME;
+        if from_wall || falls {
+            return Some(z.found(from_wall));
+        }
     }
-    // Against a wall it lies as on a floor: it goes away from one, and down on the other. Of a block that has just begun to
-    // fall the surface is nearly a lid.
-    let from_wall = lies && z.moves < -MOVES && y.moves > MOVES;
-    let falls = z.moves < -FALLS && y.moves.abs() < MOVES && z.open - y.open > SOME;
-    if from_wall || falls {
-        return Some("the water comes down along z");
-    }
-    None
+    // Files that point down are rare: more has to speak for it.
+    axes.iter().find_map(|axis| {
+        let against = axis.against();
+        let mut others = axes.iter().filter(|other| other.up != axis.up);
+        let clear = others.clone().all(|other| against.open - other.open.abs() >= OPEN);
+        let from_wall =
+            against.moves < -FALLS && others.all(|other| other.moves * other.open.signum() > MOVES);
+        (against.lies() && (clear || from_wall)).then(|| against.found(true))
+    })
 }
 
 /// Across which axis all particles of all frames lie in one layer: they are two-dimensional.
@@ -105,12 +184,16 @@ fn look(frames: &[Particles], axis: usize) -> Option<Axis> {
         }
     }
     let mean = |values: &[f32]| values.iter().sum::<f32>() / values.len().max(1) as f32;
-    Some(Axis { open: mean(&shares), moves: mean(&moves) })
+    Some(Axis { up: Up::along(axis, false), open: mean(&shares), moves: mean(&moves) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn is_z(frames: &[Particles]) -> Option<Found> {
+        find(frames).filter(|found| found.up == Up::Z)
+    }
 
     const SPACING: f32 = 0.05;
 
@@ -185,5 +268,43 @@ mod tests {
         assert_eq!(is_z(&[Particles::from_positions(block.collect())]), None);
         assert_eq!(is_z(&[Particles::from_positions(Vec::new())]), None);
         assert_eq!(is_z(&[]), None);
+    }
+
+    /// A dam turned every way: what its motion and its open side tell, and what they leave open.
+    #[test]
+    fn water_that_hangs_is_turned() {
+        let up = |particles: Particles| find(&[particles]).map(|found| (found.up, found.sure));
+        for up_axis in [Up::Y, Up::MinusY, Up::Z, Up::MinusZ] {
+            let way = |[x, y, z]: [f32; 3]| up_axis.turn_back([x, z, -y]);
+            assert_eq!(up(dam(way, true)), Some((up_axis, "clear")));
+            assert_eq!(up(dam(way, false)), Some((up_axis, "likely")));
+            // The dam breaks along the other axis that may be up, from its low or its high end.
+            for side in [1.0, -1.0] {
+                let way = |[x, y, z]: [f32; 3]| up_axis.turn_back([y, z, side * x]);
+                assert_eq!(up(dam(way, true)).map(|found| found.0), Some(up_axis), "{side}");
+            }
+        }
+        // On its side x is up: not told, and nothing else is.
+        let side = |[x, y, z]: [f32; 3]| Up::X.turn_back([y, z, x]);
+        assert!(up(dam(side, true)).is_none_or(|found| found.0 == Up::Y));
+        // What rises from a floor is no fall to a lid.
+        let mut fountain = dam(|[x, y, z]| [x, z, -y], false);
+        fountain.velocities = Some(vec![[0.0, 1.0, 0.0]; fountain.positions.len()]);
+        assert_eq!(find(&[fountain]), None);
+    }
+
+    /// Two-dimensional water, with y down as in images, and with z down.
+    #[test]
+    fn sheets_that_hang_are_turned() {
+        let sheet = |turn: &dyn Fn([f32; 2]) -> [f32; 3]| {
+            let mut sheet = dam(|p| p, false);
+            sheet.positions.retain(|p| p[1] == 0.0);
+            sheet.positions.iter_mut().for_each(|[x, y, z]| [*x, *y, *z] = turn([*x, *z]));
+            find(&[sheet]).map(|found| found.up)
+        };
+        assert_eq!(sheet(&|[x, z]| [x, z, 0.0]), Some(Up::Y));
+        assert_eq!(sheet(&|[x, z]| [x, 4.0 - z, 0.0]), Some(Up::MinusY));
+        assert_eq!(sheet(&|[x, z]| [x, 0.0, z]), Some(Up::Z));
+        assert_eq!(sheet(&|[x, z]| [x, 0.0, -z]), Some(Up::MinusZ));
     }
 }

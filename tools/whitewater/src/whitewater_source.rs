@@ -11,7 +11,7 @@ use whitewater::WhitewaterSettings;
 use whitewater::headless::{self, Headless};
 use whitewater::io::particles::{Particles, Parts};
 
-use crate::args::{Up, Whitewater};
+use crate::args::Whitewater;
 use crate::bubbles::Random;
 use crate::failure::{Failure, Outcome};
 use crate::frames;
@@ -138,14 +138,17 @@ pub struct Columns {
 impl Columns {
     /// Those of a frame, or a part of them.
     pub fn add(&mut self, part: &Particles, kind: Option<u32>, placing: Placing, spacing: f32) {
-        for (i, &[x, y, z]) in part.positions.iter().enumerate() {
+        let across = [0, 1, 2].map(|axis| placing.up.axis() != axis);
+        for (i, position) in part.positions.iter().enumerate() {
             let gone =
                 part.lifetimes.as_ref().is_some_and(|left| left[i].is_nan() || left[i] <= 0.0);
-            let across = if placing.up == Up::Z { y } else { z };
-            if gone || !(x.is_finite() && across.is_finite()) {
+            let mut level =
+                position.iter().zip(across).filter(|(_, across)| *across).map(|(c, _)| *c);
+            let level = [level.next(), level.next()].map(Option::unwrap_or_default);
+            if gone || !level.iter().all(|c| c.is_finite()) {
                 continue;
             }
-            let column = [x, across].map(|c| (c * placing.scale / spacing).floor() as i64);
+            let column = level.map(|c| (c * placing.scale / spacing).floor() as i64);
             let kind = kind.or_else(|| Some(part.kinds.as_ref()?[i])).map_or(0, kind_of);
             self.here.entry(column).or_default()[kind] += 1;
         }
@@ -433,6 +436,7 @@ pub fn counted(count: usize) -> Outcome<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::args::Up;
 
     #[test]
     fn frames_without_a_file_are_told() {

@@ -26,7 +26,7 @@ fn info_tells_what_a_file_holds() {
     assert_eq!(file["density"]["max"], 216.0);
     assert!(file["attributes"].as_array().unwrap().iter().any(|a| a["name"] == "density"));
     let text = folder.run("info a.bgeo").ok().stdout();
-    for part in ["particles   217", "no numbers  1", "spacing", "attribute", "density"] {
+    for part in ["particles   217", "not finite  1", "spacing", "attribute", "density"] {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
@@ -46,7 +46,7 @@ fn info_tells_what_became_of_attributes() {
         "vz (number x 1): velocity",
         "rho (number x 1): density",
         "id (number x 1): id",
-        "shear (number x 1): passed over",
+        "shear (number x 1): not used",
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
@@ -54,7 +54,7 @@ fn info_tells_what_became_of_attributes() {
     // Ids that are no whole numbers are dropped.
     folder.text("b.csv", &rows.replace("1000,", "1000,-"));
     let text = folder.run("info b.csv").ok().stdout();
-    assert!(text.contains("id (number x 1): passed over"), "{text}");
+    assert!(text.contains("id (number x 1): not used"), "{text}");
     assert!(text.contains("no ids: foam of a sequence is found anew in each frame"), "{text}");
     folder.particles("c.ply", block(3));
     folder.write("c.vtu", &Particles::from_positions(block(3)));

@@ -40,7 +40,42 @@ fn the_axis_that_is_up_is_found() {
     folder.run("compare z.exr y.exr --tolerance 1e-4").ok();
     folder.run("compare z.exr zupaxisy.exr --tolerance 1e-3").fails(1, &["RMSE"]);
     let text = folder.run("info z.csv").ok().stdout();
-    assert!(text.contains("up          z: the water lies"), "{text}");
+    assert!(text.contains("up          z, clear: the water lies"), "{text}");
+    let text = folder.run("info y.csv").ok().stdout();
+    assert!(text.contains("up          y, clear: the water lies"), "{text}");
+}
+
+/// Files whose up axis points down are found too, and drawn as those that stand; on its side a dam is what is said.
+#[test]
+fn files_that_hang_are_turned() {
+    let folder = Folder::new();
+    folder.text("y.csv", &csv(&slope(), |p| p));
+    folder.text("down.csv", &csv(&slope(), |[x, y, z]| [x, -y, -z]));
+    folder.text("deep.csv", &csv(&slope(), |[x, y, z]| [x, z, -y]));
+    folder.text("side.csv", &csv(&slope(), |[x, y, z]| [y, -x, z]));
+    folder.text("other.csv", &csv(&slope(), |[x, y, z]| [-y, x, z]));
+    let run = |file: &str, out: &str, more: &str| {
+        let command = format!("render {file}.csv -o {out}.exr {SMALL} --layers water.depth {more}");
+        folder.run(&command).ok().stderr()
+    };
+    run("y", "y", "");
+    for (file, axis) in [("down", "-y"), ("deep", "-z")] {
+        let said = run(file, file, "");
+        assert!(said.contains(&format!("{axis} is up in the files: the water lies")), "{said}");
+        let text = folder.run(&format!("info {file}.csv")).ok().stdout();
+        assert!(text.contains(&format!("up          {axis}, clear: the water lies")), "{text}");
+    }
+    for (file, axis) in [("side", "x"), ("other", "-x"), ("down", "-y"), ("deep", "-z")] {
+        let out = format!("{file}_said");
+        let said = run(file, &out, &format!("--up-axis {axis}"));
+        assert!(!said.contains("is up in the files"), "{said}");
+        folder.run(&format!("compare y.exr {out}.exr --tolerance 1e-4")).ok();
+    }
+    for file in ["down", "deep"] {
+        folder.run(&format!("compare {file}.exr {file}_said.exr")).ok();
+    }
+    run("down", "as_it_is", "--up-axis y");
+    folder.run("compare y.exr as_it_is.exr --tolerance 1e-3").fails(1, &["RMSE"]);
 }
 
 /// Millimetres are told by speeds that no water of that size has; with their unit the picture is that of metres.
