@@ -508,7 +508,7 @@ void main() {
         vec3 level = normalize(vec3(-v.x, max(-v.y, 0.02), -v.z));
         vec3 clear = clear_air(length(to_eye));
         vec3 air = with_band(textureLod(environment, level, 2.0).rgb, level.y);
-        // What the air itself scatters is bluer than what is left of it from the horizon.
+        // Light that the air scatters is bluer than light from the horizon.
         air *= SEA == WATER ? mix(vec3(1.0), vec3(0.90, 0.90, 1.15), clear) : vec3(1.0);
         c = mix(air, c, clear);
     }

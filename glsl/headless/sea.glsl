@@ -118,8 +118,8 @@ vec3 wobble(Surf s, float depth) {
     return vec3(aside.x, 0.0, aside.y);
 }
 
-// What is left of the contrast after a distance through hazy air. By the sea it is clean and blue: what scatters is mostly
-// the air itself, as the wavelength to the power -4, and some droplets.
+// Transmittance of hazy air over a distance. Over the sea mostly molecules scatter, by the wavelength to the power of -4,
+// so blue light is lost first.
 vec3 clear_air(float distant) {
     vec3 rate = SEA == WATER ? vec3(0.60, 0.90, 2.1) : vec3(1.0);
     return exp(-distant * scene.air.x * rate);

@@ -57,8 +57,8 @@ vec3 into_water(Sheet sheet) {
 
 // Offset from a pixel to where the refracted ray meets the scene under the sheet: false position between a length at
 // which the ray is before the scene and one at which it is behind it. (Fixed-point iteration jumps between floor and
-// wall where they meet.) The first length is that to the depth straight behind; lengths at most double. Objects before
-// the water are skipped.
+// wall where they meet.) It starts at the depth straight behind the pixel, and a step at most doubles the length. It
+// skips objects in front of the water.
 const int BED_LOOKS = 5;
 // Part of an interval that each step leaves at either end.
 const float BED_ENDS = 0.1;

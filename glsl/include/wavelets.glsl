@@ -21,18 +21,25 @@ vec3 wavelet_slope(vec3 world, float pixel) {
     return frame.texel.z * sum;
 }
 
+// How much of the waves a surface of this normal has. Eye space.
+float wavelet_share(vec3 n) {
+    return smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(n, frame.up.xyz * mat3(frame.world)));
+}
+
+// A normal turned by that share of the waves at a point. Eye space; pixel: as above.
+vec3 turned_by_wavelets(vec3 n, vec3 at, float share, float pixel) {
+    vec3 slope = wavelet_slope((frame.world * vec4(at, 1.0)).xyz, pixel) * mat3(frame.world);
+    return normalize(n - share * (slope - dot(slope, n) * n));
+}
+
 // The normal of a surface with the waves on it. All in eye space.
 vec3 with_wavelets(vec3 n, vec3 at, float thick) {
-    vec3 up = frame.up.xyz * mat3(frame.world);
-    float level = smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(n, up));
-    level *= smoothstep(frame.particle.y, 2.0 * frame.particle.y, thick);
-    // Loops instead of branches, for CPU drivers (docs/performance.md).
-    bool any = frame.texel.z > 0.0 && level > 0.0;
+    float share = wavelet_share(n) * smoothstep(frame.particle.y, 2.0 * frame.particle.y, thick);
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
+    bool any = frame.texel.z > 0.0 && share > 0.0;
     while (any) {
         float facing = max(-dot(n, normalize(at)), 0.05);
-        float pixel = frame.texel.y * -at.z / facing;
-        vec3 slope = wavelet_slope((frame.world * vec4(at, 1.0)).xyz, pixel) * mat3(frame.world);
-        n = normalize(n - level * (slope - dot(slope, n) * n));
+        n = turned_by_wavelets(n, at, share, frame.texel.y * -at.z / facing);
         any = false;
     }
     return n;

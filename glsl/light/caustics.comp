@@ -38,12 +38,11 @@ vec3 with_waves(vec3 n, vec2 place, float depth) {
     mat3 rows = transpose(mat3(frame.to_light));
     mat3 axes = mat3(normalize(rows[0]), normalize(rows[1]), normalize(rows[2]));
     vec3 eye = axes * n;
-    float level = smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(eye, frame.up.xyz * mat3(frame.world)));
+    float share = wavelet_share(eye);
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
-    bool any = frame.texel.z > 0.0 && level > 0.0;
+    bool any = frame.texel.z > 0.0 && share > 0.0;
     while (any) {
-        vec3 slope = wavelet_slope((frame.world * vec4(eye_at(place, depth), 1.0)).xyz, 0.0) * mat3(frame.world);
-        n = normalize(eye - level * (slope - dot(slope, eye) * eye)) * axes;
+        n = turned_by_wavelets(eye, eye_at(place, depth), share, 0.0) * axes;
         any = false;
     }
     return n;

@@ -12,8 +12,8 @@ use crate::error::Error;
 /// move it.
 ///
 /// 15 sines in three octaves of length, each octave with the same slope, in all directions. An octave fades out in the
-/// picture where its waves are smaller than a few pixels, and all do on water that slopes or is thinner than two
-/// particle spacings.
+/// picture where its waves are smaller than a few pixels. All fade out between slopes of 45 and 78 degrees, and between
+/// thicknesses of two particle spacings and one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Wavelets {

@@ -253,13 +253,13 @@ pub fn look(
     let set = args.set.unwrap_or_default();
     let view = camera.at_frame(probes.first).camera(args.draw.size)?.view_matrix();
     let eye = view.inverse().transform_point3(Vec3::ZERO);
-    // A sun that the walls of a basin don't keep out, and that shines through what flies.
     if set == SetArg::None && args.scene.is_some() {
         return Err(Failure::usage(
             "--set none draws no scene, but --scene names one; leave one of them out",
         ));
     }
     let surrounded = args.scene.is_none() || args.set.is_some();
+    // A sun that the walls of a basin don't keep out, and that shines through what flies.
     let own_sky = surrounded && args.draw.environment == "sky";
     let sun = own_sky.then(|| stage::side_light(eye - bounds.center()));
     let mut scene = match &args.scene {
