@@ -93,7 +93,7 @@ const CLIFF: f32 = 11.0;
 const REACH: f32 = 3.6;
 const PARAPET: f32 = 0.46;
 
-/// A paved terrace over the sea, behind a low white wall with a coping; headlands in blue air.
+/// A paved terrace over the sea, with a low parapet and its coping; headlands in blue air.
 fn terrace(scene: &mut Scene, place: &Place) {
     let mut b = Builder::new(place);
     let m = b.wide / METRES;
