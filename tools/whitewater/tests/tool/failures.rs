@@ -2,6 +2,8 @@
 
 use std::os::unix::fs::{PermissionsExt, symlink};
 
+use fs4::{FileExt, TryLockError};
+
 use super::support::{Folder, SIZE, SMALL, block, names};
 
 #[test]
@@ -249,6 +251,20 @@ fn an_interrupt_leaves_nothing_half() {
     assert!(trace["traceEvents"].as_array().is_some_and(|events| events.len() > 20));
 }
 
+/// A signal to stop takes effect when a thread leaves the kernel: one that waits for the disk may still rename a file.
+#[cfg(target_os = "linux")]
+fn wait_until_stopped(child: &std::process::Child) {
+    let tasks = format!("/proc/{}/task", child.id());
+    let stopped = |task: std::fs::DirEntry| {
+        // The state follows the name, which may itself hold a parenthesis.
+        let stat = std::fs::read_to_string(task.path().join("stat")).unwrap_or_default();
+        stat.rsplit_once(") ").is_none_or(|(_, rest)| rest.starts_with(['T', 'X', 'Z']))
+    };
+    while !std::fs::read_dir(&tasks).into_iter().flatten().flatten().all(stopped) {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+}
+
 /// Killed without a word in the midst of writing: the next run takes the half file away, but not while
 /// the first still lives.
 #[test]
@@ -271,9 +287,14 @@ fn a_kill_leaves_a_file_to_the_next_run() {
                 continue;
             }
             signal(&child, "-STOP");
-            // It may have been the file that is made and removed at the start, to see that it can be.
-            std::thread::sleep(std::time::Duration::from_millis(20));
-            let Some(name) = hidden() else {
+            wait_until_stopped(&child);
+            // It may have been the file that is made and removed at the start, to see that it can be. Before it is
+            // locked it is a leftover to others.
+            let locked = |name: &String| {
+                let file = std::fs::File::open(folder.path(&format!("out/{name}"))).unwrap();
+                matches!(FileExt::try_lock(&file), Err(TryLockError::WouldBlock))
+            };
+            let Some(name) = hidden().filter(locked) else {
                 signal(&child, "-CONT");
                 continue;
             };
