@@ -313,7 +313,12 @@ impl Renderer {
         let whitewater = self.foam.as_ref().map(|foam| (foam, frame.whitewater.as_ref()));
         let blobs = frame.bubbles.or(handed_over.map(|(blobs, _)| blobs));
         let bubbles = self.bubbles.as_ref().map(|bubbles| (bubbles, blobs.as_ref()));
-        let beside = Beside { light: self.light.as_ref(), whitewater, bubbles };
+        let beside = Beside {
+            light: self.light.as_ref(),
+            whitewater,
+            bubbles,
+            strand_ratio: frame.settings.spray.strand_ratio,
+        };
         self.water.record(&mut r, &frame.particles, &frame.settings.water, &beside)?;
         let given = Given::new(frame.shore.as_ref(), gpu);
         if let Some(shore) = &self.shore {

@@ -11,6 +11,11 @@ uvec3 pack_axes(mat3 axes) {
     return uvec3(packSnorm2x16(diagonal.xy), packSnorm2x16(vec2(diagonal.z, off.x)), packSnorm2x16(off.yz));
 }
 
+// Sum of the squares of the half-axes.
+float axes_norm2(mat3 axes) {
+    return dot(axes[0], axes[0]) + dot(axes[1], axes[1]) + dot(axes[2], axes[2]);
+}
+
 mat3 unpack_axes(uvec3 words) {
     vec2 a = unpackSnorm2x16(words.x) * MOST_AXIS;
     vec2 b = unpackSnorm2x16(words.y) * MOST_AXIS;

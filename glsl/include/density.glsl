@@ -15,3 +15,12 @@ float bulk(float density) {
 float share_of_spray(float density) {
     return 1.0 - risen(frame.density.z, density);
 }
+
+// The least of torn_of.
+const float LEAST_TORN = 0.3;
+
+// Fraction of the droplets that a particle has, by its share of spray: water being torn is many fine ones, a particle that
+// is entirely spray is a few large drops. Its fraction of mist is the cube.
+float torn_of(float share) {
+    return frame.density.w > 1.0 ? clamp(4.0 * (1.0 - share), LEAST_TORN, 1.0) : 1.0;
+}

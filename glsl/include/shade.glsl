@@ -784,6 +784,32 @@ vec3 with_soap(vec3 c, vec4 over, Face face) {
     return c * (1.0 - over.a) + over.a * face.light + (1.0 - face.mirror) * over.rgb;
 }
 
+// The relief of spray: nearest distance in picture heights, number of distances, optical depth that counts as thin, and
+// how much of it the sky's light loses.
+const float RELIEF_NEAR = 1.0 / 360.0;
+const int RELIEF_OCTAVES = 5;
+const float RELIEF_THIN = 0.3;
+const float RELIEF_OF_SKY = 0.19;
+
+// Radiance of spray over its albedo. Its relief: sunlight is lost to what is denser towards the sun, and won where it is
+// thinner there, at distances of five octaves; the sky's light with it.
+vec3 light_of_spray(vec2 pixel, vec2 droplets) {
+    float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
+    float relief = frame.spray_mist.w;
+    for (bool go = relief > 0.0 && droplets.x > 0.0; go; go = false) {
+        vec2 to = frame.sun_direction.xy / frame.slope.xy;
+        to *= RELIEF_NEAR * frame.extent.y * inversesqrt(max(dot(to, to), 1.0e-12));
+        float denser = 0.0;
+        for (int i = 0; i < RELIEF_OCTAVES; ++i) {
+            ivec2 there = clamp(ivec2(pixel + to * float(1 << i)), ivec2(0), ivec2(frame.extent.xy) - 1);
+            denser += log(RELIEF_THIN + texelFetch(spray, there, 0).x);
+        }
+        denser = denser / float(RELIEF_OCTAVES) - log(RELIEF_THIN + droplets.x);
+        lit = clamp(lit * exp(-relief * denser), 0.0, 1.0);
+    }
+    return under(vec3(lit)) * (1.0 - RELIEF_OF_SKY * relief * (1.0 - lit));
+}
+
 // All layers at a pixel that shows water, foam or spray. Spray lies over the others, except over bubble foam
 // before the water.
 vec3 shade(vec2 pixel, float front) {
@@ -813,8 +839,8 @@ vec3 shade(vec2 pixel, float front) {
     if (SPRAY == 1u) {
         vec2 droplets = texelFetch(spray, ivec2(pixel), 0).xy;
         float kept = frame.target.z >= WHOLE ? exp(-droplets.x) : 1.0;
-        float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
-        c = c * mix(kept, 1.0, frame.spray_color.w) + under(vec3(lit)) * frame.spray_color.rgb * (1.0 - kept);
+        vec3 light = light_of_spray(pixel, droplets) * frame.spray_color.rgb;
+        c = c * mix(kept, 1.0, frame.spray_color.w) + light * (1.0 - kept);
     }
     return SOAP == 1u && !sunk ? c * (1.0 - over.a) + over.rgb : c;
 }

@@ -1,3 +1,4 @@
-// A host particle after pass `shape`: three words of world position, three of shape (axes.glsl). Needs nothing.
+// A host particle after pass `shape`: three words of world position, three each of the shapes (axes.glsl) of its water
+// and of its spray. Needs nothing.
 
-const uint SHAPED_WORDS = 6u;
+const uint SHAPED_WORDS = 9u;

@@ -52,7 +52,10 @@ void main() {
         float share = amounts[push.foam_word + index * push.foam_stride];
         foam = share > 0.0 ? min(share, 1.0) : 0.0;
     }
-    vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + frame.spray_mist.y * spray_share * (1.0 - bulk_share * foam));
+    // Torn water casts a shadow; a few drops hardly do.
+    float torn = torn_of(spray_share);
+    float spray = frame.spray_mist.y * spray_share * torn * torn;
+    vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + spray * (1.0 - bulk_share * foam));
     // Random numbers come from the position, so they need no ids and do not depend on the order.
     uvec3 bits = floatBitsToUint(position);
     chance = chance_of(bits.x, chance_of(bits.y, bits.z));

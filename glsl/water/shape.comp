@@ -2,7 +2,8 @@
 // Pass `shape`, third part: fits the ellipsoid of each particle to the weighted covariance of its neighbours (Yu and
 // Turk 2013, Sec. 4, Eqs. 6 and 9 to 16). Differs: it keeps its sphere's volume (the paper's k_s is a kernel
 // constant), and it changes from sphere to ellipsoid with the sum of the neighbours' weights, not at a number of
-// neighbours, so that it does not jump in time.
+// neighbours, so that it does not jump in time. Spray has an ellipsoid of its own, from one neighbour on: a line of torn
+// water is a strand of droplets.
 // Sums use fixed-point steps: the order of the neighbours does not matter.
 // Reads: the grid, counts. Writes: shaped, shifts.
 
@@ -17,6 +18,7 @@ layout(push_constant, std430) uniform Push {
     float ratio;   // largest ratio of the longest to the shortest half-axis
     float fewest;  // sum of the neighbours' weights from which on it is an ellipsoid
     float lone;    // size of a particle without neighbours
+    float strand;  // as `ratio`, of its spray
 } push;
 
 #include "grid.glsl"
@@ -33,8 +35,26 @@ layout(set = 0, binding = 5, std430) writeonly buffer Shifts { vec4 shifts[]; };
 // Fixed-point steps; addends are at most 1, so the sums of 27 full buckets fit.
 const float STEPS = 65536.0;
 
+// Sums of the neighbours' weights between which spray becomes an ellipsoid. One neighbour in mid-reach has 7/8.
+const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
+
 // Variance that Jacobi rotations leave of 0, in squares of the reach.
 const float NO_VARIANCE = 1.0e-6;
+
+// Half-axes of a volume of 1 that have the proportions of variances, as far as a ratio admits.
+vec3 axes_of(vec3 variances, float ratio) {
+    float most = max(variances.x, max(variances.y, variances.z));
+    if (most <= NO_VARIANCE) {
+        return vec3(1.0);
+    }
+    vec3 axes = max(variances / most, vec3(1.0 / ratio));
+    return axes * pow(axes.x * axes.y * axes.z, -1.0 / 3.0);
+}
+
+// V diag(axes) V^T, packed.
+uvec3 words_of(vec3 axes, mat3 vectors) {
+    return pack_axes(mat3(vectors[0] * axes.x, vectors[1] * axes.y, vectors[2] * axes.z) * transpose(vectors));
+}
 
 void visit(uint i) {
     vec3 position = places[i].position;
@@ -66,23 +86,18 @@ void visit(uint i) {
     vec3 off = vec3(mixed) * all - middle.yxx * middle.zzy;
     mat3 vectors;
     vec3 variances = eigen(diagonal, off, vectors);
-    float most = max(variances.x, max(variances.y, variances.z));
-    vec3 axes = vec3(1.0);
-    if (most > NO_VARIANCE) {
-        axes = max(variances / most, vec3(1.0 / push.ratio));
-        axes *= pow(axes.x * axes.y * axes.z, -1.0 / 3.0);
-    }
     float beside = float(weights) / STEPS - 1.0;
     // The edges are never equal: GLSL leaves that undefined.
     float share = smoothstep(0.5 * push.fewest, max(push.fewest, 1.0e-6), beside);
-    axes = pow(axes, vec3(share)) * mix(push.lone, 1.0, share);
-    // V diag(axes) V^T.
-    mat3 scaled = mat3(vectors[0] * axes.x, vectors[1] * axes.y, vectors[2] * axes.z);
-    uvec3 words = pack_axes(scaled * transpose(vectors));
+    vec3 axes = pow(axes_of(variances, push.ratio), vec3(share)) * mix(push.lone, 1.0, share);
+    uvec3 water = words_of(axes, vectors);
+    float torn = smoothstep(BESIDE_SPRAY.x, BESIDE_SPRAY.y, beside);
+    uvec3 spray = words_of(pow(axes_of(variances, push.strand), vec3(torn)), vectors);
     uint at = SHAPED_WORDS * places[i].id;
     for (uint k = 0u; k < 3u; ++k) {
         shaped[at + k] = floatBitsToUint(position[k]);
-        shaped[at + 3u + k] = words[k];
+        shaped[at + 3u + k] = water[k];
+        shaped[at + 6u + k] = spray[k];
     }
     shifts[i] = vec4(middle, share);
 }

@@ -23,6 +23,7 @@ void visit(uint i) {
     for (uint k = 0u; k < 3u; ++k) {
         shaped[at + k] = floatBitsToUint(position[k]);
         shaped[at + 3u + k] = axes[k];
+        shaped[at + 6u + k] = axes[k];
     }
 }
 

@@ -8,8 +8,10 @@
 #include "random.glsl"
 #include "whole_steps.glsl"
 #include "convolution.glsl"
+#include "density.glsl"
 #include "intensity.glsl"
 #include "sunlight.glsl"
+#include "axes.glsl"
 #include "spray.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer Sprites { SpraySprite sprites[]; };
@@ -28,8 +30,13 @@ layout(location = 8) flat out vec2 turn;   // cosine and sine from the noise's a
 const uint PLACE = 0x5370u;
 // Salt of the numbers that a particle has once.
 const uint SPINDLE = 4096u;
-// Fraction of the droplets of a particle that is entirely spray. Its fraction of mist is the cube.
-const float LEAST_TORN = 0.3;
+// Sums of squared half-axes of a ball, and of an ellipsoid whose droplets fill it and no spindle.
+const float BALL = 3.0;
+const float FLAT = 3.6;
+// Longest half-axis of droplets that fill an ellipsoid, about, over the ball's.
+const float STRAND = 0.7;
+// Difference of the squared half-axes of an ellipse, over their sum, below which it is a circle.
+const float ROUND = 1.0e-3;
 // Maximum number of octaves of the mist's noise.
 const float OCTAVES = 5.0;
 // Distance at which water is looked up, in drawn radii.
@@ -40,6 +47,24 @@ vec3 direction_of(uint id, uint number) {
     float turn = 6.2831853 * uniform_of(PLACE, id, number + 1u);
     float ring = sqrt(max(1.0 - level * level, 0.0));
     return vec3(ring * cos(turn), ring * sin(turn), level);
+}
+
+// Half-axes of mist as seen, and the direction of the longer one: the variances of its shape and of its streak add up.
+// `onto`: axes of the plane in which it is seen. `longer` is left where it is as wide as long.
+vec2 mist_ellipse(mat3 shape, vec3 streak, mat2x3 onto, inout vec3 longer) {
+    mat3 turn = mat3(frame.view);
+    mat3x2 across = frame.spray_cloud.y * transpose(onto) * turn * shape;
+    vec2 along = streak * onto;
+    float xx = across[0].x * across[0].x + across[1].x * across[1].x + across[2].x * across[2].x + along.x * along.x;
+    float yy = across[0].y * across[0].y + across[1].y * across[1].y + across[2].y * across[2].y + along.y * along.y;
+    float xy = across[0].x * across[0].y + across[1].x * across[1].y + across[2].x * across[2].y + along.x * along.y;
+    float middle = 0.5 * (xx + yy);
+    float apart = length(vec2(0.5 * (xx - yy), xy));
+    if (apart > ROUND * middle) {
+        float angle = 0.5 * atan(2.0 * xy, xx - yy);
+        longer = onto * vec2(cos(angle), sin(angle));
+    }
+    return sqrt(vec2(middle + apart, max(middle - apart, 0.0)));
 }
 
 void main() {
@@ -55,10 +80,14 @@ void main() {
     off *= frame.spray.z * pow(uniform_of(PLACE, id, number + 2u), 1.0 / 3.0);
     vec3 axis = direction_of(id, SPINDLE);
     float wide = (1.0 + 5.0 * uniform_of(PLACE, id, SPINDLE + 2u)) / 6.0;
-    off = several ? wide * (0.4 * off + 0.6 * dot(off, axis) * axis) : off;
-    // A particle that is entirely spray is a few large drops with little mist; water being torn is many fine ones.
+    vec3 spindle = wide * (0.4 * off + 0.6 * dot(off, axis) * axis);
+    // Beside others they lie where those lie: in strands and sheets.
+    mat3 shape = unpack_axes(sprite.shape.xyz);
+    float squares = axes_norm2(shape);
+    vec3 strand = shape * off * (STRAND * inversesqrt(squares));
+    off = several ? mix(spindle, strand, smoothstep(BALL, FLAT, squares)) : off;
     float share = sprite.centre.w;
-    float torn = several ? clamp(4.0 * (1.0 - share), LEAST_TORN, 1.0) : 1.0;
+    float torn = torn_of(share);
     float part = 0.2 + 0.8 * uniform_of(PLACE, id, SPINDLE + 3u);
     float kept = several ? 0.5 + torn * part * float(droplets) : 1.0;
     // Many droplets are small, few are large; the first one is mist.
@@ -85,20 +114,27 @@ void main() {
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
-    vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
+    vec2 axes = vec2(still + 0.5 * speed * frame.spray.w, still);
+    vec3 upright = cross(level, normal);
+    if (mist) {
+        axes = mist_ellipse(shape, 0.5 * frame.spray.w * motion, mat2x3(level, upright), e1);
+        e2 = cross(e1, normal);
+    }
+    axes = max(axes, vec2(0.7 * pixel));
     float thick = mist ? frame.spray_cloud.x * torn * torn * torn : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
     // One value for all colours: around it there is more foam than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
-    amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
+    float direct = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
+    amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z);
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
     // Cells are one drawn radius wide, and lengthened by the streak. The smallest octave is a pixel wide.
-    vec2 cell = frame.particle.x + vec2(speed * frame.spray.w, 0.0);
+    vec2 cell = frame.particle.x + abs(vec2(dot(motion, e1), dot(motion, e2))) * frame.spray.w;
     float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(cell.y / pixel), 0.0, OCTAVES) : 0.0;
     grain = vec3(axes / cell, mist ? octaves : 0.0);
-    // The noise is lengthened along the motion, and does not turn with it: that of a particle that hardly moves has any
+    // The noise is lengthened along the streak, and does not turn with it: that of a particle that hardly moves has any
     // direction, another one in each frame.
-    turn = vec2(dot(e1, level), dot(e1, cross(level, normal)));
+    turn = vec2(dot(e1, level), dot(e1, upright));
     along = e1 / axes.x;
     across = e2 / axes.y;
 

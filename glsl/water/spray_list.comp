@@ -1,11 +1,12 @@
 #version 460
 // Pass `spray`, first part: lists the particles that are fully or partly spray, in eye space (thesis Sec. 4.9.5).
-// Reads: Counts (particles), positions, densities, velocities, ids, members. Writes: Counts (droplets), sprites.
+// Reads: Counts (particles), positions, densities, velocities, ids, shapes, members. Writes: Counts (droplets), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
 #include "counts.glsl"
 #include "density.glsl"
+#include "axes.glsl"
 #include "spray.glsl"
 
 layout(local_size_x = 64) in;
@@ -14,8 +15,9 @@ layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions
 layout(set = 0, binding = 2, std430) readonly buffer Densities { float densities[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Velocities { float velocities[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Ids { uint ids[]; };
-layout(set = 0, binding = 5, std430) buffer CountBuffer { Counts counts; };
-layout(set = 0, binding = 6, std430) writeonly buffer Sprites { SpraySprite sprites[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Shapes { uint shapes[]; };
+layout(set = 0, binding = 6, std430) buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 7, std430) writeonly buffer Sprites { SpraySprite sprites[]; };
 
 layout(push_constant, std430) uniform Push {
     uint position_word;   // of the chunk's first particle
@@ -26,11 +28,13 @@ layout(push_constant, std430) uniform Push {
     uint velocity_stride; // 0: at rest
     uint id_word;
     uint id_stride;       // 0: no ids, the index in the frame instead
+    uint shape_word;
+    uint shape_stride;    // 0: balls
     uint chunk_first;
     uint packets;         // 1: particles in no packet do not count
 } push;
 
-#define MEMBERS 7
+#define MEMBERS 8
 #include "members.glsl"
 
 void visit(uint index) {
@@ -55,7 +59,13 @@ void visit(uint index) {
     velocity = mat3(frame.view) * velocity;
     // Droplets surround the centre and reach half of their streak. Nothing nearer than that is drawn, because it
     // would fill the picture.
-    float reach = frame.spray.z + max(LARGEST_DROPLET * frame.spray.y, frame.spray_cloud.y)
+    uvec3 shape = pack_axes(mat3(1.0));
+    if (push.shape_stride > 0u) {
+        at = push.shape_word + index * push.shape_stride;
+        shape = uvec3(shapes[at], shapes[at + 1u], shapes[at + 2u]);
+    }
+    float mist = frame.spray_cloud.y * sqrt(axes_norm2(unpack_axes(shape)));
+    float reach = frame.spray.z + max(LARGEST_DROPLET * frame.spray.y, mist)
                 + length(velocity) * (0.5 * frame.spray.w + frame.spray_cloud.z);
     if (-centre.z <= max(frame.depth.z, frame.spray.z) || !in_frustum(centre, reach)) {
         return;
@@ -63,7 +73,7 @@ void visit(uint index) {
     uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;
     uint droplets = uint(frame.density.w);
     uint slot = atomicAdd(counts.droplets, droplets) / droplets;
-    sprites[slot] = SpraySprite(vec4(centre, share), vec4(velocity, uintBitsToFloat(id)));
+    sprites[slot] = SpraySprite(vec4(centre, share), vec4(velocity, uintBitsToFloat(id)), uvec4(shape, 0u));
 }
 
 void main() {

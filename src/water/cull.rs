@@ -124,7 +124,8 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
         (false, true) => super::spray::SPRITE as u32,
         (false, false) => 16,
     };
-    let own = own.max(entry_bytes(config));
+    let shaped = if super::shape::is_on(config) { super::shape::SHAPED } else { 0 };
+    let own = own.max(entry_bytes(config)).max(shaped);
     let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
     let unit = chunk_unit(config);
     // More than fit is not asked for, nor rounded up beyond what is a number.

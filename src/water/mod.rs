@@ -131,6 +131,8 @@ pub(crate) struct Beside<'a> {
     /// Foam and blobs have to be drawn before tile classification, which also lists their tiles.
     pub whitewater: Option<(&'a Whitewater, Option<&'a WhitewaterParticles>)>,
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
+    /// [`SpraySettings::strand_ratio`].
+    pub strand_ratio: f32,
 }
 
 /// The images that `composite` reads, with the tiles that it draws.
@@ -251,7 +253,7 @@ impl Water {
         settings: &WaterSettings,
         beside: &Beside<'_>,
     ) -> Result<(), Error> {
-        let Beside { light, whitewater, bubbles } = *beside;
+        let Beside { light, whitewater, bubbles, strand_ratio } = *beside;
         let mut whitewater = whitewater.map(|(foam, particles)| (foam, particles.copied()));
         if let Some((bubbles, blobs)) = bubbles {
             if let Some((_, particles)) = &mut whitewater {
@@ -262,8 +264,8 @@ impl Water {
             }
             bubbles.record_lists(r, blobs)?;
         }
-        let (ellipsoids, spacing) = (&settings.ellipsoids, settings.spacing);
-        let shaped = self.shape.as_ref().map(|own| own.record(r, particles, ellipsoids, spacing));
+        let (ratios, spacing) = ((&settings.ellipsoids, strand_ratio), settings.spacing);
+        let shaped = self.shape.as_ref().map(|own| own.record(r, particles, ratios, spacing));
         let shaped = shaped.transpose()?;
         let drawn = shaped.as_ref().unwrap_or(particles);
         self.cull.record(r, drawn, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
@@ -277,7 +279,8 @@ impl Water {
             foam.record(r, particles, &self.cull.list)?;
         }
         if let Some(spray) = &self.spray {
-            spray.record(r, particles, &self.cull.list, &self.depth.image)?;
+            let shapes = shaped.as_ref().map(shape::Shape::of_spray);
+            spray.record(r, particles, &shapes, &self.cull.list, &self.depth.image)?;
         }
         if let Some((foam, mut particles)) = whitewater {
             // The light's maps have taken their buffers over.

@@ -774,14 +774,27 @@ pub struct SpraySettings {
     /// logarithm, of each octave of noise from a drawn radius down to the pixel. They move with the particle. The
     /// mean optical depth stays, within 4 %.
     pub mist_contrast: f32,
+    /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
+    /// fill, [1, 8], default 1: a ball. It is fitted to the particle's neighbours as its water is: torn water is
+    /// strands and sheets of droplets. No effect without [`Kernels::Ellipsoids`].
+    pub strand_ratio: f32,
     /// Exposure time of a droplet's streak, seconds, [0, 1], default 1/250. A longer streak is more
     /// transparent. (The water itself is drawn at one instant.)
     pub exposure: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
-    /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. No effect
-    /// without a map of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
+    /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. Where a particle
+    /// has several droplets, it goes by the square of their number: a particle that is only spray has an 11th. No effect without a map
+    /// of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
+    /// Fraction of the sunlight in spray that has been scattered by other droplets before, [0, 1], default 0. Of
+    /// it the fourth root of what the shadow leaves arrives: light that is scattered forwards many times goes
+    /// farther (Wrenninge, Kulla, Lundqvist 2013).
+    pub scattering: f32,
+    /// Strength of the shadows that spray casts on itself within the picture, [0, 4], default 0. They are of what is
+    /// denser towards the sun, up to a 22nd of the picture's height away: finer than a light map shows. They dim the
+    /// sky's light too.
+    pub relief: f32,
     /// Whether its light is added to the light from behind (the thesis) instead of composited over it (default
     /// false).
     pub additive: bool,
@@ -801,9 +814,12 @@ impl Default for SpraySettings {
             mist: 0.05,
             mist_size: 0.5,
             mist_contrast: 0.0,
+            strand_ratio: 1.0,
             exposure: 1.0 / 250.0,
             color: [0.95; 3],
             shade: 0.5,
+            scattering: 0.0,
+            relief: 0.0,
             additive: false,
         }
     }
@@ -823,9 +839,12 @@ impl SpraySettings {
         mist: 0.0,
         mist_size: 0.5,
         mist_contrast: 0.0,
+        strand_ratio: 1.0,
         exposure: 1.0 / 60.0,
         color: [1.0; 3],
         shade: 0.5,
+        scattering: 0.0,
+        relief: 0.0,
         additive: true,
     };
 
@@ -843,7 +862,10 @@ impl SpraySettings {
         range("Settings.spray.mist", self.mist, 0.0, 1.0 - f32::EPSILON)?;
         range("Settings.spray.mist_size", self.mist_size, 1.0e-6, 8.0)?;
         range("Settings.spray.mist_contrast", self.mist_contrast, 0.0, 2.0)?;
+        range("Settings.spray.strand_ratio", self.strand_ratio, 1.0, 8.0)?;
         range("Settings.spray.shade", self.shade, 0.0, 64.0)?;
+        range("Settings.spray.scattering", self.scattering, 0.0, 1.0)?;
+        range("Settings.spray.relief", self.relief, 0.0, 4.0)?;
         range("Settings.spray.exposure", self.exposure, 0.0, 1.0)?;
         for color in self.color {
             range("Settings.spray.color", color, 0.0, 1.0)?;

@@ -32,8 +32,10 @@ use crate::gpu::shader;
 
 /// Maximum number of groups per dispatch; their invocations loop over the remaining particles.
 const MOST_GROUPS: u32 = 4096;
-/// Bytes of a particle with its shape (glsl/include/shaped.glsl).
-const SHAPED: u32 = 24;
+/// Bytes of a particle with its shapes (glsl/include/shaped.glsl).
+pub const SHAPED: u32 = 36;
+/// Where in it the shape of its spray begins.
+const SPRAY_SHAPE: u64 = 24;
 /// State of the result until the next frame.
 const AFTER: Access = COMPUTE_READ.and(COPY_READ);
 
@@ -72,11 +74,12 @@ struct Push {
     ratio: f32,
     fewest: f32,
     lone: f32,
+    strand: f32,
 }
 shader::assert_layout!(
     shader::WATER_SHAPE_COMP,
     "Push",
-    Push { cells, buckets, ratio, fewest, lone }
+    Push { cells, buckets, ratio, fewest, lone, strand }
 );
 
 #[repr(C)]
@@ -175,7 +178,7 @@ impl Shape {
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
-        settings: &Ellipsoids,
+        (settings, strand): (&Ellipsoids, f32),
         spacing: f32,
     ) -> Result<Particles, Error> {
         let scope = r.begin(c"shape");
@@ -226,7 +229,7 @@ impl Shape {
         ];
         r.descriptors.bind(gpu, cmd, &self.shape, &bound)?;
         let Ellipsoids { reach: _, ratio, fewest, lone, centred } = *settings;
-        self.shape.push(gpu, cmd, &Push { cells, buckets: self.many, ratio, fewest, lone });
+        self.shape.push(gpu, cmd, &Push { cells, buckets: self.many, ratio, fewest, lone, strand });
         self.dispatch(r, &self.shape, most);
         if centred > 0.0 {
             gpu.barriers(
@@ -246,6 +249,11 @@ impl Shape {
         let size = u64::from(SHAPED) * u64::from(most);
         let positions = Stream { buffer: self.shaped.handle, size, offset: 0, stride: SHAPED };
         Ok(Particles { positions, before: COMPUTE_READ, ..*particles })
+    }
+
+    /// The shapes of the spray of `shaped`, which [`record`](Self::record) returned.
+    pub fn of_spray(shaped: &Particles) -> Stream {
+        Stream { offset: shaped.positions.offset + SPRAY_SHAPE, ..shaped.positions }
     }
 
     /// Dispatches over the host's positions.

@@ -17,7 +17,7 @@ use bytemuck::NoUninit;
 use super::Recording;
 use super::cull::{self, SphereList};
 use super::sprites::{Over, Sprites};
-use crate::contract::{Config, Particles};
+use crate::contract::{Config, Particles, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
@@ -32,7 +32,7 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 
 /// Bytes of a sprite.
-pub const SPRITE: u64 = 32;
+pub const SPRITE: u64 = 48;
 
 /// Read by compute (`reduce`) and by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
@@ -50,6 +50,8 @@ struct Push {
     velocity_stride: u32,
     id_word: u32,
     id_stride: u32,
+    shape_word: u32,
+    shape_stride: u32,
     chunk_first: u32,
     packets: u32,
 }
@@ -65,6 +67,8 @@ shader::assert_layout!(
         velocity_stride,
         id_word,
         id_stride,
+        shape_word,
+        shape_stride,
         chunk_first,
         packets,
     }
@@ -123,12 +127,13 @@ impl Spray {
         &self.target.image
     }
 
-    /// `list`: the one of `cull`, for its counts. `depth`: of the water, in the state in which pass `depth`
+    /// `shapes`: of the particles' spray, from pass `shape`. `list`: the one of `cull`, for its counts. `depth`: of the water, in the state in which pass `depth`
     /// leaves it, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
+        shapes: &Option<Stream>,
         list: &SphereList,
         depth: &Image,
     ) -> Result<(), Error> {
@@ -136,10 +141,11 @@ impl Spray {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let any = particles.densities.is_some();
         if any {
-            let streams = [&particles.densities, &particles.velocities, &particles.ids];
+            let Particles { densities, velocities, ids, .. } = particles;
+            let streams = [densities, velocities, ids, shapes];
             let over = Over { particles, streams, binding: 1 };
             self.sprites.record(r, list, &over, &[], |chunk_first, positions, streams| {
-                let [densities, velocities, ids] = streams;
+                let [densities, velocities, ids, shapes] = streams;
                 Push {
                     position_word: positions.word,
                     position_stride: positions.stride,
@@ -149,6 +155,8 @@ impl Spray {
                     velocity_stride: velocities.stride,
                     id_word: ids.word,
                     id_stride: ids.stride,
+                    shape_word: shapes.word,
+                    shape_stride: shapes.stride,
                     chunk_first,
                     packets: u32::from(particles.packets.is_some()),
                 }
