@@ -67,7 +67,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
         it.exposure = 0.001;
-        it.shade = 40.0;
+        it.shade = 2.5 + 62.5 * mist;
         it.scattering = 0.45;
         it.relief = 1.5;
     });
