@@ -126,7 +126,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers)
     Met met = march(from, along, covers ? 0 : int(EXIT));
     vec3 world = mat3(frame.world) * along;
     // A ray that leaves downwards and meets no visible scene counts as unrefracted.
-    float sky = (covers ? 0.25 : BENT) * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
+    float sky = (covers ? 0.5 : BENT) * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     float thrown = total ? 0.0 : fresnel(outer);
     // The far surface of a film is parallel to its front one, and water on the scene has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);
