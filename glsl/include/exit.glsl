@@ -88,7 +88,7 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
 }
 
 // behind: scene colour with the front surface's refraction alone. covers: the sheet is the front one of two.
-Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers) {
+Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers, float pool) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);
     Exit result;
@@ -123,10 +123,11 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers)
     along = total ? inside + 2.0 * inner * n : along;
     along = normalize(along);
 
-    Met met = march(from, along, covers ? 0 : int(EXIT));
+    Met met = march(from, along, pool < 1.0 ? int(EXIT) : 0);
+    met.share *= 1.0 - pool;
     vec3 world = mat3(frame.world) * along;
     // A ray that leaves downwards and meets no visible scene counts as unrefracted.
-    float sky = (covers ? 0.5 : BENT) * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
+    float sky = BENT * (1.0 - 0.5 * pool) * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     float thrown = total ? 0.0 : fresnel(outer);
     // The far surface of a film is parallel to its front one, and water on the scene has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);

@@ -732,7 +732,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool open = EXIT > 0u && sheet.thick > 0.0 && surface.z < 0.5 * EMPTY && sheet.wet < 1.0 && !by_source();
     while (open) {
-        way = exit_of(sheet, surface, pixel, c, covers);
+        way = exit_of(sheet, surface, pixel, c, covers, covers ? back.wet : 0.0);
         c = way.scene;
         sheet.path = way.path;
         open = false;
