@@ -9,6 +9,11 @@
 // the rest of the light comes straight through. With weight 1 there are saturated blue blots on every crown
 // and drop.
 const float BENT = 0.5;
+// Factor of that weight before more water: a bent ray meets its surface, too, before the sky.
+const float BENT_BEFORE = 0.5;
+// Of the angle by which a sheet of growing thickness turns a ray, as a prism does, before more water. The whole angle is
+// n - 1 = 0.33 of the slope; what particles show of a sheet's slope is mostly their own unevenness.
+const float PRISM = 0.08;
 
 // Light that enters the front sheet from behind.
 struct Exit {
@@ -87,7 +92,14 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
     return at - pixel;
 }
 
-// behind: scene colour with the front surface's refraction alone. covers: the sheet is the front one of two.
+// Offset of what a sheet shows of the water at depth `beyond` behind it, in pixels.
+vec2 prism_offset(vec2 pixel, float front, float beyond) {
+    vec2 slope = sheet_slope(pixel, front) / (frame.texel.xy * front);
+    return PRISM * slope * max(beyond - front, 0.0) / (frame.texel.xy * max(beyond, front));
+}
+
+// behind: scene colour with the front surface's refraction alone. covers: the sheet is the front one of two. pool: whether
+// the other one touches the scene; the exit sees that water then, in `behind`, and not the scene as it is without water.
 Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers, float pool) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);
@@ -127,7 +139,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
     met.share *= 1.0 - pool;
     vec3 world = mat3(frame.world) * along;
     // A ray that leaves downwards and meets no visible scene counts as unrefracted.
-    float sky = BENT * (1.0 - 0.5 * pool) * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
+    float sky = BENT * mix(1.0, BENT_BEFORE, pool) * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     float thrown = total ? 0.0 : fresnel(outer);
     // The far surface of a film is parallel to its front one, and water on the scene has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);

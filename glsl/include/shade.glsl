@@ -619,7 +619,6 @@ struct Face {
 };
 
 // Colour of scene, water and foam at a pixel (its centre is at +0.5), and the water surface there.
-const float PRISM = 0.08;
 vec3 layers_at(vec2 pixel, float front, out Face face) {
     float threshold = frame.surface.w;
     vec2 slope = ray_slope(pixel, frame.slope);
@@ -719,11 +718,9 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         offset = mix(offset, bed_offset(last, pixel), last.wet);
         submerged = false;
     }
-    bool prism = EXIT > 0u && SHEETS == 2u && covers && back.path > 0.0;
+    bool prism = EXIT > 0u && SHEETS == 2u && covers && back.wet > 0.0 && !by_source();
     while (prism) {
-        vec2 rise = sheet_slope(pixel, surface.z) / (frame.texel.xy * surface.z);
-        float room = max(beyond - surface.z, 0.0);
-        offset = bent(offset + PRISM * rise * room / (frame.texel.xy * (surface.z + room)));
+        offset = bent(offset + back.wet * prism_offset(pixel, surface.z, beyond));
         prism = false;
     }
     vec3 c = refracted(pixel, offset, max(surface.z, beyond));

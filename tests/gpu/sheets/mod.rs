@@ -5,6 +5,7 @@ mod back;
 mod boundaries;
 mod picture;
 mod thickness;
+mod through;
 mod unchanged;
 
 use ash::vk;
