@@ -21,13 +21,20 @@ const float BUBBLE_MEAN = 0.232;
 const float DRAWN_CELL = 2.6;
 const float DRAWN = 0.3;
 const float RAGGED = 0.3;
-// The amount that closes a point: its median, and the scale of the logistic distribution nearest to the
-// actual one. For coverages of 0.1 to 0.9 the error is at most 0.065.
-const vec2 CLOSES = vec2(0.21, 0.115);
+// Median of the amount that closes a point.
+const float CLOSES = 0.22;
+// The amount of foam that covers half, and the scale of the logistic distribution nearest to the actual one. For
+// coverages of 0.1 to 0.9 the error is at most 0.02.
+const vec2 COVERS = vec2(0.33, 0.127);
 // Half the width over which a thread ends: at least, and per cell of a pixel.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
 // The same for the other half of a thread's opacity: single bubbles at its edge.
 const float EDGE_ENDS = 0.16;
+
+// Of the opacity of foam, what a bubble's centre lacks whose foam has just closed, and how much more foam closes it
+// wholly: so closed foam shows its bubbles.
+const float SHEER = 0.45;
+const float CLOSED = 0.45;
 
 // Period of the cells, centred on the world's origin, so that single precision resolves their fractions.
 const float LACE_WRAP = 65536.0;
@@ -87,19 +94,20 @@ vec3 drift_at(vec2 pixel) {
 // Coverage of a pixel by threads, where smooth foam would cover `hidden`. The point is in cells that are
 // `pixels` wide; foam carries it by `way` cells in half a period. Two phases are blended as in the pattern.
 float laced(float hidden, vec3 place, vec3 way, float pixels) {
-    float much = CLOSES.x + CLOSES.y * log(max(hidden, 1.0e-6) / max(1.0 - hidden, 1.0e-6));
+    float much = COVERS.x + COVERS.y * log(max(hidden, 1.0e-6) / max(1.0 - hidden, 1.0e-6));
     float ends = max(THREAD_ENDS.x, THREAD_ENDS.y / pixels);
-    float closes = CLOSES.x;
+    float closes = CLOSES;
     for (int i = 0; i < 2; ++i) {
         float part = frame.foam_phases[i];
         vec3 at = place - way * frame.foam_phases[2 + i] + frame.foam_octaves[1 + i];
         // A loop instead of a branch, for CPU drivers (docs/performance.md).
         for (bool any = part > 0.0; any; any = false) {
-            closes += part * (lace_at(at, pixels) - CLOSES.x);
+            closes += part * (lace_at(at, pixels) - CLOSES);
         }
     }
     float wide = max(ends, EDGE_ENDS);
     float thread = smoothstep(closes - ends, closes + ends, much);
     float edge = smoothstep(closes - wide, closes + wide, much);
-    return hidden > 0.0 ? 0.5 * (thread + edge) : 0.0;
+    float body = mix(1.0 - SHEER, 1.0, smoothstep(0.0, CLOSED, much - closes));
+    return hidden > 0.0 ? 0.5 * (thread + edge) * body : 0.0;
 }

@@ -189,7 +189,7 @@ pub fn basin_round(
     // A slab on the wall, and how far it juts out.
     let (slab, over) = (0.011 * wide, 0.008 * wide);
     // Of panes of glass.
-    let edge = 0.0028 * wide;
+    let edge = 0.0022 * wide;
     let floor = bounds.min.y;
     let [ground, tiles, stone] = materials(set, wide);
     let slabs = |color, roughness| material(color, roughness, Pattern::Stone { course: wide });
