@@ -3,7 +3,7 @@
 struct SpraySprite {
     vec4 centre;   // eye-space position; fraction of the particle that is spray
     vec4 velocity; // eye-space velocity; bits of the id
-    uvec4 shape;   // of its droplets and mist, in the world (axes.glsl); nothing
+    uvec4 shape;   // of its droplets and mist, in the world (axes.glsl); sum of its neighbours' weights
 };
 
 // Half-axis of the largest droplet, relative to the mean.

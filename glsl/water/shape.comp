@@ -99,6 +99,7 @@ void visit(uint i) {
         shaped[at + 3u + k] = water[k];
         shaped[at + 6u + k] = spray[k];
     }
+    shaped[at + 9u] = floatBitsToUint(beside);
     shifts[i] = vec4(middle, share);
 }
 

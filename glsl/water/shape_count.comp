@@ -25,6 +25,7 @@ void visit(uint i) {
         shaped[at + 3u + k] = axes[k];
         shaped[at + 6u + k] = axes[k];
     }
+    shaped[at + 9u] = 0u;
 }
 
 void main() {

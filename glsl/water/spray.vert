@@ -37,6 +37,8 @@ const float FLAT = 3.6;
 const float STRAND = 0.7;
 // Difference of the squared half-axes of an ellipse, over their sum, below which it is a circle.
 const float ROUND = 1.0e-3;
+// Sums of the neighbours' weights between which a particle has its mist: two or three particles are drops, and no cloud.
+const vec2 CROWD = vec2(1.0, 6.0);
 // Maximum number of octaves of the mist's noise.
 const float OCTAVES = 5.0;
 // Distance at which water is looked up, in drawn radii.
@@ -121,7 +123,7 @@ void main() {
         e2 = cross(e1, normal);
     }
     axes = max(axes, vec2(0.7 * pixel));
-    float thick = mist ? frame.spray_cloud.x * torn * torn * torn : frame.spray.x;
+    float thick = mist ? frame.spray_cloud.x * torn * torn * torn * smoothstep(CROWD.x, CROWD.y, uintBitsToFloat(sprite.shape.w)) : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
     // One value for all colours: around it there is more foam than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;

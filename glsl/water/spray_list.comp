@@ -37,6 +37,9 @@ layout(push_constant, std430) uniform Push {
 #define MEMBERS 8
 #include "members.glsl"
 
+// Sum of neighbours' weights of a particle of which it is not known.
+const float CROWDED = 64.0;
+
 void visit(uint index) {
     if (!is_member(index)) {
         return;
@@ -59,12 +62,12 @@ void visit(uint index) {
     velocity = mat3(frame.view) * velocity;
     // Droplets surround the centre and reach half of their streak. Nothing nearer than that is drawn, because it
     // would fill the picture.
-    uvec3 shape = pack_axes(mat3(1.0));
+    uvec4 shape = uvec4(pack_axes(mat3(1.0)), floatBitsToUint(CROWDED));
     if (push.shape_stride > 0u) {
         at = push.shape_word + index * push.shape_stride;
-        shape = uvec3(shapes[at], shapes[at + 1u], shapes[at + 2u]);
+        shape = uvec4(shapes[at], shapes[at + 1u], shapes[at + 2u], shapes[at + 3u]);
     }
-    float mist = frame.spray_cloud.y * sqrt(axes_norm2(unpack_axes(shape)));
+    float mist = frame.spray_cloud.y * sqrt(axes_norm2(unpack_axes(shape.xyz)));
     float reach = frame.spray.z + max(LARGEST_DROPLET * frame.spray.y, mist)
                 + length(velocity) * (0.5 * frame.spray.w + frame.spray_cloud.z);
     if (-centre.z <= max(frame.depth.z, frame.spray.z) || !in_frustum(centre, reach)) {
@@ -73,7 +76,7 @@ void visit(uint index) {
     uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;
     uint droplets = uint(frame.density.w);
     uint slot = atomicAdd(counts.droplets, droplets) / droplets;
-    sprites[slot] = SpraySprite(vec4(centre, share), vec4(velocity, uintBitsToFloat(id)), uvec4(shape, 0u));
+    sprites[slot] = SpraySprite(vec4(centre, share), vec4(velocity, uintBitsToFloat(id)), shape);
 }
 
 void main() {

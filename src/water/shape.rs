@@ -33,7 +33,7 @@ use crate::gpu::shader;
 /// Maximum number of groups per dispatch; their invocations loop over the remaining particles.
 const MOST_GROUPS: u32 = 4096;
 /// Bytes of a particle with its shapes (glsl/include/shaped.glsl).
-pub const SHAPED: u32 = 36;
+pub const SHAPED: u32 = 40;
 /// Where in it the shape of its spray begins.
 const SPRAY_SHAPE: u64 = 24;
 /// State of the result until the next frame.
