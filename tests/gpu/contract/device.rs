@@ -439,7 +439,7 @@ fn memory_is_as_documented() {
         .into_iter()
         .step_by(if whole { step } else { 7 })
         {
-            let each = 32.0 + if foam { 68.0 } else { 0.0 } + if spray { 32.0 } else { 0.0 };
+            let each = 32.0 + if foam { 68.0 } else { 0.0 } + if spray { 48.0 } else { 0.0 };
             let each = each + if foam || spray { 0.125 } else { 0.0 };
             let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;
             let found = needed(width, height, count, (sheets, coarsening, foam, spray));
