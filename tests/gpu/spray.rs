@@ -668,18 +668,16 @@ fn mist_of_a_sheet_is_flat() {
     let mut rig = Rig::new(&gpu, &shaped(size));
     let mut shot = Shot::new(size, Lens::Standard, 0.2, &[]);
     let edge = facing(&shot) * DMat3::from_rotation_x(std::f64::consts::FRAC_PI_2);
-    shot.positions = lattice(&shot, [0.0, 0.0, 6.0], edge, [4, 4, 0]);
+    shot.positions = lattice(&shot, [0.0, 0.0, 3.0], edge, [4, 4, 0]);
     let middle = shot.positions.len() / 2;
     let mut case = Sprayed::of(shot, 0.0);
-    // All but the middle are still there, as water that is out of the way of being drawn: of no density yet.
+    // The others are water, which is too thin to hide what is in it.
     let densities = case.shot.densities.as_mut().expect("densities");
     densities.fill(0.0);
     densities[middle] = 100.0;
     let look = case.look();
     (look.droplets, look.opacity, look.scatter_radius) = (2, 0.0, 0.0);
-    (look.mist, look.mist_size) = (0.9, 1.0);
-    // What is drawn of the others as water would hide it.
-    case.shot.settings.water.density_threshold = 0.0;
+    (look.mist, look.mist_size) = (0.9, 2.0);
     for (ratio, expected) in [(1.0, 1.0), (4.0, 4.0), (8.0, 8.0)] {
         case.look().strand_ratio = ratio;
         let drawn = case.draw(&mut rig);
