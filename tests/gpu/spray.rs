@@ -704,7 +704,11 @@ fn relief_shades_the_side_away_from_the_sun() {
     let gpu = Gpu::shared();
     let size = extent(200, 180);
     for shading in [Shading::Raster, Shading::Compute] {
-        let mut rig = Rig::lit(&gpu, &spraying(size).with(|it| it.composite = Some(shading)), 1);
+        let config = spraying(size).with(|it| {
+            it.composite = Some(shading);
+            it.max_particles = 1 << 15;
+        });
+        let mut rig = Rig::lit(&gpu, &config, 1);
         let mut shot = Shot::new(size, Lens::Standard, 0.05, &[]);
         shot.color.fill([0.0, 0.0, 0.0, 1.0]);
         // One droplet each, of many pixels: even but for the strip.
