@@ -214,8 +214,8 @@ pub struct Config {
     /// [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in a pool).
     pub exit: Exit,
     /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`] merge thin
-    /// water into one body, by the pass `shape`: 92 to 96 bytes per particle more, of which the device has to
-    /// bind 24 at once. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
+    /// water into one body, by the pass `shape`: 104 to 108 bytes per particle more, of which the device has to
+    /// bind 36 at once. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
     /// 140 000 (lavapipe), or 1.0 and 1.2 times with an [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2
     /// and `centred` of 0.
     pub kernels: Kernels,
@@ -239,7 +239,7 @@ pub struct Config {
     /// subtracted from its water. 68 bytes per particle more.
     pub surface_foam: bool,
     /// Whether spray is drawn (default false): the pass `spray`, for particles selected by
-    /// [`SpraySettings::all_spray_density`] and the like, which then also apply to water and foam. 32 bytes per particle more.
+    /// [`SpraySettings::all_spray_density`] and the like, which then also apply to water and foam. 48 bytes per particle more.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own,
     /// [`Frame::whitewater`]): the passes `splat`, `radiance`, `blur`. `None` (default): it is not. 88 bytes per

@@ -126,7 +126,7 @@
 //! | foam: sprites and shares (`surface_foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |
 //! | spray: optical depth and its sunlit part (`spray`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
-//! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
+//! | spray: sprites (`spray`) | 48 n | 3.0 MiB for 65 536 | 480 MB for 10 million |
 //! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |
 //! | surface noise: sprites (`noise`) | 16 n | 1.0 MiB for 65 536 | 160 MB for 10 million |
 //! | whitewater: words, depths, thickness, normals, light, tiles (`whitewater`) | 88 w h | 77.4 MiB | 174.1 MiB |
@@ -140,7 +140,7 @@
 //! | filtered host shadow map (`Shadows::Convolution`), N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, instead of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | which particles are in a packet (`surface_foam`, `spray`, `motion`, `noise` or `light_map_size`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
-//! | ellipsoids: grid, shapes, lists (`kernels`) | 92 to 96 n | 5.8 MiB for 65 536 | 960 MB for 10 million |
+//! | ellipsoids: grid, shapes, lists (`kernels`) | 104 to 108 n | 6.5 MiB for 65 536 | 1.1 GB for 10 million |
 //! | spheres: all, and the visible ones | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
 //! A [`SurfaceFoamState`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per

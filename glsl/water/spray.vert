@@ -1,6 +1,7 @@
 #version 460
 // Pass `spray` (thesis Sec. 4.9.5; several droplets per particle are new): a quad around each droplet, an ellipse that
-// faces the camera, stretched along its projected motion.
+// faces the camera, stretched along its projected motion. Droplets of a particle with neighbours fill the ellipsoid that
+// pass `shape` has fitted to them; mist is that ellipsoid and its streak as seen.
 // Reads: sprites, what sunlight.glsl reads. Writes: the quad's corners, its optical depth and visibility of the sun, and
 // the scale of the noise in mist.
 
@@ -132,7 +133,7 @@ void main() {
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
     // Cells are one drawn radius wide, and lengthened by the streak. The smallest octave is a pixel wide.
     vec2 cell = frame.particle.x + abs(vec2(dot(motion, e1), dot(motion, e2))) * frame.spray.w;
-    float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(cell.y / pixel), 0.0, OCTAVES) : 0.0;
+    float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(min(cell.x, cell.y) / pixel), 0.0, OCTAVES) : 0.0;
     grain = vec3(axes / cell, mist ? octaves : 0.0);
     // The noise is lengthened along the streak, and does not turn with it: that of a particle that hardly moves has any
     // direction, another one in each frame.

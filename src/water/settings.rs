@@ -783,9 +783,10 @@ pub struct SpraySettings {
     pub exposure: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
-    /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. Where a particle
-    /// has several droplets, it goes by the square of their number: a particle that is only spray has an 11th. No effect without a map
-    /// of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
+    /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. Where a
+    /// particle has several droplets, it goes by the square of the part of them that is drawn: a particle that is
+    /// only spray has an 11th. No effect without a map of the sunlight in the water
+    /// ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
     /// Fraction of the sunlight in spray that has been scattered by other droplets before, [0, 1], default 0. Of
     /// it the fourth root of what the shadow leaves arrives: light that is scattered forwards many times goes

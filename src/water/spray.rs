@@ -127,8 +127,8 @@ impl Spray {
         &self.target.image
     }
 
-    /// `shapes`: of the particles' spray, from pass `shape`. `list`: the one of `cull`, for its counts. `depth`: of the water, in the state in which pass `depth`
-    /// leaves it, before and after.
+    /// `shapes`: of the particles' spray, from pass `shape`; none: balls. `list`: the one of `cull`, for its counts.
+    /// `depth`: of the water, in the state in which pass `depth` leaves it, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

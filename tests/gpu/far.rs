@@ -2,11 +2,11 @@
 //! every distance, down to a pixel for ten spacings. What each fragment adds is a whole number of steps, so that sums do
 //! not depend on the order; what is thin beside a step must not be lost by that.
 
-use glam::{Mat4, vec3};
+use glam::{DMat3, DVec3, Mat4, Vec3, vec3};
 use whitewater::LightVolume;
 use whitewater::WhitewaterConfig;
 use whitewater::headless::Whitewater;
-use whitewater::water::{Splat, SpraySettings};
+use whitewater::water::{Kernels, Splat, SpraySettings};
 
 use crate::support::device::Gpu;
 use crate::support::limits::{Claims, claim};
@@ -135,6 +135,52 @@ fn far_spray_of_half_floats_keeps_its_light() {
     spray_keeps_its_light(&gpu, &[0.5]);
 }
 
+/// Mist in sheets and strands that lie in all directions: its ellipse is another for each, its light the same. So wide that
+/// no half-axis is a pixel's, of groups so far apart that each has its own shape.
+#[test]
+fn far_mist_keeps_its_light_in_every_shape() {
+    let gpu = Gpu::shared();
+    let shaped = config(SIZE).with(|it| {
+        it.spray = true;
+        it.kernels = Kernels::Ellipsoids;
+    });
+    let mut rig = Rig::new(&gpu, &shaped);
+    for steps in [[1, 1, 0], [2, 0, 0]] {
+        let case = |spacings: f32| {
+            let mut case = plane(40, spacings, 26.0);
+            let mut random = Random(7);
+            let mut positions = Vec::new();
+            for middle in &case.shot.positions {
+                let mut axis = || f64::from(random.between(-1.0, 1.0));
+                let axis = DVec3::new(axis(), axis(), axis()).normalize();
+                let turn = DMat3::from_axis_angle(axis, f64::from(random.between(0.0, 3.0)));
+                let range = |i: usize| -steps[i]..=steps[i];
+                for (i, j) in range(0).flat_map(|i| range(1).map(move |j| (i, j))) {
+                    let off = turn * DVec3::new(f64::from(i), f64::from(j), 0.0);
+                    positions.push((Vec3::from(*middle) + SPACING * off.as_vec3()).to_array());
+                }
+            }
+            let count = positions.len();
+            case.shot.positions = positions;
+            case.amounts = vec![[0.0; 2]; count];
+            case.velocities = vec![[0.0; 3]; count];
+            case.ids = None;
+            case.shot.densities = Some(vec![1.0; count]);
+            case.shot.settings.spray = SpraySettings::default().with(|it| {
+                (it.droplets, it.opacity, it.strand_ratio) = (2, 0.0, 6.0);
+                (it.mist, it.mist_size, it.scatter_radius) = (0.9, 6.0, 0.0);
+            });
+            case
+        };
+        for spacings in [1.3, 1.9] {
+            let case = case(spacings);
+            let part = total(spray(&draw(&case, &mut rig)), &case, spacings, 0) / spray_of(&case);
+            eprintln!("mist of {steps:?}: {part:.3} of it at {spacings} spacings a pixel");
+            assert!((part - 1.0).abs() < LOSS, "mist of {steps:?} at {spacings}: {part}");
+        }
+    }
+}
+
 /// Both ways, at two levels of the thickness: the library's own is 2.
 #[test]
 fn far_foam_keeps_its_light() {
@@ -229,6 +275,35 @@ fn far_maps_of_the_sun_keep_what_casts() {
             let drawn = draw(&case, &mut rig);
             let map = drawn.light_thickness.as_ref().expect("a map");
             total(map.data.iter().map(|t| t[channel]), &case, spacings, 0)
+        });
+    }
+}
+
+/// A particle that is nothing but spray casts as its droplets are: of several it has 0.3, and of those the square.
+#[test]
+fn far_maps_of_the_sun_keep_what_spray_casts() {
+    let gpu = Gpu::shared();
+    let config = config(SIZE).with(|it| {
+        it.light_map_size = Some(64);
+        it.spray = true;
+    });
+    let mut rig = Rig::new(&gpu, &config);
+    for (droplets, part) in [(1, 1.0), (16, 0.09)] {
+        let shade = 2.5;
+        let wanted = f64::from(shade) * part * f64::from(SPACING);
+        kept(&format!("the sun's map of {droplets} droplets"), wanted, |spacings| {
+            let mut random = Random(5);
+            let mut case = plane(2000, 1.0, 12.0);
+            let radius = 0.5 * 64.0 * spacings * SPACING;
+            let mut place = || random.between(-0.7, 0.7) * radius;
+            case.shot.positions = (0..2000).map(|_| [place(), 0.0, place()]).collect();
+            case.shot.densities = Some(vec![1.0; 2000]);
+            (case.shot.settings.spray.droplets, case.shot.settings.spray.shade) = (droplets, shade);
+            case.shot.settings.light.direction = [0.0, 1.0, 0.0];
+            case.shot.light_volume = Some(LightVolume { center: [0.0; 3], radius });
+            let drawn = draw(&case, &mut rig);
+            let map = drawn.light_thickness.as_ref().expect("a map");
+            total(map.data.iter().map(|t| t[1]), &case, spacings, 0)
         });
     }
 }

@@ -8,7 +8,7 @@ use glam::{Mat4, Vec3};
 use whitewater::bubbles::{BubbleConfig, Crossfade};
 use whitewater::headless::{Bubble, Whitewater};
 use whitewater::water::{
-    Amplitude, Convolution, DebugView, Fresnel, Medium, Rule, Shadows, SpraySettings,
+    Amplitude, Convolution, DebugView, Fresnel, Kernels, Medium, Rule, Shadows, SpraySettings,
     SurfaceNoiseSettings,
 };
 use whitewater::{LightVolume, Settings, Shadow};
@@ -101,7 +101,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 63] = [
+    let changes: [Change; 65] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -158,6 +158,8 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("spray.mist_size", |s| s.spray.mist_size = 1.0),
         ("spray.mist_contrast", |s| (s.spray.mist, s.spray.mist_contrast) = (0.05, 1.5)),
         ("spray.shade", |s| s.spray.shade = 4.0),
+        ("spray.scattering", |s| s.spray.scattering = 0.5),
+        ("spray.relief", |s| s.spray.relief = 1.0),
         ("spray.exposure", |s| s.spray.exposure = 0.1),
         ("spray.color", |s| s.spray.color = [0.5; 3]),
         ("spray.additive", |s| s.spray.additive = true),
@@ -181,6 +183,33 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         }),
     ];
     all_show("layered", &base, &changes, drawer(case, &mut rig));
+}
+
+/// Of ellipsoids, and of spheres not.
+#[test]
+fn the_setting_of_the_sprays_shape_shows() {
+    let gpu = Gpu::shared();
+    let strand: [Change; 1] = [("spray.strand_ratio", |s| s.spray.strand_ratio = 4.0)];
+    for kernels in [Kernels::Ellipsoids, Kernels::Spheres] {
+        let config = config(SIZE).with(|it| {
+            it.spray = true;
+            it.kernels = kernels;
+        });
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut case = layered();
+        case.shot.light_volume = None;
+        let base = case.shot.settings.clone();
+        let draw = |settings: &Settings| {
+            case.shot.settings = settings.clone();
+            let streams = case.streams(&rig);
+            let particles = streams.particles().with(|it| it.surface_foam = None);
+            rig.draw_particles(&case.shot, &particles)
+        };
+        match kernels {
+            Kernels::Ellipsoids => all_show("ellipsoids", &base, &strand, draw),
+            _ => none_show("spheres", &base, &strand, draw),
+        }
+    }
 }
 
 /// Of two ways of which one is taken the other has its settings too.

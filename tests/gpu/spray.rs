@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use glam::{DVec3, Mat4, Vec3};
-use whitewater::water::{Shading, Shadows, SpraySettings};
+use glam::{DMat3, DVec3, Mat4, Vec3};
+use whitewater::water::{Kernels, Shading, Shadows, SpraySettings};
 use whitewater::{Config, Packets, Shadow};
 
 use crate::harness::fails;
@@ -13,11 +13,13 @@ use crate::light::shadows;
 use crate::reduce::wide;
 use crate::reference::Image;
 use crate::reference::light::ShadowMap;
-use crate::reference::spray::{self, Particle, Sums};
+use crate::reference::spray::{self, Particle, Relief, Sums};
+use crate::shape::{askew, facing, lattice, of_spray};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::host::Data;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
+use crate::support::rounded::{exact, off};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::surface_foam::nearly;
 
@@ -85,8 +87,9 @@ impl Sprayed {
         rig.draw_particles(&self.shot, &particles)
     }
 
-    /// As the twin takes them.
-    fn particles(&self) -> Vec<Particle> {
+    /// As the twin takes them, with the shapes that a frame has found.
+    fn particles(&self, drawn: &Drawn) -> Vec<Particle> {
+        let shapes = drawn.shapes.as_ref().map(|_| of_spray(drawn, &self.shot));
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
         let densities = self.shot.densities.as_ref().expect("densities");
         (0..densities.len())
@@ -95,6 +98,7 @@ impl Sprayed {
                 velocity: self.velocities.as_ref().map_or(DVec3::ZERO, |all| wide(all[i])),
                 density: f64::from(densities[i]),
                 id: self.ids.as_ref().map_or(i as u32, |ids| ids[i]),
+                shape: shapes.as_ref().map_or(spray::BALL, |all| all[i]),
             })
             .collect()
     }
@@ -115,6 +119,7 @@ impl Sprayed {
             contrast: f64::from(look.mist_contrast),
             densities: [all, none],
             shutter: f64::from(look.exposure),
+            scattering: f64::from(look.scattering),
             sums: Sums::SINGLE,
         }
     }
@@ -128,14 +133,17 @@ impl Sprayed {
     fn check_behind(&self, name: &str, drawn: &Drawn, open: &Drawn) -> (Image<u32>, usize) {
         let (view, scene) = (self.shot.view(self.shot.size), self.shot.scene_at(self.shot.size, 0));
         let (water, settings) = (wide(&open.depth), self.settings());
-        let twin = spray::spray(&self.particles(), &view, &settings, &scene, &water);
+        let twin = spray::spray(&self.particles(drawn), &view, &settings, &scene, &water);
         compare::between(name, of(drawn), &twin.bounds);
         (twin.count, of(drawn).data.iter().filter(|x| **x > 0.0).count())
     }
 
     /// The picture is spray over what there was: untouched where there is nothing.
     fn check_over(&self, name: &str, drawn: &Drawn, behind: &[[f32; 4]]) {
-        let (look, light) = (&self.shot.settings.spray, &self.shot.settings.light.irradiance);
+        let (look, sun) = (&self.shot.settings.spray, &self.shot.settings.light);
+        let toward = DVec3::from(sun.direction.map(f64::from));
+        let relief = Relief::new(f64::from(look.relief), toward, &self.shot.view(self.shot.size));
+        let lit = drawn.lit_spray.as_ref().expect("a frame with spray");
         let foam = drawn.foam.as_ref().map(|foam| foam.seen(&self.shot));
         for (i, (found, behind)) in drawn.output.data.iter().zip(behind).enumerate() {
             let x = of(drawn).data[i];
@@ -146,8 +154,13 @@ impl Sprayed {
                 assert_eq!(found.map(f32::to_bits), behind.map(f32::to_bits), "{name}: {i}");
                 continue;
             }
+            let place = (i % drawn.output.width, i / drawn.output.width);
+            let part = if x > 0.0 { relief.lit(of(drawn), lit, place) } else { exact(1.0) };
             for c in 0..3 {
-                let light = f64::from(look.color[c]) * f64::from(light[c]) / std::f64::consts::PI;
+                let [dark, most] = [sun.shade[c], sun.irradiance[c]].map(f64::from);
+                // Three products with what is rounded.
+                let albedo = off(f64::from(look.color[c]) * most / std::f64::consts::PI, 4.0);
+                let light = relief.light(part, dark / most) * albedo;
                 let (wanted, bound) =
                     spray::over(f64::from(behind[c]), f64::from(x), light, look.additive);
                 let error = (f64::from(found[c]) - wanted).abs();
@@ -270,14 +283,18 @@ fn spray_of_all_settings_is_the_twins() {
 fn chunks_and_packets_of_spray_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig = Rig::new(&gpu, &spraying(size).with(|it| it.max_stride = 1 << 20));
-    let mut case = Sprayed::new(size, Lens::OffAxis, 20.0);
-    (case.look().exposure, case.look().scatter_radius) = (0.2, 2.0);
-    for (ids, packets) in [(true, false), (false, false), (false, true)] {
-        case.ids = case.ids.filter(|_| ids);
-        case.packets = packets;
-        let drawn = case.draw(&mut rig);
-        case.check(&format!("spray-chunks-{ids}-{packets}"), &drawn);
+    let torn = torn(size, Lens::OffAxis, 20.0);
+    for (config, mut case) in
+        [(spraying(size), Sprayed::new(size, Lens::OffAxis, 20.0)), (shaped(size), torn)]
+    {
+        let mut rig = Rig::new(&gpu, &config.with(|it| it.max_stride = 1 << 20));
+        (case.look().exposure, case.look().scatter_radius) = (0.2, 2.0);
+        for (ids, packets) in [(true, false), (false, false), (false, true)] {
+            case.ids = case.ids.filter(|_| ids);
+            case.packets = packets;
+            let drawn = case.draw(&mut rig);
+            case.check(&format!("spray-chunks-{:?}-{ids}-{packets}", config.kernels), &drawn);
+        }
     }
 }
 
@@ -292,11 +309,20 @@ fn spray_lies_over_the_scene() {
         case.shot.densities.as_mut().expect("densities").fill(100.0);
         case.look().color = [0.9, 0.5, 0.0];
         case.shot.color[7] = [f32::from_bits(1), -0.0, 1e30, -3.0];
-        for (opacity, additive) in [(0.5, false), (0.5, true), (0.99, false), (0.0, false)] {
+        case.shot.settings.light.shade = [0.0, 0.875, 1.5];
+        for (opacity, additive, relief) in [
+            (0.5, false, 0.0),
+            (0.5, true, 0.0),
+            (0.99, false, 0.0),
+            (0.0, false, 4.0),
+            (0.5, false, 1.5),
+            (0.99, true, 4.0),
+        ] {
             (case.look().opacity, case.look().additive) = (opacity, additive);
+            case.look().relief = relief;
             case.look().mist = 0.1 * opacity;
             let drawn = case.draw(&mut rig);
-            let name = format!("spray-over-{shading:?}-{opacity}-{additive}");
+            let name = format!("spray-over-{shading:?}-{opacity}-{additive}-{relief}");
             case.check_over(&name, &drawn, &case.shot.color);
             let covered = of(&drawn).data.iter().filter(|x| **x > 0.0).count();
             assert!(drawn.depth.data.iter().all(|z| *z >= 1e9), "{name}: water");
@@ -504,8 +530,11 @@ fn each_droplet_has_its_own_sun() {
     let size = extent(97, 61);
     let config = spraying(size).with(|it| it.shadow = Some(Shadows::Map));
     let mut rig = Rig::lit(&gpu, &config, 1);
-    for (lens, droplets) in [(Lens::Standard, 16), (Lens::OffAxis, 40), (Lens::Reversed, 1)] {
+    for (lens, droplets, scattering) in
+        [(Lens::Standard, 16, 0.0), (Lens::OffAxis, 40, 0.6), (Lens::Reversed, 1, 1.0)]
+    {
         let mut case = Sprayed::new(size, lens, 20.0);
+        case.look().scattering = scattering;
         (case.look().droplets, case.look().scatter_radius) = (droplets, 8.0);
         let middle = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
         let sun = Vec3::new(0.5, 0.8, 0.3).normalize();
@@ -532,7 +561,7 @@ fn each_droplet_has_its_own_sun() {
             reversed: false,
         };
         let spray = |sun: &spray::Sun<'_>| {
-            let (particles, water) = (case.particles(), wide(&drawn.depth));
+            let (particles, water) = (case.particles(&drawn), wide(&drawn.depth));
             spray::spray_in_sun(&particles, &view, &case.settings(), &scene, &water, sun)
         };
         let kinds = RefCell::new(HashMap::<u32, [u32; 2]>::new());
@@ -553,5 +582,180 @@ fn each_droplet_has_its_own_sun() {
         let by_particle = spray(&|particle, _, by| shade.past(particle.position, by));
         let other = fails(|| compare::between("planted-own-sun", found, &by_particle.lit));
         assert!(other, "{name}: as if all droplets of a particle were lit alike");
+    }
+}
+
+/// Torn water: a cloud, a sheet seen from its edge and one from before, a strand, a pair and lone ones.
+fn torn(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Sprayed {
+    let mut shot = Shot::new(size, lens, 0.1, &scenes::cloud(31, 60, 2.0, 9.0));
+    let before = facing(&shot);
+    let edge = before * DMat3::from_rotation_x(std::f64::consts::FRAC_PI_2);
+    for (middle, turn, steps) in [
+        ([-1.1, 0.6, 4.0], edge, [4, 4, 0]),
+        ([0.9, -0.7, 4.0], before, [4, 3, 0]),
+        ([0.7, 0.7, 3.5], askew(), [8, 0, 0]),
+        ([-0.9, -0.9, 5.0], askew(), [0, 1, 0]),
+    ] {
+        shot.positions.extend(lattice(&shot, middle, turn, steps));
+    }
+    let mut case = Sprayed::of(shot, fastest);
+    let look = case.look();
+    (look.droplets, look.strand_ratio, look.scatter_radius) = (16, 6.0, 1.5);
+    (look.mist, look.mist_size) = (0.6, 2.0);
+    case
+}
+
+fn shaped(size: ash::vk::Extent2D) -> Config {
+    spraying(size).with(|it| it.kernels = Kernels::Ellipsoids)
+}
+
+/// Droplets fill the ellipsoids that pass `shape` has found, mist is their shadow; one droplet is as ever.
+#[test]
+fn shaped_spray_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &shaped(size));
+    for lens in LENSES {
+        for (droplets, fastest, strand_ratio, contrast) in
+            [(16, 30.0, 6.0, 0.0), (16, 0.0, 8.0, 2.0), (24, 90.0, 2.0, 1.0), (1, 30.0, 6.0, 0.0)]
+        {
+            let mut case = torn(size, lens, fastest);
+            let look = case.look();
+            (look.droplets, look.strand_ratio) = (droplets, strand_ratio);
+            (look.mist_contrast, look.exposure) = (contrast, 0.02);
+            let name = format!("spray-shaped-{lens:?}-{droplets}-{fastest}");
+            let drawn = case.draw(&mut rig);
+            let (_, covered) = case.check(&name, &drawn);
+            assert!(covered > 800, "{name}: {covered} pixels");
+            // Balls would be something else.
+            let balls = Drawn { shapes: None, ..drawn };
+            let other = fails(|| {
+                case.check("planted-balls", &balls);
+            });
+            assert_eq!(other, droplets > 1, "{name}: as if all were balls");
+        }
+    }
+}
+
+/// A ratio of 1, and spheres with any, are spray as it was without shapes: to the bit.
+#[test]
+fn round_spray_is_as_without_shapes() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut ellipsoids = Rig::new(&gpu, &shaped(size));
+    let mut spheres = Rig::new(&gpu, &spraying(size));
+    let mut case = torn(size, Lens::Standard, 20.0);
+    // No water: its ellipsoids would hide other spray than its spheres.
+    let mut random = Random(2);
+    let densities = case.shot.densities.as_mut().expect("densities");
+    densities.iter_mut().for_each(|d| *d = random.between(1.0, 600.0));
+    case.look().mist_contrast = 1.0;
+    let long = case.draw(&mut ellipsoids);
+    let round = case.draw(&mut spheres);
+    assert!(of(&long).data != of(&round).data, "strands show");
+    case.look().strand_ratio = 1.0;
+    let found = case.draw(&mut ellipsoids);
+    compare::same("spray-round", of(&found), of(&round));
+    compare::same("spray-round-spheres", of(&case.draw(&mut spheres)), of(&round));
+}
+
+/// By measure: mist of a sheet that is seen from its edge is as much longer than high as its ellipsoid. With the ratio r its
+/// half-axes are those of 1 : 1 : 1/r, and the kernel's variances go by their squares.
+#[test]
+fn mist_of_a_sheet_is_flat() {
+    let gpu = Gpu::shared();
+    let size = extent(160, 120);
+    let mut rig = Rig::new(&gpu, &shaped(size));
+    let mut shot = Shot::new(size, Lens::Standard, 0.2, &[]);
+    let edge = facing(&shot) * DMat3::from_rotation_x(std::f64::consts::FRAC_PI_2);
+    shot.positions = lattice(&shot, [0.0, 0.0, 3.0], edge, [4, 4, 0]);
+    let middle = shot.positions.len() / 2;
+    let mut case = Sprayed::of(shot, 0.0);
+    // The others are water, which is too thin to hide what is in it.
+    let densities = case.shot.densities.as_mut().expect("densities");
+    densities.fill(0.0);
+    densities[middle] = 100.0;
+    let look = case.look();
+    (look.droplets, look.opacity, look.scatter_radius) = (2, 0.0, 0.0);
+    (look.mist, look.mist_size) = (0.9, 2.0);
+    for (ratio, expected) in [(1.0, 1.0), (4.0, 4.0), (8.0, 8.0)] {
+        case.look().strand_ratio = ratio;
+        let drawn = case.draw(&mut rig);
+        let image = of(&drawn);
+        let mut sums = [0.0; 5];
+        for (i, x) in image.data.iter().enumerate() {
+            let (at, amount) = ([i % 160, i / 160].map(|n| n as f64), f64::from(*x));
+            sums[0] += amount;
+            for k in 0..2 {
+                sums[1 + k] += amount * at[k];
+                sums[3 + k] += amount * at[k] * at[k];
+            }
+        }
+        let variance = |k: usize| sums[3 + k] / sums[0] - (sums[1 + k] / sums[0]).powi(2);
+        let found = (variance(0) / variance(1)).sqrt();
+        assert!((found / expected - 1.0).abs() < 0.03, "{ratio}: {found}");
+    }
+}
+
+/// A dense strip of spray between thin spray: on the side away from the sun there is less light, on the other as much as
+/// without; none of it without relief, nor where spray is even.
+#[test]
+fn relief_shades_the_side_away_from_the_sun() {
+    let gpu = Gpu::shared();
+    let size = extent(200, 180);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let config = spraying(size).with(|it| {
+            it.composite = Some(shading);
+            it.max_particles = 1 << 15;
+        });
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut shot = Shot::new(size, Lens::Standard, 0.05, &[]);
+        shot.color.fill([0.0, 0.0, 0.0, 1.0]);
+        // One droplet each, of many pixels: even but for the strip.
+        let grid = |x: std::ops::RangeInclusive<i16>, step: f32| {
+            let row = move |y: i16| {
+                x.clone().map(move |x| [f32::from(x) * step, f32::from(y) * step, 6.0])
+            };
+            (-60..=60).flat_map(row).collect::<Vec<_>>()
+        };
+        let (even, strip) = (grid(-70..=70, 0.1), grid(-4..=4, 0.04));
+        for (sun, side) in [([1.0_f32, 0.3, 0.2], 1.0), ([-1.0, 0.3, 0.2], -1.0)] {
+            let mut light = |points: &[[f32; 3]], relief: f32| {
+                let mut case = shot.clone();
+                case.positions = scenes::world(&case.camera, points);
+                case.densities = Some(vec![1.0; points.len()]);
+                let eye = case.camera_view().inverse();
+                let sun = eye.transform_vector3(DVec3::from(sun.map(f64::from)));
+                case.settings.light.direction = sun.normalize().as_vec3().to_array();
+                let look = &mut case.settings.spray;
+                (look.droplets, look.size, look.opacity) = (1, 6.0, 0.03);
+                (look.scatter_radius, look.relief) = (0.0, relief);
+                let cloud = rig.particles(&case);
+                let drawn = rig.draw_particles(&case, &cloud.particles());
+                // Radiance of spray, of the middle rows.
+                let row = |x: usize| {
+                    let all = (80..100).map(|y| {
+                        let kept = (-of(&drawn).at(x, y)).exp();
+                        drawn.output.at(x, y)[0] / (1.0 - kept)
+                    });
+                    all.sum::<f32>() / 20.0
+                };
+                (0..200).map(row).collect::<Vec<f32>>()
+            };
+            let all: Vec<_> = even.iter().chain(&strip).copied().collect();
+            let (without, with) = (light(&all, 0.0), light(&all, 1.5));
+            let smooth = (light(&even, 0.0), light(&even, 1.5));
+            let name = format!("{shading:?} {side}");
+            // Seen from the strip's middle, away from the sun and towards it; this lens' pictures are not mirrored.
+            let at = |all: &[f32], away: f32| all[(99.5 - side * away) as usize];
+            let lost = |away| at(&with, away) / at(&without, away);
+            let sides = [6.0, 8.0, 10.0, 12.0, 14.0].map(|d| [lost(d), lost(-d)]);
+            assert!(sides.iter().all(|[_, toward]| *toward > 0.99), "{name}: {sides:?}");
+            let least = sides.iter().map(|[away, _]| *away).fold(1.0, f32::min);
+            assert!(least < 0.8, "{name}: {sides:?}");
+            let worst = smooth.0.iter().zip(&smooth.1).skip(40).take(120);
+            let worst = worst.map(|(a, b)| (b / a - 1.0).abs()).fold(0.0, f32::max);
+            assert!(worst < 0.03, "{name}: even spray changes by {worst}");
+        }
     }
 }

@@ -52,6 +52,8 @@ pub struct Light {
     pub densities: [f64; 3],
     /// What a particle's spray takes of the light over what as much foam does.
     pub shade: f64,
+    /// Whether a particle has several droplets, so that its spray takes less the fewer it has.
+    pub several: bool,
     /// Of the smoothing, in drawn radii.
     pub width: f64,
     pub falloff: f64,
@@ -166,7 +168,12 @@ impl Light {
         };
         let own = bulk * foam;
         let water = bulk * (exact(1.0) - foam);
-        let foam = own + exact(self.shade) * spray * (exact(1.0) - own);
+        // By the part of the droplets that there are, 0.3 or more.
+        let torn = match self.several {
+            true => (exact(4.0) * (exact(1.0) - spray)).clamp(f64::from(0.3_f32), 1.0),
+            false => exact(1.0),
+        };
+        let foam = own + exact(self.shade) * spray * torn * torn * (exact(1.0) - own);
         (water.v > 0.0 || foam.v > 0.0).then_some(Share { bulk, parts: [water, foam] })
     }
 

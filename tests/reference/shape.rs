@@ -5,7 +5,8 @@
 //! `b_i = sum w |m_j| m_j / sum w |m_j|`, so that a body does not shrink (after Vollmer et al. 1999).
 //!
 //! Ours: lambda is by how much of an ellipsoid a particle is; the axes are over their geometric mean, so that the volume is the sphere's, and to the power of how much of an
-//! ellipsoid the sum of the neighbours' weights makes of a particle. Offsets, weights and products are whole steps of 1/65536 of the
+//! ellipsoid the sum of the neighbours' weights makes of a particle. Spray has a shape of its own, by another ratio, which it
+//! takes on with less beside it. Offsets, weights and products are whole steps of 1/65536 of the
 //! reach, as on the GPU; where rounding may go either way stands in the slack.
 //!
 //! The matrix is no decomposition by rotations as on the GPU: the eigenvalue that is farthest from the others by the roots of the
@@ -25,15 +26,22 @@ pub struct Settings {
     pub fewest: f64,
     pub lone: f64,
     pub centred: f64,
+    /// k_r of the spray.
+    pub strand: f64,
 }
+
+/// Sums of the neighbours' weights between which spray takes its shape on.
+const BESIDE_SPRAY: [f64; 2] = [0.1, 0.6];
 
 /// A particle's ellipsoid: its centre, and what takes a ball of its radius to it.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     pub center: DVec3,
     pub axes: DMat3,
-    /// How far off both may be on the GPU: metres, and the norm of a matrix.
-    pub off: [f64; 2],
+    /// The same of its spray.
+    pub spray: DMat3,
+    /// How far off all three may be on the GPU: metres, and the norms of matrices.
+    pub off: [f64; 3],
 }
 
 /// A vector of whole steps, and how many steps of its components rounding may make one more or less.
@@ -49,7 +57,7 @@ pub fn shapes(positions: &[DVec3], settings: &Settings) -> Vec<Shape> {
     let all: Vec<_> = positions.iter().map(|own| shape(*own, positions, settings)).collect();
     let centered = |(own, of): (&DVec3, &Formed)| {
         let (center, off) = center((*own, of), (positions, &all), settings);
-        Shape { center, axes: of.axes, off: [off, of.axes_off] }
+        Shape { center, axes: of.axes, spray: of.spray, off: [off, of.axes_off, of.spray_off] }
     };
     positions.iter().zip(&all).map(centered).collect()
 }
@@ -58,6 +66,8 @@ pub fn shapes(positions: &[DVec3], settings: &Settings) -> Vec<Shape> {
 struct Formed {
     axes: DMat3,
     axes_off: f64,
+    spray: DMat3,
+    spray_off: f64,
     /// m, in reaches.
     middle: DVec3,
     middle_off: f64,
@@ -100,7 +110,7 @@ fn center(
 }
 
 fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
-    let Settings { reach, ratio, fewest, lone, centred: _ } = *settings;
+    let Settings { reach, ratio, fewest, lone, centred: _, strand } = *settings;
     let mut all = 0.0;
     let (mut first, mut diagonal, mut mixed) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
     let (mut loose, mut loose_weight) = ([DVec3::ZERO; 3], 0.0);
@@ -133,17 +143,8 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
     let outer = DMat3::from_cols(middle * middle.x, middle * middle.y, middle * middle.z);
     let covariance = moments - outer;
 
-    let (values, vectors) = eigen(covariance);
-    let most = values.max_element();
-    let mut axes = DVec3::ONE;
-    if most > 1.0e-6 {
-        axes = (values / most).max(DVec3::splat(1.0 / ratio));
-        axes /= (axes.x * axes.y * axes.z).cbrt();
-    }
+    let decomposed = eigen(covariance);
     let beside = all - 1.0;
-    let share = smoothstep(0.5 * fewest, fewest.max(1.0e-6), beside);
-    let scale = lone + (1.0 - lone) * share;
-    let of = |axes: DVec3| vectors * DMat3::from_diagonal(axes) * vectors.transpose();
 
     // How far off the covariance is: a quotient's error is that of its terms over the sum of the weights, which is 1
     // or more; single precision adds a few u.
@@ -154,29 +155,55 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
         + norm(&moments) * relative
         + 2.0 * middle.length() * middle_off
         + 2.0e-6;
+    // The weights' steps, single precision, and the slope of 1.5 over the span.
+    let beside_off = loose_weight + 2.0e-6;
+    let shared = |from: f64, to: f64| {
+        let changes = beside + beside_off > from && beside - beside_off < to;
+        let off = if changes { (1.5 * beside_off / (to - from)).min(1.0) } else { 0.0 };
+        (smoothstep(from, to, beside), off)
+    };
+    let (share, share_off) = shared(0.5 * fewest, fewest.max(1.0e-6));
+    let scale = lone + (1.0 - lone) * share;
+    let (drawn, off) = drawn(&decomposed, covariance_off, ratio, (share, share_off));
+    let axes_off = scale * off + (1.0 - lone) * share_off * norm(&drawn) + PACKED;
+    let strands = shared(BESIDE_SPRAY[0], BESIDE_SPRAY[1]);
+    let (spray, spray_off) = self::drawn(&decomposed, covariance_off, strand, strands);
+    let spray_off = spray_off + PACKED;
+    Formed { axes: drawn * scale, axes_off, spray, spray_off, middle, middle_off, share, share_off }
+}
+
+/// Six numbers of 16 bits, signed fractions of 4: half a step in each of nine entries. Rotations, powers and products in
+/// single precision.
+const PACKED: f64 = 3.0 * 0.5 * 4.0 / 32767.0 + 64.0 / (1 << 24) as f64;
+
+/// The matrix of half-axes that have the proportions of a covariance's eigenvalues up to a ratio and a volume of 1, to a power;
+/// and how far off it may be.
+fn drawn(
+    (values, vectors): &(DVec3, DMat3),
+    covariance_off: f64,
+    ratio: f64,
+    (share, share_off): (f64, f64),
+) -> (DMat3, f64) {
+    let most = values.max_element();
+    let mut axes = DVec3::ONE;
+    if most > 1.0e-6 {
+        axes = (*values / most).max(DVec3::splat(1.0 / ratio));
+        axes /= (axes.x * axes.y * axes.z).cbrt();
+    }
     // Over the largest eigenvalue, with the others cut off at 1/k of that: each moves by its share; `axes` = b/g with
     // g^3 = det b, whose derivative is at most 1/g across the eigenvectors, and along them as much and
     // s_i/3 sum 1/b_j, where b_j is 1/k at least.
-    let b = (values / most.max(1.0e-6)).max(DVec3::splat(1.0 / ratio));
+    let b = (*values / most.max(1.0e-6)).max(DVec3::splat(1.0 / ratio));
     let g = (b.x * b.y * b.z).cbrt();
     let b_off = covariance_off / most.max(1.0e-6) * (1.0 + b.length() + 3.0_f64.sqrt() / ratio);
     let s_off = b_off * (1.0 / g + axes.length() / 3.0 * (1.0 / b.x + 1.0 / b.y + 1.0 / b.z));
-    // A power s^p by p: its logarithm times the error of p, which is 1.5 of that of what p goes by. By s: p s^(p - 1).
-    let span = (0.5 * fewest).max(1.0e-6);
-    let beside_off = loose_weight + 2.0e-6;
-    let changes = beside + beside_off > 0.5 * fewest && beside - beside_off < fewest.max(1.0e-6);
-    let share_off = if changes { (1.5 * beside_off / span).min(1.0) } else { 0.0 };
+    // A power s^p by p: its logarithm times the error of p. By s: p s^(p - 1).
     let logarithm = axes.to_array().into_iter().map(|a| a.ln().abs()).fold(0.0, f64::max);
     let drawn = DVec3::from(axes.to_array().map(|a| a.powf(share)));
     let flat =
         if most > 1.0e-6 { s_off * share * axes.min_element().powf(share - 1.0) } else { 0.0 };
-    let axes_off = scale * (flat + drawn.length() * logarithm * share_off)
-        + (1.0 - lone) * share_off * drawn.length()
-        // Six numbers of 16 bits, signed fractions of 4: half a step in each of nine entries.
-        + 3.0 * 0.5 * 4.0 / 32767.0
-        // Rotations, powers and products in single precision.
-        + 64.0 / f64::from(1 << 24);
-    Formed { axes: of(drawn) * scale, axes_off, middle, middle_off, share, share_off }
+    let matrix = *vectors * DMat3::from_diagonal(drawn) * vectors.transpose();
+    (matrix, flat + drawn.length() * logarithm * share_off)
 }
 
 /// The square root of the sum of the squares of all entries.
@@ -218,7 +245,7 @@ mod tests {
     use super::*;
 
     const PLAIN: Settings =
-        Settings { reach: 2.0, ratio: 4.0, fewest: 1.5, lone: 0.5, centred: 1.0 };
+        Settings { reach: 2.0, ratio: 4.0, fewest: 1.5, lone: 0.5, centred: 1.0, strand: 8.0 };
 
     fn sorted(m: DMat3) -> [f64; 3] {
         let mut values = eigen(m).0.to_array();
@@ -262,18 +289,34 @@ mod tests {
             let own = points.iter().position(|p| p.length() < 1.0e-9).unwrap();
             shapes(points, &PLAIN)[own]
         };
-        let k: f64 = 0.25;
-        let expected = [
-            (lattice(|_, _, z| z == 0), DVec3::new(1.0, 1.0, k) / k.cbrt()),
-            (lattice(|_, y, z| y == 0 && z == 0), DVec3::new(1.0, k, k) / (k * k).cbrt()),
-            (lattice(|_, _, _| true), DVec3::ONE),
-            // Alone: a sphere of half the size.
-            (vec![DVec3::ZERO], DVec3::splat(0.5)),
+        let of_ratio = |k: f64| {
+            let flat = DVec3::new(1.0, 1.0, k) / k.cbrt();
+            [flat, DVec3::new(1.0, k, k) / (k * k).cbrt(), DVec3::ONE]
+        };
+        let [waters, sprays] = [of_ratio(0.25), of_ratio(0.125)];
+        let points = [
+            lattice(|_, _, z| z == 0),
+            lattice(|_, y, z| y == 0 && z == 0),
+            lattice(|_, _, _| true),
         ];
-        for (points, axes) in expected {
-            let m = r * DMat3::from_diagonal(axes) * r.transpose();
-            let Shape { center, axes, off: [_, slack] } = of(&points);
+        let mut expected: Vec<_> = points.into_iter().zip(waters.into_iter().zip(sprays)).collect();
+        // Alone: a sphere of half the size, of whose spray nothing is less.
+        expected.push((vec![DVec3::ZERO], (DVec3::splat(0.5), DVec3::ONE)));
+        // With one neighbour, whose weight is 7/8, spray is a strand; water goes from 0.75 to 1.5, and has 2/27 of it.
+        let pair = vec![DVec3::ZERO, r * DVec3::X];
+        let (power, strand) = (2.0 / 27.0, of_ratio(0.125)[1]);
+        let little = DVec3::from(of_ratio(0.25)[1].to_array().map(|a| a.powf(power)));
+        expected.push((pair, (little * (0.5 + 0.5 * power), strand)));
+        for (points, both) in expected {
+            let turned = |axes: DVec3| r * DMat3::from_diagonal(axes) * r.transpose();
+            let Shape { center, axes, spray, off: [_, slack, loose] } = of(&points);
+            let m = turned(both.0);
             assert!(norm(&(axes - m)) < slack, "{axes} for {m}, {slack}");
+            let m = turned(both.1);
+            assert!(norm(&(spray - m)) < loose, "spray: {spray} for {m}, {loose}");
+            assert!(loose < 0.05, "{loose}");
+            let slack = if points.len() == 2 { 0.0 } else { slack };
+            let center = if points.len() == 2 { DVec3::ZERO } else { center };
             assert!(slack < 0.05 && center.length() < 1.0e-4, "{slack} {center}");
         }
     }

@@ -1,5 +1,6 @@
 //! Twin of the spray: a particle that is too thin to be water is droplets round its centre, each an
-//! ellipse across the view through its own centre, drawn out along its motion.
+//! ellipse across the view through its own centre, drawn out along its motion. Where it has neighbours the droplets fill the
+//! ellipsoid of its spray; the first of several is mist, the ellipse that this ellipsoid and the streak are as seen.
 //!
 //! With p a droplet's centre, N the direction to it and `w = (s_x, s_y, -1)` the pixel's ray, t w
 //! with `t = N.p / N.w` is the point of its plane that is seen, q its place in half-axes. [`spray`]
@@ -11,13 +12,14 @@
 //! [`Rounded`], a vector [`Off`], roundings of an error are left out.
 
 use super::classify;
+use super::shape::norm;
 use super::surface_foam::{LooseEllipse, Off, pixels, ray_off, scene_depth};
 use super::thickness::kernel;
 use super::{Image, View, smoothstep, whole_steps};
 use crate::support::rounded::{self, Rounded, exact, off};
 use crate::support::tolerance::{Between, U};
-use glam::DVec3;
-use std::f64::consts::{SQRT_2, TAU};
+use glam::{DMat3, DVec2, DVec3};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// Drawn radius of a whole particle over the spacing.
 const RADIUS: f64 = 0.656;
@@ -45,6 +47,20 @@ const SQUARES: f64 = 0.513 * 0.6;
 const LEAST_TORN: f64 = 0.3;
 /// Of the random numbers of a particle.
 const SPINDLE: u32 = 4096;
+/// Sum of the squares of half-axes from which on droplets leave the spindle for the ellipsoid, and from which on they fill it.
+const FLAT: [f64; 2] = [3.0, 3.6];
+/// How far droplets lie from the centre at most, over the ball's, where the ellipsoid is a line.
+const STRAND: f64 = 0.7;
+/// The eigenvalues of mist as seen that differ by less, over their sum, give no direction.
+const ROUND: f64 = 1e-3;
+/// What an arc tangent may be off, of itself.
+const ARC: f64 = 4096.0 * 2.0 * U;
+/// Least sine between the view's ray and the axis that what is level goes by.
+const LEAST_SINE: f64 = 0.43;
+/// The relief: the nearest distance in picture heights, how many there are, and which optical depth is thin.
+const RELIEF: (f64, u32, f64) = (1.0 / 360.0, 5, 0.3);
+/// What the relief takes of the sky's light.
+const RELIEF_OF_SKY: f64 = 0.19;
 /// Octaves of the noise in mist at most.
 const OCTAVES: u32 = 5;
 /// `ln mean(exp(a n)) / a²` of the noise n.
@@ -114,7 +130,12 @@ pub struct Particle {
     pub density: f64,
     /// What it is known by: the droplets go by it.
     pub id: u32,
+    /// What takes a ball to the ellipsoid of its spray, as 16 bits hold it.
+    pub shape: DMat3,
 }
+
+/// The shape of a ball in 16 bits: signed parts of 4.
+pub const BALL: DMat3 = DMat3::from_diagonal(DVec3::splat(8192.0 * 4.0 / 32767.0));
 
 /// What spray is drawn by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,6 +162,8 @@ pub struct Settings {
     pub densities: [f64; 2],
     /// Seconds of motion that a droplet streaks over.
     pub shutter: f64,
+    /// The part of the sunlight of which the fourth root comes.
+    pub scattering: f64,
     /// How droplets are summed.
     pub sums: Sums,
 }
@@ -311,13 +334,14 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             v: c.v + apart.v * v.v,
             e: c.e + apart.v.abs() * v.e + (apart.e + apart.v.abs() * U) * v.v.length(),
         };
-        let p = placed(at, spindle, [u(0), u(1), u(2)], view, settings);
+        let p = placed(at, spindle, (&particle.shape, [u(0), u(1), u(2)]), view, settings);
         let depth = depth_of(p);
         let (mut h, thick) = settings.half_axis(k, u(3));
         if many && k > 0 {
             h = h * (exact(1.0) / torn.sqrt());
         }
-        let (mut one, pixel, speed) = droplet(p, v, (h, thick), view, settings);
+        let mist = (many && k == 0).then_some(&particle.shape);
+        let (mut one, pixel, streaks) = droplet(p, v, (h, thick, mist), view, settings);
         let twice = exact(2.0) * (one.ellipse.a + pixel);
         let kept = if many {
             exact(0.5) + torn * off((0.2 + 0.8 * own(3)) * f64::from(settings.droplets), 3.0)
@@ -331,13 +355,15 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
         if many && k == 0 {
             one.amount = share * torn * torn * torn * one.amount;
             let radius = off(RADIUS * settings.spacing, 3.0);
-            let (a, b) = (one.ellipse.a, one.ellipse.b);
-            let streak = speed * off(settings.shutter, 1.0);
-            let along = radius + streak;
-            let octaves = (radius / pixel).log2().clamp(0.0, f64::from(OCTAVES));
+            let [along, across] = streaks.map(|streak| radius + streak);
+            let cells = [one.ellipse.a / along, one.ellipse.b / across];
+            let least = if along.v < across.v { along } else { across };
+            // Where they are nearly the same either may be less.
+            let least = Rounded { e: along.e.max(across.e), ..least };
+            let octaves = (least / pixel).log2().clamp(0.0, f64::from(OCTAVES));
             let bits = whole_steps::chance(particle.id, 0);
             one.grain = (settings.contrast > 0.0).then_some(Grain {
-                cells: [a / along, b / radius],
+                cells,
                 turn: one.turn,
                 octaves,
                 contrast: settings.contrast,
@@ -361,12 +387,13 @@ fn direction(first: f64, second: f64) -> Off {
     Off { v, e: ring.e + ring.v * (SQRT_2 * (TRIGONOMETRY + U) + 2.0 * U * turn) }
 }
 
-/// Where a droplet of three random numbers is: in a ball, or in a spindle about an axis, of a width. The world's offset is
+/// Where a droplet of three random numbers is: in a ball; or in a spindle about an axis, of a width, and the more in an
+/// ellipsoid the less round that is. The world's offset is
 /// off by two products; a scalar product by three and two sums, its product with the axis, their sum and the width by five.
 fn placed(
     c: Off,
     spindle: Option<(Off, Rounded)>,
-    u: [f64; 3],
+    (shape, u): (&DMat3, [f64; 3]),
     view: &View,
     settings: &Settings,
 ) -> Off {
@@ -376,26 +403,42 @@ fn placed(
     let (mut off, mut from) = (away.v * way.v, away.e + away.v * (way.e + 2.0 * U));
     if let Some((axis, wide)) = spindle {
         let length = off.length();
-        from = wide.v * (from + 1.2 * length * axis.e + 10.0 * U * length) + wide.e * length;
-        off = wide.v * (0.4 * off + 0.6 * off.dot(axis.v) * axis.v);
+        let thin = wide.v * (0.4 * off + 0.6 * off.dot(axis.v) * axis.v);
+        let thin_e = wide.v * (from + 1.2 * length * axis.e + 10.0 * U * length) + wide.e * length;
+        let squares = squares(shape);
+        let part = STRAND / squares.v.sqrt();
+        let flat = part * (*shape * off);
+        // An entry is 5u off, a row's product 3u, and as a vector the root of 3 more; the factor as `squares`, by its root,
+        // 4u of that, two products; a product.
+        let rows = norm(shape) * (from + (5.0 + 3.0 * 3.0_f64.sqrt()) * U * length);
+        let flat_e = part * rows + (0.5 * squares.e / squares.v + 8.0 * U) * flat.length();
+        let t = rounded::smoothstep(exact(FLAT[0]), self::off(FLAT[1], 1.0), squares);
+        off = thin.lerp(flat, t.v);
+        from = thin_e * (1.0 - t.v) + flat_e * t.v + (flat - thin).length() * t.e;
+        from += 3.0 * U * (thin.length() + flat.length());
     }
     let eye = Off::direction(view.view.transform_vector3(off));
     let v = c.v + eye.v;
     Off { v, e: c.e + eye.e + from + U * v.length() }
 }
 
-/// A droplet at a place, at a velocity, of a size and an optical depth, all of it spray; the world width of a pixel, and the
-/// speed across the view.
+/// The sum of the squares of a shape's entries: of an entry 5u, a square u, at most eight sums.
+fn squares(shape: &DMat3) -> Rounded {
+    off(norm(shape).powi(2), 20.0)
+}
+
+/// A droplet at a place, at a velocity, of a size and an optical depth, all of it spray, or mist of a shape; the world width
+/// of a pixel, and the speeds along its axes over the exposure.
 ///
 /// By the error of the motion m the axes turn in their plane, straight at the eye by any angle. Out
 /// of it they do not go, whatever is left of m there: a circle stays one.
 fn droplet(
     p: Off,
     v: Off,
-    (h, thick): (Rounded, Rounded),
+    (h, thick, mist): (Rounded, Rounded, Option<&DMat3>),
     view: &View,
     settings: &Settings,
-) -> (Droplet, Rounded, Rounded) {
+) -> (Droplet, Rounded, [Rounded; 2]) {
     let n = p.normalize();
     let along = v.dot(n);
     let m = v.v - along.v * n.v;
@@ -405,31 +448,106 @@ fn droplet(
     let towards = off(HEAD_ON * v.v.length(), 4.0);
     let moving = more(speed, at_least(off(STILL * settings.spacing, 1.0), towards));
     let angle = m.e / (m.v.length() - m.e).max(f64::MIN_POSITIVE);
-    let turn = match moving {
+    let mut turn = match moving {
         More { surely: true, .. } => angle,
         More { maybe: true, .. } => 1.0,
         _ => 0.0,
     };
     let side = if n.v.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
     let level = side.cross(n.v).normalize();
-    let e1 = if moving.is { m.v.normalize() } else { level };
+    let upright = level.cross(n.v);
+    // A cross product over the least sine, and a quotient.
+    let mut e1 = Off { v: if moving.is { m.v.normalize() } else { level }, e: 24.0 * U };
+    let streak = off(0.5 * settings.shutter, 1.0);
+    let mut axes = [h + streak * speed, h];
+    if let Some(shape) = mist {
+        let seen = Seen::new(shape, h, (m, streak), (n, [level, upright]), view);
+        axes = seen.half_axes();
+        match more(seen.apart, off(ROUND, 1.0) * seen.middle) {
+            More { surely: true, .. } => {
+                // How far perturbation turns an eigenvector; then the angle, sine and cosine.
+                let by = seen.e / (2.0 * seen.apart.v - seen.e).max(f64::MIN_POSITIVE);
+                let own = SQRT_2 * (TRIGONOMETRY + U) + 0.5 * ARC * PI;
+                e1 = Off { v: seen.longer, e: 24.0 * U + by.min(2.0) + own };
+                turn = 0.0;
+            }
+            More { is, maybe: true, .. } => {
+                e1.v = if is { seen.longer } else { e1.v };
+                turn = 2.0;
+            }
+            _ => {}
+        }
+    }
     // Two axes that are off by 24 ulp each, their product, and the angle.
-    let turned = [level, level.cross(n.v)]
-        .map(|axis| Rounded { v: e1.dot(axis), e: 52.0 * U + turn.min(2.0) });
-    // A cross product over the least sine, 0.43, and a quotient.
-    let e1 = Off { v: e1, e: 24.0 * U };
+    let turned = [level, upright]
+        .map(|axis| Rounded { v: e1.v.dot(axis), e: 28.0 * U + e1.e + turn.min(2.0) });
     let e2 = e1.cross(n);
+    let streaks = [e1, e2].map(|axis| {
+        let by = m.dot(Off { e: axis.e + turn.min(2.0), ..axis });
+        Rounded { v: by.v.abs(), ..by } * off(settings.shutter, 1.0)
+    });
 
     let pixel = depth_of(p) * off(view.c_x().max(view.c_y()), 2.0);
     let least = off(LEAST, 1.0) * pixel;
-    let a = at_least(h + off(0.5 * settings.shutter, 1.0) * speed, least);
-    let b = at_least(h, least);
+    let [a, b] = axes.map(|half| at_least(half, least));
     let amount = thick * ((h / a) * (h / b));
     let ellipse = LooseEllipse { center: p, e1, e2, n, a, b, turn };
     let drawn = More { is: true, surely: true, maybe: true };
     let radii = off(ASIDE * RADIUS * settings.spacing, 4.0) / pixel + exact(0.5);
     let aside = [radii.v - radii.e, radii.v + radii.e].map(|n| (n as isize).clamp(1, 64));
-    (Droplet { ellipse, amount, aside, grain: None, turn: turned, drawn }, pixel, speed)
+    (Droplet { ellipse, amount, aside, grain: None, turn: turned, drawn }, pixel, streaks)
+}
+
+/// Mist as it is seen: the covariance `C = h^2 P S^2 P^T + s s^T` on the plane across the view, where P projects, S is the
+/// shape and s half the streak.
+struct Seen {
+    /// Half the sum and half the difference of its eigenvalues.
+    middle: Rounded,
+    apart: Rounded,
+    /// How far off C is, as a norm.
+    e: f64,
+    /// The direction of the longer half-axis.
+    longer: DVec3,
+}
+
+impl Seen {
+    fn new(
+        shape: &DMat3,
+        h: Rounded,
+        (m, half): (Off, Rounded),
+        (n, plane): (Off, [DVec3; 2]),
+        view: &View,
+    ) -> Self {
+        let back = DMat3::from_mat4(view.view).transpose();
+        let rows = plane.map(|axis| h.v * (*shape * (back * axis)));
+        let s = plane.map(|axis| half.v * m.v.dot(axis));
+        let entry = |i: usize, j: usize| rows[i].dot(rows[j]) + s[i] * s[j];
+        let (xx, yy, xy) = (entry(0, 0), entry(1, 1), entry(0, 1));
+        // An axis is 24u off, and by the normal; two products of matrices 3u an entry each, which is the root of 3 more as a
+        // vector; the size; an entry of the shape 5u.
+        let axis = 24.0 * U + n.e / LEAST_SINE;
+        let (size, length) = (h.v * norm(shape), half.v * m.v.length());
+        let row = size * (axis + (6.0 * 3.0_f64.sqrt() + 6.0) * U) + h.e * norm(shape);
+        let along = half.v * m.e + half.e * m.v.length() + length * (axis + 6.0 * U);
+        // Of an entry the products of two, four products and as many sums; as a norm of four entries twice that.
+        let of = |v: f64, e: f64| 2.0 * v * e + e * e + 5.0 * U * v * v;
+        let e = 2.0 * (of(size, row) + of(length, along));
+        let (middle, apart) = (0.5 * (xx + yy), DVec2::new(0.5 * (xx - yy), xy).length());
+        let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
+        let longer = plane[0] * angle.cos() + plane[1] * angle.sin();
+        let rounded = |v: f64, by: f64| Rounded { v, e: e + by * U * v };
+        Self { middle: rounded(middle, 2.0), apart: rounded(apart, 13.0), e, longer }
+    }
+
+    /// Eigenvalues are off by no more than the norm is; sum and root in single precision.
+    fn half_axes(&self) -> [Rounded; 2] {
+        let most = self.middle.v + self.apart.v;
+        [most, (self.middle.v - self.apart.v).max(0.0)].map(|square| {
+            let e = self.e + 16.0 * U * most;
+            let root = Rounded { v: square, e }.sqrt();
+            Rounded { e: root.e.min(e.sqrt() + 9.0 * U * root.v), ..root }
+        })
+    }
 }
 
 /// The depth of the body of water that hides spray in a pixel: of a drop that shows what is behind it
@@ -491,7 +609,7 @@ pub fn spray_in_sun(
         // To the light by one matrix: as far off as by way of the world.
         let share = sun(particle, p, center.e + 24.0 * U * (p.length() + 2.0 * eye));
         // Three products with a third, which is rounded, and their sum.
-        let share = share * off(1.0, 4.0);
+        let share = scattered(share * off(1.0, 4.0), settings.scattering);
         for (x, y) in pixels(view, one.ellipse.center.v, one.ellipse.reach()) {
             let hidden = scene_depth(scene.at(x, y));
             let hit = one.ellipse.meet(ray_off(view, x, y), near, hidden);
@@ -533,12 +651,86 @@ pub fn spray_in_sun(
     Spray { depth, bounds, lit, count }
 }
 
+/// Of a part that comes straight, what comes where some is scattered: two roots, a mixture. It rises with the part.
+fn scattered(direct: Rounded, scattering: f64) -> Rounded {
+    let of = |direct: f64| {
+        let direct = direct.max(0.0);
+        direct * (1.0 - scattering) + direct.powf(0.25) * scattering
+    };
+    let (v, low, high) = (of(direct.v), of(direct.v - direct.e), of(direct.v + direct.e));
+    Rounded { v, e: (high - v).max(v - low) + 18.0 * U * high }
+}
+
+/// Of a number above 0: 2^-21 from a half to 2, 3 ulp elsewhere.
+fn ln(x: Rounded) -> Rounded {
+    let v = x.v.ln();
+    let own = if (0.49..=2.01).contains(&x.v) { 8.0 } else { 6.0 * v.abs() };
+    Rounded { v, e: x.e / (x.v - x.e) + own * U }
+}
+
+/// The relief of spray: its strength, and the direction to the sun on the screen, in pixels, or 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Relief {
+    pub strength: f64,
+    pub toward: DVec2,
+}
+
+impl Relief {
+    /// That of a world direction to the sun.
+    pub fn new(strength: f64, sun: DVec3, view: &View) -> Self {
+        let toward = view.view.transform_vector3(sun.normalize()).truncate() / view.slope_step();
+        Self { strength, toward: toward.normalize_or_zero() }
+    }
+
+    /// The part of the sun's light in spray of such optical depths at a pixel, of all and of what of it is lit.
+    pub fn lit(&self, all: &Image<f32>, lit: &Image<f32>, (x, y): (usize, usize)) -> Rounded {
+        let own = f64::from(all.at(x, y));
+        let part = exact(f64::from(lit.at(x, y))) / exact(own);
+        if self.strength == 0.0 {
+            return part;
+        }
+        let (near, octaves, thin) = RELIEF;
+        let thin = off(thin, 1.0);
+        let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let mut sum = exact(0.0);
+        for i in 0..octaves {
+            let away = self.toward * near * all.height as f64 * f64::from(1 << i);
+            let there = at + away;
+            // The place is a few roundings off: then either of two texels, in columns and in rows.
+            let loose = 16.0 * U * (there.abs().max_element() + away.length() + 1.0) + 1.0e-4;
+            let mut logs = [-1.0, 1.0].into_iter().flat_map(|i| {
+                [-1.0, 1.0].map(|j| {
+                    let place = (there + DVec2::new(i, j) * loose).floor();
+                    ln(thin + exact(f64::from(all.clamped(place.x as isize, place.y as isize))))
+                })
+            });
+            let first = logs.next().expect("four");
+            let [mut low, mut high] = [first.v - first.e, first.v + first.e];
+            for log in logs {
+                (low, high) = (low.min(log.v - log.e), high.max(log.v + log.e));
+            }
+            sum = sum + Rounded { v: 0.5 * (low + high), e: 0.5 * (high - low) };
+        }
+        let denser = sum / exact(f64::from(octaves)) - ln(thin + exact(own));
+        let factor = (-(off(self.strength, 1.0) * denser)).exp();
+        (part * factor).clamp(0.0, 1.0)
+    }
+
+    /// Light over the albedo's, of so much of the sun's where there is none but the sky's part.
+    pub fn light(&self, lit: Rounded, sky: f64) -> Rounded {
+        let sky = off(sky, 5.0);
+        let under = rounded::mix(sky, exact(1.0), lit);
+        let dull = off(RELIEF_OF_SKY, 1.0) * off(self.strength, 1.0);
+        under * (exact(1.0) - dull * (exact(1.0) - lit))
+    }
+}
+
 /// A channel of a colour with spray of an optical depth over it, of a light, and what single
 /// precision may be off: of either part exp 3 + 2x ulp, a difference and five products.
-pub fn over(behind: f64, spray: f64, light: f64, additive: bool) -> (f64, f64) {
+pub fn over(behind: f64, spray: f64, light: Rounded, additive: bool) -> (f64, f64) {
     let k = (-spray).exp();
-    let v = behind * if additive { 1.0 } else { k } + light * (1.0 - k);
-    (v, U * (12.0 + 4.0 * spray) * (behind.abs() + light))
+    let v = behind * if additive { 1.0 } else { k } + light.v * (1.0 - k);
+    (v, light.e * (1.0 - k) + U * (12.0 + 4.0 * spray) * (behind.abs() + light.v))
 }
 
 #[cfg(test)]
@@ -548,8 +740,7 @@ mod tests {
     use super::*;
     use crate::reference::EMPTY;
     use crate::support::scenes::Random;
-    use glam::{DVec2, Mat4, Vec2, Vec3};
-    use std::f64::consts::PI;
+    use glam::{Mat3, Mat4, Vec2, Vec3};
 
     fn settings() -> Settings {
         Settings {
@@ -564,13 +755,14 @@ mod tests {
             contrast: 0.0,
             densities: [0.6, 0.85],
             shutter: 1.0 / 60.0,
+            scattering: 0.0,
             sums: Sums { step: 0.0, ..Sums::HALF },
         }
     }
 
     fn particle(position: [f64; 3]) -> Particle {
         let position = DVec3::from(position);
-        Particle { position, velocity: DVec3::ZERO, density: 500.0, id: 7 }
+        Particle { position, velocity: DVec3::ZERO, density: 500.0, id: 7, shape: BALL }
     }
 
     fn open(view: &View) -> Image<f64> {
@@ -611,6 +803,121 @@ mod tests {
         let all: Vec<_> = (0..400).map(|id| Particle { id, velocity, ..particle(at) }).collect();
         let ratio = total(&all, &view, &many) * area / (400.0 * expected * (1.0 + mist));
         assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
+    }
+
+    /// Whatever the shape of mist and its streak, the optical depth of a picture is that of its half-axis alone: the kernel's
+    /// mean over pixels, with an ellipse of two pixels or more, is within a hundredth.
+    #[test]
+    fn mist_keeps_its_amount_in_every_shape() {
+        let view = view(DVec2::splat(3.0), DVec2::ZERO, 401, 301);
+        let look = Settings { droplets: 2, opacity: 0.0, mist: [0.4, 1.0], ..settings() };
+        let area = view.c_x() * view.c_y() * 81.0;
+        // Half of a particle's spray with all of its mist.
+        let expected = 0.5 * -(0.6_f64.ln()) * (1.0 * 0.5_f64).powi(2) * PI * J;
+        let strand = shaped([4.0, 0.5, 0.5], DVec3::new(1.0, 2.0, 0.5), 1.1);
+        for shape in [BALL, shaped([2.0, 2.0, 0.25], DVec3::Y, 1.2), strand] {
+            for velocity in [DVec3::ZERO, DVec3::new(30.0, 60.0, -9.0)] {
+                let one =
+                    Particle { density: 725.0, velocity, shape, ..particle([0.0, 0.0, -9.0]) };
+                let ratio = total(&[one], &view, &look) * area / expected;
+                assert!((ratio - 1.0).abs() < 0.01, "{shape}, {velocity}: {ratio}");
+            }
+        }
+    }
+
+    /// By hand: what a sheet of mist that is seen from its edge, and a streak along and across it, are as ellipses.
+    #[test]
+    fn mist_is_seen_as_its_ellipsoid_and_its_streak() {
+        let view = view(DVec2::splat(3.0), DVec2::ZERO, 101, 101);
+        let look =
+            Settings { droplets: 2, mist: [0.4, 1.0], shutter: 0.5, spread: 0.0, ..settings() };
+        let sheet = shaped([2.0, 0.25, 2.0], DVec3::X, 0.0);
+        // Of the half-axis 0.5: 1 and 0.125 across the view; a streak of 2 metres has half of a half.
+        for (velocity, wide) in [
+            (DVec3::ZERO, [1.0, 0.125]),
+            (2.0 * DVec3::X, [1.25_f64.sqrt(), 0.125]),
+            (2.0 * DVec3::Y, [1.0, 0.265_625_f64.sqrt()]),
+            (2.0 * DVec3::Z, [1.0, 0.125]),
+            (4.0 * DVec3::Y, [1.0, 1.015_625_f64.sqrt()]),
+        ] {
+            let one = Particle { velocity, shape: sheet, ..particle([0.0, 0.0, -9.0]) };
+            let mist = droplets(&one, &view, &look)[0];
+            let LooseEllipse { a, b, e1, .. } = mist.ellipse;
+            let upright = wide[1] > wide[0];
+            let [long, short] = if upright { [wide[1], wide[0]] } else { wide };
+            assert!(
+                (a.v - long).abs() < 1e-3 && (b.v - short).abs() < 1e-3,
+                "{velocity}: {a:?} {b:?}"
+            );
+            let along = if upright { e1.v.y } else { e1.v.x };
+            assert!(along.abs() > 0.999, "{velocity}: {}", e1.v);
+        }
+    }
+
+    /// Droplets of a strand lie in it, and of a ball as they did without shapes: in the spindle.
+    #[test]
+    fn droplets_fill_their_shape() {
+        let view = view(DVec2::splat(3.0), DVec2::ZERO, 101, 101);
+        let look = Settings { droplets: 64, spread: 1.5, ..settings() };
+        let at = DVec3::new(0.0, 0.0, -9.0);
+        let strand = shaped([4.0, 0.5, 0.5], DVec3::Z, 0.6);
+        let along = DVec3::new(0.6_f64.cos(), 0.6_f64.sin(), 0.0);
+        let (mut squares, mut count) = ([0.0, 0.0], 0.0);
+        for id in 0..60 {
+            let one = Particle { id, density: 725.0, ..particle(at.to_array()) };
+            let of = |shape| droplets(&Particle { shape, ..one }, &view, &look);
+            for droplet in of(strand) {
+                let off = droplet.ellipse.center.v - at;
+                squares[0] += off.dot(along).powi(2);
+                squares[1] += off.length_squared() - off.dot(along).powi(2);
+                count += 1.0;
+            }
+            for (k, droplet) in of(BALL).iter().enumerate() {
+                let random = |n| f64::from(classify::random(SEED, n, id));
+                let ball = direction(random(5 * k as u32), random(5 * k as u32 + 1)).v
+                    * (0.75 * random(5 * k as u32 + 2).cbrt());
+                let axis = direction(random(SPINDLE), random(SPINDLE + 1)).v;
+                let wide = (1.0 + 5.0 * random(SPINDLE + 2)) / 6.0;
+                let thin = wide * (0.4 * ball + 0.6 * ball.dot(axis) * axis);
+                assert!((droplet.ellipse.center.v - at - thin).length() < 1e-6, "{id} {k}");
+            }
+        }
+        // A ball of r = 0.75 has r^2/5 each way; the factors squared are 0.49/16.5 times 16, and two times 1/4.
+        let of_ball = 0.75 * 0.75 / 5.0 * 0.49 / 16.5;
+        let [long, wide] = squares.map(|sum| sum / count / of_ball);
+        // The chance of some thousand.
+        assert!((long / 16.0 - 1.0).abs() < 0.1 && (wide / 0.5 - 1.0).abs() < 0.1, "{long} {wide}");
+    }
+
+    /// The fourth root, and nothing but what comes straight.
+    #[test]
+    fn scattering_brightens_the_shade() {
+        for (direct, scattering, expected) in [
+            (1.0, 0.7, 1.0),
+            (0.0, 1.0, 0.0),
+            (1.0 / 16.0, 1.0, 0.5),
+            (1.0 / 16.0, 0.0, 1.0 / 16.0),
+        ] {
+            assert!((scattered(exact(direct), scattering).v - expected).abs() < 1e-12);
+        }
+    }
+
+    /// A dense strip takes the sun from what is behind it, seen from the sun, and gives some to its own side before it; even spray
+    /// has no relief.
+    #[test]
+    fn relief_is_on_the_side_away_from_the_sun() {
+        let strip =
+            Image::from_fn(90, 80, |x, _| if (40..48).contains(&x) { 2.0_f32 } else { 0.2 });
+        let lit = strip.map(|x| 0.5 * x);
+        let of = |image: &Image<f32>, lit: &Image<f32>, x| {
+            let relief = Relief { strength: 1.0, toward: DVec2::X };
+            relief.lit(image, lit, (x, 40)).v
+        };
+        // The farthest look is 3.6 texels away.
+        assert!(of(&strip, &lit, 38) < 0.35 && (of(&strip, &lit, 50) - 0.5).abs() < 1e-9);
+        assert!(of(&strip, &lit, 46) > 0.6 && (of(&strip, &lit, 42) - 0.5).abs() < 1e-9);
+        let even = strip.map(|_| 0.7);
+        assert!((of(&even, &even.map(|x| 0.25 * x), 3) - 0.25).abs() < 1e-7);
     }
 
     /// Clumps take as much light as smooth mist: to the contrast of 2 within 4 % and the chance of 40000 particles.
@@ -685,6 +992,26 @@ mod tests {
         assert!(of(EMPTY, 2.2).iter().chain(&of(2.9, EMPTY)).all(|v| *v == 0.0));
     }
 
+    /// The covariance in space of a ball of a half-axis that a matrix maps, and of half a streak.
+    fn covariance(map: &Mat3, h: f32, streak: Vec3) -> Mat3 {
+        let scaled = h * *map;
+        let outer = Mat3::from_cols(streak * streak.x, streak * streak.y, streak * streak.z);
+        scaled * scaled.transpose() + outer
+    }
+
+    /// A matrix as 16 bits hold it.
+    fn held_shape(m: DMat3) -> DMat3 {
+        DMat3::from_cols_array(
+            &m.to_cols_array().map(|x| (x / 4.0 * 32767.0).round() * 4.0 / 32767.0),
+        )
+    }
+
+    /// A shape of half-axes turned about an axis.
+    fn shaped(axes: [f64; 3], about: DVec3, angle: f64) -> DMat3 {
+        let r = DMat3::from_axis_angle(about.normalize(), angle);
+        held_shape(r * DMat3::from_diagonal(axes.into()) * r.transpose())
+    }
+
     /// The definition in single precision, each operation rounded, the sum in half precision.
     fn single(
         particle: &Particle,
@@ -710,6 +1037,8 @@ mod tests {
             return sum;
         }
         let torn = if n > 1 { (4.0 - 4.0 * share).clamp(0.3, 1.0) } else { 1.0 };
+        let shape = particle.shape.as_mat3();
+        let squares: f32 = shape.to_cols_array().into_iter().map(|x| x * x).sum();
         for k in 0..n {
             let random = |j| classify::random(SEED, j, particle.id);
             let u = [0, 1, 2, 3, 4].map(|j| random(5 * k + j));
@@ -722,7 +1051,8 @@ mod tests {
             if n > 1 {
                 let axis = way(random(4096), random(4097));
                 let wide = (1.0 + 5.0 * random(4098)) / 6.0;
-                far = wide * (0.4 * far + 0.6 * far.dot(axis) * axis);
+                let thin = wide * (0.4 * far + 0.6 * far.dot(axis) * axis);
+                far = thin.lerp(0.7 / squares.sqrt() * (shape * far), step(3.0, 3.6, squares));
                 if k as f32 >= 0.5 + torn * (0.2 + 0.8 * random(4099)) * n as f32 {
                     continue;
                 }
@@ -739,16 +1069,37 @@ mod tests {
             let e2 = (e1 / e1.length()).cross(normal);
             let e2 = if e2.length() > 1e-3 { e2 } else { side.cross(normal).cross(normal) };
             let e2 = e2 / e2.length();
-            let e1 = normal.cross(e2);
-            let squares = if n > 1 { 0.6 * 0.513 * n as f32 } else { 1.0 };
+            let mut e1 = normal.cross(e2);
+            let many = if n > 1 { 0.6 * 0.513 * n as f32 } else { 1.0 };
             let g = if n > 1 { (0.2 + 2.135 * u[3].powi(6)) / torn.sqrt() } else { 1.0 };
             let mist = n > 1 && k == 0;
-            let h = g * settings.size as f32 * 0.656 * s / squares.sqrt();
+            let h = g * settings.size as f32 * 0.656 * s / many.sqrt();
             let [taken, wide] = settings.mist.map(|v| v as f32);
             let (h, taken) = if mist { (wide * s, taken) } else { (h, settings.opacity as f32) };
             let pixel = -p.z * scale.abs().max_element();
-            let a = (h + 0.5 * speed * settings.shutter as f32).max(0.7 * pixel);
-            let b = h.max(0.7 * pixel);
+            let (mut a, mut b) = (h + 0.5 * speed * settings.shutter as f32, h);
+            if mist {
+                let c = covariance(
+                    &(Mat3::from_mat4(to_eye) * shape),
+                    h,
+                    0.5 * settings.shutter as f32 * m,
+                );
+                let plane =
+                    [side.cross(normal).normalize(), normal.cross(side.cross(normal)).normalize()];
+                let of = |i: usize, j: usize| plane[i].dot(c * plane[j]);
+                let (xx, xy, yy) = (of(0, 0), of(0, 1), of(1, 1));
+                let (middle, apart) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+                if apart > 1e-3 * middle {
+                    // The column of C - least that is longer.
+                    let least = middle - apart;
+                    let (first, second) = (Vec2::new(xx - least, xy), Vec2::new(xy, yy - least));
+                    let long = if xx > yy { first } else { second }.normalize();
+                    e1 = plane[0] * long.x + plane[1] * long.y;
+                }
+                (a, b) = ((middle + apart).sqrt(), (middle - apart).max(0.0).sqrt());
+            }
+            let e2 = e1.cross(normal);
+            let (a, b) = (a.max(0.7 * pixel), b.max(0.7 * pixel));
             let misty = if mist { torn * torn * torn } else { 1.0 };
             let amount = share * misty * -(1.0 - taken).ln() * h * h / (a * b);
             if -p.z <= (2.0 * (a + pixel)).max(near) {
@@ -814,7 +1165,14 @@ mod tests {
                 // At rest, hardly moving, straight at the eye.
                 let v = [any, DVec3::ZERO, 1e-7 * any, at][i % 5 % 4];
                 let held = |v: DVec3| v.as_vec3().as_dvec3();
+                let about = DVec3::new(random(-1.0, 1.0), random(-1.0, 1.0), 0.3);
+                let shape = match i % 3 {
+                    0 => BALL,
+                    1 => shaped([2.0, 2.0, 0.25], about, random(0.0, 3.0)),
+                    _ => shaped([3.0, 0.6, 1.0 / 1.8], about, random(0.0, 3.0)),
+                };
                 let particle = Particle {
+                    shape,
                     position: held(back.transform_point3(at)),
                     velocity: held(back.transform_vector3(v)),
                     density: random(400.0, 900.0),

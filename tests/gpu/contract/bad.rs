@@ -168,6 +168,12 @@ fn spoils() -> Vec<Spoil> {
             g.settings.spray.full_water_density = 0.1
         }),
         ("spread", "Settings.spray.scatter_radius", |g| g.settings.spray.scatter_radius = f32::NAN),
+        ("strand", "Settings.spray.strand_ratio", |g| g.settings.spray.strand_ratio = 8.5),
+        ("no strand", "Settings.spray.strand_ratio", |g| g.settings.spray.strand_ratio = 0.9),
+        ("scattering", "Settings.spray.scattering", |g| g.settings.spray.scattering = 1.1),
+        ("no scattering", "Settings.spray.scattering", |g| g.settings.spray.scattering = f32::NAN),
+        ("relief", "Settings.spray.relief", |g| g.settings.spray.relief = 4.5),
+        ("no relief", "Settings.spray.relief", |g| g.settings.spray.relief = -0.1),
         ("shutter", "Settings.spray.exposure", |g| g.settings.spray.exposure = -1.0),
         ("weight", "Settings.noise.weight", |g| g.settings.noise.weight = f32::NAN),
         ("falloff of noise", "Settings.noise.falloff", |g| g.settings.noise.falloff = -1.0),

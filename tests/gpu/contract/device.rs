@@ -2,7 +2,7 @@
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
-use whitewater::water::{Gate, Shading, Smoothing};
+use whitewater::water::{Gate, Kernels, Shading, Smoothing};
 use whitewater::{
     Config, Context, DeviceSupport, EnabledFeatures, Error, Renderer, Slot, SurfaceFoamState,
     SurfaceFoamStateConfig,
@@ -403,6 +403,21 @@ fn memory_is_as_documented() {
                 "{sort:?}, {layers}: {more}, said {said}"
             );
         }
+        // Ellipsoids: grid, shapes and lists.
+        if whole {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let config = Config::new(extent(width, height), format, count)
+                .with(|it| it.kernels = Kernels::Ellipsoids);
+            let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
+            let memory = renderer.memory();
+            // SAFETY: nothing was recorded.
+            unsafe { renderer.destroy() };
+            let found = (memory.images + memory.buffers) as f64;
+            let more = found - needed(width, height, count, (2, 3, false, false));
+            let slack = spare * 108.0 * n + 512.0 * 1024.0;
+            let said = 104.0 * n - slack..108.0 * n + slack;
+            assert!(said.contains(&more), "ellipsoids: {more}, said {said:?}");
+        }
         // Noise: a number a texel of its own, and its sprites.
         for level in (0..4).step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
@@ -439,7 +454,7 @@ fn memory_is_as_documented() {
         .into_iter()
         .step_by(if whole { step } else { 7 })
         {
-            let each = 32.0 + if foam { 68.0 } else { 0.0 } + if spray { 32.0 } else { 0.0 };
+            let each = 32.0 + if foam { 68.0 } else { 0.0 } + if spray { 48.0 } else { 0.0 };
             let each = each + if foam || spray { 0.125 } else { 0.0 };
             let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;
             let found = needed(width, height, count, (sheets, coarsening, foam, spray));

@@ -74,6 +74,7 @@ fn twin(shot: &Shot, config: &Config) -> Light {
         spacing: f64::from(water.spacing),
         densities: [density(first), density(second), density(third)],
         shade: f64::from(shot.settings.spray.shade),
+        several: shot.settings.spray.droplets > 1,
         width: f64::from(water.smoothing_width),
         falloff: f64::from(water.depth_falloff),
         extinction: match water.medium {
