@@ -99,7 +99,7 @@ void visit(uint i) {
         shaped[at + 3u + k] = water[k];
         shaped[at + 6u + k] = spray[k];
     }
-    shaped[at + 9u] = floatBitsToUint(beside);
+    shaped[at + 9u] = floatBitsToUint(push.strand > 1.0 ? beside : CROWDED);
     shifts[i] = vec4(middle, share);
 }
 

@@ -25,7 +25,7 @@ void visit(uint i) {
         shaped[at + 3u + k] = axes[k];
         shaped[at + 6u + k] = axes[k];
     }
-    shaped[at + 9u] = 0u;
+    shaped[at + 9u] = floatBitsToUint(CROWDED);
 }
 
 void main() {

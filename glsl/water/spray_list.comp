@@ -7,6 +7,7 @@
 #include "counts.glsl"
 #include "density.glsl"
 #include "axes.glsl"
+#include "shaped.glsl"
 #include "spray.glsl"
 
 layout(local_size_x = 64) in;
@@ -36,9 +37,6 @@ layout(push_constant, std430) uniform Push {
 
 #define MEMBERS 8
 #include "members.glsl"
-
-// Sum of neighbours' weights of a particle of which it is not known.
-const float CROWDED = 64.0;
 
 void visit(uint index) {
     if (!is_member(index)) {

@@ -776,7 +776,8 @@ pub struct SpraySettings {
     pub mist_contrast: f32,
     /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
     /// fill, [1, 8], default 1: a ball. It is fitted to the particle's neighbours as its water is: torn water is
-    /// strands and sheets of droplets. No effect without [`Kernels::Ellipsoids`].
+    /// strands and sheets of droplets, and two or three particles alone have no mist. No effect without
+    /// [`Kernels::Ellipsoids`].
     pub strand_ratio: f32,
     /// Exposure time of a droplet's streak, seconds, [0, 1], default 1/250. A longer streak is more
     /// transparent. (The water itself is drawn at one instant.)

@@ -42,10 +42,11 @@ struct Body {
     off: f64,
 }
 
-/// What the pass has left, as it was read back: centre, and axes of water and spray, in the world.
-fn all_left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, [DMat3; 2])> {
+/// What the pass has left, as it was read back: centre, axes of water and spray, in the world, and the sum of the neighbours'
+/// weights.
+fn all_left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, [DMat3; 2], f64)> {
     let words = drawn.shapes.as_ref().expect("of ellipsoids");
-    let each = words.chunks_exact(9).take(shot.positions.len());
+    let each = words.chunks_exact(10).take(shot.positions.len());
     each.map(|w| {
         let center = DVec3::from([w[0], w[1], w[2]].map(|bits| f64::from(f32::from_bits(bits))));
         let axes = |w: &[u32]| {
@@ -55,19 +56,19 @@ fn all_left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, [DMat3; 2])> {
             let rows = [DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz)];
             DMat3::from_cols(rows[0], rows[1], rows[2])
         };
-        (center, [axes(&w[3..6]), axes(&w[6..9])])
+        (center, [axes(&w[3..6]), axes(&w[6..9])], f64::from(f32::from_bits(w[9])))
     })
     .collect()
 }
 
 /// The same of water.
 fn left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, DMat3)> {
-    all_left(drawn, shot).into_iter().map(|(center, [water, _])| (center, water)).collect()
+    all_left(drawn, shot).into_iter().map(|(center, [water, _], _)| (center, water)).collect()
 }
 
-/// The axes of spray.
-pub fn of_spray(drawn: &Drawn, shot: &Shot) -> Vec<DMat3> {
-    all_left(drawn, shot).into_iter().map(|(_, [_, spray])| spray).collect()
+/// The axes of spray, and the sum of the neighbours' weights.
+pub fn of_spray(drawn: &Drawn, shot: &Shot) -> Vec<(DMat3, f64)> {
+    all_left(drawn, shot).into_iter().map(|(_, [_, spray], crowd)| (spray, crowd)).collect()
 }
 
 /// The same as `cull` has them: turned, and in 16 bits again.
@@ -157,12 +158,14 @@ fn shapes_are_the_twins() {
         let expected = shapes(&positions, &twin_settings(&shot));
         for (i, (found, expected)) in all_left(&drawn, &shot).into_iter().zip(expected).enumerate()
         {
-            let Shape { center, axes, spray, off } = expected;
+            let Shape { center, axes, spray, crowd, off } = expected;
             let [water, of_spray] = found.1;
             let (moved, turned) = ((found.0 - center).length(), norm(&(water - axes)));
             let apart = norm(&(of_spray - spray));
             assert!(apart <= off[2], "{name} {i}: {apart} of {}: {of_spray}, not {spray}", off[2]);
             sprays.push(off[2]);
+            let many = (found.2 - crowd).abs();
+            assert!(many <= off[3], "{name} {i}: {many} of {}: {}, not {crowd}", off[3], found.2);
             assert!(
                 moved <= off[0],
                 "{name} {i}: {moved} of {}: {}, not {center}",

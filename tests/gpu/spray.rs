@@ -98,7 +98,8 @@ impl Sprayed {
                 velocity: self.velocities.as_ref().map_or(DVec3::ZERO, |all| wide(all[i])),
                 density: f64::from(densities[i]),
                 id: self.ids.as_ref().map_or(i as u32, |ids| ids[i]),
-                shape: shapes.as_ref().map_or(spray::BALL, |all| all[i]),
+                shape: shapes.as_ref().map_or(spray::BALL, |all| all[i].0),
+                crowd: shapes.as_ref().map_or(spray::CROWDED, |all| all[i].1),
             })
             .collect()
     }

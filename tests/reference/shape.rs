@@ -40,8 +40,10 @@ pub struct Shape {
     pub axes: DMat3,
     /// The same of its spray.
     pub spray: DMat3,
-    /// How far off all three may be on the GPU: metres, and the norms of matrices.
-    pub off: [f64; 3],
+    /// The sum of its neighbours' weights.
+    pub crowd: f64,
+    /// How far off all four may be on the GPU: metres, the norms of matrices, and the sum.
+    pub off: [f64; 4],
 }
 
 /// A vector of whole steps, and how many steps of its components rounding may make one more or less.
@@ -57,7 +59,14 @@ pub fn shapes(positions: &[DVec3], settings: &Settings) -> Vec<Shape> {
     let all: Vec<_> = positions.iter().map(|own| shape(*own, positions, settings)).collect();
     let centered = |(own, of): (&DVec3, &Formed)| {
         let (center, off) = center((*own, of), (positions, &all), settings);
-        Shape { center, axes: of.axes, spray: of.spray, off: [off, of.axes_off, of.spray_off] }
+        let off = [off, of.axes_off, of.spray_off, of.beside_off];
+        Shape {
+            center,
+            axes: of.axes,
+            spray: of.spray,
+            crowd: if settings.strand > 1.0 { of.beside } else { 64.0 },
+            off,
+        }
     };
     positions.iter().zip(&all).map(centered).collect()
 }
@@ -68,6 +77,8 @@ struct Formed {
     axes_off: f64,
     spray: DMat3,
     spray_off: f64,
+    beside: f64,
+    beside_off: f64,
     /// m, in reaches.
     middle: DVec3,
     middle_off: f64,
@@ -169,7 +180,18 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
     let strands = shared(BESIDE_SPRAY[0], BESIDE_SPRAY[1]);
     let (spray, spray_off) = self::drawn(&decomposed, covariance_off, strand, strands);
     let spray_off = spray_off + PACKED;
-    Formed { axes: drawn * scale, axes_off, spray, spray_off, middle, middle_off, share, share_off }
+    Formed {
+        axes: drawn * scale,
+        axes_off,
+        spray,
+        spray_off,
+        beside,
+        beside_off,
+        middle,
+        middle_off,
+        share,
+        share_off,
+    }
 }
 
 /// Six numbers of 16 bits, signed fractions of 4: half a step in each of nine entries. Rotations, powers and products in
@@ -309,7 +331,7 @@ mod tests {
         expected.push((pair, (little * (0.5 + 0.5 * power), strand)));
         for (points, both) in expected {
             let turned = |axes: DVec3| r * DMat3::from_diagonal(axes) * r.transpose();
-            let Shape { center, axes, spray, off: [_, slack, loose] } = of(&points);
+            let Shape { center, axes, spray, crowd: _, off: [_, slack, loose, _] } = of(&points);
             let m = turned(both.0);
             assert!(norm(&(axes - m)) < slack, "{axes} for {m}, {slack}");
             let m = turned(both.1);

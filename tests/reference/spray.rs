@@ -132,7 +132,13 @@ pub struct Particle {
     pub id: u32,
     /// What takes a ball to the ellipsoid of its spray, as 16 bits hold it.
     pub shape: DMat3,
+    /// The sum of its neighbours' weights.
+    pub crowd: f64,
 }
+
+/// Sums of the neighbours' weights between which it takes its mist on; and one of a particle of which it is not known.
+const CROWD: (f64, f64) = (1.0, 6.0);
+pub const CROWDED: f64 = 64.0;
 
 /// The shape of a ball in 16 bits: signed parts of 4.
 pub const BALL: DMat3 = DMat3::from_diagonal(DVec3::splat(8192.0 * 4.0 / 32767.0));
@@ -353,7 +359,8 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             .and(more(depth, twice))
             .and(more(depth, near));
         if many && k == 0 {
-            one.amount = share * torn * torn * torn * one.amount;
+            let crowd = smoothstep(CROWD.0, CROWD.1, particle.crowd);
+            one.amount = share * torn * torn * torn * Rounded { v: crowd, e: 8.0 * U } * one.amount;
             let radius = off(RADIUS * settings.spacing, 3.0);
             let [along, across] = streaks.map(|streak| radius + streak);
             let cells = [one.ellipse.a / along, one.ellipse.b / across];
@@ -762,7 +769,14 @@ mod tests {
 
     fn particle(position: [f64; 3]) -> Particle {
         let position = DVec3::from(position);
-        Particle { position, velocity: DVec3::ZERO, density: 500.0, id: 7, shape: BALL }
+        Particle {
+            position,
+            velocity: DVec3::ZERO,
+            density: 500.0,
+            id: 7,
+            shape: BALL,
+            crowd: CROWDED,
+        }
     }
 
     fn open(view: &View) -> Image<f64> {
@@ -1100,7 +1114,8 @@ mod tests {
             }
             let e2 = e1.cross(normal);
             let (a, b) = (a.max(0.7 * pixel), b.max(0.7 * pixel));
-            let misty = if mist { torn * torn * torn } else { 1.0 };
+            let crowd = step(1.0, 6.0, particle.crowd as f32);
+            let misty = if mist { torn * torn * torn * crowd } else { 1.0 };
             let amount = share * misty * -(1.0 - taken).ln() * h * h / (a * b);
             if -p.z <= (2.0 * (a + pixel)).max(near) {
                 continue;
@@ -1173,6 +1188,7 @@ mod tests {
                 };
                 let particle = Particle {
                     shape,
+                    crowd: [CROWDED, random(0.0, 8.0)][i % 2],
                     position: held(back.transform_point3(at)),
                     velocity: held(back.transform_vector3(v)),
                     density: random(400.0, 900.0),
