@@ -162,6 +162,7 @@ fn an_output_that_is_full_is_code_5_and_one_that_is_closed_none() {
     folder.run(&format!("render a.ply -o a.png {SMALL}")).ok();
     folder.run(&format!("render a.ply -o b.png {SMALL} --sun 1,1,1")).ok();
     let bench = "bench --particles 64 --size 64x64 --frames 1 --warmup 0 --format";
+    // A benchmark prints all its formats by one function: of them the table alone meets a reader that has gone.
     let printing = [
         "info a.ply".to_string(),
         "info a.ply --json".to_string(),
@@ -174,6 +175,9 @@ fn an_output_that_is_full_is_code_5_and_one_that_is_closed_none() {
     for command in &printing {
         let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
         folder.run_to(command, full).fails(5, &["standard output", "space"]);
+        if command.starts_with("bench") && !command.ends_with("table") {
+            continue;
+        }
         let closed = || std::io::pipe().unwrap().1;
         let run = folder.run_to(command, closed()).ok();
         assert!(!run.stderr().contains("panicked"), "{command}: {}", run.stderr());
@@ -273,14 +277,17 @@ fn a_kill_leaves_a_file_to_the_next_run() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("out")).unwrap();
     folder.particles("a.ply", block(3));
-    let render = "render a.ply -o out/a.exr --size 640x360 --set none";
+    // Large enough that it takes a while to write, and as small as can be where that is no matter.
+    let [render, again] = ["640x360", "96x64"]
+        .map(|size| format!("render a.ply -o out/a.exr --set none --size {size}"));
     let hidden = || names(&folder.path("out")).into_iter().find(|name| name.starts_with('.'));
     let signal = |child: &std::process::Child, signal: &str| {
         let mut kill = std::process::Command::new("kill");
         assert!(kill.args([signal, &child.id().to_string()]).status().unwrap().success());
     };
     for _ in 0..20 {
-        let mut child = folder.command(render).stderr(std::process::Stdio::null()).spawn().unwrap();
+        let mut child =
+            folder.command(&render).stderr(std::process::Stdio::null()).spawn().unwrap();
         while child.try_wait().unwrap().is_none() {
             if hidden().is_none() {
                 std::thread::sleep(std::time::Duration::from_micros(300));
@@ -298,12 +305,12 @@ fn a_kill_leaves_a_file_to_the_next_run() {
                 signal(&child, "-CONT");
                 continue;
             };
-            folder.run(render).ok();
+            folder.run(&again).ok();
             assert_eq!(names(&folder.path("out")), [name.as_str(), "a.exr"]);
             signal(&child, "-KILL");
             child.wait().unwrap();
             assert_eq!(hidden(), Some(name));
-            folder.run(render).ok();
+            folder.run(&again).ok();
             assert_eq!(names(&folder.path("out")), ["a.exr"]);
             return;
         }

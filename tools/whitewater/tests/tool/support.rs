@@ -135,6 +135,11 @@ impl Run {
     }
 }
 
+/// Whether the long tests are asked for.
+pub fn slow() -> bool {
+    std::env::var_os("WHITEWATER_SLOW").is_some_and(|value| value == "1")
+}
+
 /// A block of water of n³ particles at rest, its lowest layer on y = 0, its middle on the y axis.
 pub fn block(n: usize) -> Vec<[f32; 3]> {
     let half = 0.5 * (n - 1) as f32 * SPACING;
