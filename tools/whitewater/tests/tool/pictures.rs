@@ -259,7 +259,7 @@ fn odd_and_tiny_sizes_and_levels_are_drawn() {
     folder.particles("a.ply", block(4));
     for (size, more) in [
         ("1x1", "--scene ground --smoothing-level 2 --splat compute --rule source"),
-        ("3x1", "--set none --smoothing-level 0 --splat raster --rule fixed:20"),
+        ("3x1", "--scene ground --smoothing-level 0 --splat raster --rule fixed:20"),
         ("33x65", "--thickness-level 0"),
     ] {
         folder.run(&format!("render a.ply -o a.exr -o a.png --size {size} {more} --validate")).ok();
