@@ -292,7 +292,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     for (i, row) in rows.into_iter().enumerate() {
         let Value::Object(mut row) = row else {
             return Err(ReadError::json(
-                "an object for each particle, as the first is one,",
+                "an object for each particle, as the first is one",
                 show(row.to_string().as_bytes()),
             ));
         };
@@ -408,7 +408,7 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
         match (vector, components) {
             (Some(row), Some(components)) => {
                 if row.len() != components {
-                    let expected = format!("{components} numbers in each row, as in the first,");
+                    let expected = format!("{components} numbers in each row, as in the first");
                     return Err(shape(name, &expected, row.len()));
                 }
                 for value in row {
@@ -418,7 +418,7 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
             (_, None) => values.push(number(row)?),
             (None, Some(_)) => {
                 return Err(ReadError::json(
-                    format!("arrays in `{name}`, as the first is one,"),
+                    format!("arrays in `{name}`, as the first is one"),
                     show(row.to_string().as_bytes()),
                 ));
             }
