@@ -139,6 +139,7 @@ impl Headless {
         let whitewater = made.map(|made| made.generator.particles());
         let whitewater =
             whitewater.or_else(|| self.whitewater.as_ref().map(WhitewaterBuffers::streams));
+        let whitewater = whitewater.filter(|_| self.whitewater_shown);
         let drawn = self.renderer.config().bubbles.is_some();
         let heap = self.heap.as_ref().filter(|_| drawn).map(BlobSimulation::blobs);
         let bubbles = heap.or_else(|| self.bubbles.as_ref().map(Foamed::streams));

@@ -1,7 +1,7 @@
 //! Whitewater emitted from the fluid's particles.
 
 use super::Headless;
-use super::inputs::{HOST_WRITE, stream};
+use super::inputs::HOST_WRITE;
 use crate::contract::{Count, GeneratorStep, Slot};
 use crate::error::Error;
 use crate::whitewater::{Generator, GeneratorConfig, GeneratorSettings};
@@ -73,10 +73,13 @@ impl Headless {
         settings: &GeneratorSettings,
         max_particles: u32,
     ) -> Result<(), Error> {
-        let (Some(positions), Some(velocities)) = (&self.positions, &self.velocities) else {
+        let all = self.streams()?;
+        let Some(velocities) = all.velocities else {
             return Err(Error::bad("velocities", "none uploaded"));
         };
-        let (positions, velocities) = (stream(positions, 12), stream(velocities, 12));
+        let Count::Cpu(count) = all.count else {
+            return Err(Error::bad("particles", "not counted by the CPU"));
+        };
         if self.generating.as_ref().is_some_and(|g| g.max_particles != max_particles)
             && let Some(old) = self.generating.take()
         {
@@ -95,10 +98,10 @@ impl Headless {
         };
         let step = GeneratorStep {
             slot: Slot(0),
-            positions,
+            positions: all.positions,
             velocities,
-            ids: self.ids.as_ref().map(|ids| stream(ids, 4)),
-            count: Count::Cpu(self.count),
+            ids: all.ids,
+            count: Count::Cpu(count),
             dt: dt.unwrap_or(0.0),
             number,
             settings,
@@ -116,7 +119,7 @@ impl Headless {
             generating.generator.abandon(Slot(0));
         }
         generating.shown = result.is_ok();
-        generating.count = if result.is_ok() { self.count } else { 0 };
+        generating.count = if result.is_ok() { count } else { 0 };
         self.generating = Some(generating);
         result
     }

@@ -500,9 +500,15 @@ impl Headless {
         result
     }
 
-    /// Draws only some of the uploaded particles, by index; `None`: all. Steps take all of them.
+    /// Draws only some of the uploaded particles, by index; `None`: all. Whitewater is emitted by those alone; steps of foam
+    /// take all of them.
     pub fn show(&mut self, some: Option<Range<u32>>) {
         self.shown = some;
+    }
+
+    /// Draws whitewater, as at first, or leaves it out of the frames from now on. It stays uploaded.
+    pub fn show_whitewater(&mut self, shown: bool) {
+        self.whitewater_shown = shown;
     }
 
     /// The particles as a frame takes them.

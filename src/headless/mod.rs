@@ -112,6 +112,8 @@ pub struct Headless {
     count: u32,
     /// The particles that are drawn, by index; `None`: all.
     shown: Option<Range<u32>>,
+    /// Whether whitewater is drawn.
+    whitewater_shown: bool,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
     levels: Option<SmoothingLevels>,
@@ -166,6 +168,7 @@ impl Headless {
             previous: None,
             count: 0,
             shown: None,
+            whitewater_shown: true,
             layers: Vec::new(),
             counts: None,
             levels: None,

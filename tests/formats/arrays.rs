@@ -344,6 +344,22 @@ fn shapes_of_json() {
     let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
     assert_eq!(p.positions[2], [5.0, 6.0, 7.0]);
     assert!(p.warnings[0].contains("2 of 3 positions are not finite"), "{:?}", p.warnings);
+    // Comments, and commas behind the last value.
+    for text in [
+        "// of a run\n{\"positions\": [[1, 2, 3], [4, 5, 6],], /* [ */ \"a // b\": \"/* ,]\",}",
+        "/* [[0, */ [[1, 2, 3], // , ]\n [4, 5, 6], /* last */ ]",
+        "[[1, 2, 3,], [4, 5, 6]] // the end",
+    ] {
+        let p =
+            read_bytes(text.as_bytes(), Extension::Json).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{text}");
+    }
+    let text = "[[1, \"2.5\", 3], [\"NaN\", 5, 6]]";
+    let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
+    assert!(p.positions[0] == [1.0, 2.5, 3.0] && p.positions[1][0].is_nan(), "{:?}", p.positions);
+    for text in ["[[1, 2, 3],, [4, 5, 6]]", "[[1, 2, 3] / [4, 5, 6]]", "[,]"] {
+        read_bytes(text.as_bytes(), Extension::Json).unwrap_err();
+    }
     let text = "{\"NaN \\\" is no number\": 1, \"position\": [[1, 2, NaN]]}";
     assert!(read_bytes(text.as_bytes(), Extension::Json).unwrap().positions[0][2].is_nan());
 }

@@ -231,7 +231,7 @@ fn places_are_told() {
     refused(b"x,y,z\n0,0,0\n0,0\n", Extension::Csv, &["line 3", "3 fields"]);
     refused(b"0 0 0\n0 0\n", Extension::Xyz, &["line 2"]);
     refused(b"[[0,0,0],\n[0,0]]", Extension::Json, &["3 numbers", "found 2"]);
-    refused(b"[[0,0,0],\n[0,0,]]", Extension::Json, &["line 2"]);
+    refused(b"[[0,0,0],\n[0,0 0]]", Extension::Json, &["line 2"]);
     refused(
         b"a,b\n1,2\n",
         Extension::Csv,

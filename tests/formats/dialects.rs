@@ -41,7 +41,7 @@ fn rows(separator: &str, end: &str) -> String {
 }
 
 /// Names of eight columns as programs write them.
-const NAMES: [(&str, [&str; 8]); 18] = [
+const NAMES: [(&str, [&str; 8]); 22] = [
     ("plain", ["x", "y", "z", "vx", "vy", "vz", "id", "rho"]),
     ("sphsol", ["X", "Y", "Z", "VX", "VY", "VZ", "ID", "DENSITY"]),
     (
@@ -122,6 +122,46 @@ const NAMES: [(&str, [&str; 8]); 18] = [
         ],
     ),
     ("maps", ["Easting", "Northing", "Elevation", "Speed_X", "Speed_Y", "Speed_Z", "label", "rho"]),
+    (
+        "STAR-CCM+",
+        [
+            "X (m)",
+            "Y (m)",
+            "Z (m)",
+            "Track: Parcel Velocity[i] (m/s)",
+            "Track: Parcel Velocity[j] (m/s)",
+            "Track: Parcel Velocity[k] (m/s)",
+            "Parcel Index",
+            "Density (kg/m^3)",
+        ],
+    ),
+    (
+        "Rocky",
+        [
+            "Particle : X-Coordinate [m]",
+            "Particle : Y-Coordinate [m]",
+            "Particle : Z-Coordinate [m]",
+            "Particle : Translational Velocity : X [m/s]",
+            "Particle : Translational Velocity : Y [m/s]",
+            "Particle : Translational Velocity : Z [m/s]",
+            "Particle : ID",
+            "Density [kg/m3]",
+        ],
+    ),
+    (
+        "CFX",
+        [
+            "X [ m ]",
+            "Y [ m ]",
+            "Z [ m ]",
+            "Velocity u [ m s^-1 ]",
+            "Velocity v [ m s^-1 ]",
+            "Velocity w [ m s^-1 ]",
+            "Node Number",
+            "Density [ kg m^-3 ]",
+        ],
+    ),
+    ("Houdini", ["P.x", "P.y", "P.z", "v.x", "v.y", "v.z", "@id", "density"]),
     ("r", ["rx", "ry", "rz", "dx/dt", "dy/dt", "dz/dt", "pid", "rho"]),
 ];
 
@@ -185,6 +225,55 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
     assert!(p.warnings[0].contains("2 lines above"), "{:?}", p.warnings);
     p.warnings.clear();
     check("head lines", &p);
+    // Sections in brackets are no JSON.
+    let cfx = "X [ m ], Y [ m ], Z [ m ]";
+    let text = format!("\n[Name]\nwater\n\n[Data]\n{cfx}\n1, 2, 3\n4, 5, 6\n");
+    let p = read(&text, Extension::Csv);
+    assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    assert!(p.warnings[0].contains("3 lines above"), "{:?}", p.warnings);
+    // Units below the names, and a rule.
+    for (names, below, separator) in [
+        ("x,y,z,id", "m,m,m,-", ","),
+        ("x,y,z,id", "[m],[m],[m],", ","),
+        ("x;y;z;id", "mm;mm;mm;", ";"),
+        ("| x | y | z | id |", "|---|---|---|---|", " | "),
+    ] {
+        let edge = if separator == " | " { "|" } else { "" };
+        let row = |n: u8| {
+            let numbers = [1, 2, 3, n].map(|c| c.to_string()).join(separator);
+            format!("{edge}{numbers}{edge}\n")
+        };
+        let p = read(&format!("{names}\n{below}\n{}{}", row(7), row(8)), Extension::Csv);
+        assert_eq!((p.positions, p.ids), (vec![[1.0, 2.0, 3.0]; 2], Some(vec![7, 8])), "{names}");
+    }
+    // Points of PLY that are called so.
+    let ply = "ply\nformat ascii 1.0\nelement point 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    assert_eq!(read(&format!("{ply}1 2 3\n4 5 6\n"), Extension::Ply).positions.len(), 2);
+    // As many comments above the names as there are.
+    let comments: String = (0..200).map(|i| format!("# line {i} of the log\n")).collect();
+    let p = read(&format!("{comments}x,y,z\n1,2,3\n"), Extension::Csv);
+    assert_eq!((p.positions, p.warnings.len()), (vec![[1.0, 2.0, 3.0]], 0));
+    // Tables one below the other.
+    for text in [
+        "x,y,z\n1,2,3\n4,5,6\nx,y,z\n1,2,3\n",
+        "TIMESTEP, 0.1\nx,y,z\n1,2,3\n4,5,6\nTIMESTEP, 0.2\nx,y,z\n1,2,3\n",
+    ] {
+        error(
+            text,
+            Extension::Csv,
+            &["several parts (another one begins in line", "a file for each"],
+        );
+    }
+    error(
+        "time,x1,y1,z1,x2,y2,z2\n0,1,2,3,4,5,6\n",
+        Extension::Csv,
+        &["a particle in each three columns", "time,x,y,z"],
+    );
+    // Vectors in a cell are named.
+    for row in ["7,\"(0.1, 0.2, 0.3)\"", "7,\"[0.1 0.2 0.3]\""] {
+        let text = format!("id,position\n{row}\n{row}\n");
+        error(&text, Extension::Csv, &["vector in each cell of column `position`", "x,y,z"]);
+    }
     // A comment with names in its words is none of them.
     let p = read("# x and y are in metres\n1 2 3\n4 5 6\n", Extension::Xyz);
     assert_eq!((p.positions.len(), p.warnings.len()), (2, 0));

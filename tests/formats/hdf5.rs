@@ -30,7 +30,7 @@ fn frame(name: &str, index: usize) -> Particles {
 
 #[test]
 fn files_of_one_frame_are_the_cloud() {
-    for name in ["pysph.hdf5", "grid.vtkhdf", "plain.h5", "cloud.xdmf"] {
+    for name in ["pysph.hdf5", "grid.vtkhdf", "plain.h5", "turned.h5", "cloud.xdmf"] {
         let particles = read(&path(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
         samples::check(name, &particles, Has::All);
         let xdmf = name.ends_with("xdmf");
@@ -77,14 +77,26 @@ fn steps_are_frames() {
     for (i, step) in [0.0, 1.0, 2.0, 10.0].into_iter().enumerate() {
         samples::check("h5part", &moved(frame("steps.h5part", i), step), Has::All);
     }
-    assert_eq!(times("h5md.h5"), [Some(0.0), Some(0.5)]);
-    for i in 0..2 {
-        let found = moved(frame("h5md.h5", i), i as f32);
-        assert_eq!(found.positions, samples::cloud().positions);
-        assert_eq!((found.velocities, found.ids), {
-            let cloud = samples::cloud();
-            (cloud.velocities, cloud.ids)
-        });
+    for name in ["h5md.h5", "stacked.h5", "apart.h5"] {
+        assert_eq!(times(name), [Some(0.0), Some(0.5)]);
+        for i in 0..2 {
+            let found = moved(frame(name, i), i as f32);
+            assert_eq!(found.positions, samples::cloud().positions, "{name}");
+            assert_eq!((found.velocities, found.ids), {
+                let cloud = samples::cloud();
+                (cloud.velocities, cloud.ids)
+            });
+        }
+    }
+    // Of groups that differ in a number anywhere, those of the fluid.
+    for (i, by) in [0.0, 0.5].into_iter().enumerate() {
+        let found = moved(frame("numbered.h5", i), by);
+        assert_eq!(found.positions.len(), samples::COUNT);
+        let off = |a: &[f32; 3], b: &[f32; 3]| (a[0] - b[0]).abs();
+        let cloud = samples::cloud();
+        let mut pairs = found.positions.iter().zip(&cloud.positions).map(|(a, b)| off(a, b));
+        assert!(pairs.all(|off| off < 1.0e-6), "{i}");
+        assert!(found.warnings[0].contains("are not read: /0000/walls, /0005/walls"));
     }
     // One that is not named is none.
     let error = read(&path("steps.vtkhdf")).unwrap_err().to_string();
@@ -125,6 +137,16 @@ fn what_is_not_read_is_named() {
     assert!(text.contains("lzf.h5") && text.contains("compression='gzip'"), "{text}");
     let error = read(&path("series.h5")).unwrap_err().to_string();
     assert!(error.contains("expected positions") && error.contains("/data0"), "{error}");
+    // What was never written has no place in the file, and none in memory.
+    let (result, peak) = allocation::peak(|| steps(&path("sparse.vtkhdf")));
+    let error = result.unwrap_err().to_string();
+    assert!(error.contains("PartOffsets` unpacks to more than"), "{error}");
+    assert!(peak < 1 << 24, "{peak}");
+    let (result, peak) = allocation::peak(|| read(&path("hollow.h5")));
+    assert_eq!(result.unwrap().positions, samples::cloud().positions);
+    assert!(peak < 1 << 24, "{peak}");
+    let error = read(&path("table.h5")).unwrap_err().to_string();
+    assert!(error.contains("/particles (a table: save each of its columns"), "{error}");
     let bytes = std::fs::read(path("plain.h5")).unwrap();
     for cut in [8, 100] {
         let error = read_bytes(&bytes[..cut], Extension::Unknown).unwrap_err();

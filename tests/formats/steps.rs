@@ -355,6 +355,65 @@ fn json_frames_are_read_alone() {
     }
 }
 
+/// Of arrays with one dimension more each frame is read where it is in each of them.
+#[test]
+fn json_frames_of_arrays_are_read_alone() {
+    let folder = Folder::new("json-stacked");
+    let positions = |i: usize| format!("[[{i}, 1, NaN], [0, 1, 2], [1, 0, 2]]");
+    let velocities = |i: usize| format!("[[0, {i}, 0], [0, 1, 2], [1, 0, 2]]");
+    let all = |of: &dyn Fn(usize) -> String| (0..3).map(of).collect::<Vec<_>>().join(", ");
+    let object = format!(
+        "/* {{[ */ {{\"dt\": 0.1, // [\n \"t\": [0, 0.25, 0.5], \"pos\\u0069tions\": [{}], \"id\": [7, 8, 9], \"vel\": [{}]}}",
+        all(&positions),
+        all(&velocities)
+    );
+    for (i, text) in
+        [object.clone(), format!("{{\"a\": 1, \"run\": {object}}}")].into_iter().enumerate()
+    {
+        let path = folder.put(&format!("{i}.json"), &text);
+        let steps = steps(&path).unwrap();
+        assert_eq!(steps.len(), 3, "{text}");
+        for (k, step) in steps.iter().enumerate() {
+            let mut alone = text.clone();
+            for other in (0..3).filter(|other| *other != k) {
+                for part in [positions(other), velocities(other)] {
+                    alone = alone.replace(&part, &"#".repeat(part.len()));
+                }
+            }
+            assert!(alone.contains('#'));
+            for text in [&text, &alone] {
+                folder.put(&format!("{i}.json"), text);
+                let read = read_step(&path, *step, &[]).unwrap();
+                assert_eq!(read.positions[0][0], k as f32, "{text}");
+                assert_eq!(read.velocities.unwrap()[0][1], k as f32);
+                assert_eq!((read.ids, read.time), (Some(vec![7, 8, 9]), Some(0.25 * k as f64)));
+                assert_eq!(read.attributes.len(), 3, "{:?}", read.attributes);
+            }
+            read_step(&path, Step::new(k, step.time), &[]).unwrap_err();
+        }
+    }
+}
+
+/// Of a table of trajectories, one particle below the other, the frames are those of its times.
+#[test]
+fn trajectories_below_each_other_are_frames() {
+    let folder = Folder::new("trajectories");
+    for names in ["time,x,y,z", "particle,time,x,y,z"] {
+        let row = |i: usize, k: usize| {
+            let id = if names.starts_with('p') { format!("{i},") } else { String::new() };
+            format!("{id}{},{},{i},0\n", 0.5 * k as f32, k)
+        };
+        let rows: String = (0..5).flat_map(|i| (0..3).map(move |k| row(i, k))).collect();
+        let path = folder.put("t.csv", format!("{names}\n{rows}"));
+        let all = steps(&path).unwrap();
+        assert_eq!(all.iter().map(|step| step.time).collect::<Vec<_>>(), [0.0, 0.5, 1.0].map(Some));
+        for (k, step) in all.into_iter().enumerate() {
+            let expected: Vec<_> = (0..5).map(|i| [k as f32, i as f32, 0.0]).collect();
+            assert_eq!(read_step(&path, step, &[]).unwrap().positions, expected, "{names}");
+        }
+    }
+}
+
 /// Phases in a file each, and the ranks that a PVD has at one time.
 #[test]
 fn files_of_one_number_are_one_frame_where_told() {

@@ -540,6 +540,22 @@ impl Roles {
         asked: &Asked,
     ) -> Result<Self, ReadError> {
         let search = Search::new(shapes);
+        let plain: Vec<String> = attributes.iter().map(|a| names::plain(&a.name)).collect();
+        let several = |digit: char| {
+            ["x", "y", "z"].iter().all(|axis| {
+                plain.iter().any(|name| {
+                    name.strip_prefix(axis).is_some_and(|rest| rest.chars().eq([digit]))
+                })
+            })
+        };
+        // `x1 x2 x3` would be a position by itself.
+        if several('1') && several('2') {
+            return Err(ReadError::Unsupported {
+                what: "a table with a particle in each three columns (x1 y1 z1 x2 y2 z2 ...)"
+                    .into(),
+                advice: "write a line for each particle, with columns time,x,y,z",
+            });
+        }
         let positions = match placed {
             Some(placed) => {
                 Some(Vector::Whole(placed, shapes.get(placed).map_or(3, |s| s.components)))

@@ -24,6 +24,12 @@ pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>
         return tecplot::open(content, &lines, asked);
     }
     let heading = Heading::of(&lines);
+    if let Some(name) = heading::in_a_cell(&lines, &heading) {
+        return Err(ReadError::Unsupported {
+            what: format!("a table with a vector in each cell of column `{name}`"),
+            advice: "write a column for each component: x,y,z",
+        });
+    }
     let first = |line: &[u8]| {
         let fields = heading::fields(line, heading.delimiter);
         super::bytes::parse_number(fields.first()?.as_bytes())
@@ -64,6 +70,7 @@ pub(super) fn open_at<'a>(
         columns: Vec::new(),
         record: csv::ByteRecord::new(),
         unread: false,
+        numbered: None,
     };
     let mut about = About::new(Format::Csv, asked);
     let mut columns = Vec::new();
@@ -117,6 +124,8 @@ struct Records<'a> {
     record: csv::ByteRecord,
     /// Whether a record was read that was not returned yet.
     unread: bool,
+    /// Whether the first row begins with a number; `None` before it is read.
+    numbered: Option<bool>,
 }
 
 impl Records<'_> {
@@ -133,6 +142,22 @@ impl Records<'_> {
         })
     }
 
+    /// The error for a line that is no row, by what is expected and found.
+    fn no_row(&self, expected: String, found: String) -> ReadError {
+        if self.numbered == Some(true) && !self.begins_with_number() {
+            return ReadError::Unsupported {
+                what: format!("a table of several parts (another one begins{})", self.place()),
+                advice: "write a file for each frame, numbered by it",
+            };
+        }
+        ReadError::table(expected, found, self.place())
+    }
+
+    fn begins_with_number(&self) -> bool {
+        let first = self.record.iter().next().unwrap_or_default();
+        heading::is_number(&String::from_utf8_lossy(first), self.decimal_comma.then_some(b';'))
+    }
+
     fn place(&self) -> Place {
         self.record.position().map_or(Place::Unknown, |p| Place::Line(self.lines + p.line()))
     }
@@ -146,10 +171,9 @@ impl RowReader for Records<'_> {
         // A separator may end the line.
         let more = self.record.iter().skip(self.names.len());
         if self.record.len() < self.names.len() || more.into_iter().any(|f| !f.is_empty()) {
-            return Err(ReadError::table(
+            return Err(self.no_row(
                 format!("{} fields in each line", self.names.len()),
                 format!("{}", self.record.len()),
-                self.place(),
             ));
         }
         for ((field, column), name) in self.record.iter().zip(&self.columns).zip(&self.names) {
@@ -161,12 +185,11 @@ impl RowReader for Records<'_> {
             let number = number_with_comma(field).filter(|_| self.decimal_comma);
             let number = number.or_else(|| may_be_text(name).then_some(f64::NAN));
             if !number.is_some_and(|number| column.data.push_number(number)) {
-                return Err(ReadError::table(
-                    format!("a number in column `{name}`"),
-                    show(field),
-                    self.place(),
-                ));
+                return Err(self.no_row(format!("a number in column `{name}`"), show(field)));
             }
+        }
+        if self.numbered.is_none() {
+            self.numbered = Some(self.begins_with_number());
         }
         Ok(true)
     }

@@ -293,7 +293,8 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
         {
             return Ok(Reader::VtkXml);
         }
-        if body.starts_with(b"[") || body.starts_with(b"{") {
+        let noted = hint == Extension::Json && (body.starts_with(b"//") || body.starts_with(b"/*"));
+        if (body.starts_with(b"[") && !is_section(body)) || body.starts_with(b"{") || noted {
             return Ok(Reader::Json);
         }
         if super::lammps::STARTS.iter().any(|start| body.starts_with(start)) {
@@ -318,6 +319,18 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
         return Ok(Reader::VtkXml);
     }
     Err(ReadError::UnknownFormat { found: describe(bytes, hint) })
+}
+
+/// Whether a text begins with a word in brackets, as sections of tables do (`[Name]` of ANSYS CFX).
+fn is_section(text: &[u8]) -> bool {
+    let inner = text.get(1..).unwrap_or_default();
+    let word = inner.iter().position(|b| !(b.is_ascii_alphanumeric() || *b == b' '));
+    let word = inner.get(..word.unwrap_or(0)).unwrap_or_default();
+    // Values of JSON, and Python's, that are words.
+    let value = [&b"true"[..], b"false", b"null", b"NaN", b"Infinity"].contains(&word);
+    !value
+        && word.first().is_some_and(u8::is_ascii_alphabetic)
+        && inner.get(word.len()..).is_some_and(|rest| rest.starts_with(b"]"))
 }
 
 /// Least number of rows of numbers in a text whose name says nothing.

@@ -8,6 +8,7 @@
 //!   several kinds of particles those called fluid are read.
 //! - H5Part: groups `Step#N`. Any other groups that differ in a number are frames as well.
 //! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
+//! - Positions of that shape in any group, or components of shape (frames, particles): what has as many frames belongs to them.
 //! - Others: the group, or groups, with an array of positions; several are joined.
 //!
 //! Of the requested frame, only arrays with a meaning are read. Memory use is limited by the size of the
@@ -61,6 +62,8 @@ const HEADER: usize = 1 << 22;
 /// An open file.
 pub(super) struct File {
     file: Hdf5File,
+    /// The most bytes that a dataset may unpack to.
+    limit: usize,
 }
 
 /// Where the particles of a frame are.
@@ -113,7 +116,7 @@ impl File {
             .with_max_object_header_bytes(HEADER)
             .with_chunk_cache_bytes(0);
         let file = Hdf5File::from_storage_with_options(storage, options).map_err(failed)?;
-        Ok(Self { file })
+        Ok(Self { file, limit })
     }
 
     /// Reads a dataset by its path.
@@ -121,7 +124,7 @@ impl File {
         let dataset = self.file.dataset(path).map_err(failed)?;
         let shape = dataset.shape().to_vec();
         let ty = type_of(&dataset);
-        Ok((shape, numbers(&dataset, ty, &Rows::All)?))
+        Ok((shape, numbers(&dataset, ty, &Rows::All, self.limit)?))
     }
 
     /// Times of the frames, where they are known.
@@ -144,15 +147,15 @@ impl File {
                 Place::Unknown,
             ));
         }
-        frames.swap_remove(frame).read(asked)
+        frames.swap_remove(frame).read(asked, self.limit)
     }
 
     fn frames(&self) -> Result<Vec<Frame>, ReadError> {
         let root = self.file.root_group().map_err(failed)?;
         if let Ok(grid) = root.group("VTKHDF") {
-            return of_vtk(&grid);
+            return of_vtk(&grid, self.limit);
         }
-        let mut frames = of_others(&root)?;
+        let mut frames = of_others(&root, self.limit)?;
         let time = root.group("solver_data").ok().and_then(|data| number(&data, &["t"]));
         if let [frame] = frames.as_mut_slice() {
             frame.time = frame.time.or(time);
@@ -245,11 +248,29 @@ fn selections(dataset: &Dataset, rows: &Rows) -> Vec<SliceInfo> {
     parts
 }
 
-/// Reads values of a dataset.
-fn numbers(dataset: &Dataset, ty: AttributeType, rows: &Rows) -> Result<Data, ReadError> {
+/// Reads values of a dataset, unless they are more bytes than the size of the file warrants: chunks that were never written
+/// need no place in it.
+fn numbers(
+    dataset: &Dataset,
+    ty: AttributeType,
+    rows: &Rows,
+    limit: usize,
+) -> Result<Data, ReadError> {
     use AttributeType as T;
-    if ty.size().is_none() || ty == T::F16 {
-        return Ok(Data::NONE);
+    let Some(size) = ty.size().filter(|_| ty != T::F16) else { return Ok(Data::NONE) };
+    let (first, rest) = dataset.shape().split_first().map_or((1, &[][..]), |(n, rest)| (*n, rest));
+    let some = match rows {
+        Rows::All => first,
+        Rows::Some(some) => some.end.min(first).saturating_sub(some.start),
+        Rows::Frame(_) => 1,
+    };
+    // Integers are held in 8 bytes.
+    let size = if matches!(Data::for_type(ty), Data::Int(_)) { 8 } else { size };
+    // Rows of nothing take time as well.
+    let bytes = rest.iter().fold(some.saturating_mul(size), |n, d| n.saturating_mul((*d).max(1)));
+    if bytes > limit as u64 {
+        let what = format!("dataset `{}`", dataset.name());
+        return Err(ReadError::TooLarge { what, limit: limit as u64 });
     }
     let mut data = Data::for_type(ty);
     for selection in selections(dataset, rows) {
@@ -311,9 +332,9 @@ fn fits(particles: u64, bytes: u64) -> Result<(), ReadError> {
 }
 
 /// Reads a list of integers.
-fn list(group: &Group, name: &str) -> Result<Vec<u64>, ReadError> {
+fn list(group: &Group, name: &str, limit: usize) -> Result<Vec<u64>, ReadError> {
     let dataset = group.dataset(name).map_err(failed)?;
-    let data = numbers(&dataset, type_of(&dataset), &Rows::All)?;
+    let data = numbers(&dataset, type_of(&dataset), &Rows::All, limit)?;
     let value = |i| data.f64(i).map_or(0, |x| x as u64);
     Ok((0..data.len()).map(value).collect())
 }
@@ -331,9 +352,18 @@ impl Array {
         Self { name: name.into(), dataset, rows }
     }
 
+    /// Whether it is a vector whose components are stored one after the other.
+    fn turned(&self) -> bool {
+        let turned = matches!(self.dataset.shape(), [2 | 3, n] if *n > 3);
+        turned && matches!(self.rows, Rows::All) && names::is_vector(&self.name)
+    }
+
     /// Number of particles, and of values per particle.
     fn shape(&self) -> (u64, usize) {
         let shape = self.dataset.shape();
+        if let ([components, count], true) = (shape, self.turned()) {
+            return (*count, *components as usize);
+        }
         let shape = match self.rows {
             Rows::Frame(_) => shape.get(1..).unwrap_or_default(),
             _ => shape,
@@ -349,7 +379,7 @@ impl Array {
 }
 
 impl Frame {
-    fn read(self, asked: &Asked) -> Result<Particles, ReadError> {
+    fn read(self, asked: &Asked, limit: usize) -> Result<Particles, ReadError> {
         let Self { time, mut parts } = self;
         if parts.iter().any(Part::has_some) {
             parts.retain(Part::has_some);
@@ -390,7 +420,9 @@ impl Frame {
                 if !wanted || ty.size().is_none() {
                     continue;
                 }
-                let data = numbers(&array.dataset, ty, &array.rows)?;
+                let data = numbers(&array.dataset, ty, &array.rows, limit)?;
+                let turned = array.turned();
+                let data = if turned { data.turned(components, 0, components) } else { data };
                 let expected = rows.saturating_mul(components as u64);
                 if data.len() as u64 != expected {
                     let (attribute, found) = (array.name, data.len() as u64);
@@ -433,7 +465,7 @@ impl Part {
 }
 
 /// The frames of a VTKHDF file.
-fn of_vtk(grid: &Group) -> Result<Vec<Frame>, ReadError> {
+fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
     let kind = |group: &Group| {
         let attribute = group.attribute("Type").ok();
         attribute.and_then(|a| a.read_string().ok()).unwrap_or_default()
@@ -456,8 +488,8 @@ fn of_vtk(grid: &Group) -> Result<Vec<Frame>, ReadError> {
     let mut frames: Vec<Frame> = Vec::new();
     for block in &blocks {
         let steps = block.group("Steps").or_else(|_| grid.group("Steps")).ok();
-        let counts = list(block, "NumberOfPoints")?;
-        let steps = steps.as_ref().map(|steps| Steps::of(steps, block)).transpose()?;
+        let counts = list(block, "NumberOfPoints", limit)?;
+        let steps = steps.as_ref().map(|steps| Steps::of(steps, block, limit)).transpose()?;
         let total = steps.as_ref().map_or(1, |steps| steps.values.len()).max(1);
         if total > GROUPS {
             return Err(ReadError::malformed("some steps", total.to_string(), Place::Unknown));
@@ -482,7 +514,7 @@ fn of_vtk(grid: &Group) -> Result<Vec<Frame>, ReadError> {
             let part = Part {
                 name: leaf(block.name()),
                 arrays,
-                warnings: mesh(block).into_iter().collect(),
+                warnings: mesh(block, limit).into_iter().collect(),
             };
             if frames.len() <= step {
                 let time = steps.as_ref().and_then(|steps| steps.values.get(step).copied());
@@ -510,9 +542,9 @@ struct Steps {
 }
 
 impl Steps {
-    fn of(steps: &Group, block: &Group) -> Result<Self, ReadError> {
+    fn of(steps: &Group, block: &Group, limit: usize) -> Result<Self, ReadError> {
         let dataset = steps.dataset("Values").map_err(failed)?;
-        let data = numbers(&dataset, type_of(&dataset), &Rows::All)?;
+        let data = numbers(&dataset, type_of(&dataset), &Rows::All, limit)?;
         let values: Vec<f64> = (0..data.len()).filter_map(|i| data.f64(i)).collect();
         // In a collection the blocks have the steps.
         let own = block.group("Steps").unwrap_or_else(|_| steps.clone());
@@ -520,13 +552,16 @@ impl Steps {
         if let Ok(group) = own.group("PointDataOffsets") {
             for dataset in group.datasets().map_err(failed)? {
                 let name = leaf(dataset.name());
-                let offsets = list(&group, &name)?;
+                let offsets = list(&group, &name, limit)?;
                 arrays.push((name, offsets));
             }
         }
-        let points = list(&own, "PointOffsets")?;
-        let parts = list(&own, "PartOffsets").unwrap_or_else(|_| vec![0; values.len()]);
-        let counts = list(&own, "NumberOfParts").unwrap_or_else(|_| vec![1; values.len()]);
+        let points = list(&own, "PointOffsets", limit)?;
+        let or = |name: &str, each: u64| match own.dataset(name) {
+            Ok(_) => list(&own, name, limit),
+            Err(_) => Ok(vec![each; values.len()]),
+        };
+        let (parts, counts) = (or("PartOffsets", 0)?, or("NumberOfParts", 1)?);
         Ok(Self { values, points, parts, counts, arrays })
     }
 
@@ -544,20 +579,52 @@ impl Steps {
 }
 
 /// Warning about the vertices of a mesh.
-fn mesh(block: &Group) -> Option<String> {
+fn mesh(block: &Group, limit: usize) -> Option<String> {
     let cells = |name: &str| {
         let group = block.group(name).ok()?;
         Some(
-            list(&group, "NumberOfCells").ok()?.iter().fold(0_u64, |sum, n| sum.saturating_add(*n)),
+            list(&group, "NumberOfCells", limit)
+                .ok()?
+                .iter()
+                .fold(0_u64, |sum, n| sum.saturating_add(*n)),
         )
     };
     let polygons = cells("Polygons").unwrap_or(0).saturating_add(cells("Strips").unwrap_or(0));
     if polygons > 0 && cells("Vertices").unwrap_or(0) == 0 {
         return Some(mesh_warning(polygons, "polygons"));
     }
-    let types = list(block, "Types").unwrap_or_default();
+    let types = list(block, "Types", limit).unwrap_or_default();
     let more = types.iter().filter(|ty| !is_point(**ty as f64)).count();
     (2 * more > types.len()).then(|| mesh_warning(types.len() as u64, "cells"))
+}
+
+/// The frames of positions with one dimension more, and their times.
+fn stacked(arrays: &[Array], limit: usize) -> Result<Option<Frames>, ReadError> {
+    let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
+    let apart = names::have_positions(&names);
+    let count = arrays.iter().find_map(|array| match array.dataset.shape() {
+        [count, _, 2 | 3] if names::is_position(&array.name) => Some(*count),
+        [count, particles] if apart && names::is_component(&array.name) && *particles > 3 => {
+            Some(*count)
+        }
+        _ => None,
+    });
+    let Some(count) = count else { return Ok(None) };
+    let of = |array: &Array| array.dataset.shape().first() == Some(&count);
+    let times = arrays
+        .iter()
+        .find(|array| names::is_time(&array.name) && array.dataset.ndim() == 1 && of(array));
+    let times =
+        times.map(|array| numbers(&array.dataset, type_of(&array.dataset), &Rows::All, limit));
+    let times = times.transpose()?;
+    let frames = (0..count.min(GROUPS as u64)).map(|frame| {
+        let own = arrays.iter().filter(|array| !names::is_time(&array.name)).map(|array| {
+            let rows = if of(array) { Rows::Frame(frame) } else { Rows::All };
+            Array::new(&array.name, array.dataset.clone(), rows)
+        });
+        (times.as_ref().and_then(|times| times.f64(frame as usize)), own.collect())
+    });
+    Ok(Some(frames.collect()))
 }
 
 /// The last component of a path.
@@ -565,37 +632,25 @@ fn leaf(path: &str) -> String {
     path.rsplit('/').next().unwrap_or(path).to_string()
 }
 
+/// The time of each frame, and its attributes.
+type Frames = Vec<(Option<f64>, Vec<Array>)>;
+
 /// A group with positions.
 struct Found {
     path: String,
-    /// Attributes of each frame. Only H5MD has several frames.
-    frames: Vec<(Option<f64>, Vec<Array>)>,
+    frames: Frames,
 }
 
 /// The frames of a file without a known convention, or by the names of its groups.
-fn of_others(root: &Group) -> Result<Vec<Frame>, ReadError> {
+fn of_others(root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
     let (mut found, mut looked, mut seen) = (Vec::new(), 0, Vec::new());
-    search(root, "", 0, &mut looked, &mut found, &mut seen)?;
+    search(root, ("", 0), &mut looked, &mut found, &mut seen, limit)?;
     let frame = |time, parts| Frame { time, parts };
     let part = |name: &str, arrays| Part { name: name.into(), arrays, warnings: Vec::new() };
     if found.is_empty() {
         let names: Vec<_> = seen.into_iter().take(24).collect();
         let found = if names.is_empty() { "no arrays at all".into() } else { names.join(", ") };
         return Err(ReadError::NoPositions { expected: names::POSITION_NAMES, found });
-    }
-    // Groups that differ in a number are frames.
-    let numbers: Option<Vec<f64>> =
-        found.iter().map(|found: &Found| in_name(&leaf(&found.path))).collect();
-    let texts = |path: &str| path.replace(|c: char| c.is_ascii_digit() || "+-.eE".contains(c), "");
-    let first = found.first().map(|found| texts(&found.path)).unwrap_or_default();
-    let alike = found.iter().all(|found| texts(&found.path) == first);
-    if let (Some(numbers), true, true) = (numbers, alike, found.len() > 1) {
-        let mut all: Vec<(f64, Found)> = numbers.into_iter().zip(found).collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let frames = all.into_iter().flat_map(|(_, Found { path, frames })| {
-            frames.into_iter().map(move |(time, arrays)| frame(time, vec![part(&path, arrays)]))
-        });
-        return Ok(frames.collect());
     }
     // Walls are in groups with other names beside the fluid.
     let fluid = |found: &Found| {
@@ -612,6 +667,30 @@ fn of_others(root: &Group) -> Result<Vec<Frame>, ReadError> {
             kept
         });
     }
+    let told = (!passed.is_empty()).then(|| {
+        let some: Vec<_> = passed.iter().take(24).map(String::as_str).collect();
+        format!("groups that are no fluid are not read: {}", some.join(", "))
+    });
+    let tell = |frames: &mut [Frame]| {
+        let parts = frames.iter_mut().filter_map(|frame| frame.parts.first_mut());
+        parts.for_each(|part| part.warnings.extend(told.clone()));
+    };
+    // Groups that differ in a number are frames.
+    let numbers: Option<Vec<f64>> =
+        found.iter().map(|found: &Found| in_name(&found.path)).collect();
+    let texts = |path: &str| path.replace(|c: char| c.is_ascii_digit() || "+-.eE".contains(c), "");
+    let first = found.first().map(|found| texts(&found.path)).unwrap_or_default();
+    let alike = found.iter().all(|found| texts(&found.path) == first);
+    if let (Some(numbers), true, true) = (numbers, alike, found.len() > 1) {
+        let mut all: Vec<(f64, Found)> = numbers.into_iter().zip(found).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let frames = all.into_iter().flat_map(|(_, Found { path, frames })| {
+            frames.into_iter().map(move |(time, arrays)| frame(time, vec![part(&path, arrays)]))
+        });
+        let mut frames: Vec<Frame> = frames.collect();
+        tell(&mut frames);
+        return Ok(frames);
+    }
     let mut frames: Vec<Frame> = Vec::new();
     for Found { path, frames: own } in found {
         for (i, (time, arrays)) in own.into_iter().enumerate() {
@@ -623,11 +702,7 @@ fn of_others(root: &Group) -> Result<Vec<Frame>, ReadError> {
             }
         }
     }
-    if let (false, Some(part)) =
-        (passed.is_empty(), frames.first_mut().and_then(|frame| frame.parts.first_mut()))
-    {
-        part.warnings.push(format!("groups that are no fluid are not read: {}", passed.join(", ")));
-    }
+    tell(frames.get_mut(..1).unwrap_or_default());
     Ok(frames)
 }
 
@@ -647,11 +722,11 @@ fn in_name(name: &str) -> Option<f64> {
 /// Searches this group and those below it for positions.
 fn search(
     group: &Group,
-    path: &str,
-    depth: usize,
+    (path, depth): (&str, usize),
     looked: &mut usize,
     found: &mut Vec<Found>,
     seen: &mut Vec<String>,
+    limit: usize,
 ) -> Result<(), ReadError> {
     *looked += 1;
     if *looked > GROUPS || depth > DEEP {
@@ -663,10 +738,17 @@ fn search(
         .into_iter()
         .map(|dataset| Array::new(&leaf(dataset.name()), dataset, Rows::All))
         .collect();
-    seen.extend(arrays.iter().map(|array| format!("{path}/{}", array.name)));
+    seen.extend(arrays.iter().map(|array| match array.dataset.dtype() {
+        Datatype::Compound { .. } => format!(
+            "{path}/{} (a table: save each of its columns as a dataset, h[name] = table[name] in h5py)",
+            array.name
+        ),
+        _ => format!("{path}/{}", array.name),
+    }));
     let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
     if names::may_have_positions(&names) {
-        found.push(Found { path: path.into(), frames: vec![(time, arrays)] });
+        let frames = stacked(&arrays, limit)?.unwrap_or_else(|| vec![(time, arrays)]);
+        found.push(Found { path: path.into(), frames });
     }
     // H5MD: one group per property, with its values in one dataset.
     let value = |group: &Group| {
@@ -679,7 +761,7 @@ fn search(
         let all: Vec<_> = groups.iter().filter_map(value).collect();
         let times = position.and_then(|position| {
             let dataset = position.dataset("time").ok()?;
-            numbers(&dataset, type_of(&dataset), &Rows::All).ok()
+            numbers(&dataset, type_of(&dataset), &Rows::All, limit).ok()
         });
         let frames = (0..frames.min(GROUPS as u64)).map(|frame| {
             let own = all.iter().filter(|(_, _, count)| *count > frame);
@@ -692,7 +774,7 @@ fn search(
     }
     for inner in &groups {
         let path = format!("{path}/{}", leaf(inner.name()));
-        search(inner, &path, depth + 1, looked, found, seen)?;
+        search(inner, (&path, depth + 1), looked, found, seen, limit)?;
     }
     Ok(())
 }

@@ -7,13 +7,14 @@
 
 use super::bytes::parse_number;
 use super::error::ReadError;
-use super::names::have_positions;
+use super::names::{have_positions, is_position};
 use super::source::Content;
 use super::tecplot;
 use super::text::Text;
 
-/// Number of lines searched for the names.
+/// Number of lines searched for the names, and of these with comments.
 const LINES: usize = 64;
+const ALL: usize = 4096;
 
 /// The beginning of a table.
 pub(super) struct Heading {
@@ -35,14 +36,15 @@ pub(super) struct Line {
     pub(super) next: u64,
 }
 
-/// The first [`LINES`] lines of a file.
+/// The first [`LINES`] lines of a file, and the comments between them.
 pub(super) fn lines(content: &Content<'_>) -> Result<Vec<Line>, ReadError> {
     let mut text = Text::of(content)?;
-    let mut lines = Vec::new();
-    while lines.len() < LINES {
+    let (mut lines, mut others) = (Vec::new(), 0);
+    while others < LINES && lines.len() < ALL {
         let start = text.at();
         let Some(line) = text.line()? else { break };
         let line = line.to_vec();
+        others += usize::from(!is_comment(&line));
         lines.push(Line { text: line, start, next: text.at() });
     }
     Ok(tecplot::joined(lines))
@@ -140,6 +142,32 @@ pub(super) fn number_with_comma(field: &[u8]) -> Option<f64> {
     parse_number(&field)
 }
 
+/// The column of positions of a table whose fields are vectors, `"(1, 2, 3)"`, if it is one.
+pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
+    if have_positions(&heading.names) {
+        return None;
+    }
+    let mut rows = lines.iter().filter(|line| !is_comment(&line.text));
+    let (names, row) = (rows.next()?, rows.next()?);
+    let separator = delimiter(&names.text);
+    let (names, row) = (fields(&names.text, separator), fields(&row.text, separator));
+    let vector =
+        |field: &str| field.starts_with(['(', '[', '{']) && field.contains(char::is_numeric);
+    let mut all = names.into_iter().zip(row);
+    all.find(|(name, field)| is_position(name) && vector(field)).map(|(name, _)| name)
+}
+
+/// A line without any number before one with some, from a line on: its index, and the other.
+fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
+    let mut all = lines.iter().enumerate().skip(from).filter(|(_, line)| !is_comment(&line.text));
+    let ((at, units), (_, row)) = (all.next()?, all.next()?);
+    let separator = delimiter(&row.text);
+    let number = |field: &String| !field.is_empty() && is_number(field, separator);
+    let [units, row] = [units, row].map(|line| (fields(&line.text, separator), line));
+    (!units.0.iter().any(number) && units.0.len() <= row.0.len() && row.0.iter().any(number))
+        .then_some((at, row.1))
+}
+
 impl Heading {
     pub(super) fn of(lines: &[Line]) -> Self {
         let passed = |upto: usize| {
@@ -149,7 +177,9 @@ impl Heading {
         for (i, line) in lines.iter().enumerate() {
             let (names_line, _) = uncommented(&line.text);
             let names_line = tecplot::variables(names_line).unwrap_or(names_line);
-            let row = data(i + 1);
+            // Units, or a rule, may be between the names and the rows.
+            let below = below(lines, i + 1);
+            let row = below.map_or_else(|| data(i + 1), |(_, row)| Some(row));
             let separator = row.map_or_else(|| delimiter(names_line), |row| delimiter(&row.text));
             let count = row.map(|row| fields(&row.text, separator).len());
             let mut separators = vec![separator];
@@ -160,8 +190,11 @@ impl Heading {
                 words && count.is_none_or(|count| count == names.len()) && have_positions(names)
             });
             if let Some(names) = names {
+                let passed = passed(i);
+                let (i, line) =
+                    below.map_or((i, line), |(units, _)| (units, lines.get(units).unwrap_or(line)));
                 let (at, line) = (line.next, i as u64 + 1);
-                return Self { delimiter: separator, names, at, line, passed: passed(i) };
+                return Self { delimiter: separator, names, at, line, passed };
             }
             if i > 0 && !is_comment(&line.text) && row.is_none() {
                 break;

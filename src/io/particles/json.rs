@@ -4,7 +4,8 @@
 //! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density":
 //! [1000]}`. In a flat array the components of vectors follow one another. An object with a single array of
 //! particles, `{"particles": [...]}`, is read as that array. A file with one JSON value per line is read as
-//! an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Houdini's JSON geometry begins with
+//! an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Comments and commas behind the last value are
+//! passed over. Houdini's JSON geometry begins with
 //! `"fileversion"` and is refused.
 //!
 //! Several frames are a list of such lists or objects, such objects by name (`{"frame_1": ..}`), or arrays with
@@ -28,24 +29,28 @@ pub(super) fn steps(content: &Content<'_>) -> Result<Vec<Step>, ReadError> {
     let value = value(&bytes)?;
     let times = json_frames::times(&value).into_iter().enumerate();
     let parts = json_frames::parts(&value, &bytes).unwrap_or_default();
-    let part =
-        |index: usize| parts.get(index).map(|part| [part.start, part.end].map(|at| at as u64));
+    let part = |index: usize| parts.get(index).copied();
     Ok(times.map(|(index, time)| Step { part: part(index), ..Step::new(index, time) }).collect())
 }
 
 /// The frame that is asked for, read where it is in the file; none where that is not known, or no frame is there any more.
 pub(super) fn read_part(content: &Content<'_>, asked: &Asked) -> Option<Particles> {
-    let [start, end] = asked.step()?.part?;
-    let mut bytes = Vec::new();
-    content.open(start, end).and_then(|mut part| part.fill(end - start, &mut bytes)).ok()?;
-    of_value(value(&bytes).ok()?, asked).ok()
+    let step = asked.step()?;
+    let text = step.part?.text(|start, end| {
+        let mut bytes = Vec::new();
+        content.open(start, end).and_then(|mut part| part.fill(end - start, &mut bytes)).ok()?;
+        Some(bytes)
+    })?;
+    let mut read = of_value(value(&text).ok()?, asked).ok()?;
+    read.time = read.time.or(step.time);
+    Some(read)
 }
 
 fn value(bytes: &[u8]) -> Result<Value, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match parse(bytes) {
-        // Only after an error: Python's numbers are rare, and replacing them takes a copy.
-        Err(error) => match without_python(bytes) {
+        // Only after an error: all this is rare, and replacing it takes a copy.
+        Err(error) => match strict(bytes) {
             Some(bytes) => parse(&bytes),
             None => Err(error),
         },
@@ -99,8 +104,9 @@ fn parse(bytes: &[u8]) -> Result<Value, ReadError> {
     Ok(Value::Array(rows))
 }
 
-/// The text with `null` instead of Python's numbers that JSON does not have; `None` if there are none.
-fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
+/// The text with `null` instead of Python's numbers that JSON does not have, without comments and without commas behind the
+/// last value; `None` if there is none of these.
+fn strict(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut out = Vec::with_capacity(bytes.len());
     let mut rest = bytes;
     let mut quoted = false;
@@ -113,6 +119,17 @@ fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
             continue;
         }
         quoted ^= byte == b'"';
+        if let (false, Some(comment)) = (quoted, comment(rest)) {
+            rest = rest.get(comment..).unwrap_or_default();
+            found = true;
+            continue;
+        }
+        let value = || !matches!(out.trim_ascii_end().last(), None | Some(b'[' | b'{' | b','));
+        if byte == b',' && !quoted && closes(behind) && value() {
+            rest = behind;
+            found = true;
+            continue;
+        }
         let words = [&b"NaN"[..], b"-Infinity", b"Infinity"];
         let word = words.iter().find(|word| !quoted && rest.starts_with(word));
         match word {
@@ -128,6 +145,26 @@ fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
         }
     }
     found.then_some(out)
+}
+
+/// The length of a comment at the beginning.
+pub(super) fn comment(text: &[u8]) -> Option<usize> {
+    let end = |mark: &[u8]| text.windows(mark.len()).skip(2).position(|part| part == mark);
+    if text.starts_with(b"//") {
+        return Some(text.iter().position(|b| *b == b'\n').unwrap_or(text.len()));
+    }
+    text.starts_with(b"/*").then(|| end(b"*/").map_or(text.len(), |at| at + 4))
+}
+
+/// Whether nothing but space and comments is before the end of an array or object.
+fn closes(mut text: &[u8]) -> bool {
+    loop {
+        text = text.trim_ascii_start();
+        match comment(text) {
+            Some(length) => text = text.get(length..).unwrap_or_default(),
+            None => return matches!(text.first(), Some(b']' | b'}')),
+        }
+    }
 }
 
 /// Reads rows that are positions, or particles as objects.
@@ -255,7 +292,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     for (i, row) in rows.into_iter().enumerate() {
         let Value::Object(mut row) = row else {
             return Err(ReadError::json(
-                "an object for each particle, as the first is one,",
+                "an object for each particle, as the first is one",
                 show(row.to_string().as_bytes()),
             ));
         };
@@ -355,6 +392,10 @@ fn components(value: &Value) -> Option<Vec<&Value>> {
 fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
     let number = |value: &Value| match value {
         Value::Null => Ok(f64::NAN),
+        // Some programs quote them, `"NaN"` more than others.
+        Value::String(text) if text.trim().parse::<f64>().is_ok() => {
+            Ok(text.trim().parse().unwrap_or(f64::NAN))
+        }
         value => value.as_f64().ok_or_else(|| {
             ReadError::json(format!("numbers in `{name}`"), show(value.to_string().as_bytes()))
         }),
@@ -367,7 +408,7 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
         match (vector, components) {
             (Some(row), Some(components)) => {
                 if row.len() != components {
-                    let expected = format!("{components} numbers in each row, as in the first,");
+                    let expected = format!("{components} numbers in each row, as in the first");
                     return Err(shape(name, &expected, row.len()));
                 }
                 for value in row {
@@ -377,7 +418,7 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
             (_, None) => values.push(number(row)?),
             (None, Some(_)) => {
                 return Err(ReadError::json(
-                    format!("arrays in `{name}`, as the first is one,"),
+                    format!("arrays in `{name}`, as the first is one"),
                     show(row.to_string().as_bytes()),
                 ));
             }

@@ -157,44 +157,113 @@ pub(super) fn one(value: Value, index: usize) -> Value {
     }
 }
 
-/// Where in the text each frame begins and ends; none for one frame, and where a frame is in several places.
-pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Range<usize>>> {
+/// Most arrays of a frame that are read each where it is.
+const ARRAYS: usize = 8;
+
+/// Where a frame is in the text: from and to where each of its arrays goes, after the same of its name. One without a name is
+/// the whole frame.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(in crate::io::particles) struct Part([[u64; 4]; ARRAYS]);
+
+impl Part {
+    /// One of arrays, by their names.
+    fn of(arrays: impl Iterator<Item = (Range<usize>, Range<usize>)>) -> Self {
+        let mut part = Self::default();
+        for (to, (name, range)) in part.0.iter_mut().zip(arrays) {
+            *to = [name.start, name.end, range.start, range.end].map(|at| at as u64);
+        }
+        part
+    }
+
+    /// The same in a text of which this one is a piece.
+    fn moved(self, by: usize) -> Self {
+        let moved = |[a, b, c, d]: [u64; 4]| {
+            let at = |x: u64| x + by as u64;
+            if a == b { [0, 0, at(c), at(d)] } else { [a, b, c, d].map(at) }
+        };
+        Self(self.0.map(|range| if range == [0; 4] { range } else { moved(range) }))
+    }
+
+    /// The text of the frame, by what reads from and to where it is told.
+    pub(super) fn text(self, mut read: impl FnMut(u64, u64) -> Option<Vec<u8>>) -> Option<Vec<u8>> {
+        let mut text = Vec::new();
+        for [from, to, start, end] in self.0.into_iter().filter(|[.., end]| *end > 0) {
+            let value = read(start, end)?;
+            if from == to {
+                return Some(value);
+            }
+            text.push(if text.is_empty() { b'{' } else { b',' });
+            text.extend(read(from, to)?);
+            text.push(b':');
+            text.extend(value);
+        }
+        text.push(b'}');
+        Some(text)
+    }
+}
+
+/// Where in the text each frame is; none for one frame, and where a frame has too many arrays.
+pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
     let named = || {
-        let name =
-            |(name, part): (&[u8], _)| Some((serde_json::from_slice::<String>(name).ok()?, part));
+        let name = |(name, part): (Range<usize>, _)| {
+            let own: String = serde_json::from_slice(text.get(name.clone())?).ok()?;
+            Some((own, (name, part)))
+        };
         // Of two of one name the last one is read.
         held(text, 1).into_iter().filter_map(name).collect::<HashMap<_, _>>()
     };
+    let whole = |range: Range<usize>| Part::of(std::iter::once((0..0, range)));
     match (frames(value)?, value) {
         (Frames::List(count), _) => {
             // A value on each line, or an array.
             let lines = held(text, 0);
             let all = if lines.len() == 1 { held(text, 1) } else { lines };
-            let parts: Vec<_> = all.into_iter().map(|(_, part)| part).collect();
+            let parts: Vec<_> = all.into_iter().map(|(_, part)| whole(part)).collect();
             (parts.len() == count).then_some(parts)
         }
         (Frames::Named(all), _) => {
             let named = named();
-            all.iter().map(|name| named.get(name).cloned()).collect()
+            all.iter().map(|name| named.get(name).map(|(_, part)| whole(part.clone()))).collect()
+        }
+        (Frames::Stacked(count), _) => {
+            let arrays = named();
+            let mut parts = vec![Vec::new(); count];
+            let all = arrays.iter().filter(|(name, _)| !names::is_time(name));
+            for (_, (name, range)) in all.filter(|_| arrays.len() <= ARRAYS) {
+                let inner = held(text.get(range.clone())?, 1);
+                for (i, part) in parts.iter_mut().enumerate() {
+                    // What is no list of frames is the same in all of them.
+                    let own = inner.get(i).filter(|_| inner.len() == count);
+                    let own = own.map_or(range.clone(), |(_, own)| {
+                        own.start + range.start..own.end + range.start
+                    });
+                    part.push((name.clone(), own));
+                }
+            }
+            let parts = parts.into_iter().map(|part| Part::of(part.into_iter()));
+            (arrays.len() <= ARRAYS).then(|| parts.collect())
         }
         (Frames::Behind(name), Value::Object(map)) => {
-            let inner = named().get(&name)?.clone();
+            let (_, inner) = named().get(&name)?.clone();
             let parts = parts(map.get(&name)?, text.get(inner.clone())?)?;
-            let moved = |part: Range<usize>| part.start + inner.start..part.end + inner.start;
-            Some(parts.into_iter().map(moved).collect())
+            Some(parts.into_iter().map(|part| part.moved(inner.start)).collect())
         }
         _ => None,
     }
 }
 
-/// The arrays and objects that lie in so many others, in valid text: the string before each, which is its name in an object,
-/// and where it begins and ends.
-fn held(text: &[u8], level: usize) -> Vec<(&[u8], Range<usize>)> {
+/// The arrays and objects that lie in so many others, in valid text, which may have comments: where the string before each is, which is its name in an
+/// object, and where it begins and ends.
+fn held(text: &[u8], level: usize) -> Vec<(Range<usize>, Range<usize>)> {
     let mut all = Vec::new();
     let (mut depth, mut begin) = (0_usize, 0);
     let (mut quote, mut escaped) = (None, false);
-    let mut name: &[u8] = &[];
+    let mut name = 0..0;
+    let mut comment = 0;
     for (at, byte) in text.iter().enumerate() {
+        if at < comment {
+            continue;
+        }
         if let Some(from) = quote {
             match byte {
                 _ if escaped => escaped = false,
@@ -202,7 +271,7 @@ fn held(text: &[u8], level: usize) -> Vec<(&[u8], Range<usize>)> {
                 b'"' => {
                     quote = None;
                     if depth == level {
-                        name = text.get(from..=at).unwrap_or_default();
+                        name = from..at + 1;
                     }
                 }
                 _ => {}
@@ -211,6 +280,11 @@ fn held(text: &[u8], level: usize) -> Vec<(&[u8], Range<usize>)> {
         }
         match byte {
             b'"' => quote = Some(at),
+            // No value begins so.
+            b'/' => {
+                let rest = text.get(at..).unwrap_or_default();
+                comment = at + super::json::comment(rest).unwrap_or(1);
+            }
             b'[' | b'{' => {
                 if depth == level {
                     begin = at;
@@ -220,7 +294,7 @@ fn held(text: &[u8], level: usize) -> Vec<(&[u8], Range<usize>)> {
             b']' | b'}' => {
                 depth = depth.saturating_sub(1);
                 if depth == level {
-                    all.push((name, begin..at + 1));
+                    all.push((name.clone(), begin..at + 1));
                 }
             }
             _ => {}

@@ -1,8 +1,9 @@
 //! Meanings of attribute names, in the spellings of different programs.
 //!
 //! Case, blanks, `_ - . :` and units in brackets are ignored: `Pos.x [m]`, `pos_x` and `PosX` are one name.
-//! Components are `x y z`, or numbers from 0 or 1, bare or in brackets: `Points:0`, `v_1`, `velocity[2]`. A
-//! prefix `particle` or `part` is ignored: `Part id`, `particle_velocity_x`.
+//! Components are `x y z`, numbers from 0 or 1, `i j k` or, of long names, `u v w`, bare or in brackets: `Points:0`, `v_1`,
+//! `velocity[2]`, `Velocity[i]`, `Velocity u`. A prefix `particle` or `part` is ignored: `Part id`, `particle_velocity_x`;
+//! before vectors also `Track: Parcel` and `Translational`.
 
 /// Plain names with one meaning, in order of preference.
 pub(super) type Names = &'static [&'static str];
@@ -38,9 +39,13 @@ pub(super) const VELOCITY: Names = &[
     "pv",
     "u",
     "speed",
+    "geschwindigkeit",
+    "geschw",
+    "vitesse",
+    "velocidad",
 ];
 pub(super) const DENSITY: Names =
-    &["density", "densities", "rho", "rhop", "dens", "massdensity", "ρ"];
+    &["density", "densities", "rho", "rhop", "dens", "massdensity", "ρ", "crho"];
 pub(super) const ID: Names = &[
     "id",
     "ids",
@@ -61,6 +66,8 @@ pub(super) const ID: Names = &[
     "particleindex",
     "atomid",
     "label",
+    "nodenumber",
+    "particle",
 ];
 pub(super) const LIFETIME: Names = &["lifetime", "life"];
 pub(super) const KIND: Names = &["type"];
@@ -73,7 +80,11 @@ pub(super) const STEP: Names = &["timestep", "time", "timevalue", "step", "frame
 pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points` or `x` with 3 components, or `x` `y` `z`, `Points:0` `Points:1` `Points:2`";
 
 /// Suffixes of the components of a vector.
-const SUFFIXES: [[&str; 3]; 3] = [["x", "y", "z"], ["0", "1", "2"], ["1", "2", "3"]];
+const SUFFIXES: [[&str; 3]; 5] =
+    [["x", "y", "z"], ["0", "1", "2"], ["1", "2", "3"], ["i", "j", "k"], ["u", "v", "w"]];
+/// Words before the name of a vector that do not distinguish it.
+const WORDS: [&str; 7] =
+    ["particles", "particle", "parcel", "part", "track", "translational", "linear"];
 
 /// The name in plain form: without what does not distinguish names.
 pub(super) fn plain(name: &str) -> String {
@@ -86,7 +97,9 @@ pub(super) fn plain(name: &str) -> String {
             '(' => ')',
             '{' => '}',
             _ => {
-                if !first.is_whitespace() && !"_-.:\"'#`".contains(first) {
+                // `@id` of Houdini, but `v@P`.
+                let marked = first == '@' && out.is_empty();
+                if !marked && !first.is_whitespace() && !"_-.:\"'#`".contains(first) {
                     out.extend(first.to_lowercase());
                 }
                 rest = behind;
@@ -102,12 +115,27 @@ pub(super) fn plain(name: &str) -> String {
         rest = behind;
     }
     // A prefix that says that it belongs to a particle means nothing.
-    let of_particle = ["particles", "particle", "part"].iter();
+    let of_particle = ["particles", "particle", "parcel", "part"].iter();
     let stripped = of_particle.filter_map(|word| out.strip_prefix(word)).find(|rest| known(rest));
-    match stripped {
+    match stripped.or_else(|| vector_behind(&out)) {
         Some(rest) => rest.to_string(),
         None => out,
     }
+}
+
+/// The name of a vector, or of a component, behind words that do not distinguish it.
+fn vector_behind(name: &str) -> Option<&str> {
+    let rest = WORDS.iter().find_map(|word| name.strip_prefix(word))?;
+    let vector = [POSITION, VELOCITY].iter().any(|names| {
+        let mut long = names.iter().filter(|base| base.len() > 2);
+        long.any(|base| {
+            let end = rest.strip_prefix(base);
+            end.is_some_and(|end| {
+                end.is_empty() || SUFFIXES.iter().any(|suffixes| suffixes.contains(&end))
+            })
+        })
+    });
+    if vector { Some(rest) } else { vector_behind(rest) }
 }
 
 /// The plain names of three scalars that form a vector.
@@ -118,8 +146,9 @@ pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
         let suffixes = SUFFIXES.iter().filter(move |[first, ..]| match base {
             "" => *first == "x",
             // `xx` is a component of a tensor; `x_0 x_1 x_2` is a position.
-            "x" | "xp" | "xyz" => *first != "x",
-            _ => true,
+            "x" | "xp" | "xyz" if *first == "x" => false,
+            // `ui` may be anything.
+            _ => !matches!(*first, "i" | "u") || base.len() > 2,
         });
         suffixes.map(move |suffixes| suffixes.map(|suffix| format!("{base}{suffix}")))
     });
@@ -215,6 +244,12 @@ mod tests {
             ("Particle Type", "type"),
             ("PART", "part"),
             ("particle_flags", "particleflags"),
+            ("Track: Parcel Velocity[k] (m/s)", "velocityk"),
+            ("Particle : Translational Velocity : X [m/s]", "velocityx"),
+            ("Velocity u [ m s^-1 ]", "velocityu"),
+            ("Parcel Temperature", "parceltemperature"),
+            ("Linear Density", "lineardensity"),
+            ("@id", "id"),
             ("[m]", ""),
             ("x[", "x"),
             ("Vitesse (\u{b5}m/s)", "vitesse"),
@@ -242,11 +277,27 @@ mod tests {
             "rz",
             "Northing",
             "Speed_Y",
+            "Velocity[j]",
+            "velocity w",
+            "Track: Parcel Velocity[i] (m/s)",
+            "c_rho",
         ] {
             assert!(known(&plain(name)), "{name}");
         }
-        for name in ["xx", "d", "PART", "mass", "nx", "Points_Magnitude", "v_4", "v_mag", "", "age"]
-        {
+        for name in [
+            "xx",
+            "d",
+            "PART",
+            "mass",
+            "nx",
+            "Points_Magnitude",
+            "v_4",
+            "v_mag",
+            "",
+            "age",
+            "ui",
+            "pw",
+        ] {
             assert!(!known(&plain(name)), "{name}");
         }
     }

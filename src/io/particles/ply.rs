@@ -104,8 +104,12 @@ fn faces(elements: &[Element]) -> Vec<String> {
 
 /// Splits the elements into those before the vertices, and the vertices.
 fn split(elements: &[Element]) -> Result<(&[Element], &Element), ReadError> {
+    // Other programs call the points what they are.
+    let name =
+        |of: &Element| matches!(of.name.as_str(), "point" | "points" | "particle" | "particles");
     let at = elements.iter().position(|element| element.name == "vertex");
-    at.and_then(|at| Some((elements.get(..at)?, elements.get(at)?)))
+    at.or_else(|| elements.iter().position(name))
+        .and_then(|at| Some((elements.get(..at)?, elements.get(at)?)))
         .ok_or_else(|| ReadError::malformed("an element `vertex`", "none", Place::Unknown))
 }
 

@@ -6,7 +6,9 @@ use super::asked::Asked;
 use super::error::ReadError;
 use super::format::{self, Extension};
 use super::source::{Content, Input, Source};
-use super::{Particles, bytes, index, json, lammps, numpy, parts, read_asked, tecplot, xyz};
+use super::{
+    Particles, bytes, index, json, json_frames, lammps, numpy, parts, read_asked, tecplot, xyz,
+};
 
 /// A frame of a file that holds several.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,8 +18,8 @@ pub struct Step {
     /// Time in the file's unit, if the file has it. In a table with a column of times it selects the rows of
     /// the frame.
     pub time: Option<f64>,
-    /// Bytes of the content from and to which the frame goes, where nothing else of the file is needed.
-    pub(super) part: Option<[u64; 2]>,
+    /// Where the frame is in a file of JSON.
+    pub(super) part: Option<json_frames::Part>,
 }
 
 impl Step {

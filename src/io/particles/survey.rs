@@ -444,7 +444,13 @@ impl Survey {
         let several = match self.numbers.counts.is_empty() {
             // A particle that occurs again has another time.
             false => self.numbers.share() > REPEATED_IDS && self.numbers.most() <= count,
-            true => blocks,
+            // Or every particle has its times one after the other.
+            true => {
+                blocks
+                    || (steps.changes + 1 == self.seen
+                        && self.seen >= 2 * count
+                        && self.seen.is_multiple_of(count))
+            }
         };
         (2..=STEPS).contains(&count) && several
     }

@@ -2,7 +2,7 @@
 
 Made with h5py 3.16 (HDF5 2.0), VTK 9.7.2, meshio and NumPy; PySPH as its HDFOutput does.
 """
-import h5py, numpy as np, os, sys, vtk, meshio
+import h5py, numpy as np, os, shutil, sys, vtk, meshio
 from vtk.util.numpy_support import numpy_to_vtk
 from vtk.util.vtkAlgorithm import VTKPythonAlgorithmBase
 out=sys.argv[1]; os.makedirs(out,exist_ok=True); os.chdir(out)
@@ -46,6 +46,9 @@ class Source(VTKPythonAlgorithmBase):
         t=info.Get(ex.UPDATE_TIME_STEP()) if info.Has(ex.UPDATE_TIME_STEP()) else 0.0
         k=s.T.index(t); vtk.vtkPolyData.GetData(info).ShallowCopy(poly(k,pos[:N-k])); vtk.vtkPolyData.GetData(info).GetInformation().Set(vtk.vtkDataObject.DATA_TIME_STEP(),t); return 1
 w=vtk.vtkHDFWriter(); w.SetFileName('steps.vtkhdf'); src=Source(); w.SetInputConnection(src.GetOutputPort()); w.SetWriteAllTimeSteps(True); w.SetChunkSize(64); w.SetCompressionLevel(4); print('steps',w.Write())
+# Offsets of which no chunk was ever written.
+shutil.copy('steps.vtkhdf','sparse.vtkhdf')
+with h5py.File('sparse.vtkhdf','r+') as f: s=f['VTKHDF/Steps']; del s['PartOffsets']; s.create_dataset('PartOffsets',shape=(1<<32,),chunks=(64,),dtype='i8')
 g=vtk.vtkUnstructuredGrid(); p=poly(0); g.SetPoints(p.GetPoints())
 for i in range(N): g.InsertNextCell(vtk.VTK_VERTEX,1,[i])
 for k in range(3): g.GetPointData().AddArray(p.GetPointData().GetArray(k))
@@ -67,4 +70,17 @@ with h5py.File('h5md.h5','w') as f:
         q=g.create_group(n); q.create_dataset('value',data=d.astype(d.dtype if n=='id' else 'f4')); q.create_dataset('step',data=np.array([0,10])); q.create_dataset('time',data=np.array([0,0.5]))
 with h5py.File('plain.h5','w',libver='latest') as f:
     f.create_dataset('POSITIONS',data=pos,chunks=(4,3),shuffle=True,compression='gzip',fletcher32=True); f['VELOCITIES']=vel.astype('>f4'); f['DENSITY']=rho; f['IDS']=ids; f['name']='cloud'
+# Arrays with one dimension more, and a table.
+with h5py.File('stacked.h5','w') as f:
+    g=f.create_group('run'); g['x']=np.stack([pos,pos+np.float32([1,0,0])]); g['v']=np.stack([vel,vel]); g['rho']=np.stack([rho,rho]); g['ids']=ids; g['time']=np.array([0,0.5])
+with h5py.File('turned.h5','w') as f: f['pos']=pos.T.copy(); f['vel']=vel.T.copy(); f['rho']=rho; f['ids']=ids
+with h5py.File('apart.h5','w') as f:
+    for k,n in enumerate('xyz'): f['position_'+n]=np.stack([pos[:,k],pos[:,k]+(k==0)]); f['velocity_'+n]=np.stack([vel[:,k]]*2)
+    f['ids']=ids; f['time']=np.array([0,0.5])
+with h5py.File('numbered.h5','w') as f:
+    for k in (0,5):
+        for n,off in (('fluid',k/10),('walls',9)): g=f.create_group(f'{k:04d}/{n}'); g['position']=pos+np.float32([off,0,0]); g['velocity']=vel; g['id']=ids
+# A time for each of no frames, very often.
+with h5py.File('hollow.h5','w') as f: g=f.create_group('particles/water/position'); g['value']=pos[None]; g.create_dataset('time',shape=(1<<60,0),dtype='f8')
+with h5py.File('table.h5','w') as f: f['particles']=np.zeros(3,dtype=[('x','f4'),('y','f4'),('z','f4')])
 with h5py.File('lzf.h5','w') as f: f.create_dataset('POSITIONS',data=pos,compression='lzf')

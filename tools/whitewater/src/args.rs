@@ -182,8 +182,9 @@ pub struct RenderArgs {
     /// of --medium, 'water' for what is drawn without --fluid, or a settings file (.toml) over --settings. Once a fluid is
     /// chosen by a comparison, particles that none chooses are not drawn. Each fluid is drawn over the picture of the
     /// others, and a pixel shows the one in front with the others behind it, whose surface mirrors nothing there: two
-    /// fluids take 5 renders, three 10. No fluid casts shadows on another. Layers in EXR files are those of the first.
-    #[arg(long = "fluid", value_name = "WHICH:LIQUID", value_parser = crate::fluids::fluid, conflicts_with_all = ["whitewater", "bubbles", "shore"])]
+    /// fluids take 5 renders, three 10. No fluid casts shadows on another. Layers in EXR files are those of the first, and
+    /// --whitewater generate makes whitewater of the first alone: of the inputs, or of the first comparison.
+    #[arg(long = "fluid", value_name = "WHICH:LIQUID", value_parser = crate::fluids::fluid, conflicts_with_all = ["bubbles", "shore"])]
     pub fluids: Vec<FluidArg>,
     /// Unit of lengths in the particle files, velocities included [default: m]
     ///

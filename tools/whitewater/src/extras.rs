@@ -7,6 +7,7 @@ use glam::Vec3;
 use whitewater::io::particles::sequence::Frame;
 use whitewater::io::particles::{self, Extra, Particles, same_name};
 
+use crate::arrays;
 use crate::failure::{Failure, Outcome};
 use crate::fluids::Fluids;
 use crate::radii::{DIAMETERS, RADII};
@@ -143,16 +144,21 @@ pub fn read(frame: &Frame, conditions: &[Condition], fluids: &Fluids) -> Outcome
     let names: Vec<&str> = PHASES.into_iter().chain(radii).chain(asked).collect();
     if let Some(step) = frame.step {
         let mut all = particles::read_step(&frame.path, step, &names)?;
+        arrays::add(&mut all, &frame.path, Some(step));
         fluids.mark(&frame.path, &mut all);
         return Ok(all);
     }
     let read = |path: &Path| -> Outcome<Particles> {
         let mut part = particles::read_with(path, &names)?;
+        arrays::add(&mut part, path, None);
         fluids.mark(path, &mut part);
         Ok(part)
     };
-    let mut all = read(&frame.path)?;
-    for path in &frame.also {
+    // Velocities beside positions are no particles.
+    let beside: Vec<_> = frame.paths().filter_map(arrays::velocities_beside).collect();
+    let mut paths = frame.paths().filter(|path| !beside.iter().any(|other| other == path));
+    let mut all = read(paths.next().unwrap_or(&frame.path))?;
+    for path in paths {
         all.append(read(path)?);
     }
     Ok(all)

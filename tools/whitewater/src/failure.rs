@@ -110,7 +110,12 @@ impl From<Error> for Failure {
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
         let advice = match &error {
-            ReadError::File { path, .. } => folder::unread(&path.display().to_string()),
+            // Of what is recognised the error says what to do.
+            ReadError::File { path, reason }
+                if !matches!(**reason, ReadError::Unsupported { .. }) =>
+            {
+                folder::unread(&path.display().to_string())
+            }
             _ => None,
         };
         let advice = advice.map_or(String::new(), |advice| format!("; {advice}"));

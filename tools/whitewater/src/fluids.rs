@@ -3,6 +3,7 @@
 //! The renderer draws one liquid at a time. So each fluid is drawn over the picture of the others, and of these pictures a
 //! pixel is that of the fluid whose surface is in front there. What is behind is refracted and absorbed by what is in front,
 //! and mirrors nothing, as a surface between two liquids does. Each fluid casts its own shadow, and none on another.
+//! Whitewater is drawn once: in the last picture of each fluid, and not in those that lie behind another.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -138,6 +139,11 @@ impl Fluids {
     /// How many there are; 0 and 1: nothing is to be told apart.
     pub fn count(&self) -> usize {
         if self.args.is_empty() { 1 } else { self.args.len() + 1 }
+    }
+
+    /// How many are drawn: what no comparison chooses is not.
+    pub fn drawn(&self) -> usize {
+        self.args.len() + usize::from(self.conditions().next().is_none())
     }
 
     /// Names of the attributes by which particles are told apart.
@@ -295,6 +301,12 @@ pub fn ranges(particles: &Particles, count: usize) -> Vec<Range<u32>> {
     (0..count).map(|fluid| at(fluid)..at(fluid + 1)).collect()
 }
 
+/// Where the particles of the first of several fluids are that has any; none where there is one fluid.
+pub fn first(particles: &Particles, count: usize) -> Option<Range<u32>> {
+    let several = if count < 2 { Vec::new() } else { ranges(particles, count) };
+    several.into_iter().find(|range| !range.is_empty())
+}
+
 /// What a frame is drawn of.
 pub struct Liquids<'a> {
     all: Vec<(Cow<'a, Settings>, Range<u32>)>,
@@ -333,11 +345,13 @@ impl<'a> Liquids<'a> {
             headless.show(Some(self.all[fluid].1.clone()));
             headless.render(camera, settings, background)
         };
+        headless.show_whitewater(true);
         if self.all.len() == 1 {
             render(headless, 0, &self.all[0].0, background)?;
             return Ok(None);
         }
         let wetted: Vec<Settings> = self.all.iter().map(|(settings, _)| wetted(settings)).collect();
+        headless.show_whitewater(false);
         headless.show(Some(0..0));
         headless.render(camera, &self.all[0].0, background)?;
         let (scene, depth) = (headless.color()?, headless.scene_depth()?);
@@ -354,7 +368,11 @@ impl<'a> Liquids<'a> {
         let means: Vec<f64> = fronts.iter().map(|front| mean(front)).collect();
         let mut far: Vec<usize> = (0..self.all.len()).collect();
         far.sort_by(|a, b| means[*b].total_cmp(&means[*a]));
-        let mut over = |fluid, settings: &Settings, color: &Picture<[f32; 4]>| -> Outcome<_> {
+        let over = |headless: &mut Headless,
+                    fluid,
+                    settings: &Settings,
+                    color: &Picture<[f32; 4]>|
+         -> Outcome<_> {
             let under = Background::Images { color: &color.data, depth: &depth.data };
             render(headless, fluid, settings, &under)?;
             Ok(headless.color()?)
@@ -366,10 +384,12 @@ impl<'a> Liquids<'a> {
             let mut under = Cow::Borrowed(&alone[others.next().unwrap_or(fluid)].data);
             for other in others {
                 let picture = Picture { data: under.into_owned(), ..empty(&scene) };
-                under = Cow::Owned(over(other, &wetted[other], &picture)?.data);
+                headless.show_whitewater(false);
+                under = Cow::Owned(over(headless, other, &wetted[other], &picture)?.data);
             }
             let picture = Picture { data: under.into_owned(), ..empty(&scene) };
-            pictures.push(over(fluid, &self.all[fluid].0, &picture)?);
+            headless.show_whitewater(true);
+            pictures.push(over(headless, fluid, &self.all[fluid].0, &picture)?);
         }
         pictures.reverse();
         let last = far.last().copied().unwrap_or(0);
@@ -451,7 +471,7 @@ mod tests {
     fn particles_of_a_fluid_are_put_beside_each_other() {
         let args = ["type=1:water", "type=3:honey", "type=9:milk"].map(|text| fluid(text).unwrap());
         let (fluids, said) = Fluids::find(&args, &mut []).unwrap();
-        assert!(said.is_empty() && fluids.count() == 4);
+        assert!(said.is_empty() && fluids.count() == 4 && fluids.drawn() == 3);
         let mut all = particles();
         fluids.divide(&mut all, Path::new("a.csv")).unwrap();
         assert_eq!(all.ids, Some(vec![1, 4, 0, 3]));
@@ -474,7 +494,8 @@ mod tests {
         // Without fluids all is as it was.
         let mut all = particles();
         Fluids::default().divide(&mut all, Path::new("a.csv")).unwrap();
-        assert_eq!((all.ids.unwrap().len(), Fluids::default().count()), (6, 1));
+        let none = Fluids::default();
+        assert_eq!((all.ids.unwrap().len(), none.count(), none.drawn()), (6, 1, 1));
     }
 
     #[test]
@@ -490,6 +511,7 @@ mod tests {
         assert!(said.len() == 1 && said[0].contains("1 of 2 frames"), "{said:?}");
         let mut all = extras::read(&frames[0], &[], &fluids).unwrap();
         fluids.divide(&mut all, Path::new("water_1.csv")).unwrap();
+        assert_eq!((fluids.drawn(), first(&all, 2), first(&all, 1)), (2, Some(0..1), None));
         assert_eq!((all.ids.clone(), ranges(&all, 2)), (Some(vec![14, 15]), vec![0..1, 1..2]));
         let args = [fluid(&format!("{}:honey", at("water_2.csv"))).unwrap()];
         let mut frames = frames::expand(&[at("oil_*.csv"), at("water_1.csv")], true).unwrap();

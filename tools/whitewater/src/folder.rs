@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
 
-use whitewater::io::particles::sequence;
+use whitewater::io::particles::{self, ReadError, sequence};
 
+use crate::arrays;
 use crate::failure::{Failure, Outcome};
 
 /// Extensions of particle files; a second one, of packing, may follow.
@@ -94,6 +95,11 @@ pub fn in_folder(input: &str) -> Outcome<String> {
         [] => {}
         [(pattern, _)] => return Ok(pattern.clone()),
         many => {
+            // Velocities beside positions, in files of their own.
+            let names: Vec<_> = many.iter().map(|(pattern, _)| pattern.as_str()).collect();
+            if let Some(positions) = arrays::positions_of(&names) {
+                return Ok(positions.to_string());
+            }
             let list: Vec<_> = many.iter().take(8).map(shown).collect();
             let why = format!(
                 "{input} is a folder of several sequences: name one of {}; or, where they are parts of the same frames, \
@@ -115,8 +121,30 @@ pub fn in_folder(input: &str) -> Outcome<String> {
         return Ok(pattern);
     }
     let inner: Vec<_> = folders.iter().filter_map(within).take(8).collect();
+    // Solvers put them beside their logs and their own state.
+    if let [one] = inner.as_slice() {
+        return in_folder(one);
+    }
+    // Files without an extension, such as OpenFOAM's, may say what they are.
+    let told = others.iter().filter(|name| !name.contains('.')).take(LOOKED_AT).find_map(|name| {
+        match particles::read(&path.join(name)) {
+            Err(ReadError::File { path, reason })
+                if matches!(*reason, ReadError::Unsupported { .. }) =>
+            {
+                Some(format!("{}: {reason}", path.display()))
+            }
+            _ => None,
+        }
+    });
+    let cloud =
+        |name: &&String| *name == "lagrangian" || path.join(name).join("lagrangian").is_dir();
+    if inner.is_empty() && folders.iter().any(|name| cloud(&name)) {
+        let why = "a case of OpenFOAM, whose clouds are not read; run foamToVTK and give the VTK files of the cloud that it writes";
+        return Err(Failure::input(format!("{input}: {why}")));
+    }
     let found = match (inner.is_empty(), others.first()) {
         (false, _) => format!("; there are some in {}", inner.join(", ")),
+        (true, Some(_)) if told.is_some() => format!(": {}", told.unwrap_or_default()),
         (true, Some(first)) => {
             let known = others.iter().find_map(|name| Some((name, unread(name)?)));
             let first = known.map_or(first, |(name, _)| name);
@@ -127,6 +155,9 @@ pub fn in_folder(input: &str) -> Outcome<String> {
     };
     Err(Failure::input(format!("{input}: expected particle files in the folder{found}")))
 }
+
+/// Files of a folder without particle files that are asked what they are.
+const LOOKED_AT: usize = 4;
 
 /// Largest size of a list of pieces that is looked into, in bytes.
 const LONGEST: u64 = 1 << 20;
@@ -223,11 +254,14 @@ fn in_folders(folder: &str, folders: &[String]) -> Option<String> {
         total += usize::from(!files.is_empty());
         files.into_iter().for_each(|file| *counts.entry(file).or_default() += 1);
     }
-    let mut all = counts.into_iter().filter(|(_, count)| *count == total && total > 1);
-    match (all.next(), all.next()) {
-        (Some((file, _)), None) => Some(format!("{folder}/*/{file}")),
-        _ => None,
-    }
+    let all = counts.into_iter().filter(|(_, count)| *count == total && total > 1);
+    let all: Vec<String> = all.map(|(file, _)| file).collect();
+    let names: Vec<&str> = all.iter().map(String::as_str).collect();
+    let one = match names.as_slice() {
+        [one] => Some(*one),
+        several => arrays::positions_of(several),
+    };
+    one.map(|file| format!("{folder}/*/{file}"))
 }
 
 fn readable(name: &str) -> bool {
@@ -328,11 +362,13 @@ mod tests {
             .len(),
             2
         );
-        assert!(
-            said("out").contains("there are some in ") && said("out").contains("out/partio"),
-            "{}",
-            said("out")
-        );
+        std::fs::create_dir_all(at("out/state")).unwrap();
+        assert!(in_folder(&at("out")).unwrap().ends_with("out/partio/Fluid_*.bgeo"));
+        std::fs::create_dir_all(at("out/vtk")).unwrap();
+        write("out/vtk/Fluid_8.vtk");
+        for part in ["there are some in ", "out/partio", "out/vtk"] {
+            assert!(said("out").contains(part), "{}", said("out"));
+        }
         write("out/partio/Foam_8.bgeo");
         let text = said("out/partio");
         assert!(
@@ -374,6 +410,24 @@ mod tests {
         ] {
             assert_eq!(time(name), expected, "{name}");
         }
+        // A cloud of OpenFOAM, and its case.
+        std::fs::create_dir_all(at("case/0.1/lagrangian/cloud")).unwrap();
+        let header = "FoamFile\n{\n    class Cloud;\n}\n";
+        std::fs::write(at("case/0.1/lagrangian/cloud/positions"), header).unwrap();
+        for name in ["case", "case/0.1", "case/0.1/lagrangian/cloud"] {
+            assert!(said(name).contains("foamToVTK"), "{name}: {}", said(name));
+        }
+        // Arrays in files of their own, beside each other and in a folder for each frame.
+        std::fs::create_dir_all(at("npy")).unwrap();
+        for frame in [0, 1, 2] {
+            std::fs::create_dir_all(at(&format!("each/{frame}"))).unwrap();
+            for name in ["x", "v"] {
+                write(&format!("npy/{name}_{frame:03}.npy"));
+                write(&format!("each/{frame}/{name}.npy"));
+            }
+        }
+        assert!(in_folder(&at("npy")).unwrap().ends_with("npy/x_*.npy"));
+        assert!(in_folder(&at("each")).unwrap().ends_with("each/*/x.npy"));
         write("bi4/log.out~");
         assert!(said("bi4").contains("PartVTK"), "{}", said("bi4"));
         assert!(said("none").contains("expected particle files"), "{}", said("none"));

@@ -29,7 +29,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
         let path = frame.path.display().to_string();
         match extras::read(frame, &[], &Fluids::default()) {
             Ok(particles) => {
-                let value = describe(&path, frame.number, &particles);
+                let value = describe(&path, frame, &particles);
                 if args.json {
                     all.push(value);
                 } else {
@@ -75,7 +75,7 @@ fn expand(inputs: &[String]) -> Result<Vec<Frame>, SequenceError> {
     }
 }
 
-fn describe(path: &str, number: u64, particles: &Particles) -> Value {
+fn describe(path: &str, frame: &Frame, particles: &Particles) -> Value {
     let finite = particles.positions.iter().filter(|p| p.iter().all(|c| c.is_finite()));
     let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for p in finite {
@@ -104,7 +104,7 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         .collect();
     json!({
         "file": path,
-        "frame": number,
+        "frame": frame.number,
         "format": particles.format.to_string(),
         "particles": particles.positions.len(),
         "non_finite": particles::count_non_finite(&particles.positions),
@@ -113,7 +113,7 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "radius": spacing.map(|s| 0.5 * s),
         "density": particles.densities.as_deref().and_then(statistics),
         "attributes": attributes,
-        "time": particles.time,
+        "time": particles.time.or(frame.time),
         "radii": radii::radii(particles),
         "phases": phases,
         "missing": missing(Has::of(particles)),
@@ -138,7 +138,8 @@ fn up(particles: &Particles) -> Value {
 /// A word on an extent that is no likely one of water in metres.
 fn unit(particles: &Particles) -> Option<String> {
     let extent = Bounds::of_bulk(&particles.positions)?.size().max_element();
-    placing::hint(extent, placing::fastest(particles))
+    let named = placing::named_hint(particles);
+    named.or_else(|| placing::hint(extent, placing::fastest(particles)))
 }
 
 /// What an attribute is taken as; none where it is passed over.

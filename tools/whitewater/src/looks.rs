@@ -184,10 +184,13 @@ pub fn look(
         settings.water.rest_density = density;
     }
     settings.noise = session::noise(&args.draw);
+    // Of a few particles spray would leave nothing to see.
+    let few = probes.spacing().is_none();
+    let lone = args.draw.spray.is_none() && few;
     if !file.is_thesis() {
         spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
         foam_of_caches(&mut settings.surface_foam, spacing);
-        if args.draw.spray == Some(SprayArg::None) {
+        if args.draw.spray == Some(SprayArg::None) || lone {
             // Nothing is lost: what would be spray is water.
             (settings.water.density_threshold, settings.water.density_full) = WHOLE_DROPS;
         }
@@ -242,10 +245,21 @@ pub fn look(
                 CameraFile::of_particles(&frames, &round, fov, size).over(bounds.center())
             }
             None => {
-                let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+                let mut frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+                // A drop by itself does not fill the picture.
+                let room = bounds.padded(2.0 * spacing);
+                let of = |side: usize| if side == 0 { room.min } else { room.max };
+                let corners = [0, 1, 2, 3, 4, 5, 6, 7]
+                    .map(|i: usize| [of(i & 1).x, of(i >> 1 & 1).y, of(i >> 2).z]);
+                if few {
+                    frames = vec![&corners];
+                }
                 match sheet {
                     Some(across) => CameraFile::of_sheet(across == 0, &frames, &bounds, fov, size),
-                    None => CameraFile::of_particles(&frames, &bounds, fov, size),
+                    None => {
+                        let bounds = if few { room } else { bounds };
+                        CameraFile::of_particles(&frames, &bounds, fov, size)
+                    }
                 }
             }
         };
@@ -313,8 +327,11 @@ pub fn look(
     environment.light_scene(&mut scene);
     // Whitewater particles take the place of the water's own foam and spray.
     let has_whitewater = !args.whitewater.is_empty();
-    let spray =
-        args.draw.spray.unwrap_or(if has_whitewater { SprayArg::None } else { SprayArg::Auto });
+    let spray = args.draw.spray.unwrap_or(if has_whitewater || lone {
+        SprayArg::None
+    } else {
+        SprayArg::Auto
+    });
     let spray = spray == SprayArg::Auto;
     // As `Session::frame` does it.
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {

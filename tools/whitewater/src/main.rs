@@ -3,6 +3,7 @@
 
 mod air;
 mod args;
+mod arrays;
 mod bench;
 
 mod blur;

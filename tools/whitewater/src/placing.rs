@@ -3,7 +3,7 @@
 use std::ops::Neg;
 
 use glam::Vec3;
-use whitewater::io::particles::Particles;
+use whitewater::io::particles::{Meaning, Particles};
 
 use crate::args::{Unit, Up};
 use crate::surface_foam::quantile;
@@ -140,6 +140,26 @@ pub fn fastest(particles: &Particles) -> Option<f32> {
     quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
 }
 
+/// The unit in brackets behind the names of positions, where it is no metre.
+pub fn named(particles: &Particles) -> Option<Unit> {
+    let (_, names) = particles.meanings.iter().find(|(m, _)| *m == Meaning::Position)?;
+    let unit = |name: &String| {
+        let (_, unit) = name.rsplit_once(['[', '('])?;
+        let unit = unit.trim_end().trim_end_matches([']', ')']).trim();
+        [Unit::Mm, Unit::Cm, Unit::Km].into_iter().find(|known| known.name() == unit)
+    };
+    let units: Option<Vec<Unit>> = names.iter().map(unit).collect();
+    units?.first().copied()
+}
+
+/// A word on that.
+pub fn named_hint(particles: &Particles) -> Option<String> {
+    let unit = named(particles)?.name();
+    Some(format!(
+        "the names of the positions say {unit}, which are taken for metres: --unit {unit} makes metres of them"
+    ))
+}
+
 /// A word on an extent that is no likely one of water in metres; `fastest`: of nearly all, where velocities are known.
 pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
     let spans = format!("the water spans {} metres", crate::looks::round(extent));
@@ -158,7 +178,8 @@ pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
         }
         // As fast as water of that size.
         Some(number) if number > 0.02 => None,
-        _ if extent.is_finite() && !(TINY..=LARGE).contains(&extent) => {
+        // A single particle has no extent.
+        _ if extent.is_finite() && extent > 0.0 && !(TINY..=LARGE).contains(&extent) => {
             Some(format!("{spans}: if the files are in another unit, --unit mm, cm or km says so"))
         }
         _ => None,

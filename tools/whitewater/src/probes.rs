@@ -105,6 +105,9 @@ impl Probes {
 
     /// A word on what is no likely extent of water.
     pub fn unit_hint(&self) -> Option<String> {
+        if let Some(named) = self.frames.iter().find_map(placing::named_hint) {
+            return Some(named);
+        }
         let extent = self.bounds()?.size().max_element();
         let fastest = self.frames.iter().filter_map(placing::fastest);
         placing::hint(extent, fastest.reduce(f32::max))

@@ -143,7 +143,15 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
     probes.fps = probes.fps.or(by_time);
-    let found = upright::find(&probes.frames).filter(|found| found.up != Up::Y);
+    let found = upright::find(&probes.frames);
+    let particles = probes.frames.iter().any(|frame| frame.positions.len() > 1);
+    // Who gives a camera has seen where up is.
+    if args.up_axis.is_none() && found.is_none() && camera.is_none() && particles {
+        progress.say(
+            "up is a guess: y, as neither where the water lies nor how it moves shows it (--up-axis z, -y and the like turn it)",
+        );
+    }
+    let found = found.filter(|found| found.up != Up::Y);
     if let (None, Some(Upright { up, why, .. })) = (args.up_axis, found) {
         progress.say(&format!("{} is up in the files: {why} (--up-axis y: not turned)", up.name()));
         placing.up = up;
@@ -164,6 +172,11 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         );
     }
     fluids.missing(&probes.frames).iter().for_each(|line| progress.say(line));
+    if !probes.frames.is_empty() && probes.frames.iter().all(|frame| frame.positions.is_empty()) {
+        progress.say(
+            "no particles in the frames that were looked at: the scene is drawn without water",
+        );
+    }
     if made || foams {
         probes.missing(all.len()).into_iter().for_each(|line| progress.say(&line));
     }
@@ -209,7 +222,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     };
     let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
     let several = fluids.settings(&look.settings, &own_densities)?;
-    let look = Look { fluids: several, bubbles: foam, shores, ..look };
+    let mut look = Look { fluids: several, bubbles: foam, shores, ..look };
+    if fluids.drawn() > 1 {
+        // What leaves one where they touch does not enter air: bent and mirrored as by air, the other one would be seen as
+        // through rough glass.
+        look.file.water.leave_straight();
+    }
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
     session.placing = placing;

@@ -22,7 +22,7 @@ use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::film::{self, Reel};
 use crate::films;
-use crate::fluids::Liquids;
+use crate::fluids::{self, Liquids};
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
 use crate::placing::Placing;
@@ -432,6 +432,8 @@ impl<'a> Session<'a> {
                 times.passes(number, headless.step_timings(Stepped::Foam));
             }
         }
+        // Of several fluids the first makes whitewater.
+        headless.show(fluids::first(particles, self.look.fluids.len()));
         if let (Some((settings, most)), Some(_)) = (&self.making, &particles.velocities) {
             times.step("generate", number, || match (self.look.fps, self.memory.made) {
                 (Some(fps), Some(last)) => {

@@ -112,6 +112,8 @@ struct Side {
     reach: f32,
 }
 
+/// Part of a spacing by which particles of the outermost layer are pressed out, at most.
+const LAYER: f32 = 0.9;
 /// How far beyond water that runs freely the box ends, of its width.
 const FREE: f32 = 0.3;
 
@@ -125,7 +127,8 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
         // Without strays.
         let last = *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;
         // The middle of the outermost layer: what is pressed farther out at the floor would leave a gap above.
-        let layer = &places[places.partition_point(|p| *p < last - spacing)..];
+        // Not the one behind it, which is a spacing away.
+        let layer = &places[places.partition_point(|p| *p < last - LAYER * spacing)..];
         let at = sign * *layer.get(layer.len() / 2)?;
         let touches = |p: &&[f32; 3]| sign * (p[axis] - at) > -1.5 * spacing;
         let reach = |frames: &[&[[f32; 3]]]| {
@@ -136,8 +139,9 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
             let rows = (bounds.size()[2 - axis] / spacing + 1.5) * frames.len() as f32;
             touching.get(rows as usize).copied().unwrap_or(bounds.min.y)
         };
-        // A dam stands in the first frame alone: among the rest it is few.
-        let reach = reach(frames).max(reach(&frames[..frames.len().min(1)]));
+        // A dam stands, or a wave runs up, in one frame alone: among the rest it is few.
+        let each = frames.iter().map(|frame| reach(std::slice::from_ref(frame)));
+        let reach = each.fold(reach(frames), f32::max);
         let across = 2 - axis;
         let (low, length) = (bounds.min[across], bounds.size()[across]);
         let count = ((length / (4.0 * spacing)) as usize).clamp(4, 64);
@@ -494,6 +498,13 @@ mod tests {
         let mut points = block(false);
         let still = right(&points);
         assert!((still - 1.9).abs() < 1.0e-4, "{still}");
+        // On an exact lattice the layer behind is no part of it, though it has more particles.
+        let exact: Vec<_> = (0..20 * 6 * 30)
+            .map(|i| [i % 20, i / 20 % 6, i / 120].map(|c| c as f32))
+            .filter(|p| p[0] < 18.5 || p[1] < 4.5)
+            .collect();
+        let bounds = Bounds::of_bulk(&exact).unwrap();
+        assert_eq!(sides(&[&exact], &bounds, 1.0).unwrap()[1].at, 19.0);
         points.extend((0..10).map(|z| [1.97, 0.0, 0.3 * z as f32]));
         assert!((right(&points) - still).abs() < 0.011, "{}", right(&points));
     }
@@ -544,13 +555,13 @@ mod tests {
         assert!(edges(&on_wall(1)).is_empty(), "drops");
     }
 
-    /// A dam of the first frame that falls in all others stands between panes, as high as it.
+    /// A dam of one frame, the first or another, that lies low in all others stands between panes, as high as it.
     #[test]
     fn panes_hold_the_dam_that_falls() {
         let dam: Vec<_> =
             (0..12_000).map(|i| [i % 20, i / 20 % 30, i / 600].map(|i| 0.1 * i as f32)).collect();
         let pool = block(false);
-        let mut frames = vec![&pool[..]; 12];
+        let frames = vec![&pool[..]; 12];
         let top = |frames: &[&[[f32; 3]]]| {
             let bounds = frames.iter().filter_map(|frame| Bounds::of_bulk(frame));
             let bounds = bounds.reduce(|a, b| a.union(&b)).unwrap();
@@ -563,8 +574,11 @@ mod tests {
             points.fold(f32::MIN, f32::max)
         };
         assert_eq!(top(&frames), f32::MIN, "the walls hold it");
-        frames[0] = &dam;
-        assert!((2.8..3.2).contains(&top(&frames)), "{}", top(&frames));
+        for at in [0, 7, 11] {
+            let mut frames = frames.clone();
+            frames[at] = &dam;
+            assert!((2.8..3.2).contains(&top(&frames)), "{at}: {}", top(&frames));
+        }
     }
 
     #[test]

@@ -179,6 +179,11 @@ impl WaterTable {
     }
 
     /// What is seen through water with air behind it; straight on where nothing is said and that is the standard.
+    /// Has what leaves the water go straight on, where the file does not say how.
+    pub fn leave_straight(&mut self) {
+        self.exit.get_or_insert(Exit::Straight.into());
+    }
+
     pub fn exit(&self, straight: bool) -> Exit {
         let standard = Config::new(Default::default(), Default::default(), 0).exit;
         self.exit.map_or(if straight { Exit::Straight } else { standard }, Into::into)

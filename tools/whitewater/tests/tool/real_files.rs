@@ -406,6 +406,137 @@ fn several_fluids_are_drawn_each_with_its_look() {
     folder.run(&format!("{wrong} Type=1:oil")).fails_at_once();
 }
 
+/// Where two fluids of one look touch they are seen as one; whitewater is drawn once, over both.
+#[test]
+fn fluids_that_touch_are_seen_through() {
+    let folder = Folder::new();
+    let (mut rows, mut all) = (String::from("x,y,z,Type\n"), String::from("x,y,z\n"));
+    for [x, y, z] in block(6) {
+        for (kind, side) in [(1, -0.3), (2, 0.3)] {
+            rows += &format!("{},{y},{z},{kind}\n", x + side);
+            all += &format!("{},{y},{z}\n", x + side);
+        }
+    }
+    folder.text("two_1.csv", &rows);
+    folder.text("one_1.csv", &all);
+    folder.particles("foam_1.ply", block(4).into_iter().map(|[x, y, z]| [x, y, z + 0.6]).collect());
+    let run = |out: &str, file: &str, more: &str| {
+        let common = format!("{SMALL} --eye 1.8,0.6,2.4 --target 0,0.25,0 --fov 30 --radius 0.05");
+        let common = format!("{common} --layers none --surface-foam none --spray none");
+        folder.run(&format!("render {file}_1.csv -o {out}.exr {common} {more}")).ok();
+        folder.picture(&format!("{out}.exr")).rgb().unwrap()
+    };
+    let two = "--fluid Type=1:water --fluid Type=2:water";
+    let exit = |word: &str| {
+        let file = format!("{word}.toml");
+        folder.text(&file, &format!("[water]\nexit = \"{word}\"\n"));
+        format!("--settings {file}")
+    };
+    let off = |a: &[[f32; 3]], b: &[[f32; 3]]| {
+        let each = a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).abs());
+        each.sum::<f32>() / (3 * a.len()) as f32
+    };
+    let one = run("one", "one", &exit("straight"));
+    let (seen, bent) =
+        (run("seen", "two", two), run("bent", "two", &format!("{two} {}", exit("two_interfaces"))));
+    assert!(off(&seen, &one) < 0.5 * off(&bent, &one), "{} {}", off(&seen, &one), off(&bent, &one));
+    let foam = "--whitewater foam=foam_1.ply";
+    let (foamy, alone) = (
+        run("foamy", "two", &format!("{two} {foam}")),
+        run("alone", "one", &format!("{foam} {}", exit("straight"))),
+    );
+    let added = off(&foamy, &seen);
+    assert!(
+        added > 1.0e-3 && (added / off(&alone, &one) - 1.0).abs() < 0.1,
+        "{added} {}",
+        off(&alone, &one)
+    );
+}
+
+/// A lone particle is a drop, not spray that nobody sees, and a frame without any is told.
+#[test]
+fn few_particles_are_drawn_and_none_are_told() {
+    let folder = Folder::new();
+    folder.text("one_1.csv", "x,y,z\n0,0.5,0\n");
+    folder.text("none_1.csv", "x,y,z\n");
+    let run = |file: &str| {
+        let command = format!("render {file}_1.csv -o {file}.exr {SMALL} --layers water.depth");
+        folder.run(&command).ok().stderr()
+    };
+    let said = run("one");
+    assert!(!said.contains("spans") && !said.contains("up is a guess"), "{said}");
+    let depth = |file: &str| {
+        let picture = folder.picture(&format!("{file}.exr"));
+        let layer = picture.channels.iter().find(|channel| channel.name == "water.depth.Z");
+        layer.unwrap().data.iter().filter(|z| **z < 1.0e9).count()
+    };
+    assert!(depth("one") > 50, "{}", depth("one"));
+    assert!(run("none").contains("no particles in the frames that were looked at"));
+    assert_eq!(depth("none"), 0);
+}
+
+/// What nobody can know of files is a guess that is told, once: which way up, and units in the names of columns.
+#[test]
+fn guesses_are_told() {
+    let folder = Folder::new();
+    let rows = |names: &str| {
+        let rows = block(6).into_iter().map(|[x, y, z]| format!("{x},{y},{z}\n"));
+        names.to_string() + "\n" + &rows.collect::<String>()
+    };
+    folder.text("cube_1.csv", &rows("x,y,z"));
+    folder.text("cube_2.csv", &rows("x,y,z"));
+    folder.text("cm_1.csv", &rows("X [cm],Y [cm],Z [cm]"));
+    let run = |files: &str, more: &str| {
+        let command =
+            format!("render {files} -o a_%d.exr {SMALL} --overwrite --layers none {more}");
+        folder.run(&command).ok().stderr()
+    };
+    let said = run("cube_*.csv", "");
+    assert_eq!(said.matches("up is a guess: y").count(), 1, "{said}");
+    for more in ["--up-axis y", "--eye 0,1,3 --target 0,0.3,0"] {
+        let said = run("cube_*.csv", more);
+        assert!(!said.contains("a guess"), "{more}: {said}");
+    }
+    let said = run("cm_1.csv", "");
+    assert_eq!(said.matches("say cm, which are taken for metres: --unit cm").count(), 1, "{said}");
+    assert!(!run("cm_1.csv", "--unit cm").contains("say cm"));
+    let text = folder.run("info cm_1.csv").ok().stdout();
+    assert!(text.contains("unit        the names of the positions say cm"), "{text}");
+}
+
+/// Positions and velocities in files of NumPy of their own are particles that move.
+#[test]
+fn arrays_in_files_of_their_own_are_put_together() {
+    let folder = Folder::new();
+    let npy = |name: &str, vectors: &[[f32; 3]]| {
+        let shape = format!("'shape': ({}, 3), ", vectors.len());
+        let header = format!("{{'descr': '<f4', 'fortran_order': False, {shape}}}");
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+        bytes.extend((header.len() as u16).to_le_bytes());
+        bytes.extend(header.bytes());
+        bytes.extend(vectors.iter().flatten().flat_map(|c| c.to_le_bytes()));
+        std::fs::write(folder.path(name), bytes).unwrap();
+    };
+    std::fs::create_dir(folder.path("run")).unwrap();
+    let (positions, velocities): (Vec<_>, Vec<_>) =
+        slope().into_iter().map(|[p, v]| (p, v)).unzip();
+    for frame in [0, 1] {
+        npy(&format!("run/x_{frame}.npy"), &positions);
+        npy(&format!("run/v_{frame}.npy"), &velocities);
+    }
+    let text = folder.run("info run").ok().stdout();
+    assert_eq!(text.matches("v_1.npy (f32 x 3): velocity").count(), 1, "{text}");
+    assert!(!text.contains("no velocities"), "{text}");
+    let count = format!("frame 0: {} particles", positions.len());
+    let said = folder.run(&format!("render run -o a.png {SMALL} --frames 0")).ok().stderr();
+    assert!(said.contains(&count) && !said.contains("no velocities"), "{said}");
+    let both = "render run/v_*.npy run/x_*.npy --join -o b.png --frames 0";
+    let said = folder.run(&format!("{both} {SMALL}")).ok().stderr();
+    assert!(said.contains(&count), "{said}");
+    let said = folder.run(&format!("render run/v_0.npy -o c.png {SMALL}")).ok().stderr();
+    assert!(said.contains("by the name of the file these are velocities"), "{said}");
+}
+
 /// Frames of one file are drawn as those of several are.
 #[test]
 fn frames_in_one_file_are_drawn() {
