@@ -27,6 +27,9 @@ layout(push_constant, std430) uniform Push {
 #define MEMBERS 4
 #include "members.glsl"
 
+// Half-axis of the shadow of a particle that is only spray, over the distance to which its droplets are scattered.
+const float SPREAD = 0.6;
+
 layout(location = 0) flat out vec2 centre; // texels
 layout(location = 1) flat out float depth; // metres along the light
 layout(location = 2) flat out float axis;  // half-axis, metres
@@ -63,7 +66,8 @@ void main() {
     float texel = frame.light_map.y;
     float radius = frame.particle.x * max(bulk_share, 0.5);
     // At least one texel wide, so that it does not fall between texels.
-    axis = max(push.front == 1u ? radius : frame.particle.z, texel);
+    float wide = mix(frame.particle.z, max(frame.particle.z, SPREAD * frame.spray.z), spray_share);
+    axis = max(push.front == 1u ? radius : wide, texel);
     depth = seen.z;
     // As on the screen, the integral over the map is the volume.
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;

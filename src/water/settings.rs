@@ -786,7 +786,7 @@ pub struct SpraySettings {
     pub color: [f32; 3],
     /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. Where a
     /// particle has several droplets, it goes by the square of the part of them that is drawn: a particle that is
-    /// only spray has an 11th. No effect without a map of the sunlight in the water
+    /// only spray has an 11th, over 0.6 of [`scatter_radius`](Self::scatter_radius). No effect without a map of the sunlight in the water
     /// ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
     /// Fraction of the sunlight in spray that has been scattered by other droplets before, [0, 1], default 0. Of

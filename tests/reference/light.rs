@@ -54,6 +54,8 @@ pub struct Light {
     pub shade: f64,
     /// Whether a particle has several droplets, so that its spray takes less the fewer it has.
     pub several: bool,
+    /// Half-axis of the shadow of nothing but spray, where it is wider than water's.
+    pub spread: f64,
     /// Of the smoothing, in drawn radii.
     pub width: f64,
     pub falloff: f64,
@@ -80,6 +82,8 @@ pub struct Maps<'a> {
 struct Share {
     /// How much of a body it is.
     bulk: Rounded,
+    /// How much of it is spray.
+    spray: Rounded,
     /// Water and foam.
     parts: [Rounded; 2],
 }
@@ -174,7 +178,7 @@ impl Light {
             false => exact(1.0),
         };
         let foam = own + exact(self.shade) * spray * torn * torn * (exact(1.0) - own);
-        (water.v > 0.0 || foam.v > 0.0).then_some(Share { bulk, parts: [water, foam] })
+        (water.v > 0.0 || foam.v > 0.0).then_some(Share { bulk, spray, parts: [water, foam] })
     }
 
     /// The texels whose centres lie within metres of a place, and how far, metres.
@@ -226,13 +230,16 @@ impl Light {
         let empty = || Between { low: Image::new(n, n, 0.0), high: Image::new(n, n, 0.0) };
         let mut sums = [0; 4].map(|_| empty());
         let mut most = Image::new(n, n, [0.0, 0.0]);
-        let a = (2.0 * self.r()).max(self.texel());
+        let narrow = 2.0 * self.r();
         let slab = 512.0 * step;
         for particle in particles {
-            let Some(Share { parts, .. }) = self.shares(particle) else { continue };
+            let Some(Share { parts, spray, .. }) = self.shares(particle) else { continue };
             let (at, d) = self.place(particle.position);
             let off = self.off(particle.position);
-            let from = off + 8.0 * U * a;
+            let wider = (self.spread - narrow).max(0.0);
+            let a = (narrow + wider * spray.v).max(self.texel());
+            let a_off = wider * spray.e / a;
+            let from = off + (8.0 * U + a_off) * a;
             let chance = whole_steps::of_place(particle.position.as_vec3());
             let nearest = |v: f64, unit: f64| (v / unit + 0.5).floor() * unit;
             let ends = [-1.0, 1.0].map(|s| nearest(d + s * (off + 4.0 * U * d.abs()), slab));
@@ -244,8 +251,17 @@ impl Light {
                 for (i, part) in parts.iter().enumerate() {
                     let height = self.spacing.powi(3) / (PI * J * a * a);
                     let q = [
-                        whole((part.v - part.e).max(0.0) * height * least * (1.0 - 40.0 * U), -1.0),
-                        whole((part.v + part.e) * height * greatest * (1.0 + 40.0 * U), 1.0),
+                        whole(
+                            (part.v - part.e).max(0.0)
+                                * height
+                                * least
+                                * (1.0 - 40.0 * U - 2.0 * a_off),
+                            -1.0,
+                        ),
+                        whole(
+                            (part.v + part.e) * height * greatest * (1.0 + 40.0 * U + 3.0 * a_off),
+                            1.0,
+                        ),
                     ];
                     *sums[i].low.at_mut(x, y) += q[0];
                     *sums[i].high.at_mut(x, y) += q[1];

@@ -58,6 +58,7 @@ fn the_maps_are_the_twins() {
             case.shot.settings.spray.shade = [0.5, 0.125][i / 2 % 2];
             // One droplet is all of a particle's spray, several are fewer the more of it is spray.
             case.shot.settings.spray.droplets = [16, 1, 2][i % 3];
+            case.shot.settings.spray.scatter_radius = [1.5, 6.0][i % 2];
             case.amounts[7][0] = f32::NAN;
             case.amounts[8][0] = 3.0;
             case.shot.positions[3][1] = f32::NAN;

@@ -75,6 +75,7 @@ fn twin(shot: &Shot, config: &Config) -> Light {
         densities: [density(first), density(second), density(third)],
         shade: f64::from(shot.settings.spray.shade),
         several: shot.settings.spray.droplets > 1,
+        spread: 0.6 * f64::from(shot.settings.spray.scatter_radius * shot.settings.water.spacing),
         width: f64::from(water.smoothing_width),
         falloff: f64::from(water.depth_falloff),
         extinction: match water.medium {

@@ -251,7 +251,7 @@ pub struct DrawArgs {
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
     /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
-    /// 1/400 for a single PNG, otherwise 0]
+    /// 1/200 for a single PNG, otherwise 0]
     ///
     /// It uses the water's velocities. Whitewater and bubbles are not blurred.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]

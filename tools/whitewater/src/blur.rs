@@ -11,7 +11,7 @@ use crate::args::DrawArgs;
 use crate::failure::Outcome;
 
 /// Of a photograph: seconds, diameter of the lens over the distance in focus, and at most in metres.
-const SHUTTER: f32 = 0.0025;
+const SHUTTER: f32 = 0.005;
 const LENS: f32 = 0.0035;
 const LARGEST: f32 = 0.035;
 

@@ -198,7 +198,7 @@ fn single_pngs_are_photographs() {
     let usual = png("render a_1.vtu -o o.png");
     let sharp = png("render a_1.vtu -o o.png --shutter 0 --aperture 0");
     assert!(usual != sharp && sharp == png("render a_1.vtu -o o.png --samples 1"));
-    assert!(usual == png("render a_1.vtu -o o.png --shutter 1/400"));
+    assert!(usual == png("render a_1.vtu -o o.png --shutter 1/200"));
     assert!(sharp == png("render a_1.vtu -o o.png -o o.exr"));
     folder.run(&format!("render a_*.vtu -o s_%d.png {look}")).ok();
     assert!(folder.picture("s_1.png").rgb().unwrap() == sharp);
