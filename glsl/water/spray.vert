@@ -124,7 +124,8 @@ void main() {
         e2 = cross(e1, normal);
     }
     axes = max(axes, vec2(0.7 * pixel));
-    float thick = mist ? frame.spray_cloud.x * torn * torn * torn * smoothstep(CROWD.x, CROWD.y, uintBitsToFloat(sprite.shape.w)) : frame.spray.x;
+    float crowd = smoothstep(CROWD.x, CROWD.y, uintBitsToFloat(sprite.shape.w));
+    float thick = mist ? frame.spray_cloud.x * torn * torn * torn * crowd : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
     // One value for all colours: around it there is more foam than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;

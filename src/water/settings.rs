@@ -281,8 +281,9 @@ pub enum Bed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exit {
     /// Light refracts at both surfaces, or is totally reflected at the second, by the slopes of both and the
-    /// index of refraction of [`WaterSettings::fresnel`] (1.333 if that has none). The exit ray is intersected with the scene on the screen in
-    /// 4 steps; rays that miss see the environment (Wyman 2005).
+    /// index of refraction of [`WaterSettings::fresnel`] (1.333 if that has none). The exit ray is intersected
+    /// with the scene on the screen in 4 steps; rays that miss see the environment (Wyman 2005). In front of water
+    /// that touches the scene ([`Config::sheets`](crate::Config)) they see that water, displaced as by a weak prism.
     TwoInterfaces,
     /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis). Where the scene is
     /// under the water, both variants show it so.
@@ -296,8 +297,8 @@ pub enum Kernels {
     Spheres,
     /// An ellipsoid of the same volume, fitted to the neighbours (Yu and Turk 2013) as
     /// [`WaterSettings::ellipsoids`] says: flat in a sheet, elongated in a stream, round inside the water. All
-    /// particles count as neighbours, also those in no packet. Light maps, foam, spray, motion vectors and the
-    /// separation of two layers still use spheres.
+    /// particles count as neighbours, also those in no packet. Light maps, foam, motion vectors and the separation
+    /// of two layers still use spheres; spray has an ellipsoid of its own ([`SpraySettings::strand_ratio`]).
     Ellipsoids,
 }
 
