@@ -29,9 +29,11 @@ pub struct Diagnostics {
     /// eye depth between the two layers, 1e10 where there is only one. Transfer source; last written by a
     /// compute shader, read by compute and fragment shaders.
     pub sheets: Option<vk::Buffer>,
-    /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle: the position where it is drawn (3×f32,
-    /// world), the symmetric matrix that maps a sphere of its radius to its ellipsoid, six signed 16-bit
-    /// fractions of 4: xx, yy, zz, yz, xz, xy, the same of the ellipsoid that its spray fills, and the sum of its neighbours' weights (f32). Transfer source; last written and read by compute shaders.
+    /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. The position where it
+    /// is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to its ellipsoid, six signed
+    /// 16-bit fractions of 4: xx, yy, zz, yz, xz, xy; the same of the ellipsoid of its spray; the sum of its
+    /// neighbours' weights (f32; 64 with a [`strand_ratio`](crate::water::SpraySettings::strand_ratio) of 1).
+    /// Transfer source; last written and read by compute shaders.
     pub shapes: Option<vk::Buffer>,
     /// With [`Config::bubbles`]: a buffer of this many `u32` per pixel of the frame, row by row. For each
     /// layer, front to back: 256 times the blob's index in the streams plus the bubble's index, or 0xffff_ffff

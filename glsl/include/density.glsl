@@ -16,7 +16,7 @@ float share_of_spray(float density) {
     return 1.0 - risen(frame.density.z, density);
 }
 
-// The least of torn_of.
+// Lower bound of torn_of: that of a particle that is entirely spray.
 const float LEAST_TORN = 0.3;
 
 // Fraction of the droplets that a particle has, by its share of spray: water being torn is many fine ones, a particle that

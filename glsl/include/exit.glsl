@@ -9,10 +9,10 @@
 // the rest of the light comes straight through. With weight 1 there are saturated blue blots on every crown
 // and drop.
 const float BENT = 0.5;
-// Factor of that weight before more water: a bent ray meets its surface, too, before the sky.
+// Factor of that weight in front of more water, because many bent rays hit that water instead of the sky.
 const float BENT_BEFORE = 0.5;
-// Of the angle by which a sheet of growing thickness turns a ray, as a prism does, before more water. The whole angle is
-// n - 1 = 0.33 of the slope; what particles show of a sheet's slope is mostly their own unevenness.
+// Deflection of a ray by a sheet in front of more water, over the slope of the sheet's thickness. A prism has n - 1 = 0.33.
+// It is smaller here because most of the slope is noise of the particles.
 const float PRISM = 0.08;
 
 // Light that enters the front sheet from behind.
@@ -62,8 +62,8 @@ vec3 into_water(Sheet sheet) {
 
 // Offset from a pixel to where the refracted ray meets the scene under the sheet: false position between a length at
 // which the ray is before the scene and one at which it is behind it. (Fixed-point iteration jumps between floor and
-// wall where they meet.) It starts at the depth straight behind the pixel, and a step at most doubles the length. It
-// skips objects in front of the water.
+// wall where they meet.) The first length reaches the depth of the scene straight behind the pixel; each step at most
+// doubles the length. Objects in front of the water are skipped.
 const int BED_LOOKS = 5;
 // Part of an interval that each step leaves at either end.
 const float BED_ENDS = 0.1;
@@ -92,14 +92,15 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
     return at - pixel;
 }
 
-// Offset of what a sheet shows of the water at depth `beyond` behind it, in pixels.
+// Offset in pixels of the image of water at depth `beyond`, seen through a sheet at depth `front` as through a prism.
 vec2 prism_offset(vec2 pixel, float front, float beyond) {
     vec2 slope = sheet_slope(pixel, front) / (frame.texel.xy * front);
     return PRISM * slope * max(beyond - front, 0.0) / (frame.texel.xy * max(beyond, front));
 }
 
-// behind: scene colour with the front surface's refraction alone. covers: the sheet is the front one of two. pool: whether
-// the other one touches the scene; the exit sees that water then, in `behind`, and not the scene as it is without water.
+// behind: scene colour with the front surface's refraction alone. covers: the sheet is the front one of two. pool: how far
+// the other one touches the scene, 0 to 1. With 1 the exit ray sees `behind`, which includes that water; the march would
+// find the dry scene.
 Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers, float pool) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);

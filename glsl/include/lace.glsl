@@ -23,16 +23,16 @@ const float DRAWN = 0.3;
 const float RAGGED = 0.3;
 // Median of the amount that closes a point.
 const float CLOSES = 0.22;
-// The amount of foam that covers half, and the scale of the logistic distribution nearest to the actual one. For
-// coverages of 0.1 to 0.9 the error is at most 0.02.
+// Amount of foam for a coverage of 1/2, and scale of the logistic function that maps coverage to amount. Between
+// coverages of 0.1 and 0.9 the mean coverage is off by at most 0.02.
 const vec2 COVERS = vec2(0.33, 0.127);
 // Half the width over which a thread ends: at least, and per cell of a pixel.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
 // The same for the other half of a thread's opacity: single bubbles at its edge.
 const float EDGE_ENDS = 0.16;
 
-// Of the opacity of foam, what a bubble's centre lacks whose foam has just closed, and how much more foam closes it
-// wholly: so closed foam shows its bubbles.
+// Foam that has just closed over a bubble is thin, so that bubbles show in it: its opacity is lower by SHEER. With an
+// amount greater by CLOSED it is opaque.
 const float SHEER = 0.45;
 const float CLOSED = 0.45;
 

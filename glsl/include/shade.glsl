@@ -789,15 +789,15 @@ vec3 with_soap(vec3 c, vec4 over, Face face) {
     return c * (1.0 - over.a) + over.a * face.light + (1.0 - face.mirror) * over.rgb;
 }
 
-// The relief of spray: nearest distance in picture heights, number of distances, optical depth that counts as thin, and
-// how much of it the sky's light loses.
+// Self-shadowing of spray on the screen: distance of the nearest sample in picture heights, number of samples at doubling
+// distances, bias of the optical depth before its logarithm, and loss of skylight over that of sunlight.
 const float RELIEF_NEAR = 1.0 / 360.0;
 const int RELIEF_OCTAVES = 5;
 const float RELIEF_THIN = 0.3;
 const float RELIEF_OF_SKY = 0.19;
 
-// Radiance of spray over its albedo. Its relief: sunlight is lost to what is denser towards the sun, and won where it is
-// thinner there, at distances of five octaves; the sky's light with it.
+// Radiance of spray of albedo 1. Spray is darker where there is denser spray between it and the sun on the screen, and
+// brighter where there is thinner spray.
 vec3 light_of_spray(vec2 pixel, vec2 droplets) {
     float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
     float relief = frame.spray_mist.w;

@@ -27,7 +27,7 @@ layout(push_constant, std430) uniform Push {
 #define MEMBERS 4
 #include "members.glsl"
 
-// Half-axis of the shadow of a particle that is only spray, over the distance to which its droplets are scattered.
+// Half-axis of the shadow of a particle that is only spray, over the scatter radius of its droplets.
 const float SPREAD = 0.6;
 
 layout(location = 0) flat out vec2 centre; // texels

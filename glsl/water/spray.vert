@@ -31,14 +31,14 @@ layout(location = 8) flat out vec2 turn;   // cosine and sine from the noise's a
 const uint PLACE = 0x5370u;
 // Salt of the numbers that a particle has once.
 const uint SPINDLE = 4096u;
-// Sums of squared half-axes of a ball, and of an ellipsoid whose droplets fill it and no spindle.
+// Sums of squared half-axes between which droplets change from a random spindle to the ellipsoid of the neighbours.
 const float BALL = 3.0;
 const float FLAT = 3.6;
-// Longest half-axis of droplets that fill an ellipsoid, about, over the ball's.
+// Root of the sum of squared half-axes of that ellipsoid, over the scatter radius.
 const float STRAND = 0.7;
 // Difference of the squared half-axes of an ellipse, over their sum, below which it is a circle.
 const float ROUND = 1.0e-3;
-// Sums of the neighbours' weights between which a particle has its mist: two or three particles are drops, and no cloud.
+// Sums of the neighbours' weights between which mist fades in: two or three particles alone are drops without mist.
 const vec2 CROWD = vec2(1.0, 6.0);
 // Maximum number of octaves of the mist's noise.
 const float OCTAVES = 5.0;
@@ -52,15 +52,14 @@ vec3 direction_of(uint id, uint number) {
     return vec3(ring * cos(turn), ring * sin(turn), level);
 }
 
-// Half-axes of mist as seen, and the direction of the longer one: the variances of its shape and of its streak add up.
-// `onto`: axes of the plane in which it is seen. `longer` is left where it is as wide as long.
+// Half-axes of the projection of mist on a plane with the axes `onto`. The covariances of its shape and of its streak add
+// up. `longer` becomes the direction of the longer half-axis, unless the ellipse is a circle.
 vec2 mist_ellipse(mat3 shape, vec3 streak, mat2x3 onto, inout vec3 longer) {
-    mat3 turn = mat3(frame.view);
-    mat3x2 across = frame.spray_cloud.y * transpose(onto) * turn * shape;
+    mat2x3 seen = frame.spray_cloud.y * (shape * transpose(mat3(frame.view)) * onto);
     vec2 along = streak * onto;
-    float xx = across[0].x * across[0].x + across[1].x * across[1].x + across[2].x * across[2].x + along.x * along.x;
-    float yy = across[0].y * across[0].y + across[1].y * across[1].y + across[2].y * across[2].y + along.y * along.y;
-    float xy = across[0].x * across[0].y + across[1].x * across[1].y + across[2].x * across[2].y + along.x * along.y;
+    float xx = dot(seen[0], seen[0]) + along.x * along.x;
+    float yy = dot(seen[1], seen[1]) + along.y * along.y;
+    float xy = dot(seen[0], seen[1]) + along.x * along.y;
     float middle = 0.5 * (xx + yy);
     float apart = length(vec2(0.5 * (xx - yy), xy));
     if (apart > ROUND * middle) {
@@ -84,7 +83,7 @@ void main() {
     vec3 axis = direction_of(id, SPINDLE);
     float wide = (1.0 + 5.0 * uniform_of(PLACE, id, SPINDLE + 2u)) / 6.0;
     vec3 spindle = wide * (0.4 * off + 0.6 * dot(off, axis) * axis);
-    // Beside others they lie where those lie: in strands and sheets.
+    // With neighbours, droplets lie in strands and sheets between them.
     mat3 shape = unpack_axes(sprite.shape.xyz);
     float squares = axes_norm2(shape);
     vec3 strand = shape * off * (STRAND * inversesqrt(squares));

@@ -785,18 +785,18 @@ pub struct SpraySettings {
     pub exposure: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
-    /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. Where a
-    /// particle has several droplets, it goes by the square of the part of them that is drawn: a particle that is
-    /// only spray has an 11th, over 0.6 of [`scatter_radius`](Self::scatter_radius). No effect without a map of the sunlight in the water
-    /// ([`Config::light_map_size`](crate::Config)).
+    /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. With several
+    /// [`droplets`](Self::droplets) it is multiplied by the square of the fraction that is drawn, an 11th for a
+    /// particle that is only spray; the half-axis of such a shadow is at least 0.6 [`scatter_radius`](Self::scatter_radius).
+    /// No effect without a map of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
-    /// Fraction of the sunlight in spray that has been scattered by other droplets before, [0, 1], default 0. Of
-    /// it the fourth root of what the shadow leaves arrives: light that is scattered forwards many times goes
-    /// farther (Wrenninge, Kulla, Lundqvist 2013).
+    /// Weight of multiple scattering in the shadows on spray, [0, 1], default 0. The transmittance T of sunlight
+    /// becomes `(1 − s)·T + s·T^¼` (an octave of Wrenninge, Kulla, Lundqvist 2013), because light that droplets
+    /// scatter forwards penetrates farther.
     pub scattering: f32,
-    /// Strength of the shadows that spray casts on itself within the picture, [0, 4], default 0. They are of what is
-    /// denser towards the sun, up to a 22nd of the picture's height away: finer than a light map shows. They dim the
-    /// sky's light too.
+    /// Strength of screen-space self-shadowing, [0, 4], default 0. Spray is darker where denser spray lies towards
+    /// the sun, up to a 22nd of the picture's height away, and brighter where thinner spray does. It shows shadows
+    /// that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
     pub relief: f32,
     /// Whether its light is added to the light from behind (the thesis) instead of composited over it (default
     /// false).

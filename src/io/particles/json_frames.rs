@@ -252,8 +252,8 @@ pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
     }
 }
 
-/// The arrays and objects that lie in so many others, in valid text, which may have comments: where the string before each is, which is its name in an
-/// object, and where it begins and ends.
+/// The arrays and objects at a depth of nesting, in valid text, which may have comments: the range of the string before each
+/// (in an object its name), and its own range.
 fn held(text: &[u8], level: usize) -> Vec<(Range<usize>, Range<usize>)> {
     let mut all = Vec::new();
     let (mut depth, mut begin) = (0_usize, 0);

@@ -67,15 +67,15 @@ fn parts_and_the_camera_move_by_the_number_of_the_frame() {
         .fails(3, &["frame 1", "different places"]);
 }
 
+/// A table on sand.
+const TABLE: &str = r#"{"boxes":[{"name":"table","material":"timber","centre":[0,0.2,0],"half":[0.5,0.2,0.5]}],
+    "ground":{"y":0,"material":"sand"}}"#;
+
 /// Blobs of a file fall on what is seen, and what is torn off splits on the way.
 #[test]
 fn blobs_fall_on_the_scene() {
     let folder = Folder::new();
-    folder.text(
-        "s.json",
-        r#"{"boxes":[{"name":"table","material":"timber","centre":[0,0.2,0],"half":[0.5,0.2,0.5]}],
-            "ground":{"y":0,"material":"sand"}}"#,
-    );
+    folder.text("s.json", TABLE);
     folder.text(
         "b.json",
         r#"{"blobs":[{"center":[0,0.6,0],"radius":0.1},{"center":[1.2,0.6,0],"radius":0.1}],"moves":true}"#,
@@ -104,11 +104,7 @@ fn blobs_fall_on_the_scene() {
 #[test]
 fn a_scene_stands_in_a_set() {
     let folder = Folder::new();
-    folder.text(
-        "s.json",
-        r#"{"boxes":[{"name":"table","material":"timber","centre":[0,0.2,0],"half":[0.5,0.2,0.5]}],
-            "ground":{"y":0,"material":"sand"}}"#,
-    );
+    folder.text("s.json", TABLE);
     folder.particles("a.ply", block(4));
     let view = "--eye 2,1.2,2 --target 0,0.2,0 --fov 60 --supersample 1";
     let draw = |more: &str| {
