@@ -5,9 +5,8 @@
 // Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness,
 // scene colour and depth, environment.
 
-// Weight of the sky seen through the far surface. Water in the air has ripples finer than its particles, so
-// the rest of the light comes straight through. With weight 1 there are saturated blue blots on every crown
-// and drop.
+// Weight of what rays that leave the far surface meet. Water in the air has ripples finer than its particles, so
+// the rest of the light comes straight through. With weight 1 there are saturated blots on every crown and drop.
 const float BENT = 0.5;
 // Factor of that weight in front of more water, because many bent rays hit that water instead of the sky.
 const float BENT_BEFORE = 0.5;
@@ -132,23 +131,31 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
     float square = 1.0 - (1.0 - inner * inner) / (ratio * ratio);
     bool total = square <= 0.0;
     float outer = sqrt(max(square, 0.0));
-    vec3 along = inside / ratio + n * (inner / ratio - outer);
-    along = total ? inside + 2.0 * inner * n : along;
-    along = normalize(along);
+    // What the far surface throws back into the sheet. It is all of the light where the refracted ray vanishes, so the two
+    // meet without an edge.
+    vec3 inward = normalize(inside + 2.0 * inner * n);
+    float thrown = fresnel(outer);
+    vec3 along = total ? inward : normalize(inside / ratio + n * (inner / ratio - outer));
 
-    Met met = march(from, along, pool < 1.0 ? int(EXIT) : 0);
+    Met met = march(from, along, pool < 1.0 && !total ? int(EXIT) : 0);
     met.share *= 1.0 - pool;
-    vec3 world = mat3(frame.world) * along;
     // A ray that leaves downwards and meets no visible scene counts as unrefracted.
-    float sky = BENT * mix(1.0, BENT_BEFORE, pool) * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
-    float thrown = total ? 0.0 : fresnel(outer);
+    float bent = BENT * mix(1.0, BENT_BEFORE, pool);
+    vec3 world = mat3(frame.world) * along;
+    float sky = bent * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
+    met.share *= bent;
+    vec3 back = mat3(frame.world) * inward;
+    float back_sky = bent * smoothstep(-0.3, 0.0, dot(back, frame.up.xyz));
     // The far surface of a film is parallel to its front one, and water on the scene has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);
-    vec3 seen = met.share * scene_at(met.at) + (1.0 - met.share - sky) * behind;
+    vec3 seen = (1.0 - met.share - sky) * behind;
+    for (bool any = met.share > 0.0; any; any = false) {
+        seen += met.share * met_scene(met.at, along);
+    }
     result.free = air * ((1.0 - thrown) * sky * textureLod(environment, world, 0.0).rgb
-                         + thrown * sheet.mirrored);
-    vec3 scene = (1.0 - air) * behind + air * (1.0 - thrown) * seen;
-    result.kept = 1.0 - air + air * (1.0 - thrown) * (1.0 - sky);
+                         + thrown * back_sky * textureLod(environment, back, 0.0).rgb);
+    vec3 scene = mix(behind, (1.0 - thrown) * seen + thrown * (1.0 - back_sky) * behind, air);
+    result.kept = mix(1.0, (1.0 - thrown) * (1.0 - sky) + thrown * (1.0 - back_sky), air);
     result.scene = result.kept > 0.0 ? scene / result.kept : behind;
     result.path = mix(sheet.path, result.path, air);
     return result;

@@ -18,6 +18,8 @@ const float MARCH_FAR = 64.0;
 // alone does not come nearer to it.
 const float MARCH_STEEP = 2.0;
 const float MARCH_DEEP = 1.0 / 32.0;
+// Bisections of the step that hits.
+const int MARCH_HALVES = 6;
 // Distance from the view's edge over which hits fade, in heights of the picture.
 const float MARCH_FADE = 1.0 / 16.0;
 
@@ -67,8 +69,8 @@ Met march(vec3 from, vec3 along, int steps) {
         before = z;
         next = min(next * growth, whole);
     }
-    // Two bisection steps, then a secant step.
-    for (int i = 0; i < 2 && met; ++i) {
+    // The last step may be half of the picture wide: bisection, then a secant step.
+    for (int i = 0; i < MARCH_HALVES && met; ++i) {
         float middle = 0.5 * (low + high);
         vec3 p = a + way * middle;
         float gap = 1.0 / p.z - met_depth(p.xy);

@@ -229,6 +229,9 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
     return mix(1.0, clamp(rise / max(steep, 1.0e-6), 0.0, 1.0), level);
 }
 
+#include "bed.glsl"
+#include "met_water.glsl"
+
 // ripple: surface noise, and its slope per pixel. marched: reflections of the scene are searched, if they are
 // enabled.
 Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) {
@@ -289,7 +292,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
         bool any = met.share > 0.0;
         while (any) {
             sky = free + met.share;
-            sheet.mirrored = (met.share * scene_at(met.at) + free * sheet.mirrored) / sky;
+            sheet.mirrored = (met.share * met_scene(met.at, to) + free * sheet.mirrored) / sky;
             any = false;
         }
     }
@@ -318,8 +321,6 @@ Sheet on_ladder(Sheet sheet) {
     sheet.shine *= whole;
     return sheet;
 }
-
-#include "bed.glsl"
 
 // Adds a surface's reflection and highlight to the light from below. through: transmittance of the water
 // before the foam, and of the foam.

@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::composite::{
-    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, all_mirrored, bed_about,
-    cut_look_up, exit_about, look_up, look_up_both, met_about, scene_at,
+    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, bed_about, cut_look_up, direction,
+    exit_about, look_up, look_up_both, met_about, met_scene,
 };
 use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
@@ -334,12 +334,15 @@ fn over(
 }
 
 /// What of the scene the front surface mirrors: how much, and its colour; and what the march found.
+#[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 fn mirrored(
     inputs: &Inputs<'_>,
+    behind: Option<&Behind<'_>>,
     settings: &Settings,
     surface: &Surface,
     lit: &Lit,
     view: &View,
+    env: DVec3,
     filter: &Filter,
 ) -> ((Rounded, [Rounded; 3]), Met, bool) {
     if settings.mirror_steps == 0 || surface.thickness == 0.0 && lit.share.e == 0.0 {
@@ -351,13 +354,56 @@ fn mirrored(
     if met.share == 0.0 {
         return (NOTHING, met, sure);
     }
-    let at = scene(inputs, met.at, moved, scene_at(inputs, met.at), filter);
+    let at =
+        met_water(inputs, behind, settings, surface, view, (met.at, moved, off_by.0), env, filter);
     let share = Rounded { v: met.share, e: moved * 16.0 / view.extent().y + 16.0 * U };
     ((share, at), met, sure)
 }
 
 const NOTHING: (Rounded, [Rounded; 3]) =
     (Rounded { v: 0.0, e: 0.0 }, [Rounded { v: 0.0, e: 0.0 }; 3]);
+
+/// The most that a wet bed changes for a change of its colour when dry: 1/q, with the 0.53 of water.
+const WET: f64 = 1.9;
+
+/// The colour where a ray meets the scene, with the water that lies on it. The place may be some pixels off and the direction
+/// turned: as far as the colours there are from it, besides what filtering does to the dry one.
+#[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
+fn met_water(
+    inputs: &Inputs<'_>,
+    behind: Option<&Behind<'_>>,
+    settings: &Settings,
+    surface: &Surface,
+    view: &View,
+    (at, moved, turned): (DVec2, f64, f64),
+    env: DVec3,
+    filter: &Filter,
+) -> [Rounded; 3] {
+    let by = moved + 1.0 / f64::from(1 << filter.bits);
+    let last = view.extent() - 1.0e-6;
+    let color = |at: DVec2, along: DVec3| {
+        let at = at.clamp(DVec2::ZERO, last);
+        met_scene(inputs, behind, settings, view, (at, along.normalize()), |_| env)
+    };
+    let along = direction(surface);
+    let found = color(at, along);
+    let mut off = DVec3::ZERO;
+    for axis in [DVec2::X, DVec2::Y, DVec2::ONE, DVec2::new(1.0, -1.0)] {
+        for side in [by, -by] {
+            off = off.max((color(at + axis * side, along) - found).abs());
+        }
+    }
+    for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+        for side in [turned, -turned] {
+            off = off.max((color(at, along + axis * side) - found).abs());
+        }
+    }
+    let changes = changes(inputs, at);
+    [0, 1, 2].map(|i| {
+        let dry = by * (changes[0][i] + changes[1][i]);
+        Rounded { v: found[i], e: WET * dry + off[i] + 64.0 * U * (found[i].abs() + env[i]) }
+    })
+}
 
 /// The scene's colour where it is looked up, which may be so many pixels off.
 fn scene(
@@ -401,13 +447,12 @@ pub fn shaded(
     let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
     let behind = scene(inputs, q, moved, background, filter);
     let behind = under_water(settings, &lit, exact(1.0), behind);
-    let (of_scene, met, mut sure) = mirrored(inputs, settings, surface, &lit, view, filter);
+    let (of_scene, met, mut sure) =
+        mirrored(inputs, None, settings, surface, &lit, view, env, filter);
     let mut behind = behind;
     if settings.exit.is_some() && surface.thickness > 0.0 {
         // Of an even environment: what is mirrored of it is the same in all directions.
-        let of = (of_scene.0.v, DVec3::from(of_scene.1.map(|c| c.v)));
         let color = DVec3::from(behind.map(|c| c.v));
-        let colors = (color, all_mirrored(surface, |_| env, of, view));
         // Four times what normals are off by; the thickness' slope is a difference of numbers that are no more than all of
         // it, over the width of a pixel.
         let width = view.slope_step().abs().min_element() * lit.z.v;
@@ -420,7 +465,7 @@ pub fn shaded(
             surface,
             view,
             (x, y),
-            colors,
+            color,
             |_| env,
             (turned, share.min(0.5)),
         );
@@ -431,8 +476,7 @@ pub fn shaded(
             v: seen.light[i],
             e: light[i]
                 + behind[i].e
-                + of_scene.1[i].e
-                + by * (changes[0][i] + changes[1][i])
+                + WET * by * (changes[0][i] + changes[1][i])
                 + 64.0 * U * (seen.light[i].abs() + env[i]),
         });
         lit.path = Rounded { v: seen.path, e: path + lit.path.e + 64.0 * U * seen.path };
@@ -521,6 +565,7 @@ pub fn shaded_both(
     if let Some((back, _)) = back {
         color = over(settings, &back, color, envs[1], NOTHING, filter);
     }
-    let (of_scene, met, sure) = mirrored(inputs, settings, &shown.front, &front, view, filter);
+    let (of_scene, met, sure) =
+        mirrored(inputs, Some(behind), settings, &shown.front, &front, view, envs[0], filter);
     Shaded { color: over(settings, &front, color, envs[0], of_scene, filter), moved, met, sure }
 }

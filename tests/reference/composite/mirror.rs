@@ -1,5 +1,5 @@
 //! What of the scene a surface mirrors: the ray on the screen, in steps that grow from a 128th of the height to where it
-//! leaves the view, each looked up in the scene's depth; halved twice and then a secant.
+//! leaves the view, each looked up in the scene's depth; halved six times and then a secant.
 
 use glam::{DVec2, DVec3};
 
@@ -71,7 +71,7 @@ fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
         let here = (start.z + way.z * part).recip();
         if front && by > 0.0 && by <= 2.0 * (here - before).abs() + scene / 32.0 {
             let mut behind = (part, by);
-            for _ in 0..2 {
+            for _ in 0..6 {
                 let middle = 0.5 * (free.0 + behind.0);
                 let (by, _) = gap(middle);
                 *(if by > 0.0 { &mut behind } else { &mut free }) = (middle, by);
@@ -116,7 +116,7 @@ pub fn met(inputs: &Inputs<'_>, settings: &Settings, surface: &Surface, view: &V
 }
 
 /// The mirrored direction in eye space.
-fn direction(surface: &Surface) -> DVec3 {
+pub fn direction(surface: &Surface) -> DVec3 {
     let (n, v) = (surface.normal, -surface.position.normalize());
     2.0 * n.dot(v) * n - v
 }

@@ -11,6 +11,7 @@
 mod bed;
 mod exit;
 pub mod medium;
+mod met_water;
 mod mirror;
 mod sheets;
 pub mod source;
@@ -25,7 +26,8 @@ use super::{Image, View, smoothstep};
 
 pub use bed::{Bed, Under, under_water};
 pub use exit::{Off, bed_about, bed_offset, exit, exit_about};
-pub use mirror::{Met, met, met_about};
+pub use met_water::met_scene;
+pub use mirror::{Met, direction, met, met_about};
 pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 
 /// What light meets inside the water.
@@ -265,24 +267,17 @@ pub fn scene_at(inputs: &Inputs<'_>, at: DVec2) -> DVec3 {
 /// How much of the scene a surface mirrors, and the colour there.
 fn of_scene(
     inputs: &Inputs<'_>,
+    behind: Option<&Behind<'_>>,
     settings: &Settings,
     surface: &Surface,
     view: &View,
+    env: impl Fn(DVec3) -> DVec3,
 ) -> (f64, DVec3) {
     let Met { at, share } = met(inputs, settings, surface, view);
-    (share, if share > 0.0 { scene_at(inputs, at) } else { DVec3::ZERO })
-}
-
-/// What a surface mirrors of scene and environment, if it is of any.
-pub fn all_mirrored(
-    surface: &Surface,
-    env: impl Fn(DVec3) -> DVec3,
-    (met, scene): (f64, DVec3),
-    view: &View,
-) -> DVec3 {
-    let reflected = mirrored(surface, view);
-    let free = (1.0 - met) * smoothstep(-0.3, 0.0, reflected.y);
-    if met > 0.0 { (met * scene + free * env(reflected)) / (met + free) } else { env(reflected) }
+    if share == 0.0 {
+        return (0.0, DVec3::ZERO);
+    }
+    (share, met_scene(inputs, behind, settings, view, (at, direction(surface)), env))
 }
 
 /// The direction in the world in which a surface mirrors.
@@ -396,10 +391,9 @@ pub fn shade(
         let surface = surfaces.at(x, y)?;
         let behind = background(inputs, settings, &surface, view, pixel);
         let behind = under_water(settings, &Under::of(settings, &surface, view), behind);
-        let mirrored = of_scene(inputs, settings, &surface, view);
-        let colors = (behind, all_mirrored(&surface, &env, mirrored, view));
+        let mirrored = of_scene(inputs, None, settings, &surface, view, &env);
         let off = Off::default();
-        let seen = exit(inputs, settings, &surface, view, (x, y), colors, &env, &off);
+        let seen = exit(inputs, settings, &surface, view, (x, y), behind, &env, &off);
         Some(before(settings, &surface, 1.0, seen.light, &env, mirrored, seen.path, view))
     })
 }

@@ -173,6 +173,7 @@ pub fn look_up_both(settings: &Settings, shown: &Shown, view: &View, pixel: DVec
 /// looked up once, by the sum of both offsets. The back sheet is no drop.
 pub fn shade_shown(
     inputs: &Inputs<'_>,
+    behind: &Behind<'_>,
     shown: &Shown,
     settings: &Settings,
     env: impl Fn(DVec3) -> DVec3,
@@ -193,7 +194,7 @@ pub fn shade_shown(
         let none = (0.0, DVec3::ZERO);
         color = before(settings, &back.surface, back.part(), color, &env, none, under.path, view);
     }
-    let mirrored = of_scene(inputs, settings, &shown.front, view);
+    let mirrored = of_scene(inputs, Some(behind), settings, &shown.front, view, &env);
     let path = Under::of(settings, &shown.front, view).path;
     before(settings, &shown.front, 1.0, color, &env, mirrored, path, view)
 }
@@ -208,6 +209,6 @@ pub fn shade_sheets(
 ) -> Image<[f64; 4]> {
     let two = Two::new(inputs, behind, settings, view);
     over_scene(inputs, view, |x, y, pixel| {
-        Some(shade_shown(inputs, &two.at(x, y)?, settings, &env, view, pixel))
+        Some(shade_shown(inputs, behind, &two.at(x, y)?, settings, &env, view, pixel))
     })
 }
