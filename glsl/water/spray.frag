@@ -47,6 +47,10 @@ float value_noise(vec2 p, uint salt) {
     return mix(low, high, f.y);
 }
 
+// Growth of the noise's amplitude per octave, up to 1. Coarse octaves are weak: strong clumps of a particle's size would show
+// the particles.
+const float FINER = 0.25;
+
 // Density of mist over its mean. Drops come in clumps of all sizes: the logarithm is a sum of octaves of noise.
 float clumps(vec2 place) {
     vec2 cells = place * grain.xy;
@@ -54,7 +58,7 @@ float clumps(vec2 place) {
     at += vec2(chance & 0xFFFFu, chance >> 16) / 65536.0;
     float sum = 0.0;
     for (uint k = 0u; float(k) < grain.z; ++k) {
-        float amplitude = frame.spray_mist.x * min(grain.z - float(k), 1.0);
+        float amplitude = frame.spray_mist.x * min(FINER * float(k + 1u), 1.0) * min(grain.z - float(k), 1.0);
         sum += amplitude * (value_noise(at, chance + k * 0xC2B2AE3Du) - RAISED * amplitude);
         at *= 2.0;
     }

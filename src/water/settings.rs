@@ -772,8 +772,9 @@ pub struct SpraySettings {
     /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
     /// Strength of the streaks and clumps in the mist, [0, 2], default 0 = smooth: the amplitude, as a natural
-    /// logarithm, of each octave of noise from a drawn radius down to the pixel. They move with the particle. The
-    /// mean optical depth stays, within 4 %.
+    /// logarithm, of the fine octaves of noise. The octaves go from a drawn radius down to the pixel, and the three
+    /// coarsest have 1/4, 1/2 and 3/4 of that amplitude. The noise moves with the particle. The mean optical depth
+    /// stays, within 4 %.
     pub mist_contrast: f32,
     /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
     /// fill, [1, 8], default 1: a ball. It is fitted to the particle's neighbours as its water is: torn water is

@@ -54,20 +54,20 @@ const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.5 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.42 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
         it.droplets = 64;
-        it.size = 0.2;
+        it.size = 0.22;
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = mist;
-        it.mist_size = 2.0;
+        it.mist_size = 2.1;
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
         it.exposure = 0.001;
-        it.shade = 2.5 + 75.0 * mist;
+        it.shade = 2.5 + 90.0 * mist;
         it.scattering = 0.45;
         it.relief = 1.5;
     });
