@@ -17,7 +17,7 @@ layout(push_constant, std430) uniform Push {
     uint buckets;  // a power of two
     float ratio;   // largest ratio of the longest to the shortest half-axis
     float fewest;  // sum of the neighbours' weights from which on it is an ellipsoid
-    float lone;    // size of a particle without neighbours
+    float lone;    // size of a particle with at most one neighbour
     float strand;  // as `ratio`, of its spray
 } push;
 
@@ -37,6 +37,10 @@ const float STEPS = 65536.0;
 
 // Sums of the neighbours' weights between which spray becomes an ellipsoid. One neighbour in mid-reach has 7/8.
 const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
+
+// Sums of the neighbours' weights between which a lone particle becomes one of full size: two particles have at most 1, a
+// line of them 2.9.
+const vec2 ALONE = vec2(1.5, 2.5);
 
 // Variance that Jacobi rotations leave of 0, in squares of the reach.
 const float NO_VARIANCE = 1.0e-6;
@@ -89,7 +93,8 @@ void visit(uint i) {
     float beside = float(weights) / STEPS - 1.0;
     // The edges are never equal: GLSL leaves that undefined.
     float share = smoothstep(0.5 * push.fewest, max(push.fewest, 1.0e-6), beside);
-    vec3 axes = pow(axes_of(variances, push.ratio), vec3(share)) * mix(push.lone, 1.0, share);
+    float size = mix(push.lone, 1.0, smoothstep(ALONE.x, ALONE.y, beside));
+    vec3 axes = pow(axes_of(variances, push.ratio), vec3(share)) * size;
     uvec3 water = words_of(axes, vectors);
     float torn = smoothstep(BESIDE_SPRAY.x, BESIDE_SPRAY.y, beside);
     uvec3 spray = words_of(pow(axes_of(variances, push.strand), vec3(torn)), vectors);

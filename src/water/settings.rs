@@ -315,8 +315,8 @@ pub struct Ellipsoids {
     /// line of particles, 11 in a single sheet, 32 inside. Up to half of the setting a particle is a sphere, as
     /// small drops are (the paper: up to 25 neighbours).
     pub fewest: f32,
-    /// Radius of a particle with so few neighbours that it is a sphere, as a factor, [0.25, 1], default 1 (the
-    /// paper: 0.5). Its volume stays the same.
+    /// Radius of a particle with at most one neighbour, as a factor, [0.25, 1], default 1. It is whole from a sum of
+    /// weights of 2.5 on. (The paper: 0.5, up to 25 neighbours.)
     pub lone: f32,
     /// How far a particle moves towards the weighted centre of its neighbourhood, [0, 1], default 0.9 as in the
     /// paper; sheets and rims become smooth. The neighbours' average displacement is subtracted, or water would

@@ -174,9 +174,11 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
         (smoothstep(from, to, beside), off)
     };
     let (share, share_off) = shared(0.5 * fewest, fewest.max(1.0e-6));
-    let scale = lone + (1.0 - lone) * share;
+    // Two have at most a weight of 1 beside each other, three 2.
+    let (full, full_off) = shared(1.5, 2.5);
+    let scale = lone + (1.0 - lone) * full;
     let (drawn, off) = drawn(&decomposed, covariance_off, ratio, (share, share_off));
-    let axes_off = scale * off + (1.0 - lone) * share_off * norm(&drawn) + PACKED;
+    let axes_off = scale * off + (1.0 - lone) * full_off * norm(&drawn) + PACKED;
     let strands = shared(BESIDE_SPRAY[0], BESIDE_SPRAY[1]);
     let (spray, spray_off) = self::drawn(&decomposed, covariance_off, strand, strands);
     let spray_off = spray_off + PACKED;
@@ -322,13 +324,15 @@ mod tests {
             lattice(|_, _, _| true),
         ];
         let mut expected: Vec<_> = points.into_iter().zip(waters.into_iter().zip(sprays)).collect();
+        // A line's two neighbours in reach weigh 1.75: a quarter of the way from half the size to the whole.
+        expected[1].1.0 *= 0.5 + 0.5 * (3.0 / 16.0 - 2.0 / 64.0);
         // Alone: a sphere of half the size, of whose spray nothing is less.
         expected.push((vec![DVec3::ZERO], (DVec3::splat(0.5), DVec3::ONE)));
         // With one neighbour, whose weight is 7/8, spray is a strand; water goes from 0.75 to 1.5, and has 2/27 of it.
         let pair = vec![DVec3::ZERO, r * DVec3::X];
         let (power, strand) = (2.0 / 27.0, of_ratio(0.125)[1]);
         let little = DVec3::from(of_ratio(0.25)[1].to_array().map(|a| a.powf(power)));
-        expected.push((pair, (little * (0.5 + 0.5 * power), strand)));
+        expected.push((pair, (little * 0.5, strand)));
         for (points, both) in expected {
             let turned = |axes: DVec3| r * DMat3::from_diagonal(axes) * r.transpose();
             let Shape { center, axes, spray, crowd: _, off: [_, slack, loose, _] } = of(&points);

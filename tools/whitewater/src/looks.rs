@@ -44,17 +44,20 @@ pub fn impact_speed(frames: &[Particles]) -> f32 {
 /// that the library's 0.85 is met by most of a splash (of the highest tenth of two solid jets by 82 %, by these 23 %). One
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
 /// Sheets of one layer (0.70) hold; what is torn to less has droplets about it and is water still.
-const SPRAY_DENSITIES: [f32; 3] = [0.42, 0.66, 0.7];
+const SPRAY_DENSITIES: [f32; 3] = [0.44, 0.66, 0.7];
 
 /// Densities by which a lone particle (0.318) is a whole drop of water.
 const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
+
+/// Radius of one particle, or of two in one place, that flies alone: whole, it is a glass ball as large as a fist.
+const LONE: f32 = 0.5;
 
 /// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
 /// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
 /// of the time of a fall through a spacing.
 /// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.42 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.55 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -63,11 +66,11 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = mist;
-        it.mist_size = 2.1;
+        it.mist_size = 2.0;
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
         it.exposure = 0.001;
-        it.shade = 2.5 + 90.0 * mist;
+        it.shade = 2.5 + 70.0 * mist;
         it.scattering = 0.45;
         it.relief = 1.5;
     });
@@ -193,6 +196,8 @@ pub fn look(
         if args.draw.spray == Some(SprayArg::None) || lone {
             // Nothing is lost: what would be spray is water.
             (settings.water.density_threshold, settings.water.density_full) = WHOLE_DROPS;
+        } else {
+            settings.water.ellipsoids.lone = LONE;
         }
         waves_of_caches(&mut settings.water, spacing, &bounds);
         let wide = bounds.size().x.max(bounds.size().z);
