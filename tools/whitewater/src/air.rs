@@ -1,4 +1,4 @@
-//! Where water traps air: the speed at which neighbours approach each other.
+//! Trapped-air potential of each particle: the speed at which its neighbours approach it.
 
 use glam::Vec3;
 
@@ -7,11 +7,11 @@ use crate::cells::Cells;
 /// Sum of the weights of neighbours in a body of water: the integral of 1 - q/2 over the ball of q up to 2 spacings.
 const WHOLE: f32 = 8.0 * std::f32::consts::PI / 3.0;
 
-/// The mean speed at which the neighbours of each particle come nearer, scene units a second: the trapped air potential of
-/// Ihmsen et al. 2012 (Eq. 2), `Σ |v_ij| (1 - v_ij·x_ij) (1 - |x_ij| / h)` with unit vectors in the scalar product and an
-/// h of two spacings, over the sum of the weights in a body of water. So it is 0 in water that rests, that flows and turns
-/// as a whole or falls, and for what is alone. Particles that have no finite place or velocity have 0, and are nobody's
-/// neighbours.
+/// The trapped-air potential of each particle (Ihmsen et al. 2012, Eq. 2): the mean speed at which its neighbours
+/// approach it, in scene units a second. It is `Σ |v_ij| (1 - v_ij·x_ij) (1 - |x_ij| / h)`, with unit vectors in the
+/// scalar product and h of two spacings, over the sum of the weights inside a body of water. So it is 0 in water at
+/// rest, in water that flows, turns or falls as a whole, and for lone particles. Particles with a non-finite position
+/// or velocity have 0 and are no one's neighbour.
 pub fn trapped(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) -> Vec<f32> {
     let reach = 2.0 * spacing;
     let velocity = |i: usize| Vec3::from(velocities[i]);
@@ -32,10 +32,11 @@ pub fn trapped(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) ->
     speeds
 }
 
-/// What a neighbour adds, by where it is from there and how fast that comes.
+/// One neighbour's term of the sum. `apart` points from the neighbour to the particle, `relative` is the particle's
+/// velocity less the neighbour's, and `reach` is h.
 fn approach(apart: Vec3, relative: Vec3, reach: f32) -> f32 {
     let (squared, speed) = (apart.length_squared(), relative.length());
-    // Itself, too.
+    // The particle itself is among the neighbours.
     if squared >= reach * reach || squared <= 0.0 || speed <= 0.0 {
         return 0.0;
     }
@@ -51,7 +52,7 @@ mod tests {
 
     type Flow = fn(Vec3) -> Vec3;
 
-    /// A block of 20 layers of 20 by 20, and what each moves by.
+    /// A block of 20 layers of 20 by 20 particles with these velocities, and their potentials.
     fn block(velocity: impl Fn(Vec3) -> Vec3) -> (Vec<[f32; 3]>, Vec<f32>) {
         let at = |i: u16| [i % 20, i / 20 % 20, i / 400].map(|i| SPACING * (f32::from(i) - 9.5));
         let positions: Vec<_> = (0..8000).map(at).collect();
@@ -74,8 +75,8 @@ mod tests {
         }
     }
 
-    /// Layers that run into each other at 2 metres a second trap air where they meet; those that part trap none. By the
-    /// sum over the lattice itself.
+    /// Two layers that collide at 2 metres a second trap air where they meet; layers that part trap none. The expected
+    /// value is the sum over the lattice.
     #[test]
     fn layers_that_meet_trap_air_where_they_meet() {
         let towards = |sign: f32| move |p: Vec3| Vec3::new(0.0, -sign * p.y.signum(), 0.0);
@@ -94,7 +95,7 @@ mod tests {
             let distance = Vec3::new(x as f32, y as f32, z as f32).length();
             expected += 2.0 * (1.0 + y as f32 / distance) * (1.0 - 0.5 * distance).max(0.0) / WHOLE;
         }
-        // In each place, wherever in its cell.
+        // Each value is the same for every particle in the middle, wherever in its grid cell it lies.
         for (p, speed) in positions.iter().zip(&meet).filter(|(p, _)| middle(p)) {
             let there = if p[1].abs() < SPACING { expected } else { 0.0 };
             let off = (speed - there).abs();
@@ -105,7 +106,7 @@ mod tests {
         assert!(layer(&part, 0.025) < 0.35 * layer(&meet, 0.025));
     }
 
-    /// The same however the particles are ordered and whatever is odd among them.
+    /// Neither the order of the particles nor invalid ones among them change the result.
     #[test]
     fn odd_particles_change_nothing() {
         let flow = |p: Vec3| Vec3::new((40.0 * p.y).sin(), (30.0 * p.z).cos(), p.x);

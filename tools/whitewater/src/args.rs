@@ -70,8 +70,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Report what particle files hold
     ///
-    /// Of each frame: format, number of particles, bounds, spacing, what each attribute is taken as, the axis that points up,
-    /// and what is missing for foam.
+    /// For each frame it prints the format, the number of particles, bounds, spacing, the meaning of each attribute,
+    /// the up axis, and what is missing for foam.
     #[command(after_help = EXIT_CODES)]
     Info(InfoArgs),
     /// Compare two pictures
@@ -104,12 +104,12 @@ pub struct RenderArgs {
     pub bubbles: Option<Bubbles>,
     /// Draw shoreline and contact foam on a sea: archipelago, pool, lava, or a scene file
     ///
-    /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of it. A
-    /// scene of your own (.glb, .gltf, .obj, .json) stands in a sea without particles. Frames start at 1 and
-    /// repeat after ten seconds. A mesh named 'strip', or the file that [shore] strip names, is a strip of foam
-    /// along the shore: its second texture coordinate is 0 at the sea's edge, 1 at the shore line, 2 on the
-    /// land. Tables [shore], [shoreline] and [contact] of --settings set the appearance. [contact]
-    /// particle_opacity = 1 puts contact foam on the particles' water.
+    /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of lava. A scene
+    /// of your own (.glb, .gltf, .obj, .json) stands in a sea without particles. Frames start at 1 and repeat after ten
+    /// seconds. A mesh named 'strip', or the file that [shore] strip names, is a strip of foam along the shore: its
+    /// second texture coordinate is 0 at the sea's edge, 1 at the shore line, 2 on the land. Tables [shore],
+    /// [shoreline] and [contact] of --settings set the appearance. [contact] particle_opacity = 1 puts contact foam on
+    /// the particles' water.
     #[arg(long, value_name = "archipelago|pool|lava|FILE", value_parser = crate::shore::named, conflicts_with_all = ["inputs", "bubbles", "whitewater", "scene"])]
     pub shore: Option<Shore>,
     /// Height of the sea in a scene of your own, scene units
@@ -134,8 +134,8 @@ pub struct RenderArgs {
     /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale) [default: from
     /// the files, or estimated]
     ///
-    /// It is that of all particles. Without it, where radii in the files differ by more than a quarter, larger particles are
-    /// drawn as several of the smallest ones, up to 8 times as many.
+    /// The option sets one radius for all particles. Without it, if radii in the files differ by more than a quarter,
+    /// each larger particle is drawn as several of the smallest size, at most 8 times as many particles in all.
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
     /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]
@@ -144,14 +144,15 @@ pub struct RenderArgs {
     /// layer depend on this value, and so do velocities that are estimated from the sequence.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
-    /// Draw spray, foam and bubbles that are particles of their own: files, or 'generate'
+    /// Draw whitewater particles (spray, foam and bubbles) from files, or 'generate' them
     ///
-    /// FILES belong to the same frames and are named like the inputs, with types and lifetimes as FoamGenerator
-    /// writes them. KIND=FILES hold one kind each: foam, spray or bubble. May be given several times. Size and
-    /// opacity follow from their number; table [whitewater] overrides (radius, or radii = [foam, spray, bubbles],
-    /// and half_intensity_thickness). 'generate' emits them from the water's particles where it traps air, breaks and is fast
-    /// (table [generate]). With [bubbles] crossfade = [NEAR, FAR] foam turns into soap-bubble blobs between FAR
-    /// and NEAR metres. The water's own foam and spray are then drawn only if --surface-foam and --spray ask for them.
+    /// FILES belong to the same frames and are named like the inputs; they hold types and lifetimes as FoamGenerator
+    /// writes them. KIND=FILES says that the files hold one kind: foam, spray or bubble. The option may be given
+    /// several times. Size and opacity follow from the number of particles; table [whitewater] overrides them (radius,
+    /// or radii = [foam, spray, bubbles], and half_intensity_thickness). 'generate' emits whitewater where the water
+    /// traps air, where waves break and where it is fast (table [generate]). With [bubbles] crossfade = [NEAR, FAR]
+    /// foam turns into soap-bubble blobs between FAR and NEAR metres. The water's own foam and spray are then drawn
+    /// only if --surface-foam and --spray ask for them.
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::whitewater_source::named)]
     pub whitewater: Vec<Whitewater>,
     /// Write the emitted whitewater to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
@@ -164,26 +165,27 @@ pub struct RenderArgs {
     /// For example one file per phase, or per processor of a run.
     #[arg(long)]
     pub join: bool,
-    /// Axis that points up in the files, which are turned so that it is y [default: y, z, -y or -z, by how the water lies
-    /// and falls; y if that does not tell]
+    /// Up axis of the files; particles are rotated so that it becomes y [default: y, z, -y or -z, from how the water
+    /// lies and falls; y if that is ambiguous]
     ///
-    /// -y: y points down, as in images. An axis other than y that is found is reported. Scene and camera are always y-up.
+    /// -y: y points down, as in images. If the detected axis is not y, it is reported. Scene and camera are always
+    /// y-up.
     #[arg(long, value_enum, allow_hyphen_values = true)]
     pub up_axis: Option<Up>,
     /// Draw only particles whose attribute satisfies a comparison, such as Type=3 (= != < > <= >=)
     ///
-    /// Several conditions all have to hold. Case and units in names are ignored. Use it to leave out walls that
-    /// are in the same files.
+    /// If there are several conditions, all have to hold. Case and units in names are ignored. Use it to leave out wall
+    /// particles in the same files.
     #[arg(long = "where", value_name = "NAME=VALUE", value_parser = crate::extras::condition)]
     pub conditions: Vec<Condition>,
     /// Draw some particles as another liquid, such as 'Type=2:honey' or 'oil_*.vtk:beer:0.1'; several times for several fluids
     ///
-    /// WHICH is a comparison as in --where, or more files of the same frames, which are drawn beside the inputs. LIQUID is a name
-    /// of --medium, 'water' for what is drawn without --fluid, or a settings file (.toml) over --settings. Once a fluid is
-    /// chosen by a comparison, particles that none chooses are not drawn. Each fluid is drawn over the picture of the
-    /// others, and a pixel shows the one in front with the others behind it, whose surface mirrors nothing there: two
-    /// fluids take 5 renders, three 10. No fluid casts shadows on another. Layers in EXR files are those of the first, and
-    /// --whitewater generate makes whitewater of the first alone: of the inputs, or of the first comparison.
+    /// WHICH is a comparison as in --where, or more files of the same frames, which are drawn beside the inputs. LIQUID
+    /// is a name of --medium, 'water' for the look without --fluid, or a settings file (.toml) applied over --settings.
+    /// If any WHICH is a comparison, particles that match no comparison are not drawn. Each fluid is drawn over the
+    /// picture of the others; a pixel shows the nearest fluid with the others behind it, and a surface behind another
+    /// liquid reflects nothing. Two fluids take 5 renders, three 10. No fluid casts shadows on another. EXR layers and
+    /// --whitewater generate use only the first fluid: the inputs, or the first comparison.
     #[arg(long = "fluid", value_name = "WHICH:LIQUID", value_parser = crate::fluids::fluid, conflicts_with_all = ["bubbles", "shore"])]
     pub fluids: Vec<FluidArg>,
     /// Unit of lengths in the particle files, velocities included [default: m]
@@ -194,20 +196,20 @@ pub struct RenderArgs {
     /// Metres per unit of length in the particle files: 0.001 equals --unit mm
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     pub scale: Option<f32>,
-    /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin around water that stands
-    /// at two sides of a box, otherwise the ground]
+    /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin if the water stands against two
+    /// sides of a box, otherwise the ground]
     ///
     /// JSON has boxes, cylinders, tubes and spheres; parts may move, with a pose per frame, as 'whitewater
     /// simulate' writes them.
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
-    /// Surroundings: pool, studio, beach, lab or none [default: pool; with --scene its own]
+    /// Surroundings: pool, studio, beach, lab or none [default: pool; with --scene those of the scene]
     ///
-    /// With --scene and this option the scene stands on level ground in these surroundings, in their light.
-    /// 'pool' is a terrace over the sea, 'studio' a plain floor under a soft box, 'beach' sand in front of a
-    /// sea, 'lab' a tiled hall with lamps. Studio and lab bring their own light unless you set one. With 'none'
-    /// only water, foam and spray are drawn, premultiplied; A holds how much of the background they hide (the
-    /// mean of three channels), in EXR and PNG.
+    /// If --scene is given as well, the scene stands on level ground in these surroundings and their light. 'pool' is a
+    /// terrace over the sea, 'studio' a plain floor under a soft box, 'beach' sand in front of a sea, 'lab' a tiled
+    /// hall with lamps. Studio and lab bring their own light unless you set one. With 'none' only water, foam and spray
+    /// are drawn, premultiplied by alpha; A is the fraction of the background that they hide (mean of the three
+    /// channels), in EXR and PNG.
     #[arg(long, value_enum)]
     pub set: Option<SetArg>,
     #[command(flatten)]
@@ -216,12 +218,12 @@ pub struct RenderArgs {
     pub draw: DrawArgs,
 }
 
-/// Where whitewater particles come from.
+/// Source of the whitewater particles.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Whitewater {
-    /// They are made of the water's.
+    /// They are emitted from the water's particles.
     Generate,
-    /// From files. What they all are; none: as the files say.
+    /// They are read from files. `kind` is the kind of all particles; with `None` the files store it.
     Files { kind: Option<u32>, files: String },
 }
 
@@ -233,7 +235,7 @@ pub struct DemoArgs {
     pub draw: DrawArgs,
 }
 
-/// What every drawing command takes.
+/// Arguments that every drawing command takes.
 #[derive(Args, Debug)]
 pub struct DrawArgs {
     /// File to write: .exr (linear light, all layers), .png, or .mp4 (a film of all frames, H.264, at --fps);
@@ -247,7 +249,7 @@ pub struct DrawArgs {
     pub size: (u32, u32),
     /// Render at N times the width and height and average: 1, 2 or 4 [default: 2, or 1 if --samples applies]
     ///
-    /// Smooths outlines, drops and the refraction of fine ripples. --timings are those of the large frame.
+    /// It smooths outlines, drops and the refraction of fine ripples. --timings measures the large frame.
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
     /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
@@ -293,9 +295,9 @@ pub struct DrawArgs {
     pub medium: Option<MediumName>,
     /// Preset for everything that is not set explicitly: 'default', or 'thesis' (Bagar 2010)
     ///
-    /// 'thesis' has that work's composite, colours, foam, spray and iterations (--rule source), one layer of
-    /// water, and the scene's filtered shadows without those of water and foam. Equals look = 'thesis' at the
-    /// top of --settings.
+    /// 'thesis' uses that work's composite, colours, foam, spray and iterations (--rule source), one layer of water,
+    /// and filtered shadows of the scene but none of water and foam. It equals look = 'thesis' at the top of
+    /// --settings.
     #[arg(long, value_enum)]
     pub look: Option<LookWord>,
     /// Environment that the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
@@ -307,9 +309,9 @@ pub struct DrawArgs {
     pub sun: Option<[f32; 3]>,
     /// EXR layers besides R G B A: all, none, or names such as water.depth,scene
     ///
-    /// 'ladder' adds the picture up to each of its layers (background, back_water, surface_foam, front_water). motion.X
-    /// and motion.Y are the motion since the previous frame in pixels, x right, y down: 0 in the first frame of
-    /// a sequence, for the scene from the camera alone.
+    /// 'ladder' adds cumulative composites: the picture up to and including background, back_water, surface_foam and
+    /// front_water. motion.X and motion.Y are motion vectors since the previous frame in pixels, x to the right, y
+    /// down. They are 0 in the first frame of a sequence. For the scene they hold only the camera's motion.
     #[arg(long, value_name = "NAMES", default_value = "all")]
     pub layers: String,
     /// PNG exposure: 'auto', or stops relative to it
@@ -335,10 +337,10 @@ pub struct DrawArgs {
     pub sheets: Option<u32>,
     /// Surface foam: auto, none, or a Weber number as threshold [default: auto; none with --whitewater]
     ///
-    /// 'auto' needs velocities. A single frame foams where it traps air, that is where neighbours collide: the
-    /// top 5 % at most, and no water that rests, flows or falls as a whole. In a sequence the top 5 % by Weber
-    /// number foam, at most 30 % of the particles at a time. A number applies to the water's own speed. With
-    /// ids foam forms and decays over time; earlier frames are read for that.
+    /// 'auto' needs velocities. A single frame foams where the water traps air, that is where neighbours collide: at
+    /// most the top 5 %, and no water that rests, flows or falls as a whole. In a sequence the top 5 % by Weber number
+    /// foam, at most 30 % of the particles at a time. A number is a Weber number of the water's own speed. If particles
+    /// have ids, foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,
     /// The former name of --surface-foam
@@ -358,8 +360,8 @@ pub struct DrawArgs {
     /// The complete baseline is --noise foam --rule fixed:40 --surface-foam none.
     #[arg(long, value_enum, default_value_t = NoiseArg::None)]
     pub noise: NoiseArg,
-    /// Shadows: all (scene, water and foam, with caustics), scene (those of the scene on foam and spray), or
-    /// none [default: all; scene with --look thesis]
+    /// Shadows: all (scene, water and foam, with caustics), scene (the scene's shadows on foam and spray), or none
+    /// [default: all; scene with --look thesis]
     #[arg(long, value_enum)]
     pub shadows: Option<ShadowArg>,
     /// How particles are rasterized [default: the faster on the device]
@@ -371,9 +373,9 @@ pub struct DrawArgs {
     pub rule: Option<Rule>,
     /// Write the time of each pass to a .csv or .json
     ///
-    /// Passes that run once per simulation step (classify, which finds the foaming water; emission of
-    /// whitewater; blob dynamics) precede a frame's passes, once, with the times of the last step. After Ctrl-C
-    /// the file holds the frames so far.
+    /// Passes that run once per simulation step (classify, which finds the foaming water; emission of whitewater; blob
+    /// dynamics) are listed once, before the frame's passes, with the times of the last step. After Ctrl-C the file
+    /// holds the frames so far.
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
     /// Draw each frame this many times; --timings has all of them
@@ -427,7 +429,7 @@ pub struct SimulateArgs {
     /// What to simulate
     #[arg(value_name = "SCENE", value_parser = clap::builder::PossibleValuesParser::new(Scene::NAMES))]
     pub scene: String,
-    /// Folder for the frames, scene.json and camera.json; made if it is not there
+    /// Folder for the frames, scene.json and camera.json; created if missing
     #[arg(short, long, value_name = "DIR")]
     pub out: PathBuf,
     /// Frames to write, as A-B or A; frames before A are simulated, not written
@@ -439,7 +441,7 @@ pub struct SimulateArgs {
     /// Rest distance of particles in metres; half of it means eight times as many [default: the scene's]
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub spacing: Option<f32>,
-    /// Write only these frames, as A-B or A
+    /// Write only these frames of --frames, as A-B or A
     #[arg(long, value_name = "A-B")]
     pub keep: Option<String>,
     /// Seed of the random numbers
@@ -558,7 +560,7 @@ impl From<SplatArg> for Splat {
     }
 }
 
-/// What stands round the water.
+/// Surroundings of the water.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum SetArg {
     /// A terrace over the sea
@@ -566,7 +568,7 @@ pub enum SetArg {
     Pool,
     /// A plain floor that passes into the dark.
     Studio,
-    /// Sand before a sea.
+    /// Sand in front of a sea.
     Beach,
     /// A tiled hall.
     Lab,
@@ -574,16 +576,16 @@ pub enum SetArg {
     None,
 }
 
-/// From light to a screen.
+/// Tone map: from linear light to a screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ToneArg {
     /// Clipped.
     Linear,
     /// Khronos' PBR Neutral.
     Neutral,
-    /// The Academy's.
+    /// The Academy's film curve.
     Aces,
-    /// Sobotka's.
+    /// Sobotka's AgX.
     Agx,
 }
 
@@ -598,7 +600,7 @@ impl From<ToneArg> for Tone {
     }
 }
 
-/// What casts shadows on what.
+/// Which objects cast shadows, and on what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ShadowArg {
     /// Scene, water and foam cast shadows on each other; with caustics.
@@ -609,39 +611,39 @@ pub enum ShadowArg {
     None,
 }
 
-/// Whether there is spray.
+/// Whether particles of low density are drawn as spray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum SprayArg {
-    /// Where densities are known or can be found.
+    /// Spray, if densities are in the files or can be estimated.
     Auto,
-    /// None.
+    /// No spray.
     None,
 }
 
-/// What the baseline's noise does.
+/// What the baseline's surface noise changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum NoiseArg {
     /// Nothing.
     None,
-    /// Turns the surface's normals.
+    /// The surface's normals.
     Surface,
-    /// And adds its foam.
+    /// The normals, and grey foam.
     Foam,
 }
 
-/// What of the water foams.
+/// Which water foams.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Foaming {
     Auto,
     None,
-    /// From this Weber number on, of the source's reduced form.
+    /// Water with at least this Weber number, in the source's reduced form.
     From(f32),
 }
 
-/// How long a turn of the camera takes.
+/// Duration of one orbit of the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Turntable {
-    /// As long as there are frames.
+    /// The number of drawn frames.
     Auto,
     Frames(u32),
     Seconds(f32),

@@ -1,4 +1,5 @@
-//! Arrays of NumPy in files of their own, as `numpy.save` makes them: positions in `x_0001.npy`, velocities in `v_0001.npy`.
+//! NumPy arrays in files of their own, as `numpy.save` writes them: positions in `x_0001.npy`, velocities in
+//! `v_0001.npy`.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -9,7 +10,7 @@ const POSITIONS: [&str; 10] =
     ["x", "p", "pos", "position", "positions", "point", "points", "coords", "xyz", "xp"];
 const VELOCITIES: [&str; 7] = ["v", "u", "vel", "vels", "velocity", "velocities", "vp"];
 
-/// Where one of these words is in a name.
+/// Position of the first of these words in a file's name.
 fn word(stem: &str, words: &[&str]) -> Option<Range<usize>> {
     let letter = |at: usize| stem.as_bytes().get(at).is_some_and(u8::is_ascii_alphabetic);
     let starts = (0..stem.len()).filter(|at| letter(*at) && (*at == 0 || !letter(*at - 1)));
@@ -22,7 +23,7 @@ fn stem(path: &Path) -> Option<&str> {
     path.file_name()?.to_str()?.strip_suffix(".npy")
 }
 
-/// Of names, the one of positions, where all others are of velocities.
+/// The name of the positions, if all other names are velocities.
 pub fn positions_of<'a>(names: &[&'a str]) -> Option<&'a str> {
     let is = |name: &str, words: &[&str]| {
         stem(Path::new(name)).is_some_and(|stem| word(stem, words).is_some())
@@ -35,7 +36,7 @@ pub fn positions_of<'a>(names: &[&'a str]) -> Option<&'a str> {
     }
 }
 
-/// The file of velocities beside one of positions.
+/// The velocity file that belongs to a position file.
 pub fn velocities_beside(path: &Path) -> Option<PathBuf> {
     let stem = stem(path)?;
     let at = word(stem, &POSITIONS)?;
@@ -47,19 +48,19 @@ pub fn velocities_beside(path: &Path) -> Option<PathBuf> {
     VELOCITIES.iter().map(|word| named(word)).find(|path| path.is_file())
 }
 
-/// Whether a file is one of velocities, by its name.
+/// Whether a file holds velocities, by its name.
 pub fn is_of_velocities(path: &Path) -> bool {
     stem(path)
         .is_some_and(|stem| word(stem, &VELOCITIES).is_some() && word(stem, &POSITIONS).is_none())
 }
 
-/// Adds velocities from the file beside that of the positions; of the same frame, where files hold several.
+/// Adds velocities from the file beside the positions. If files hold several frames, the frame is `step`.
 pub fn add(particles: &mut Particles, path: &Path, step: Option<Step>) {
     if particles.velocities.is_some() {
         return;
     }
     if is_of_velocities(path) {
-        let why = "by the name of the file these are velocities: they are taken as positions";
+        let why = "the file's name says that these are velocities, but they are read as positions";
         particles.warnings.push(why.into());
         return;
     }
@@ -78,13 +79,13 @@ pub fn add(particles: &mut Particles, path: &Path, step: Option<Step>) {
             particles.meanings.push((Meaning::Velocity, vec![name]));
         }
         Ok(other) => particles.warnings.push(format!(
-            "{name} has {} vectors and not {}: it is not read as velocities",
+            "{name} has {} vectors, expected {}; its velocities are ignored",
             other.positions.len(),
             particles.positions.len()
         )),
-        Err(error) => {
-            particles.warnings.push(format!("no velocities from the file beside: {error}"))
-        }
+        Err(error) => particles
+            .warnings
+            .push(format!("cannot read the velocities from the file beside it: {error}")),
     }
 }
 
@@ -107,7 +108,7 @@ mod tests {
         }
     }
 
-    /// An array of so many vectors, as NumPy saves it.
+    /// An array of these vectors in NumPy's format.
     fn npy(vectors: &[[f32; 3]]) -> Vec<u8> {
         let header = format!(
             "{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, 3), }}",

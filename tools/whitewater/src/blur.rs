@@ -10,17 +10,17 @@ use whitewater::io::picture::{Channel, Layers};
 use crate::args::DrawArgs;
 use crate::failure::Outcome;
 
-/// Of a photograph: seconds, diameter of the lens over the distance in focus, and at most in metres.
+/// Defaults for a photograph: exposure time in seconds; lens diameter over focus distance; max lens diameter in metres.
 const SHUTTER: f32 = 0.005;
 const LENS: f32 = 0.0035;
 const LARGEST: f32 = 0.035;
 
-/// What is averaged.
+/// Settings of the average.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blur {
-    /// Pictures, 2 or more.
+    /// Number of pictures, at least 2.
     pub samples: u32,
-    /// Seconds that the shutter is open, about the frame's moment.
+    /// Exposure time in seconds, centred on the frame.
     pub seconds: f32,
     /// Radius of the lens, scene units.
     pub radius: f32,
@@ -29,17 +29,17 @@ pub struct Blur {
 /// One of the pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// Seconds from the frame's moment.
+    /// Time offset from the frame in seconds.
     pub time: f32,
-    /// From the middle of the lens, scene units, to the right and upwards.
+    /// Offset from the centre of the lens, to the right and upwards, scene units.
     pub lens: Vec2,
-    /// From the middle of a pixel, pixels.
+    /// Offset from the centre of the pixel, pixels.
     pub pixel: Vec2,
 }
 
 impl Blur {
-    /// None where nothing is to be blurred. `photograph`: where nothing is said it is as a camera has it; `focus`: how far
-    /// away all is sharp.
+    /// `None` if nothing is blurred. With `photograph` the defaults are those of a camera; `focus` is the focus
+    /// distance.
     pub fn of(args: &DrawArgs, photograph: bool, focus: f32) -> Option<Self> {
         let usual = |value: f32| if photograph { value } else { 0.0 };
         let seconds = args.shutter.unwrap_or(usual(SHUTTER));
@@ -48,8 +48,8 @@ impl Blur {
         blurs.then_some(Self { samples: args.samples, seconds, radius: 0.5 * diameter })
     }
 
-    /// Even over the time (the radical inverse of 2), over the lens (Vogel's sunflower) and over the pixel (Roberts'
-    /// sequence), none by another.
+    /// Low-discrepancy samples of time (radical inverse of 2), lens (Vogel's sunflower) and pixel (Roberts' sequence),
+    /// which do not correlate with each other.
     pub fn samples(&self) -> impl Iterator<Item = Sample> {
         let Self { samples, seconds, radius } = *self;
         let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
@@ -64,8 +64,8 @@ impl Blur {
         })
     }
 
-    /// The mean of the pictures that are drawn of all samples, with the particles where they are then, and at last where they
-    /// were.
+    /// Draws one picture per sample, with the particles moved to its time, and returns the mean. At the end the
+    /// particles are back in place.
     pub fn draw(
         &self,
         headless: &mut Headless,
@@ -88,8 +88,8 @@ impl Blur {
     }
 }
 
-/// The view from a point of the lens: what is `focus` away stays where it is in the picture of a size, but for the part of
-/// a pixel.
+/// The view through a point of the lens. Points at distance `focus` stay where they are in the picture, except for the
+/// offset within the pixel.
 pub fn through(
     camera: &Camera,
     Sample { lens, pixel, .. }: Sample,
@@ -100,7 +100,7 @@ pub fn through(
     let mut view = camera.view_matrix();
     view.w_axis -= lens.extend(0.0).extend(0.0);
     camera.view = view.to_cols_array_2d();
-    // 1 or -1: whether depth grows along z.
+    // 1 or -1: whether depth grows along the view-space z axis.
     let along = camera.projection_matrix().z_axis.w;
     let pixel = 2.0 * pixel / Vec2::new(size.0 as f32, size.1 as f32);
     let scale = Vec2::new(camera.projection_matrix().x_axis.x, camera.projection_matrix().y_axis.y);
@@ -111,7 +111,7 @@ pub fn through(
     camera
 }
 
-/// Where particles are after some seconds. What has no finite velocity stays.
+/// Positions after `seconds`. Particles with a non-finite velocity stay where they are.
 fn moved(positions: &[[f32; 3]], velocities: &[[f32; 3]], seconds: f32) -> Vec<[f32; 3]> {
     let there = |(p, v): (&[f32; 3], &[f32; 3])| {
         let to = Vec3::from(*p) + seconds * Vec3::from(*v);
@@ -141,7 +141,7 @@ impl Mean {
         self.count += 1;
     }
 
-    /// Replaces the channels of the same names.
+    /// Replaces the channels of the same names by their means.
     pub fn put(&self, layers: &mut Layers) {
         for channel in &mut layers.channels {
             if let Some((_, sums)) = self.sums.iter().find(|(name, _)| *name == channel.name) {
@@ -165,7 +165,7 @@ mod tests {
             assert_eq!(all.len(), samples as usize);
             assert!(all.iter().all(|s| s.time.abs() < 0.01 && s.lens.length() < 0.1), "{all:?}");
             let mean = all.iter().map(|s| s.time).sum::<f32>() / samples as f32;
-            // Where a power of two is not full the last of it are missing.
+            // If the number is not a power of two, the radical inverse lacks some of its values.
             let most = if samples.is_power_of_two() { 1.0e-6 } else { 0.003 };
             assert!(mean.abs() < most, "{samples}: {mean}");
             let pixel = all.iter().map(|s| s.pixel).sum::<Vec2>() / samples as f32;
@@ -194,7 +194,7 @@ mod tests {
             for depth in [2.0_f32, 5.0, 20.0] {
                 let point = view.inverse() * Vec4::new(0.3, -0.2, along * depth, 1.0);
                 let off = seen(&other, point) - seen(&camera, point);
-                // By similar triangles, in the picture's half widths.
+                // Expected by similar triangles, in units of half the picture's width and height.
                 let scale = Vec2::new(projection.x_axis.x, projection.y_axis.y);
                 let expected = lens * scale * (1.0 / 5.0 - 1.0 / depth) + Vec2::new(0.002, -0.004);
                 assert!((off - expected).length() < 1.0e-6, "{along} {depth}: {off} {expected}");

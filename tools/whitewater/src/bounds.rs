@@ -1,4 +1,4 @@
-//! Bounds of the bulk of the particles, robust against strays.
+//! Bounding box of the bulk of the particles, robust against outliers.
 
 use std::collections::{HashMap, HashSet};
 
@@ -13,28 +13,31 @@ pub struct Bounds {
     pub max: Vec3,
 }
 
-/// Coordinates from here on are no places in a scene: the determinant of a light's projection, one over the
-/// cube of its size, would vanish in single precision. (`cull` drops particles from 1e18 on.)
+/// Coordinates of at least this size count as outliers: the determinant of a light's projection, 1 over the cube of its
+/// size, would underflow in single precision. (`cull` drops particles from 1e18 on.)
 const FAR: f32 = 1.0e12;
-/// How many interquartile ranges of the widest axis a particle may lie outside the quartiles. Water that is
-/// spread evenly ends at half of one, a splash at some; from a hundred away all the rest is a few pixels.
+/// Limit of the distance from the quartiles, in interquartile ranges of the widest axis, beyond which a particle is an
+/// outlier. Evenly spread water ends at half a range and a splash at a few; if the bounds reached 100 ranges, the bulk
+/// would be a few pixels.
 const REACH: f32 = 100.0;
-/// Cells so many spacings wide hold 27 particles of a body of water, 9 of a sheet one particle thick, 3 of a line.
+/// Width of a grid cell in spacings. A cell of this width holds 27 particles of a body of water, 9 of a sheet one
+/// particle thick, 3 of a line.
 const CELL: f32 = 3.0;
-/// Particles of a cell that is water, not spray.
+/// Min number of particles in a cell that is water and not spray.
 const DENSE: usize = 5;
-/// Share of all particles that a body of such cells holds, where it belongs to the bulk.
+/// Min share of all particles in a connected body of such cells, for the body to belong to the bulk.
 const BODY: f32 = 0.05;
-/// Of the longest side of the bulk: how far spray may reach beyond it. Below there is the floor that water stands on.
+/// How far spray may reach beyond the bulk, as a part of its longest side. Below the bulk is the floor that the water
+/// stands on.
 const SPRAY: f32 = 0.5;
-/// The same of what is above, where particles fly farther than that.
+/// The same above the bulk, for particles that fly farther than that.
 const SPLASH: f32 = 0.15;
-/// Share of the particles that may lie beyond that, on a side.
+/// Max share of the particles that may lie beyond that on one side.
 const STRAY: f32 = 0.08;
-/// Particles from which the quartiles are taken.
+/// Number of particles from which quartiles are computed.
 const SAMPLES: usize = 65_536;
 
-/// Where particles belong to the rest; `None` where there are none.
+/// The box outside of which particles are outliers; `None` without particles.
 fn plausible(positions: &[[f32; 3]]) -> Option<Bounds> {
     let step = positions.len().div_ceil(SAMPLES).max(1);
     let near = |p: &&[f32; 3]| p.iter().all(|c| c.abs() < FAR);
@@ -47,7 +50,7 @@ fn plausible(positions: &[[f32; 3]]) -> Option<Bounds> {
         low[axis] = *values.select_nth_unstable_by(quarter.min(last), f32::total_cmp).1;
         high[axis] = *values.select_nth_unstable_by(last - quarter.min(last), f32::total_cmp).1;
     }
-    // A sheet has no range across; where half of all stand in one place there is none to go by.
+    // A sheet has a range of 0 across. If half of all particles are at one place, no range is known.
     let range = (high - low).max_element();
     let reach = if range > 0.0 { REACH * range } else { FAR };
     Some(Bounds {
@@ -56,13 +59,13 @@ fn plausible(positions: &[[f32; 3]]) -> Option<Bounds> {
     })
 }
 
-/// Takes out what is no number, what is too far away to be drawn, and what lies absurdly far from the rest.
+/// Positions without NaN and infinities, without coordinates of [`FAR`] or more, and without outliers beyond [`REACH`].
 pub fn together(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let Some(plausible) = plausible(positions) else { return Vec::new() };
     positions.iter().copied().filter(|p| plausible.contains(Vec3::from(*p))).collect()
 }
 
-/// How many finite positions [`together`] takes out.
+/// Number of finite positions that [`together`] drops.
 pub fn count_far(positions: &[[f32; 3]]) -> usize {
     let plausible = plausible(positions);
     let far = |p: &Vec3| p.is_finite() && !plausible.is_some_and(|near| near.contains(*p));
@@ -70,8 +73,8 @@ pub fn count_far(positions: &[[f32; 3]]) -> usize {
 }
 
 impl Bounds {
-    /// Of the particles that are [`together`], without strays: at most 1 in 500 at each end of an axis, and
-    /// only where they are far off. `None` where there is no particle.
+    /// Bounding box of the particles that [`together`] keeps, without strays: at most 1 in 500 at each end of an axis,
+    /// and only if they are far off. `None` without particles.
     pub fn of_bulk(positions: &[[f32; 3]]) -> Option<Self> {
         let positions = together(positions);
         let mut bounds = Self { min: Vec3::ZERO, max: Vec3::ZERO };
@@ -81,7 +84,7 @@ impl Bounds {
             let (first, last) = (*values.first()?, *values.last()?);
             let cut = values.len() / 500;
             let (low, high) = (values[cut], values[values.len() - 1 - cut]);
-            // What is just outside belongs to the bulk.
+            // Particles just outside the quantiles belong to the bulk.
             let near = 0.2 * (high - low);
             bounds.min[axis] = first.max(low - near);
             bounds.max[axis] = last.min(high + near);
@@ -89,7 +92,7 @@ impl Bounds {
         Some(bounds.within_reach_of(Self::of_bodies(&positions), &positions))
     }
 
-    /// Without what lies farther from bodies of water than spray flies, or under the floor that they stand on.
+    /// The box without particles that are farther from bodies of water than spray flies, or below the floor.
     fn within_reach_of(self, bodies: Option<(Self, f32)>, positions: &[[f32; 3]]) -> Self {
         let Some((bodies, cell)) = bodies else { return self };
         let reach = (SPRAY * bodies.size().max_element()).max(cell);
@@ -101,7 +104,7 @@ impl Bounds {
         };
         let mut bounds = self;
         for axis in 0..3 {
-            // What is left of them nearer by says nothing either, but for a splash.
+            // Few particles nearer than that are ignored as well, except for a splash.
             if bounds.min[axis] < near.min[axis] && few(&|p| p[axis] < near.min[axis]) {
                 bounds.min[axis] = bodies.min[axis];
             }
@@ -113,7 +116,7 @@ impl Bounds {
         bounds
     }
 
-    /// The box about what is as dense as water, and the width of the cells by which it was found; none where nothing is.
+    /// Bounding box of the cells that are as dense as water, and the width of a cell; `None` if no cell is.
     fn of_bodies(positions: &[[f32; 3]]) -> Option<(Self, f32)> {
         let cell = CELL * estimate_spacing(positions)?;
         let mut cells: HashMap<[i64; 3], (usize, Self)> = HashMap::new();
@@ -156,7 +159,7 @@ impl Bounds {
         self.max - self.min
     }
 
-    /// A ball round it, with some room.
+    /// A sphere around the box, with a margin.
     pub fn region(&self) -> LightVolume {
         let radius = (0.52 * self.size().length()).max(1.0e-6);
         LightVolume { center: self.center().to_array(), radius }
@@ -170,7 +173,7 @@ impl Bounds {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Larger by a length on all sides.
+    /// The box enlarged by a length on all sides.
     pub fn padded(&self, by: f32) -> Self {
         Self { min: self.min - by, max: self.max + by }
     }
@@ -193,7 +196,8 @@ mod tests {
         assert_eq!(Bounds::of_bulk(&[[f32::NAN; 3]]), None);
     }
 
-    /// Three in a hundred that have leaked below, or that were thrown out, move nothing; a splash is part of the bulk.
+    /// If 3 % of the particles leaked below or were thrown out, they do not change the bounds; a splash is part of the
+    /// bulk.
     #[test]
     fn what_leaked_or_flew_away_does_not_count() {
         let block: Vec<[f32; 3]> = (0..4000)
@@ -216,7 +220,7 @@ mod tests {
         let splash =
             with(&|i| [0.95 + 0.1 * noise(i, 1), 0.9 + 0.01 * i as f32, 0.95 + 0.1 * noise(i, 2)]);
         assert!(splash.max.y > 1.7, "{splash:?}");
-        // Water under what falls is no leak: there is a tenth of it.
+        // Water below falling water is no leak: it is a tenth of all.
         let mut positions = block.clone();
         positions.extend((0..500).map(|i| [0.3 * (i % 25) as f32, -5.0, 0.3 * (i / 25) as f32]));
         assert!(Bounds::of_bulk(&positions).unwrap().min.y < -1.0);
@@ -224,7 +228,7 @@ mod tests {
 
     #[test]
     fn what_is_absurdly_far_does_not_count() {
-        // A grid, a sheet of one layer, and few.
+        // A grid, a sheet of one layer, and a few particles.
         let grid = |size: [usize; 3]| -> Vec<[f32; 3]> {
             let [a, b, c] = size;
             (0..a * b * c)
@@ -243,7 +247,7 @@ mod tests {
                 assert_eq!(together(&positions), near);
             }
         }
-        // No range to go by: all that can be drawn counts.
+        // Without a range every coordinate that can be drawn counts.
         let same = [[1.0; 3], [1.0; 3], [1.0; 3], [1.0; 3], [9.0, 1.0, 1.0], [1.0e20; 3]];
         assert_eq!(Bounds::of_bulk(&same).unwrap().max, Vec3::new(9.0, 1.0, 1.0));
         assert_eq!(count_far(&same), 1);

@@ -20,24 +20,24 @@ use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
 use crate::stage;
 
-/// Frames a second of the built-in scenes.
+/// Frames per second of the built-in scenes.
 pub const FPS: f32 = 60.0;
 
-/// Where blobs come from.
+/// Source of the blobs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Which {
-    /// One, from near.
+    /// One blob close up.
     One,
-    /// So many that slide down a slope.
+    /// This number of blobs, sliding down a slope.
     Slope(u32),
-    /// So many that fill a box.
+    /// This number of blobs, filling a box.
     Box(u32),
     /// A file.
     File(PathBuf),
 }
 
 impl Which {
-    /// As on the command line.
+    /// The name on the command line.
     pub fn name(&self) -> String {
         match self {
             Self::One => "one".into(),
@@ -48,7 +48,7 @@ impl Which {
     }
 }
 
-/// Of the command line.
+/// Parses a name from the command line.
 pub fn named(text: &str) -> Result<Which, String> {
     let (name, count) = match text.split_once(':') {
         Some((name, count)) if matches!(name, "slope" | "box") => (name, Some(count)),
@@ -70,12 +70,12 @@ pub fn named(text: &str) -> Result<Which, String> {
     }
 }
 
-/// A file of them.
+/// Contents of a blob file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BlobFile {
     blobs: Vec<BlobEntry>,
-    /// They fall, from frame 0 on.
+    /// Whether the blobs fall, from frame 0 on.
     #[serde(default)]
     moves: bool,
 }
@@ -94,8 +94,8 @@ fn unturned() -> [f32; 4] {
     [0.0, 0.0, 0.0, 1.0]
 }
 
-/// Reads `{"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...],"moves":true}`; the last three may be left
-/// out. Whether they move, too.
+/// Reads `{"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...],"moves":true}`;
+/// turn, id and moves are optional. Also returns whether the blobs move.
 pub fn read(path: &Path) -> Outcome<(Vec<Bubble>, bool)> {
     let text = std::fs::read_to_string(path).map_err(|error| Failure::reading(path, &error))?;
     let bad = |why: String| Failure::input(format!("{}: {why}", path.display()));
@@ -123,7 +123,7 @@ pub struct Blobs {
     pub motion: Option<Motion>,
 }
 
-/// By what blobs move, against what, and how often they may split.
+/// Physics of the blobs: settings, obstacles, and how often they may split.
 pub struct Motion {
     pub settings: BlobSimulationSettings,
     pub solids: Vec<Solid>,
@@ -132,7 +132,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// On the ground and all that stands there.
+    /// Motion on the scene's ground, with its meshes as obstacles.
     fn on(scene: &Scene, largest: f32) -> Outcome<Self> {
         let ground = scene.ground.as_ref().map(|ground| ground.y);
         let floor = |distance| Solid::Plane { normal: [0.0, 1.0, 0.0], distance };
@@ -145,13 +145,14 @@ impl Motion {
     }
 }
 
-/// How often what is torn off splits: to clumps of eight at most, of half the radius.
+/// Max number of times that a torn-off piece is halved: three halvings give eight pieces of half
+/// the radius.
 const HALVINGS: u32 = 3;
 
-/// Most points of a field of distances each way.
+/// Max number of grid points of the distance field along an edge.
 const FIELD: f32 = 64.0;
 
-/// Distances from the meshes of a scene; none where there are none.
+/// Distance field of a scene's meshes; `None` without meshes.
 fn field_of(scene: &Scene, largest: f32) -> Outcome<Option<DistanceField>> {
     let triangles: Vec<[[f32; 3]; 3]> = scene
         .meshes
@@ -178,7 +179,7 @@ fn field_of(scene: &Scene, largest: f32) -> Outcome<Option<DistanceField>> {
 pub struct Random(pub u64);
 
 impl Random {
-    /// From 0 on, below 1.
+    /// A number in [0, 1).
     pub fn next(&mut self) -> f32 {
         let old = self.0;
         self.0 =
@@ -188,7 +189,7 @@ impl Random {
         (bits >> 8) as f32 / (1 << 24) as f32
     }
 
-    /// A turn, each as likely (Shoemake 1992).
+    /// A rotation, uniformly distributed (Shoemake 1992).
     fn turn(&mut self) -> [f32; 4] {
         let [a, b, c] = [self.next(), self.next(), self.next()];
         let (near, far) = ((1.0 - a).sqrt(), a.sqrt());
@@ -199,22 +200,22 @@ impl Random {
     }
 }
 
-/// What is drawn: blobs, what stands round them, and from where.
+/// What is drawn: blobs, the scene around them, and the camera.
 pub struct Set {
     pub blobs: Blobs,
     pub scene: Scene,
-    /// Where shadows fall.
+    /// Bounds of what casts and receives shadows.
     pub lit: Bounds,
     pub eye: [f32; 3],
     pub target: [f32; 3],
 }
 
-/// Concrete, or plain where there is none.
+/// Concrete, or a plain material if there is none.
 fn concrete() -> Material {
     Material::named("concrete").unwrap_or_default()
 }
 
-/// What is built in, or a file's.
+/// A built-in scene, or that of a file.
 pub fn set(which: &Which) -> Outcome<Set> {
     let mut random = Random(1);
     let mut blob = |at: Vec3, radius: f32, id: u32| Bubble {
@@ -266,7 +267,7 @@ pub fn set(which: &Which) -> Outcome<Set> {
         Which::File(path) => {
             let (all, moves) = read(path)?;
             let scene = on_ground(&all);
-            // The sheet under it is no solid.
+            // The sheet under the slope is no obstacle.
             let ground = Scene { meshes: Vec::new(), ..scene.clone() };
             let motion = moves.then(|| Motion::on(&ground, largest(&all))).transpose()?;
             let blobs = Blobs { blobs: all, motion };
@@ -296,7 +297,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     let meshes = boxes.iter().map(|(at, half)| {
         Mesh::cuboid(at.to_array(), half.to_array(), turn.to_array(), material.clone())
     });
-    // As many as fill the upper half of it, to a height of a third of its width.
+    // The blobs fill the upper half of the ramp to a height of a third of its width.
     let radius = 0.062 * (1000.0 / count as f32).cbrt();
     let apart = 1.45 * radius;
     let across = ((wide - 2.0 * radius) / apart).floor().max(1.0) as u32 + 1;
@@ -311,7 +312,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
                 radius + apart * y as f32,
                 apart * (z as f32 - 0.5 * (across - 1) as f32),
             );
-            // Many small ones and few large: of one size they would be balls to the eye.
+            // Many small blobs and few large ones; of one size they would look like balls.
             let size = radius * (0.6 + 0.7 * jitter.next().powi(2));
             blob(Vec3::new(1.0, 0.0, 0.0) + turn * (place + Vec3::from(off)), size, i)
         })
@@ -368,7 +369,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let Set { mut blobs, mut scene, lit, eye, target } = set(which)?;
     let (first, last) = match (range, &blobs.motion) {
         (Some(range), _) => (*range.start(), *range.end()),
-        // Under way.
+        // A frame in which the blobs are under way.
         (None, Some(_)) => (75, 75),
         (None, None) => (1, 1),
     };
@@ -391,7 +392,8 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     }
     if let Some(path) = args.scene.as_ref().filter(|path| path.as_os_str() != "ground") {
         scene = stage::read(path)?;
-        // What blobs of a file run against is what is seen; the slope's own ramp goes with it.
+        // The obstacles of a file's blobs are the scene that is drawn; the slope's ramp belongs to
+        // its own scene.
         if blobs.motion.is_some() {
             blobs.motion = Some(Motion::on(&scene, largest(&blobs.blobs))?);
         }

@@ -1,4 +1,4 @@
-//! The view: from a file, from flags, or found from the particles.
+//! The camera: from a file, from flags, or found from the particles.
 
 use std::path::Path;
 
@@ -11,21 +11,23 @@ use crate::bounds::Bounds;
 use crate::failure::{Failure, Outcome};
 
 const DEFAULT_FOV: f32 = 40.0;
-/// Of a view that is found: a lens that is neither wide nor long.
+/// Vertical field of view in degrees of a camera that is found from the particles: neither
+/// wide-angle nor telephoto.
 const FOUND_FOV: f32 = 36.0;
-/// Where the horizon is then, from the middle (0) to the upper edge (1): the sky takes a seventh of the height.
+/// Height of the horizon in such a view, from the middle (0) to the upper edge (1): the sky takes a
+/// seventh of the picture's height.
 const HORIZON: f32 = 0.7;
-/// How far the axis looks down for that, radians, by whatever lens.
+/// Min pitch of the axis below the horizontal, radians, for any field of view.
 const LEAST_PITCH: f32 = 0.14;
 const MOST_PITCH: f32 = 0.52;
-/// Degrees from which the middle of the floor is looked down on at most.
+/// Max angle, in degrees, at which the camera looks down on the middle of the floor.
 const HIGHEST: f32 = 27.0;
-/// How much of the half height, and of the half width, what is framed fills at most.
+/// Max part of the half height, and of the half width, that the framed points fill.
 const FILLED: f32 = 0.86;
 const WIDTH: f32 = 0.73;
 
-/// A camera as its file has it: the first six, or `view` and `projection`; or `keys`, by which it
-/// moves, and for which the others hold but eye and target.
+/// A camera as in its file: the first six values, or `view` and `projection`, or `keys` of an
+/// animated camera. With keys the other values hold except eye and target.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraFile {
@@ -47,21 +49,21 @@ pub struct CameraFile {
     pub projection: Option<[f32; 16]>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keys: Vec<Key>,
-    /// Goes round what it looks at.
+    /// Orbit around the target.
     #[serde(skip)]
     pub turn: Option<Turn>,
 }
 
-/// Once round the target, about the direction that is up, counter-clockwise as seen from there.
+/// An orbit around the target about the up direction, counter-clockwise as seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
-    /// In which frame it is where it is said to be.
+    /// The frame in which the camera is at its original position.
     pub first: u64,
-    /// Frames of a turn.
+    /// Frames of one orbit.
     pub frames: f32,
 }
 
-/// Where a moving camera is in one frame.
+/// Key frame of an animated camera.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Key {
@@ -74,11 +76,11 @@ pub struct Key {
     pub fov_y_degrees: Option<f32>,
 }
 
-/// Of a key and of what is between them: eye, target, up, and the field of view.
+/// Eye, target and up, and the field of view in degrees.
 type Pose = ([Vec3; 3], f32);
 
 impl CameraFile {
-    /// The camera of a frame; the same whichever other frames are drawn.
+    /// The camera of a frame. It does not depend on which other frames are drawn.
     pub fn at_frame(&self, frame: u64) -> Self {
         let camera = self.on_its_way(frame);
         match (self.turn, camera.eye, camera.target) {
@@ -94,19 +96,20 @@ impl CameraFile {
         }
     }
 
-    /// The same, but for the turn.
+    /// The same without the orbit.
     fn on_its_way(&self, frame: u64) -> Self {
         let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {
             return self.clone();
         };
         let frame = frame.clamp(first.frame, last.frame);
-        // The segment from the key before (or at) the frame.
+        // The segment that begins at the key before (or at) the frame.
         let next = self.keys.partition_point(|key| key.frame <= frame).min(self.keys.len() - 1);
         let before = next.saturating_sub(1);
         let (a, b) = (&self.keys[before], &self.keys[next]);
         let length = (b.frame - a.frame) as f32;
         let t = if length > 0.0 { (frame - a.frame) as f32 / length } else { 0.0 };
-        // Cubic Hermite: Catmull-Rom's slopes inside, at rest in the first key and the last.
+        // Cubic Hermite spline with Catmull-Rom slopes at inner keys and slope 0 at the first and
+        // last key.
         let (t2, t3) = (t * t, t * t * t);
         let weights = [
             (2.0 * t3 - 3.0 * t2 + 1.0, self.pose(a)),
@@ -138,7 +141,8 @@ impl CameraFile {
         ([key.eye.into(), key.target.into(), up], fov)
     }
 
-    /// The change a frame in a key: from the key before to the one after.
+    /// Slope in a key, per frame: the difference between its neighbours over the frames between
+    /// them.
     fn slope(&self, key: usize) -> Pose {
         let around = (key.checked_sub(1).and_then(|k| self.keys.get(k)), self.keys.get(key + 1));
         let (Some(a), Some(b)) = around else { return ([Vec3::ZERO; 3], 0.0) };
@@ -148,7 +152,7 @@ impl CameraFile {
         (slopes, (to_fov - from_fov) * per_frame)
     }
 
-    /// Has it go round: fails where it moves by itself, or nothing says round what.
+    /// Adds an orbit. Fails if the camera is animated or has no target.
     pub fn turned(self, turn: Turn) -> Outcome<Self> {
         if self.eye.is_none() || self.target.is_none() {
             let why = "--turntable: expected a camera with eye and target that stands still, found keys or matrices";
@@ -157,7 +161,7 @@ impl CameraFile {
         Ok(Self { turn: Some(turn), ..self })
     }
 
-    /// Fails where the camera of any of these frames cannot be drawn.
+    /// Fails if the camera of any of these frames cannot be drawn.
     pub fn check(&self, frames: impl IntoIterator<Item = u64>, size: (u32, u32)) -> Outcome<()> {
         let bad = |what: String| Err(Failure::input(format!("camera: {what}")));
         if self.keys.windows(2).any(|pair| pair[0].frame >= pair[1].frame) {
@@ -178,7 +182,7 @@ impl CameraFile {
         Lens::new(&self.camera(size)?).map(drop)
     }
 
-    /// What flags or a file say; `None` where they say nothing.
+    /// The camera of the flags or of a file; `None` without either.
     pub fn from_args(args: &CameraArgs) -> Outcome<Option<Self>> {
         if let Some(path) = &args.file {
             let text = std::fs::read_to_string(path).map_err(|e| Failure::reading(path, &e))?;
@@ -203,12 +207,12 @@ impl CameraFile {
         })
     }
 
-    /// From the eye to the target.
+    /// Distance from the eye to the target.
     pub fn distance(&self) -> Option<f32> {
         Some(Vec3::from(self.eye?).distance(self.target?.into()))
     }
 
-    /// Its matrices for a picture's size.
+    /// Matrices for a picture of this size.
     pub fn camera(&self, size: (u32, u32)) -> Outcome<Camera> {
         let bad = |what: &str| Err(Failure::input(format!("camera: {what}")));
         if let (Some(view), Some(projection)) = (self.view, self.projection) {
@@ -251,8 +255,9 @@ impl CameraFile {
         Ok(Camera::of(Mat4::look_at_rh(eye, target, up), projection))
     }
 
-    /// A three-quarter view: the horizon a seventh below the picture's upper edge, the water in the lower part, as near as
-    /// its width and what splashes of it let, with all of the bulk of each frame in the picture.
+    /// A three-quarter view: the horizon is a seventh of the height below the upper edge, the water
+    /// in the lower part. The camera is as near as possible with the bulk of every frame in the
+    /// picture.
     pub fn of_particles(
         frames: &[&[[f32; 3]]],
         bounds: &Bounds,
@@ -264,7 +269,7 @@ impl CameraFile {
         Self::turned_to(turn, frames, bounds, fov, size)
     }
 
-    /// The same of a sheet, from before it, which is at +z, or at +x where it lies across x.
+    /// A front view of a sheet: from +z, or from +x if the sheet is perpendicular to x.
     pub fn of_sheet(
         across_x: bool,
         frames: &[&[[f32; 3]]],
@@ -275,7 +280,7 @@ impl CameraFile {
         Self::turned_to(if across_x { 90.0 } else { 0.0 }, frames, bounds, fov, size)
     }
 
-    /// From so many degrees to the right of +z.
+    /// A view from `turn` degrees to the right of +z.
     fn turned_to(
         turn: f32,
         frames: &[&[[f32; 3]]],
@@ -298,7 +303,8 @@ impl CameraFile {
         let pitch = (HORIZON * tan_y).atan().clamp(LEAST_PITCH, MOST_PITCH);
         let (sin, cos) = pitch.sin_cos();
         let framing = Framing { points, tan: Vec2::new(tan_x, tan_y), sin, cos };
-        // From as high as the lower edge lets it, but for the near walls no lower than the axis looks down.
+        // The eye is as high as the lower edge of the picture allows, so that near walls hide
+        // little, but not lower than the pitch.
         let low = pitch + 2.0_f32.to_radians();
         let high = HIGHEST.to_radians().max(pitch + 6.0_f32.to_radians());
         let eye_at = |distance: f32| {
@@ -358,7 +364,8 @@ impl CameraFile {
         }
     }
 
-    /// Moved so that it looks at what stands upright over a point: what turns about it does not sway.
+    /// The camera moved horizontally so that its target is above `point`: an object that turns
+    /// about that point stays in the middle.
     pub fn over(mut self, point: Vec3) -> Self {
         if let (Some(eye), Some(target)) = (&mut self.eye, &mut self.target) {
             for axis in [0, 2] {
@@ -369,31 +376,31 @@ impl CameraFile {
         self
     }
 
-    /// As its file has it.
+    /// The camera as JSON, as in its file.
     pub fn json(&self) -> String {
         serde_json::to_string(self).unwrap_or_default()
     }
 }
 
-/// What a view by a level eye line shows of some points.
+/// Projects points for a camera whose horizon is level.
 struct Framing {
-    /// To the right, up, and towards the eye.
+    /// Points to the right, up, and towards the eye.
     points: Vec<Vec3>,
-    /// Of half the angles of view.
+    /// Tangents of half the angles of view.
     tan: Vec2,
-    /// Of the angle by which the axis looks down.
+    /// Sine and cosine of the pitch.
     sin: f32,
     cos: f32,
 }
 
-/// Where in the picture points are: -1 to 1 from its left and its lower edge.
+/// Bounding rectangle of the projected points, from -1 to 1 from the left and lower edge.
 struct Seen {
     low: Vec2,
     high: Vec2,
 }
 
 impl Framing {
-    /// None where a point is not before the eye.
+    /// `None` if a point is behind the eye.
     fn seen(&self, eye: Vec3) -> Option<Seen> {
         let mut seen = Seen { low: Vec2::INFINITY, high: Vec2::NEG_INFINITY };
         for point in &self.points {
@@ -409,8 +416,9 @@ impl Framing {
     }
 }
 
-/// The highest and the lowest points of all frames, place by place, but for the farthest drops; and the floor's corners.
-/// `along`: to the right, up, and towards the eye.
+/// The highest and the lowest points of all frames in a grid over the view plane, without the
+/// farthest drops, and the corners of the floor. `along` converts to right, up, and towards the
+/// eye.
 fn outline(frames: &[&[[f32; 3]]], bounds: &Bounds, along: impl Fn(Vec3) -> Vec3) -> Vec<Vec3> {
     const CELLS: usize = 24;
     let size = bounds.size();
@@ -421,7 +429,8 @@ fn outline(frames: &[&[[f32; 3]]], bounds: &Bounds, along: impl Fn(Vec3) -> Vec3
     let step = ((high - low) / CELLS as f32).max(Vec3::splat(f32::MIN_POSITIVE));
     let mut cells = vec![(None::<Vec3>, None::<Vec3>); CELLS * CELLS];
     for positions in frames {
-        // What a frame has by its own: a splash that is over in a moment is no stray of the whole sequence.
+        // The limits are those of each frame, so that a brief splash does not count as a stray of
+        // the whole sequence.
         let step_of = positions.len().div_ceil(20_000).max(1);
         let points: Vec<Vec3> = positions
             .iter()
@@ -452,7 +461,8 @@ fn outline(frames: &[&[[f32; 3]]], bounds: &Bounds, along: impl Fn(Vec3) -> Vec3
     cells.chain(floor).collect()
 }
 
-/// The largest of the values of a frame, but for the farthest drops: a picture may lose one in two hundred.
+/// The 0.995 quantile of the values of a frame: a picture may lose one particle in two hundred, the
+/// farthest drops.
 fn most(mut values: Vec<f32>) -> f32 {
     values.sort_unstable_by(f32::total_cmp);
     let Some(last) = values.last() else { return 0.0 };
@@ -461,19 +471,19 @@ fn most(mut values: Vec<f32>) -> f32 {
     last.min(bulk + 0.35 * (bulk - middle).abs())
 }
 
-/// A perspective camera taken apart, for what the CPU works out.
+/// The parameters of a perspective camera, for computations on the CPU.
 #[derive(Clone, Copy, Debug)]
 pub struct Lens {
-    /// P00, P11, P20, P21.
+    /// Entries P00, P11, P20, P21 of the projection matrix.
     p: Vec4,
     /// Device depth to eye depth: `.0 / (device + .1)`.
     linear: (f32, f32),
-    /// Device depth of the far end.
+    /// Device depth of the far plane.
     far: f32,
 }
 
 impl Lens {
-    /// Of a camera that the renderer accepts.
+    /// For a camera that the renderer accepts.
     pub fn new(camera: &Camera) -> Outcome<Self> {
         let m = camera.projection_matrix().to_cols_array_2d();
         if !camera.projection_matrix().is_finite()
@@ -489,7 +499,8 @@ impl Lens {
         let scale = 1.0 / m[2][3].abs();
         let p = Vec4::new(m[0][0], m[1][1], mirror * m[2][0], mirror * m[2][1]) * scale;
         let linear = (m[3][2] * scale, mirror * m[2][2] * scale);
-        // The end at which the eye depth is the larger; an infinite one shows as zero or negative.
+        // The plane with the larger eye depth is the far one; an infinite depth appears as zero or
+        // negative.
         let depth = |z: f32| {
             let depth = linear.0 / (z + linear.1);
             if depth.is_finite() && depth > 0.0 { depth } else { f32::INFINITY }
@@ -498,7 +509,7 @@ impl Lens {
         Ok(Self { p, linear, far })
     }
 
-    /// Eye depth of a device depth; `EMPTY` at the far end.
+    /// Eye depth of a device depth; `EMPTY` at the far plane.
     pub fn eye_depth(&self, device: f32) -> f32 {
         let depth = self.linear.0 / (device + self.linear.1);
         if device != self.far && depth.is_finite() && depth > 0.0 {
@@ -520,7 +531,7 @@ impl Lens {
 mod tests {
     use super::*;
 
-    /// Place in the picture, -1 to 1 from the left and from above, of what is before the eye.
+    /// Position in the picture, -1 to 1 from the left and top, of a point in front of the eye.
     fn shown(file: &CameraFile, size: (u32, u32), p: Vec3) -> Vec2 {
         let camera = file.camera(size).unwrap();
         let clip = camera.projection_matrix() * camera.view_matrix() * p.extend(1.0);
@@ -548,14 +559,14 @@ mod tests {
             for p in &positions {
                 most = most.max(shown(&file, size, Vec3::from(*p)).abs());
             }
-            // As large as width or height lets it be.
+            // The points fill the width or the height.
             assert!(most.x < WIDTH + 0.01 && most.y < FILLED + 0.01, "{fov:?} {size:?}: {most}");
             assert!(most.x > WIDTH - 0.05 || most.y > FILLED - 0.05, "{fov:?} {size:?}: {most}");
         }
     }
 
-    /// Whatever the water does, the horizon is a fifth below the upper edge, the water in the lower half of the picture
-    /// and looked down on, so that near walls hide little of it.
+    /// For every shape of the water the horizon is a seventh below the upper edge, and the camera
+    /// looks down on the water steeply enough for near walls to hide little.
     #[test]
     fn the_horizon_is_in_the_picture() {
         let box_of = |size: [usize; 3]| -> Vec<[f32; 3]> {
@@ -598,8 +609,8 @@ mod tests {
         assert!(seen(&splash) > 0.7 * seen(&alone), "{} of {}", seen(&splash), seen(&alone));
     }
 
-    /// One of sixteen frames has a splash: less than one in two hundred of all particles, and a tenth of its own. It is in
-    /// the picture, with room above it.
+    /// One of sixteen frames has a splash: a tenth of its own particles, but less than one in two
+    /// hundred of all. It is in the picture, with room above it.
     #[test]
     fn a_moments_splash_is_in_the_picture() {
         let pool: Vec<[f32; 3]> = (0..4096)
@@ -654,12 +665,12 @@ mod tests {
         }
         assert_eq!(camera.at_frame(20).fov_y_degrees, Some(50.0));
         assert_eq!(camera.at_frame(60).fov_y_degrees, Some(30.0));
-        // No step, no kink, and at rest at both ends.
+        // The path has no step and no kink, and is at rest at both ends.
         let steps: Vec<f32> = (5..55).map(|f| eye(f + 1).x - eye(f).x).collect();
         assert!(steps.iter().all(|s| (-1e-6..0.2).contains(s)), "{steps:?}");
         assert!(steps.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.04), "{steps:?}");
         assert!(camera.check(0..100, (4, 4)).is_ok());
-        // One key, or none, stands still.
+        // A camera with one key or none stands still.
         let one = CameraFile { keys: camera.keys[..1].to_vec(), ..CameraFile::default() };
         assert_eq!(one.at_frame(3), one.at_frame(30));
         assert_eq!(one.at_frame(3).eye, Some([0.0, 0.0, 5.0]));
@@ -676,7 +687,7 @@ mod tests {
         let eye = |frame| Vec3::from(camera.at_frame(frame).eye.unwrap());
         let near = |a: Vec3, b: Vec3| assert!(a.distance(b) < 1.0e-5, "{a} {b}");
         near(eye(10), Vec3::new(3.0, 2.0, 4.0));
-        // A quarter counter-clockwise: from +z to +x.
+        // A quarter of the orbit, counter-clockwise: from +z to +x.
         near(eye(34), Vec3::new(4.0, 2.0, -1.0));
         near(eye(58), Vec3::new(-1.0, 2.0, -2.0));
         near(eye(106), eye(10));
@@ -686,7 +697,7 @@ mod tests {
         let steps = (10..106).map(|f| eye(f).distance(eye(f + 1)));
         let (least, most) = steps.fold((f32::MAX, 0.0_f32), |(a, b), d| (a.min(d), b.max(d)));
         assert!(most - least < 1.0e-4, "evenly: {least} to {most}");
-        // It is written as it stands.
+        // The JSON holds the camera at its position in this frame.
         let shown = camera.at_frame(34);
         assert_eq!((shown.target, shown.turn), (still.target, None));
         let turn = Turn { first: 0, frames: 8.0 };

@@ -4,12 +4,12 @@ use std::num::NonZeroUsize;
 
 use glam::Vec3;
 
-/// Cells are told by 21 bits an axis.
+/// Bits per axis of a cell's key.
 const BITS: u32 = 21;
-/// Particles from which threads are worth their while.
+/// Number of particles from which threads pay off.
 const MANY: usize = 4096;
 
-/// A particle, and the cell that it lies in.
+/// A particle and the key of its cell.
 #[derive(Clone, Copy)]
 struct Placed {
     key: u64,
@@ -17,14 +17,14 @@ struct Placed {
     position: Vec3,
 }
 
-/// Particles of finite places, in the order of their cells. 24 bytes each.
+/// Particles with finite positions, sorted by cell. 24 bytes each.
 pub struct Cells {
     placed: Vec<Placed>,
     reach: f32,
 }
 
 impl Cells {
-    /// Of those that are wanted.
+    /// The particles that `wanted` selects.
     pub fn new(positions: &[[f32; 3]], reach: f32, wanted: impl Fn(usize) -> bool) -> Self {
         let all = (0_u32..).zip(positions).map(|(index, p)| (index, Vec3::from(*p)));
         let mut placed: Vec<Placed> = all
@@ -35,8 +35,9 @@ impl Cells {
         Self { placed, reach }
     }
 
-    /// What is found of each that is asked for, of its number, its place, and of the others in its cell and those round it,
-    /// among which are all within reach, and itself. On all cores.
+    /// Calls `of` for each particle that `asked` selects, with its index, its position, and all
+    /// particles in its cell and the neighbouring cells; these include all particles within reach,
+    /// and the particle itself. Runs on all cores.
     pub fn map<T: Send>(
         &self,
         asked: impl Fn(usize) -> bool + Sync,
@@ -50,7 +51,7 @@ impl Cells {
             let parts = self.placed.chunks(share.max(1));
             let parts: Vec<_> =
                 parts.map(|part| scope.spawn(move || self.of_part(part, asked, of))).collect();
-            // A thread that panicked says nothing of its particles.
+            // A thread that panicked contributes no results.
             parts.into_iter().filter_map(|part| part.join().ok()).flatten().collect()
         })
     }
@@ -70,7 +71,7 @@ impl Cells {
                 continue;
             }
             let [x, y, z] = cell(same[0].position, self.reach);
-            // Cells beside each other along x are beside each other here.
+            // Cells that are adjacent along x are adjacent in the sorted list.
             let rows = [-1, 0, 1].map(|dz| {
                 [-1, 0, 1].map(|dy| {
                     let [first, last] = [-1, 1].map(|dx| key([x + dx, y + dy, z + dz]));
@@ -90,7 +91,8 @@ impl Cells {
     }
 }
 
-/// The outermost cells hold all that lies beyond: who is near whom is asked of the positions.
+/// The outermost cells hold everything beyond them; callers compare positions, so no neighbours are
+/// wrong.
 fn cell(position: Vec3, reach: f32) -> [i64; 3] {
     let most = (1_i64 << (BITS - 1)) - 2;
     position.to_array().map(|c| ((c / reach).floor() as i64).clamp(-most, most))

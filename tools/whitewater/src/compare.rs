@@ -32,7 +32,7 @@ pub fn run(args: &CompareArgs) -> Outcome<()> {
 
 fn compare_channels(mut a: Layers, mut b: Layers) -> Outcome<f32> {
     if a.encoding != b.encoding {
-        // A PNG against linear light: both as a screen shows them.
+        // If one picture is a PNG and the other is linear, both are compared as displayed.
         for layers in [&mut a, &mut b] {
             let rgb = layers.display(0.0).ok_or_else(no_color)?;
             layers.channels.clear();
@@ -81,7 +81,7 @@ fn compare_flip(a: &Layers, b: &Layers) -> Outcome<f32> {
     Ok(pool.mean())
 }
 
-/// A reader that has gone changes nothing about the verdict.
+/// If the reader of standard output is gone, the verdict stays the same.
 fn say(text: std::fmt::Arguments<'_>) -> Outcome<()> {
     match out::print(text) {
         Err(failure) if failure.kind == Kind::Closed => Ok(()),

@@ -20,13 +20,13 @@ use crate::surface_foam;
 const PARTICLES: &[u8] = include_bytes!("../../../assets/waterfall/waterfall_0240.bgeo");
 const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
 
-/// Of the particles, as the scene says.
+/// Particle spacing, as in the scene.
 const SPACING: f32 = 0.04;
 
-/// Of its spray.
+/// Density limits of the spray.
 const DENSITIES: [f32; 3] = [0.5, 0.8, 0.85];
 
-/// Over the corner of the basin: the chute, the fall and the pool are seen, and some sky.
+/// Camera above the corner of the basin: it shows the chute, the fall, the pool and some sky.
 fn viewpoint(fov: Option<f32>) -> CameraFile {
     CameraFile {
         eye: Some([1.9, 1.75, 3.1]),
@@ -49,7 +49,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         None => viewpoint(args.camera.fov),
     };
     camera.check([0], args.draw.size)?;
-    // As caches are shown, of whatever view: the sun stands where it does for the first.
+    // The light is that of cache files. The sun's position does not depend on a camera that the
+    // user sets.
     let eye = Vec3::from(viewpoint(None).eye.unwrap_or_default());
     let environment = session::environment(&args.draw, Some(stage::side_light(eye)))?;
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
@@ -66,7 +67,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         }
         let speed = impact_speed(std::slice::from_ref(&particles));
         spray_of_caches(&mut settings.spray, SPACING, speed);
-        // Its particles are so large that whole ones would be no drops, and many drops each a star.
+        // The particles are so large that one drop for each would be too large, and many drops for
+        // each would look like a star.
         (settings.spray.droplets, settings.spray.size) = (40, 0.12);
         [
             settings.spray.all_spray_density,
@@ -79,7 +81,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let foam = args.draw.surface_foam.unwrap_or(Foaming::Auto);
     let spray = args.draw.spray != Some(SprayArg::None);
     let frames = std::slice::from_ref(&particles);
-    // Its foam is made for it.
+    // The threshold of its foam was chosen for the Weber number of speed.
     let by = *file.surface_foam.by.get_or_insert(FoamBy::Speed);
     let foam = surface_foam::settings(foam, (&file.surface_foam, by), frames, &[0.0], &settings);
     let bounds = Bounds::of_bulk(&particles.positions);

@@ -10,7 +10,7 @@ use whitewater::{Light, Sky};
 
 use crate::failure::{Failure, Outcome};
 
-/// Towards the sun where nothing is said.
+/// Default direction to the sun.
 const SUN: [f32; 3] = [-0.7, 0.55, -0.35];
 
 /// An equirectangular picture: row 0 up, its middle column along -z.
@@ -21,14 +21,14 @@ pub struct Panorama {
     pub pixels: Vec<Vec3>,
 }
 
-/// Where the light comes from.
+/// Source of the light.
 #[derive(Clone, Debug)]
 pub enum Source {
     Sky(Sky),
     Picture {
-        /// With all that is in it.
+        /// The whole picture.
         shown: Panorama,
-        /// Without the sun.
+        /// The picture without the sun.
         without_sun: Panorama,
     },
 }
@@ -37,18 +37,19 @@ pub enum Source {
 #[derive(Clone, Debug)]
 pub struct Environment {
     pub source: Source,
-    /// Towards the sun, or the brightest spot.
+    /// Direction to the sun, or to the brightest spot.
     pub sun: Vec3,
-    /// Of the sun alone, on a plane that faces it.
+    /// Irradiance of the sun alone on a plane that faces it.
     pub sun_irradiance: Vec3,
-    /// On a level plane from all but the sun.
+    /// Irradiance of everything but the sun on a level plane.
     pub sky_irradiance: Vec3,
 }
 
 impl Environment {
     /// The built-in sky.
     pub fn sky(sun: Option<[f32; 3]>) -> Outcome<Self> {
-        // Behind the water for the views found here: there it glitters.
+        // The sun is behind the water for the views that are found here, so that the water
+        // glitters.
         let sun = unit(sun.unwrap_or(SUN))?;
         let sky = Sky::default().with(|it| it.sun = sun.to_array());
         let sun_irradiance = Vec3::from(sky.sun_irradiance());
@@ -56,8 +57,8 @@ impl Environment {
         Ok(Self { source: Source::Sky(sky), sun, sun_irradiance, sky_irradiance })
     }
 
-    /// A light of one's own: what is to be seen without the key light, and that light, which is so bright over so many
-    /// radians of a square about `to_key`.
+    /// An artificial environment: the radiance `room` of each direction without the key light, and
+    /// a square key light around `to_key`. `key` is its radiance and its angle in radians.
     pub fn lit(room: impl Fn(Vec3) -> Vec3, to_key: [f32; 3], key: (Vec3, f32)) -> Outcome<Self> {
         let sun = unit(to_key)?;
         let (radiance, half) = (key.0, (0.5 * key.1).tan());
@@ -82,7 +83,7 @@ impl Environment {
         Ok(Self { source, sun, sun_irradiance, sky_irradiance })
     }
 
-    /// A picture.
+    /// An environment from a picture.
     pub fn read(path: &Path, sun: Option<[f32; 3]>) -> Outcome<Self> {
         let layers = picture::read(path)?;
         let bad = |what: String| Failure::input(format!("{}: {what}", path.display()));
@@ -100,7 +101,7 @@ impl Environment {
             Encoding::Linear => v,
             Encoding::Srgb => picture::srgb_decode(v),
         };
-        // Half floats on the device: no infinities, no negative light.
+        // Half floats on the device do not hold infinities; negative light is removed.
         let clean = |v: f32| if v.is_nan() { 0.0 } else { linear(v).clamp(0.0, 65000.0) };
         let pixels = rgb.iter().map(|c| Vec3::from(c.map(clean))).collect();
         let shown = Panorama { width, height, pixels };
@@ -122,9 +123,9 @@ impl Environment {
         }
         Light::default().with(|it| {
             it.direction = self.sun.to_array();
-            // The highlight of a sun that is in the picture comes with its reflection.
+            // The picture contains the sun, so its highlight is part of the reflection.
             it.color = [0.0; 3];
-            // The mean over all directions, half of the sun's taken off by the water above.
+            // Mean radiance over all directions; the water above absorbs half of the sun's part.
             it.ambient =
                 ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array();
             it.irradiance =
@@ -133,14 +134,14 @@ impl Environment {
         })
     }
 
-    /// Irradiance without the sun: of the sky, of what sunlit water and ground throw back, and of what the foam round
-    /// it scatters, which has lost its colour.
+    /// Irradiance in the shade: light of the sky, light that sunlit water and ground reflect, and
+    /// light that the surrounding foam scatters, which has lost its colour.
     fn shade(&self) -> Vec3 {
         let sky = 0.5 * (self.sky_irradiance + self.sky_irradiance.dot(LUMINANCE));
         sky + THROWN_BACK * self.sun_irradiance * self.sun.y.max(0.0)
     }
 
-    /// Puts the sun into a scene, and takes the clouds of its set from a sky that is a picture.
+    /// Sets the sun of a scene. If the sky is a picture, the scene's own clouds are removed.
     pub fn light_scene(&self, scene: &mut Scene) {
         scene.sun = self.sun_light();
         if !matches!(self.source, Source::Sky(_)) {
@@ -161,7 +162,8 @@ impl Environment {
     }
 }
 
-/// The part of the sun's light that sunlit water and ground throw back: of a pool more green and blue than red.
+/// Fraction of the sun's light that sunlit water and ground reflect; a pool reflects more green and
+/// blue than red.
 const THROWN_BACK: Vec3 = Vec3::new(0.24, 0.3, 0.31);
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
@@ -197,7 +199,7 @@ impl Panorama {
         self.pixels.iter().map(|c| c.extend(1.0).to_array()).collect()
     }
 
-    /// On a level plane.
+    /// Irradiance of a level plane.
     fn irradiance(&self) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for y in 0..self.height {
@@ -208,8 +210,8 @@ impl Panorama {
         sum
     }
 
-    /// Takes the brightest spot out, down to what is round it: its middle, and the irradiance that came from it on what
-    /// faces it.
+    /// Removes the brightest spot by filling it with the colour around it. Returns its direction
+    /// and the irradiance that it gave on a plane facing it.
     fn take_sun(&mut self) -> (Vec3, Vec3) {
         let brightness = |c: &Vec3| c.dot(LUMINANCE);
         let peak = self.pixels.iter().map(brightness).fold(0.0, f32::max);
@@ -217,7 +219,8 @@ impl Panorama {
             return (Vec3::Y, Vec3::ZERO);
         };
         let center = self.direction(at % self.width.max(1), at / self.width.max(1));
-        // The sun is what is bright within 10 degrees of it, and brighter than the ring from there to 14.
+        // The sun is the region within 10 degrees of the brightest texel that is brighter than the
+        // ring from 10 to 14 degrees.
         let cosine = |p: &Self, i: usize| p.direction(i % p.width, i / p.width).dot(center);
         let (mut around, mut angle) = (Vec3::ZERO, 0.0);
         for i in (0..self.pixels.len()).filter(|&i| (0.97..=0.985).contains(&cosine(self, i))) {
@@ -250,12 +253,13 @@ mod tests {
 
     use super::*;
 
-    // The air of glsl/include/atmosphere.glsl.
+    // The atmosphere of glsl/include/atmosphere.glsl.
     const EARTH: f32 = 6360.0;
     const TOP: f32 = 6420.0;
     const SCALE_HEIGHTS: [f32; 2] = [8.0, 1.2];
 
-    /// The largest optical depth of the three colours from just over the ground out of the air.
+    /// Max optical depth of the three colours from just above the ground to the end of the
+    /// atmosphere.
     fn depth_of_air(cosine: f32) -> f32 {
         let height = EARTH + 0.05;
         let b = height * cosine;
@@ -278,7 +282,8 @@ mod tests {
         let mut one = Panorama::build(64, 32, |_| Vec3::ZERO);
         one.pixels[10 * 64 + 48] = Vec3::ONE;
         let (sun, irradiance) = one.take_sun();
-        // The middle column looks along -z, the one right of it by a quarter along +x.
+        // The middle column looks along -z; the column a quarter of the width to its right looks
+        // along +x.
         assert!(sun.x > 0.8 && sun.y > 0.4 && irradiance.x > 0.0, "{sun}");
     }
 
@@ -291,8 +296,8 @@ mod tests {
         assert!(Environment::sky(Some([0.0; 3])).is_err());
     }
 
-    /// A sky of one radiance with a disc of five degrees at a height of half a right angle, whose light on what faces it
-    /// is `sun`.
+    /// A sky of constant radiance with a disc of five degrees, at an elevation of 45 degrees. `sun`
+    /// is the disc's irradiance on a plane that faces it.
     fn with_disc(sky: Vec3, sun: Vec3) -> Panorama {
         let to = Vec3::new(0.0, 1.0, -1.0).normalize();
         let mut panorama = Panorama::build(512, 256, |_| Vec3::ZERO);
@@ -320,7 +325,7 @@ mod tests {
         path
     }
 
-    /// Radiance of a matt ground of this albedo seen from above, in an environment.
+    /// Radiance of a diffuse ground of this albedo, seen from above.
     fn ground(environment: &Environment, albedo: f32) -> Vec3 {
         let validation =
             std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
@@ -359,11 +364,13 @@ mod tests {
         sum / drawn.data.len() as f32
     }
 
-    /// Lambert: a ground of albedo a under an irradiance E has the radiance a E / π. Beside that it shines: of the sky
-    /// 0.04 · (1 - ½) (`scene.frag`'s share at roughness 1), of the sun 0.04 + at most 1e-3 of Schlick times a
-    /// distribution of 1/π and a visibility of at most ½ / (n·l). Errors of what is gathered: the hemisphere's edge,
-    /// which is softened over a tenth, costs a thousandth; sums over 8² texels a face are within a hundredth of the
-    /// integral (second differences of the cosine over a texel of a quarter, (1/4)²/24, and of the sky's radiance).
+    /// Lambert: a ground of albedo a under an irradiance E has the radiance a E / π. In addition it
+    /// has specular reflections: of the sky 0.04 · (1 - ½) (the share of `scene.frag` at roughness
+    /// 1), of the sun 0.04 + at most 1e-3 by Schlick, times a distribution of 1/π and a visibility
+    /// of at most ½ / (n·l). Errors of the numerical integral: the hemisphere's edge, which is
+    /// softened over a tenth, costs a thousandth; sums over 8² texels a face are within a hundredth
+    /// of the integral (second differences of the cosine over a texel of a quarter, (1/4)²/24, and
+    /// of the sky's radiance).
     #[test]
     fn ground_under_a_sun_is_lambert() {
         let folder = tempfile::tempdir().unwrap();
@@ -387,7 +394,7 @@ mod tests {
         ] {
             let path = file_of(&with_disc(sky, sun), folder.path());
             let environment = Environment::read(&path, None).unwrap();
-            // The disc stands at half a right angle.
+            // The disc stands at an elevation of 45 degrees.
             let light = PI * sky + sun * 0.5_f32.sqrt();
             check(&format!("a picture of {sky} and {sun}"), &environment, light, sky);
         }
@@ -399,8 +406,8 @@ mod tests {
         }
     }
 
-    /// What lights the scene, the foam and the water are parts of one light: with the sun taken out and put back by
-    /// the light nothing is lost, wherever `--sun` puts it.
+    /// Scene, foam and water are lit by one consistent light: the sun removed from the picture plus
+    /// the sun of the light are the original light, for every `--sun`.
     #[test]
     fn the_sun_is_taken_out_of_a_picture_once() {
         let folder = tempfile::tempdir().unwrap();
@@ -408,7 +415,7 @@ mod tests {
         let path = file_of(&with_disc(sky, sun), folder.path());
         for moved in [None, Some([0.0, 1.0, 0.0])] {
             let environment = Environment::read(&path, moved).unwrap();
-            // A texel's middle stands for it: of 180/256 degrees, on a cosine.
+            // The middle of a texel (180/256 degrees) stands for all of it, weighted by a cosine.
             let close = |a: Vec3, b: Vec3| (a - b).abs().cmple(2.0e-3 * b).all();
             assert!(close(environment.sky_irradiance, PI * sky), "{}", environment.sky_irradiance);
             assert!(close(environment.sun_irradiance, sun), "{}", environment.sun_irradiance);
@@ -431,15 +438,15 @@ mod tests {
         [eye, step * Vec3::X, step * Vec3::NEG_Y].map(|v| view.inverse().transform_vector3(v))
     }
 
-    /// How far two computations of the sky in single precision may lie apart, as a part of it.
+    /// Max relative difference between two computations of the sky in single precision.
     ///
-    /// Altitude is a difference of numbers near 6400 km, whose ulp is 2^-11 km: their squares take
-    /// three roundings of half an ulp of 4 (as much as 3 * 2 / (2 * 6400) km), the root half an
-    /// ulp on the CPU and 5 on a device (Vulkan: 2 of the inverse root and 2.5 of the division).
-    /// The density of the thinner layer, Mie's, changes by that over its scale height. In-scattered
-    /// light follows it, and falls by its share in the optical depth: a mean of 1 along the view
-    /// where that is thick (of a depth with density exp(-x)), and the depth towards the sun, whose
-    /// altitudes begin with the error of those along the view.
+    /// Altitude is a difference of numbers near 6400 km, whose ulp is 2^-11 km: their squares add
+    /// three roundings of half an ulp of 4 (together 3 * 2 / (2 * 6400) km), the root half an ulp
+    /// on the CPU and 5 on a device (Vulkan: 2 for the inverse root and 2.5 for the division). The
+    /// density of the thinner layer, Mie's, changes by this error over its scale height.
+    /// In-scattered light changes in proportion. It also changes with the optical depth: by a mean
+    /// of 1 along a thick view ray (for a density exp(-x)), and by the depth towards the sun, whose
+    /// altitudes start with the error of those along the view.
     fn precision(sun: Vec3) -> f32 {
         let ulp = 2.0_f32.powi(-11);
         let altitude = 2.0 * 6.0 / (2.0 * EARTH) + (0.5 + 5.0) * ulp;
@@ -447,8 +454,8 @@ mod tests {
         altitude / SCALE_HEIGHTS[1] * (1.0 + 1.0 + 2.0 * depth)
     }
 
-    /// The sky here is the one that is drawn: the cube's faces, photographed texel by texel in a
-    /// scene of nothing, against it.
+    /// The sky of this module equals the drawn sky: the faces of the cube map are compared with
+    /// photographs of an empty scene, texel by texel.
     #[test]
     fn the_sky_is_the_one_that_is_drawn() {
         let validation =
@@ -458,7 +465,7 @@ mod tests {
         let extent = vk::Extent2D { width: SIZE, height: SIZE };
         let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = SIZE);
         let mut headless = Headless::new(device, &config).unwrap();
-        // A sun without light has neither disc nor glow.
+        // A sun without light has no disc and no glow.
         let dark = SunLight { color: [0.0; 3], ..SunLight::default() };
         headless.scene(&Scene { sun: dark, ..Scene::default() }, false).unwrap();
         headless.particles(&[[0.0; 3]], None).unwrap();
@@ -479,7 +486,7 @@ mod tests {
                 (Vec3::Z, Vec3::Y),
                 (Vec3::NEG_Z, Vec3::Y),
             ] {
-                // The one particle, at the origin, is behind.
+                // The only particle, at the origin, is behind the camera.
                 let view = Mat4::look_to_rh(100.0 * (axis + Vec3::Y), axis, up);
                 let camera = Camera::of(view, projection);
                 headless.render(&camera, &Settings::default(), &Background::Scene).unwrap();
@@ -487,12 +494,12 @@ mod tests {
                 for (i, &[r, g, b, _]) in drawn.data.iter().enumerate() {
                     let [d, right, down] = ray(view, i);
                     let around = [d + right, d - right, d + down, d - down];
-                    // Below the horizon there is ground in the cube.
+                    // Texels below the horizon show ground in the cube map.
                     if d.y < 0.0 || around.iter().any(|d| d.y < 0.0) {
                         continue;
                     }
                     let expected = here(d);
-                    // Filter weights have 8 bits; cube and picture are of half floats.
+                    // Filter weights have 8 bits; cube map and picture are half floats.
                     let filter: Vec3 = around.iter().map(|&d| (here(d) - expected).abs()).sum();
                     let bound = expected * (precision + 2.0_f32.powi(-10)) + filter / 256.0;
                     let off = (Vec3::new(r, g, b) - expected).abs();

@@ -12,7 +12,7 @@ use crate::failure::{Failure, Outcome};
 use crate::fluids::Fluids;
 use crate::radii::{DIAMETERS, RADII};
 
-/// Names of what tells phases, or walls from water.
+/// Names of attributes that distinguish phases, or walls from water.
 const PHASES: [&str; 34] = [
     "type",
     "mk",
@@ -49,12 +49,12 @@ const PHASES: [&str; 34] = [
     "particle kind",
     "fluid type",
 ];
-/// An attribute that tells phases has no more values.
+/// Max number of values of an attribute that distinguishes phases.
 const MOST: usize = 16;
-/// Share of positions that are there twice, from which on copies are left out.
+/// Share of duplicate positions from which on duplicates are dropped.
 const DOUBLED: f64 = 0.05;
 
-/// What an attribute has to be, so that a particle is drawn.
+/// A comparison that an attribute has to satisfy for a particle to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condition {
     name: String,
@@ -73,7 +73,7 @@ enum Compare {
     AtLeast,
 }
 
-/// `NAME=VALUE` and the like.
+/// Parses `NAME=VALUE` and other comparisons.
 pub fn condition(text: &str) -> Result<Condition, String> {
     let bad =
         || "expected a comparison such as Type=3, mk!=0 or z<1.5 (= != < > <= >=)".to_string();
@@ -99,12 +99,13 @@ pub fn condition(text: &str) -> Result<Condition, String> {
 }
 
 impl Condition {
-    /// The attribute that is compared.
+    /// Name of the compared attribute.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The values of that attribute; `what`: the argument, for the error where there is none.
+    /// The values of that attribute. `what` names the argument in the error if the attribute is
+    /// missing.
     pub fn values<'p>(
         &self,
         particles: &'p Particles,
@@ -124,7 +125,7 @@ impl Condition {
         )))
     }
 
-    /// Whether a value satisfies it.
+    /// Whether a value satisfies the comparison.
     pub fn holds(&self, value: f64) -> bool {
         match self.compare {
             Compare::Is => value == self.value,
@@ -137,7 +138,7 @@ impl Condition {
     }
 }
 
-/// Reads a frame with what is looked at here.
+/// Reads a frame with the attributes that this module needs.
 pub fn read(frame: &Frame, conditions: &[Condition], fluids: &Fluids) -> Outcome<Particles> {
     let asked = conditions.iter().map(Condition::name).chain(fluids.names());
     let radii = RADII.into_iter().chain(DIAMETERS);
@@ -154,7 +155,7 @@ pub fn read(frame: &Frame, conditions: &[Condition], fluids: &Fluids) -> Outcome
         fluids.mark(path, &mut part);
         Ok(part)
     };
-    // Velocities beside positions are no particles.
+    // Velocity files beside position files are not particles of their own.
     let beside: Vec<_> = frame.paths().filter_map(arrays::velocities_beside).collect();
     let mut paths = frame.paths().filter(|path| !beside.iter().any(|other| other == path));
     let mut all = read(paths.next().unwrap_or(&frame.path))?;
@@ -164,7 +165,7 @@ pub fn read(frame: &Frame, conditions: &[Condition], fluids: &Fluids) -> Outcome
     Ok(all)
 }
 
-/// Leaves the particles for which all conditions hold.
+/// Keeps the particles for which all conditions hold.
 pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) -> Outcome<()> {
     let count = particles.positions.len();
     let mut kept = vec![true; count];
@@ -188,12 +189,13 @@ pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) 
     Ok(())
 }
 
-/// An attribute that was asked for.
+/// An attribute that was requested by name.
 pub fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
     particles.extras.iter().find(|extra| same_name(&extra.name, name))
 }
 
-/// Values as numbers of whole value, and how many particles have each; none of what is no such thing.
+/// The values as integers, and the number of particles with each; `None` if any value is not a
+/// small integer.
 fn whole(values: &[f64]) -> Option<BTreeMap<i64, usize>> {
     let mut counts = BTreeMap::new();
     for value in values {
@@ -212,7 +214,7 @@ fn number(value: i64) -> String {
     value.to_string()
 }
 
-/// With commas and a word before the last.
+/// A list in words, with commas and a conjunction before the last.
 fn list(words: impl Iterator<Item = String>) -> String {
     let words: Vec<_> = words.collect();
     match words.split_last() {
@@ -222,14 +224,15 @@ fn list(words: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// Attributes that tell phases: their names, their values and how many particles have each.
+/// Attributes that distinguish phases: their names, their values, and the number of particles with
+/// each.
 pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
     let phase = |extra: &&Extra| PHASES.iter().any(|name| same_name(&extra.name, name));
     let all = particles.extras.iter().filter(phase);
     all.filter_map(|extra| Some((extra.name.as_str(), whole(&extra.values)?))).collect()
 }
 
-/// A word on attributes that tell phases, of which all are drawn as one water.
+/// Messages about attributes that distinguish phases, if all phases are drawn as one water.
 pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) -> Vec<String> {
     let mut known = conditions.iter().map(Condition::name).chain(fluids.names());
     let mut asked = |name: &str| known.any(|known| same_name(known, name));
@@ -239,9 +242,9 @@ pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) ->
         let each = values.iter().map(|(value, count)| format!("{value} ({count} particles)"));
         let liquid = liquid(particles, name, &values);
         format!(
-            "attribute `{name}` has the values {}, all drawn as one water: walls, or other phases, are drawn too unless \
-             --where '{name}={liquid}' (or another of them) leaves them out; --fluid '{name}={liquid}:water' and the like give \
-             several fluids a look each",
+            "attribute `{name}` has the values {}, all drawn as one water, walls and other phases included; \
+             --where '{name}={liquid}' (or another value) draws one of them, and --fluid '{name}={liquid}:water' etc. give each \
+             fluid its own look",
             list(each)
         )
     };
@@ -252,14 +255,14 @@ pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) ->
     let text = particles.extras.iter().filter(text).map(|extra| {
         let name = &extra.name;
         format!(
-            "attribute `{name}` holds words, which tell nothing apart here: all is drawn as one water (numbers in their place \
-             can be told by --where)"
+            "attribute `{name}` holds words, which are not supported: all particles are drawn as one water (--where \
+             compares numbers)"
         )
     });
     several.map(line).chain(text).collect()
 }
 
-/// The value of what moves most; without velocities, of most particles.
+/// The value of the phase that moves most; without velocities, of the phase with most particles.
 fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i64 {
     let speed = |value: i64| -> f32 {
         let (Some(velocities), Some(extra)) = (&particles.velocities, find(particles, name)) else {
@@ -275,10 +278,11 @@ fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i
     most.map_or(0, |(_, _, value)| value)
 }
 
-/// Leaves one of particles that are at one place, where many are; says how many went.
+/// If many particles share positions, keeps one at each position. Returns the number of dropped
+/// particles.
 pub fn without_copies(particles: &mut Particles) -> usize {
     let mut known = HashSet::with_capacity(particles.positions.len());
-    // The sign of zero is no place.
+    // 0 and -0 are the same position.
     let place = |p: &[f32; 3]| p.map(|c| (c + 0.0).to_bits());
     let first = |p: &[f32; 3]| !p.iter().all(|c| c.is_finite()) || known.insert(place(p));
     let kept: Vec<bool> = particles.positions.iter().map(first).collect();

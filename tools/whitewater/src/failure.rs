@@ -1,4 +1,4 @@
-//! Errors in one line, with an exit code by kind.
+//! One-line errors, with an exit code for each kind.
 
 use std::path::Path;
 
@@ -13,11 +13,12 @@ use crate::folder;
 /// Kind of a failure; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Who read the standard output has gone: nothing is wrong, and nobody is there to be told.
+    /// The reader of standard output has closed it, as `| head` does: the program ends without a
+    /// message.
     Closed = 0,
     /// Pictures differ, or some frames of a sequence failed.
     Partly = 1,
-    /// The command line asks for something that cannot be.
+    /// The arguments are invalid or contradict each other.
     Usage = 2,
     /// An input file is missing or bad.
     Input = 3,
@@ -27,14 +28,14 @@ pub enum Kind {
     Output = 5,
 }
 
-/// One line for the user, and its kind.
+/// A one-line message for the user, and its kind.
 #[derive(Clone, Debug)]
 pub struct Failure {
     pub kind: Kind,
     pub message: String,
 }
 
-/// Of everything here.
+/// The result type of this program.
 pub type Outcome<T> = Result<T, Failure>;
 
 impl Failure {
@@ -75,11 +76,11 @@ impl From<Error> for Failure {
             Error::BadInput { field: "Config.extent", .. } => {
                 Self::usage(format!("{error}; try a smaller --size"))
             }
-            // What fixes images and pipelines comes from flags.
+            // Values that determine images and pipelines come from flags.
             Error::BadInput { field, .. } if field.starts_with("Config.") => {
                 Self::usage(error.to_string())
             }
-            // Of objects that the flags say nothing of.
+            // Other objects do not come from flags.
             Error::BadInput { field, why }
                 if field.starts_with("SurfaceFoamStateConfig.")
                     || field.starts_with("GeneratorConfig.") =>
@@ -110,7 +111,7 @@ impl From<Error> for Failure {
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
         let advice = match &error {
-            // Of what is recognised the error says what to do.
+            // For a recognised format the error itself says what to do.
             ReadError::File { path, reason }
                 if !matches!(**reason, ReadError::Unsupported { .. }) =>
             {
@@ -140,7 +141,7 @@ impl From<SequenceError> for Failure {
     }
 }
 
-/// The size is that of two flags.
+/// A size that is too large is the product of two flags, so the message names both.
 pub fn too_large(error: Error, supersample: u32) -> Failure {
     let of_size = matches!(error, Error::BadInput { field: "Config.extent", .. });
     let failure = Failure::from(error);
@@ -153,7 +154,7 @@ pub fn too_large(error: Error, supersample: u32) -> Failure {
     }
 }
 
-/// Names the picture that the device cannot take.
+/// Names the file of a picture that the device cannot hold.
 pub fn bad_picture(error: Error, file: &str) -> Failure {
     match error {
         Error::BadInput { why, .. } => {
@@ -195,7 +196,7 @@ mod tests {
         let extent = vk::Extent2D { width: 16, height: 16 };
         let config = Config::new(extent, COLOR_FORMAT, 1024).with(|it| it.environment_size = 16);
         let mut headless = Headless::new(device, &config).unwrap();
-        // No device's images are so wide.
+        // No device supports images of this width.
         let wide = vk::Extent2D { width: 100_000, height: 1 };
         let error = headless.equirectangular(wide, &vec![[1.0; 4]; 100_000], 1.0, 0.0).unwrap_err();
         let failure = bad_picture(error, "sky.png");

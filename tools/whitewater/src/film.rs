@@ -15,25 +15,26 @@ use openh264::formats::YUVBuffer;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::output;
 
-/// The most pixels along an edge that the encoder takes, the longer one and the other: those of level 5.2.
+/// Max number of pixels along the longer edge and along the shorter one: the encoder's limit, level
+/// 5.2.
 const MOST: (u32, u32) = (3840, 2160);
-/// Of 0 (lossless) to 51; a step of six is twice the error.
+/// Min quantizer, 0 (lossless) to 51; a step of 6 doubles the error.
 const QUANTIZER: u8 = 18;
-/// To a pixel; no less than that quantizer asks for.
+/// Bits per pixel of the bit rate: at least what that quantizer needs.
 const BITS: f32 = 2.0;
-/// Seconds between pictures that stand by themselves, where a player may begin.
+/// Seconds between key frames, at which a player may start.
 const KEY_SECONDS: f32 = 10.0;
 
-/// Frames that were encoded.
+/// Encoded frames.
 struct Film {
     encoder: Encoder,
     size: (usize, usize),
     fps: f32,
-    /// Each with whether it stands by itself.
+    /// The bytes of each frame, and whether it is a key frame.
     frames: Vec<(Vec<u8>, bool)>,
 }
 
-/// The film of a run and the files that it goes to, for the run and for Ctrl-C.
+/// A film and its output files, shared by the run and the Ctrl-C handler.
 #[derive(Clone)]
 pub struct Reel {
     film: Arc<Mutex<Film>>,
@@ -41,7 +42,7 @@ pub struct Reel {
 }
 
 impl Reel {
-    /// None where no file is named.
+    /// `None` without output files.
     pub fn new(files: Vec<PathBuf>, size: (u32, u32), fps: f32) -> Outcome<Option<Self>> {
         if files.is_empty() {
             return Ok(None);
@@ -59,7 +60,7 @@ impl Reel {
         self.film().push(rgb)
     }
 
-    /// Writes the frames there are, if any.
+    /// Writes the frames so far, if any.
     pub fn write(&self) -> Outcome<()> {
         let film = self.film();
         if film.frames.is_empty() {
@@ -69,7 +70,7 @@ impl Reel {
     }
 }
 
-/// What of a size cannot be filmed.
+/// Fails for a size that cannot be encoded.
 pub fn check_size((width, height): (u32, u32)) -> Outcome<()> {
     if width % 2 != 0 || height % 2 != 0 {
         let even = (width.next_multiple_of(2), height.next_multiple_of(2));
@@ -89,14 +90,15 @@ pub fn check_size((width, height): (u32, u32)) -> Outcome<()> {
 }
 
 impl Film {
-    /// Of frames so wide and high, so many a second.
+    /// A film of this size and rate.
     fn new((width, height): (u32, u32), fps: f32) -> Outcome<Self> {
         let bits = (BITS * width as f32 * height as f32 * fps.clamp(1.0, 60.0)) as u32;
         let config = EncoderConfig::new()
             .usage_type(UsageType::CameraVideoRealTime)
             .complexity(Complexity::High)
-            // So high that the quantizer is the least of its range: foam is noise to an encoder, which a rate would blur
-            // where there is most of it. (With one quantizer for all it has its own, 26.)
+            // The rate is so high that the min quantizer applies: to an encoder foam is noise,
+            // which a lower rate would blur most. (The encoder's constant-quantizer mode uses its
+            // own value, 26.)
             .rate_control_mode(RateControlMode::Quality)
             .bitrate(BitRate::from_bps(bits))
             .qp(QpRange::new(QUANTIZER, QUANTIZER + 6))
@@ -104,7 +106,8 @@ impl Film {
             .intra_frame_period(IntraFramePeriod::from_num_frames(
                 (KEY_SECONDS * fps).ceil().max(1.0) as u32,
             ))
-            // Without it the encoder says on stderr that it cannot hold the rate; `push` sees to it that none is.
+            // Without frame skipping the encoder warns on stderr that it cannot hold the rate;
+            // `push` makes sure that no frame is skipped.
             .skip_frames(true)
             .scene_change_detect(false)
             .background_detection(false)
@@ -114,11 +117,11 @@ impl Film {
         Ok(Self { encoder, size: (width as usize, height as usize), fps, frames: Vec::new() })
     }
 
-    /// Adds a frame: its pixels row by row from the top, sRGB 0 to 1.
+    /// Adds a frame: its pixels row by row from the top, sRGB from 0 to 1.
     fn push(&mut self, rgb: &[[f32; 3]]) -> Outcome<()> {
         let (width, height) = self.size;
         let picture = YUVBuffer::from_vec(planes(rgb, width), width, height);
-        // A frame that was skipped would make the film run fast.
+        // A skipped frame would make the film too fast.
         for again in [false, true] {
             if again {
                 self.encoder.force_intra_frame();
@@ -134,7 +137,7 @@ impl Film {
         Err(failed(&"a frame was skipped"))
     }
 
-    /// Writes what there is.
+    /// Writes the frames so far.
     fn write(&self, to: impl Write) -> io::Result<()> {
         let (width, height) = (self.size.0 as u32, self.size.1 as u32);
         let fps = f64::from(self.fps);
@@ -154,9 +157,10 @@ fn failed(error: &dyn std::fmt::Display) -> Failure {
     Failure::new(Kind::Output, format!("the film cannot be encoded: {error}"))
 }
 
-/// Luma, then the two of chroma at half the size, of all pixels of a picture: ITU-R BT.709-6, Sec. 3.2 and 3.4, of eight bits,
-/// 16 to 235 and to 240. A chroma sample lies between its two rows and on the left of its two columns (H.264, Fig. E-1,
-/// type 0); the mean of its four pixels is half a pixel beside that, as most encoders have it.
+/// A picture as planar YUV 4:2:0: luma, then two chroma planes at half the size. ITU-R BT.709-6,
+/// Sec. 3.2 and 3.4, 8 bits, limited range (16 to 235, chroma to 240). A chroma sample belongs
+/// between its two rows and at the left of its two columns (H.264, Fig. E-1, type 0); the mean of
+/// the four pixels is off by half a pixel, as in most encoders.
 fn planes(rgb: &[[f32; 3]], width: usize) -> Vec<u8> {
     let luma = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let mut all: Vec<u8> =
@@ -193,7 +197,7 @@ mod tests {
         }
     }
 
-    /// Black, white and the primaries of BT.709: its own tables of eight bits.
+    /// Black, white and the primaries against the 8-bit tables of BT.709.
     #[test]
     fn colours_are_those_of_the_standard() {
         for (rgb, [y, cb, cr]) in [
@@ -207,7 +211,7 @@ mod tests {
         }
     }
 
-    /// What was filmed comes back from the file, frame by frame, at its rate.
+    /// Decoding the file gives the frames that were encoded, at their rate.
     #[test]
     fn a_film_holds_its_frames() {
         let (width, height) = (64, 32);
@@ -225,7 +229,7 @@ mod tests {
         let mut decoder = Decoder::new().unwrap();
         let mut seen = 0;
         for (frame, _) in &film.frames {
-            // As it lies in the file, but for what marks its parts: a start code here, a length there.
+            // The file holds the same bytes, with a length in place of the start code.
             let part = frame.windows(4).rposition(|w| w == [0, 0, 0, 1]).unwrap();
             let part = &frame[part + 4..];
             assert!(bytes.windows(part.len()).any(|w| w == part), "frame {seen} is in the file");

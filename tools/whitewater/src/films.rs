@@ -1,28 +1,30 @@
-//! Films: water of one layer on a floor or a wall, which has as few neighbours as torn water has, and is none.
+//! Detects films: water one layer thick on a floor or a wall. Its density is as low as that of torn
+//! water, but it is no spray.
 
 use glam::{Mat3, Vec3};
 
 use crate::cells::Cells;
 
-/// Neighbours that a film has at least.
+/// Min number of neighbours of a particle in a film.
 const NEIGHBOURS: usize = 6;
-/// Least of its variances across over that along: flat as no sheet is that flies. Of the particles of 0.4 to 0.65 of the rest
-/// density two in a hundred of a crown and of jets have so little, of a film that runs over a floor 64.
+/// Max ratio of the smallest to the middle variance of the neighbours: no flying sheet is so flat.
+/// Among particles with 0.4 to 0.65 of the rest density, 2 % in a splash crown and in jets are
+/// below it, and 64 % in a film that runs over a floor.
 const FLAT: f32 = 0.02;
-/// Least of the shorter over the longer along: else it is a thread.
+/// Min ratio of the middle to the largest variance; a lower ratio is a thread.
 const BROAD: f32 = 0.25;
 
-/// Spacings that a box is high, at least, to have a lid.
+/// Min height of a box, in spacings, that is assumed to have a lid.
 const LID: f32 = 8.0;
 
-/// Raises densities of up to `limit` to it where a particle and those within two spacings of it lie in one plane. So a film
-/// is no spray.
+/// Raises densities below `limit` to `limit` where a particle and its neighbours within two
+/// spacings lie in one plane, so that a film is not drawn as spray.
 pub fn hold(positions: &[[f32; 3]], densities: &mut [f32], spacing: f32, limit: f32) {
     let reach = 2.0 * spacing;
     let cells = Cells::new(positions, reach, |_| true);
     let heights = || positions.iter().map(|p| p[1]).filter(|y| y.is_finite());
     let (low, high) = (heights().fold(f32::MAX, f32::min), heights().fold(f32::MIN, f32::max));
-    // What lies flat above all else has hit the lid of the solver's box, and falls in drops.
+    // A flat layer above all other water has hit the lid of the solver's box, and falls in drops.
     let lid = if high - low > LID * spacing { high - spacing } else { f32::MAX };
     let few = |i: usize| densities[i] > 0.0 && densities[i] < limit && positions[i][1] < lid;
     let flat = cells.map(few, |_, p, others| {
@@ -43,7 +45,7 @@ fn is_flat(all: &[Vec3]) -> bool {
     least < FLAT * middle && middle > BROAD * most
 }
 
-/// Those of a symmetric matrix, rising (Smith 1961).
+/// Eigenvalues of a symmetric matrix in ascending order (Smith 1961).
 fn eigenvalues(m: Mat3) -> [f32; 3] {
     let mean = (m.x_axis.x + m.y_axis.y + m.z_axis.z) / 3.0;
     let off = m - Mat3::from_diagonal(Vec3::splat(mean));
@@ -72,7 +74,8 @@ mod tests {
         densities.iter().filter(|d| **d > 0.6).count()
     }
 
-    /// 400 particles in a plane, so far from their places and from the plane, in spacings.
+    /// 400 particles in a plane, displaced randomly in the plane and off it by these amounts in
+    /// spacings.
     fn plane(tilt: f32, anyhow: f32, off: f32) -> Vec<[f32; 3]> {
         let mut random = Random(7);
         let mut noise = || random.next() - 0.5;
@@ -91,7 +94,7 @@ mod tests {
     #[test]
     fn films_hold_on_any_slope_and_torn_water_does_not() {
         for tilt in [0.0, 0.6, 1.57] {
-            // Of its border of 76 some lie in a line.
+            // Some of the 76 particles at the border lie on a line.
             assert!(held(&plane(tilt, 0.4, 0.05)) > 324, "{tilt}");
             assert!(held(&plane(tilt, 0.4, 0.9)) < 40, "{tilt}: {}", held(&plane(tilt, 0.4, 0.9)));
         }

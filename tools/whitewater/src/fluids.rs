@@ -1,9 +1,11 @@
-//! Several fluids, each with a look of its own: which particles are of which, and how their pictures are put together.
+//! Several fluids, each with its own look: which particles belong to which fluid, and how the
+//! pictures are combined.
 //!
-//! The renderer draws one liquid at a time. So each fluid is drawn over the picture of the others, and of these pictures a
-//! pixel is that of the fluid whose surface is in front there. What is behind is refracted and absorbed by what is in front,
-//! and mirrors nothing, as a surface between two liquids does. Each fluid casts its own shadow, and none on another.
-//! Whitewater is drawn once: in the last picture of each fluid, and not in those that lie behind another.
+//! The renderer draws one liquid at a time. So each fluid is drawn over the picture of the others,
+//! and each pixel is taken from the picture of the fluid whose surface is nearest there. Fluids
+//! behind it are refracted and absorbed by it and reflect nothing, because a surface between two
+//! liquids hardly does. A fluid casts no shadow on another one. Whitewater is drawn once: in the
+//! last picture of each fluid, and not in those that lie behind another.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -22,7 +24,7 @@ use crate::failure::{Failure, Outcome};
 use crate::frames;
 use crate::settings::{MediumName, SettingsFile};
 
-/// The attribute with the number of each particle's fluid: no file has such a name.
+/// Attribute with the index of each particle's fluid. No file can contain this name.
 const FLUID: &str = "\0fluid";
 
 /// `WHICH:LIQUID`.
@@ -35,7 +37,7 @@ pub struct FluidArg {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Which {
-    /// Particles of the inputs.
+    /// Particles of the inputs that satisfy a comparison.
     Where(Condition),
     /// Other files of the same frames.
     Files(String),
@@ -43,14 +45,14 @@ enum Which {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Look {
-    /// As all looks without fluids.
+    /// The look without `--fluid`.
     Water,
     Named(MediumName),
-    /// A file of settings, over all others.
+    /// A settings file, applied over all other settings.
     File(PathBuf),
 }
 
-/// `WHICH:LIQUID`, for clap.
+/// Parses `WHICH:LIQUID` for clap.
 pub fn fluid(text: &str) -> Result<FluidArg, String> {
     let bad = |why: String| {
         format!(
@@ -58,7 +60,7 @@ pub fn fluid(text: &str) -> Result<FluidArg, String> {
              or a settings file as LIQUID{why}"
         )
     };
-    // A name may hold a colon, and a liquid its share.
+    // A file name may contain a colon, and so may a liquid with a share.
     let mut why = String::new();
     for (at, _) in text.match_indices(':') {
         let (which, look) = (text[..at].trim(), text[at + 1..].trim());
@@ -76,7 +78,7 @@ pub fn fluid(text: &str) -> Result<FluidArg, String> {
                 };
                 return Ok(FluidArg { which, look, text: text.into() });
             }
-            // A known liquid says more than an unknown one.
+            // An error about a known liquid is more helpful than one about an unknown liquid.
             Err(_) if why.contains("share") => {}
             Err(error) => why = format!("; {}: {error}", &text[at + 1..]),
         }
@@ -84,22 +86,22 @@ pub fn fluid(text: &str) -> Result<FluidArg, String> {
     Err(bad(why))
 }
 
-/// The fluids of a run; none where nothing is said.
+/// The fluids of a run; empty without `--fluid`.
 #[derive(Default)]
 pub struct Fluids {
     args: Vec<FluidArg>,
-    /// Of files that are fluids of their own, by which argument.
+    /// For files that are a fluid of their own, the index of their argument.
     files: HashMap<PathBuf, usize>,
 }
 
 impl Fluids {
-    /// Adds the files of fluids to the frames of the inputs; the second list is what to say.
+    /// Adds the files of fluids to the frames of the inputs. Also returns messages for the user.
     pub fn find(args: &[FluidArg], frames: &mut [Frame]) -> Outcome<(Self, Vec<String>)> {
         let (mut files, mut said) = (HashMap::new(), Vec::new());
         for (i, arg) in args.iter().enumerate() {
             let Which::Files(pattern) = &arg.which else { continue };
             if frames.iter().any(|frame| frame.step.is_some()) {
-                let why = "expected inputs of a file for each frame, found one that holds all";
+                let why = "expected one input file per frame, found one file with all frames";
                 return Err(Failure::usage(format!("--fluid '{}': {why}", arg.text)));
             }
             let own = frames::files(std::slice::from_ref(pattern), true)?;
@@ -127,7 +129,7 @@ impl Fluids {
             }
             if missing > 0 {
                 said.push(format!(
-                    "--fluid '{}': {missing} of {} frames have no file of their number, and are drawn without it",
+                    "--fluid '{}': {missing} of {} frames have no file with their number and are drawn without this fluid",
                     arg.text,
                     frames.len()
                 ));
@@ -136,17 +138,18 @@ impl Fluids {
         Ok((Self { args: args.to_vec(), files }, said))
     }
 
-    /// How many there are; 0 and 1: nothing is to be told apart.
+    /// Number of fluids, including the inputs; 1 without `--fluid`.
     pub fn count(&self) -> usize {
         if self.args.is_empty() { 1 } else { self.args.len() + 1 }
     }
 
-    /// How many are drawn: what no comparison chooses is not.
+    /// Number of fluids that are drawn. If any argument is a comparison, particles that match none
+    /// are not drawn.
     pub fn drawn(&self) -> usize {
         self.args.len() + usize::from(self.conditions().next().is_none())
     }
 
-    /// Names of the attributes by which particles are told apart.
+    /// Names of the attributes that distinguish the fluids.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.conditions().map(|(_, condition)| condition.name())
     }
@@ -158,7 +161,7 @@ impl Fluids {
         })
     }
 
-    /// Marks the particles of a file, before those of others of the frame are added to them.
+    /// Stores the fluid's index in the particles of a file, before the frame's files are joined.
     pub fn mark(&self, path: &Path, particles: &mut Particles) {
         if self.args.is_empty() {
             return;
@@ -168,7 +171,7 @@ impl Fluids {
         if !self.files.is_empty()
             && let Some(ids) = &mut particles.ids
         {
-            // Fluids count their particles each for itself.
+            // Each fluid numbers its particles independently, so the ids are made unique.
             match ids.iter().map(|id| id.checked_mul(count)?.checked_add(fluid as u32)).collect() {
                 Some(own) => *ids = own,
                 None => particles.ids = None,
@@ -178,7 +181,7 @@ impl Fluids {
         particles.extras.push(Extra { name: FLUID.into(), values });
     }
 
-    /// Tells the particles of a frame apart, puts those of a fluid beside each other, and leaves out those of none.
+    /// Sorts the particles by fluid and drops those that belong to none.
     pub fn divide(&self, particles: &mut Particles, path: &Path) -> Outcome<()> {
         if self.args.is_empty() {
             return Ok(());
@@ -212,31 +215,31 @@ impl Fluids {
         particles.extras.push(Extra { name: FLUID.into(), values });
         if lost > 0 {
             particles.warnings.push(format!(
-                "{lost} of {} particles are of no --fluid: they are not drawn",
+                "{lost} of {} particles belong to no --fluid and are not drawn",
                 kept.len()
             ));
         }
         Ok(())
     }
 
-    /// What to say of fluids without particles.
+    /// Messages about fluids without particles.
     pub fn missing(&self, frames: &[Particles]) -> Vec<String> {
         let empty = |fluid: &usize| {
             frames.iter().all(|frame| ranges(frame, self.count())[*fluid].is_empty())
         };
         let first = usize::from(self.conditions().next().is_some());
         let line = |fluid: usize| match fluid {
-            0 => "no particles in the inputs beside those of --fluid".to_string(),
+            0 => "all particles of the inputs belong to a --fluid".to_string(),
             fluid => format!(
-                "--fluid '{}': no particles in the frames that were looked at",
+                "--fluid '{}': no particles in the probed frames",
                 self.args[fluid - 1].text
             ),
         };
         (first..self.count()).filter(|_| self.count() > 1).filter(empty).map(line).collect()
     }
 
-    /// The settings of all fluids over those without fluids. Empty where there is one.
-    /// `densities`: their rest densities, where files tell them.
+    /// Settings of all fluids; empty if there is one. `all` is the look without `--fluid`,
+    /// `densities` the rest density of each fluid if the files have it.
     pub fn settings(&self, all: &Settings, densities: &[Option<f32>]) -> Outcome<Vec<Settings>> {
         let rest = |fluid: usize| {
             let mut own = all.clone();
@@ -268,7 +271,7 @@ impl Fluids {
     }
 }
 
-/// Numbers of frames in words.
+/// The range of frame numbers in words.
 fn range(frames: &[Frame]) -> String {
     match frames {
         [] => "none".into(),
@@ -277,7 +280,8 @@ fn range(frames: &[Frame]) -> String {
     }
 }
 
-/// Puts particles into an order by their indices; those that are not in it go, those that are in it again are doubled.
+/// Reorders particles by indices; indices that are missing drop their particle, repeated indices
+/// duplicate it.
 pub fn reorder(particles: &mut Particles, order: &[usize]) {
     fn of<T: Copy>(list: &mut Vec<T>, order: &[usize]) {
         *list = order.iter().map(|i| list[*i]).collect();
@@ -291,7 +295,7 @@ pub fn reorder(particles: &mut Particles, order: &[usize]) {
     particles.extras.iter_mut().for_each(|extra| of(&mut extra.values, order));
 }
 
-/// Where the particles of each fluid are, by [`Fluids::divide`].
+/// Range of the particles of each fluid, after [`Fluids::divide`].
 pub fn ranges(particles: &Particles, count: usize) -> Vec<Range<u32>> {
     let all = particles.positions.len() as u32;
     let Some(own) = particles.extras.iter().find(|extra| extra.name == FLUID) else {
@@ -301,19 +305,20 @@ pub fn ranges(particles: &Particles, count: usize) -> Vec<Range<u32>> {
     (0..count).map(|fluid| at(fluid)..at(fluid + 1)).collect()
 }
 
-/// Where the particles of the first of several fluids are that has any; none where there is one fluid.
+/// Range of the first fluid that has particles; `None` if there is only one fluid.
 pub fn first(particles: &Particles, count: usize) -> Option<Range<u32>> {
     let several = if count < 2 { Vec::new() } else { ranges(particles, count) };
     several.into_iter().find(|range| !range.is_empty())
 }
 
-/// What a frame is drawn of.
+/// The liquids of a frame.
 pub struct Liquids<'a> {
     all: Vec<(Cow<'a, Settings>, Range<u32>)>,
 }
 
 impl<'a> Liquids<'a> {
-    /// One liquid, or where the particles of several are; `time`: of their foam.
+    /// One liquid, or several with the ranges of their particles. The time of foam and waves is
+    /// that of `one`.
     pub fn new(one: &'a Settings, several: &[Settings], particles: &Particles) -> Self {
         if several.len() < 2 {
             let all = 0..particles.positions.len() as u32;
@@ -331,7 +336,8 @@ impl<'a> Liquids<'a> {
         if all.is_empty() { Self { all: vec![(Cow::Borrowed(one), 0..0)] } } else { Self { all } }
     }
 
-    /// Draws a frame; the picture where the device has another one, as it has of several. Its layers are those of the first.
+    /// Draws a frame. With several liquids it returns the combined picture, and the device holds
+    /// the layers of the first.
     pub fn draw(
         &self,
         headless: &mut Headless,
@@ -355,7 +361,7 @@ impl<'a> Liquids<'a> {
         headless.show(Some(0..0));
         headless.render(camera, &self.all[0].0, background)?;
         let (scene, depth) = (headless.color()?, headless.scene_depth()?);
-        // Each alone, and where its surface is.
+        // Each fluid alone, and the depth of its surface.
         let (mut alone, mut fronts) = (Vec::new(), Vec::new());
         for (fluid, wetted) in wetted.iter().enumerate() {
             render(headless, fluid, wetted, background)?;
@@ -364,7 +370,7 @@ impl<'a> Liquids<'a> {
             let none = || vec![EMPTY; scene.data.len()];
             fronts.push(front.map_or_else(none, |front| full(&front, &scene)));
         }
-        // From the one that is farthest on the whole to the nearest.
+        // Sorted by mean depth, farthest first.
         let means: Vec<f64> = fronts.iter().map(|front| mean(front)).collect();
         let mut far: Vec<usize> = (0..self.all.len()).collect();
         far.sort_by(|a, b| means[*b].total_cmp(&means[*a]));
@@ -377,7 +383,7 @@ impl<'a> Liquids<'a> {
             render(headless, fluid, settings, &under)?;
             Ok(headless.color()?)
         };
-        // Each over the others; the first at last, for its layers.
+        // Each fluid over the others. The first is drawn last, because its layers are kept.
         let mut pictures = Vec::new();
         for fluid in (0..self.all.len()).rev() {
             let mut others = far.iter().copied().filter(|other| *other != fluid);
@@ -402,8 +408,8 @@ impl<'a> Liquids<'a> {
     }
 }
 
-/// How a fluid looks that touches the one in front: between two liquids next to nothing is mirrored (0.3 % between water and
-/// honey), and light is bent less.
+/// The look of a fluid behind another liquid: the surface between two liquids reflects almost
+/// nothing (0.3 % between water and honey) and refracts less.
 fn wetted(settings: &Settings) -> Settings {
     let mut settings = settings.clone();
     settings.water.fresnel = Fresnel::Source { bias: 0.0, scale: 0.0, power: 1.0 };
@@ -412,19 +418,19 @@ fn wetted(settings: &Settings) -> Settings {
     settings
 }
 
-/// A picture as large as another, to be filled.
+/// An empty picture of the same size.
 fn empty<T>(like: &Picture<T>) -> Picture<T> {
     Picture { width: like.width, height: like.height, data: Vec::new() }
 }
 
-/// The mean depth of what is not empty.
+/// Mean depth of the non-empty texels.
 fn mean(front: &[f32]) -> f64 {
     let there = front.iter().filter(|z| **z < EMPTY).map(|z| f64::from(*z));
     let (sum, count) = there.fold((0.0, 0_u32), |(sum, count), z| (sum + z, count + 1));
     if count == 0 { f64::MAX } else { sum / f64::from(count) }
 }
 
-/// A layer as large as a picture.
+/// A layer, enlarged to the size of the picture.
 fn full(layer: &Picture<f32>, picture: &Picture<[f32; 4]>) -> Vec<f32> {
     let (width, height) = (picture.width, picture.height);
     let at = |x: usize, y: usize| *layer.at(x * layer.width / width, y * layer.height / height);
@@ -477,7 +483,7 @@ mod tests {
         assert_eq!(all.ids, Some(vec![1, 4, 0, 3]));
         assert_eq!(ranges(&all, 4), [0..0, 0..2, 2..4, 4..4]);
         assert!(
-            all.warnings[0].starts_with("2 of 6 particles are of no --fluid"),
+            all.warnings[0].starts_with("2 of 6 particles belong to no --fluid"),
             "{:?}",
             all.warnings
         );
@@ -491,7 +497,7 @@ mod tests {
             "{}",
             error.message
         );
-        // Without fluids all is as it was.
+        // Without fluids nothing changes.
         let mut all = particles();
         Fluids::default().divide(&mut all, Path::new("a.csv")).unwrap();
         let none = Fluids::default();

@@ -1,4 +1,4 @@
-//! The sequence of particle files that is in a folder.
+//! Finds the sequence of particle files in a folder.
 
 use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
@@ -9,7 +9,7 @@ use whitewater::io::particles::{self, ReadError, sequence};
 use crate::arrays;
 use crate::failure::{Failure, Outcome};
 
-/// Extensions of particle files; a second one, of packing, may follow.
+/// Extensions of particle files; an extension for compression may follow.
 const EXTENSIONS: [&str; 28] = [
     "bgeo",
     "geo",
@@ -41,7 +41,7 @@ const EXTENSIONS: [&str; 28] = [
     "xmf",
 ];
 
-/// The input, or of a folder the pattern of the one sequence in it.
+/// Returns a file name or pattern unchanged; for a folder, the pattern of its only sequence.
 pub fn in_folder(input: &str) -> Outcome<String> {
     let path = Path::new(input);
     if !path.is_dir() {
@@ -95,7 +95,7 @@ pub fn in_folder(input: &str) -> Outcome<String> {
         [] => {}
         [(pattern, _)] => return Ok(pattern.clone()),
         many => {
-            // Velocities beside positions, in files of their own.
+            // Velocities in files beside the positions.
             let names: Vec<_> = many.iter().map(|(pattern, _)| pattern.as_str()).collect();
             if let Some(positions) = arrays::positions_of(&names) {
                 return Ok(positions.to_string());
@@ -121,11 +121,11 @@ pub fn in_folder(input: &str) -> Outcome<String> {
         return Ok(pattern);
     }
     let inner: Vec<_> = folders.iter().filter_map(within).take(8).collect();
-    // Solvers put them beside their logs and their own state.
+    // Solvers write a subfolder of particles beside logs and their own state.
     if let [one] = inner.as_slice() {
         return in_folder(one);
     }
-    // Files without an extension, such as OpenFOAM's, may say what they are.
+    // Files without an extension, such as OpenFOAM's, may be recognised by their contents.
     let told = others.iter().filter(|name| !name.contains('.')).take(LOOKED_AT).find_map(|name| {
         match particles::read(&path.join(name)) {
             Err(ReadError::File { path, reason })
@@ -156,10 +156,10 @@ pub fn in_folder(input: &str) -> Outcome<String> {
     Err(Failure::input(format!("{input}: expected particle files in the folder{found}")))
 }
 
-/// Files of a folder without particle files that are asked what they are.
+/// Max number of files without a known extension whose contents are inspected.
 const LOOKED_AT: usize = 4;
 
-/// Largest size of a list of pieces that is looked into, in bytes.
+/// Max size in bytes of a list of pieces that is read.
 const LONGEST: u64 = 1 << 20;
 
 /// The files that other files of the folder list as their pieces.
@@ -182,8 +182,9 @@ fn pieces(folder: &Path, names: &[String]) -> HashSet<String> {
     found
 }
 
-/// The patterns of the sequences that files belong to, and how many belong to each. A number with a point or an exponent
-/// is a time, where its last digits alone would make sequences of a file each.
+/// Patterns of the sequences in a list of names, and the number of files in each. A number with a
+/// decimal point or exponent is a time; if only its last digits counted, each file would be a
+/// sequence of its own.
 fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     let mut timed: BTreeMap<String, Vec<&String>> = BTreeMap::new();
     for name in names {
@@ -209,7 +210,7 @@ fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     patterns
 }
 
-/// Where the last number with a point or an exponent is in a name, before its extension.
+/// Range of the last number with a decimal point or exponent in a name, before the extension.
 fn time(name: &str) -> Option<Range<usize>> {
     let digit = |at: usize| name.as_bytes().get(at).is_some_and(u8::is_ascii_digit);
     let run = |from: usize| (from..name.len()).find(|at| !digit(*at)).unwrap_or(name.len());
@@ -230,7 +231,7 @@ fn time(name: &str) -> Option<Range<usize>> {
                 end = run(end + 1 + sign);
             }
         }
-        // A rank is behind a number with zeros in front.
+        // A number with leading zeros after the point is the rank of a process.
         let padded = whole - start > 1 && name[start..].starts_with('0');
         if end > whole && end < name.len() && !padded {
             found = Some(start..end);
@@ -240,7 +241,7 @@ fn time(name: &str) -> Option<Range<usize>> {
     found
 }
 
-/// The pattern of a file that is in each of several folders with numbers for names: `DIR/*/cloud.vtp`.
+/// Pattern of a file that exists in each of several numbered folders: `DIR/*/cloud.vtp`.
 fn in_folders(folder: &str, folders: &[String]) -> Option<String> {
     let numbered = folders.iter().filter(|name| name.ends_with(|c: char| c.is_ascii_digit()));
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
@@ -268,11 +269,11 @@ fn readable(name: &str) -> bool {
     let name = name.to_lowercase();
     let name = name.strip_suffix(".gz").unwrap_or(&name);
     let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
-    // As LAMMPS names them: dump.500.
+    // LAMMPS names its files dump.500.
     EXTENSIONS.contains(&extension) || name.starts_with("dump.")
 }
 
-/// A name with `*` in the place of its last number.
+/// A name with its last number replaced by `*`.
 fn pattern(name: &str) -> String {
     let name = without_ranks(name);
     let name = name.as_str();
@@ -291,7 +292,7 @@ fn pattern(name: &str) -> String {
     format!("{}*{}", &name[..start], &name[after..])
 }
 
-/// A name with `*` in the place of the numbers of processes.
+/// A name with process ranks replaced by `*`.
 fn without_ranks(name: &str) -> String {
     let (mut out, mut rest) = (String::new(), name);
     while let Some(at) = rest.find(|c: char| c.is_ascii_digit()) {
@@ -304,7 +305,7 @@ fn without_ranks(name: &str) -> String {
     out + rest
 }
 
-/// What to do with a file of a program that writes none of what is read here.
+/// Advice for a file that this program does not read but can be converted.
 pub fn unread(name: &str) -> Option<&'static str> {
     let name = name.to_lowercase();
     let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
@@ -375,7 +376,7 @@ mod tests {
             text.contains("Fluid_*.bgeo' (3 files), '") && text.contains("Foam_*.bgeo' (1 file)"),
             "{text}"
         );
-        // Ranks, whose list is the frame, and a list of all frames.
+        // The ranks of a frame, which a list joins, and a list of all frames.
         std::fs::create_dir_all(at("ranks")).unwrap();
         for number in [1, 2] {
             for rank in [0, 1] {
@@ -391,7 +392,7 @@ mod tests {
         let list = format!("<VTKFile><Collection>{}{}</Collection></VTKFile>", set(1), set(2));
         std::fs::write(at("ranks/p.pvd"), list).unwrap();
         assert!(in_folder(&at("ranks")).unwrap().ends_with("ranks/p.pvd"));
-        // Times, in names and as folders.
+        // Times, as part of names and as names of folders.
         std::fs::create_dir_all(at("times")).unwrap();
         for time in ["0.4", "0.32", "0.36"] {
             write(&format!("times/t{time}.npz"));
@@ -410,14 +411,14 @@ mod tests {
         ] {
             assert_eq!(time(name), expected, "{name}");
         }
-        // A cloud of OpenFOAM, and its case.
+        // A cloud of OpenFOAM, and the case that contains it.
         std::fs::create_dir_all(at("case/0.1/lagrangian/cloud")).unwrap();
         let header = "FoamFile\n{\n    class Cloud;\n}\n";
         std::fs::write(at("case/0.1/lagrangian/cloud/positions"), header).unwrap();
         for name in ["case", "case/0.1", "case/0.1/lagrangian/cloud"] {
             assert!(said(name).contains("foamToVTK"), "{name}: {}", said(name));
         }
-        // Arrays in files of their own, beside each other and in a folder for each frame.
+        // NumPy arrays in separate files, in one folder and in a folder for each frame.
         std::fs::create_dir_all(at("npy")).unwrap();
         for frame in [0, 1, 2] {
             std::fs::create_dir_all(at(&format!("each/{frame}"))).unwrap();

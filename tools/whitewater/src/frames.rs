@@ -1,4 +1,4 @@
-//! Input files, and what to do if nothing matches.
+//! Expands inputs to frames, and advises if nothing matches.
 
 use std::ops::RangeInclusive;
 
@@ -8,31 +8,32 @@ use whitewater::io::particles::{self, Step};
 use crate::failure::{Failure, Outcome};
 use crate::folder::in_folder;
 
-/// The frames of one sequence, or those of one file that holds several. A folder of one sequence is that; where nothing fits a
-/// name, what would is said. `join`: files of one number are one frame.
+/// The frames of one sequence, or of one file that holds several frames. A folder stands for the
+/// sequence in it. If no file matches, the error suggests a name that would. With `join`, files
+/// with the same number are one frame.
 pub fn expand(inputs: &[String], join: bool) -> Outcome<Vec<Frame>> {
     Ok(in_files(files(inputs, join)?))
 }
 
-/// The same without a look into files.
+/// The same without opening files.
 pub fn files(inputs: &[String], join: bool) -> Outcome<Vec<Frame>> {
     let inputs = inputs.iter().map(|input| in_folder(input)).collect::<Outcome<Vec<_>>>()?;
     let expand = if join { sequence::expand_joined } else { sequence::expand };
     expand(&inputs, None).map_err(advised)
 }
 
-/// Those of them that are in a range.
+/// The frames in a range of numbers.
 pub fn within(all: &[Frame], range: Option<RangeInclusive<u64>>) -> Outcome<Vec<Frame>> {
     Ok(sequence::within(all.to_vec(), range)?)
 }
 
-/// The frames of a file that holds several, in its place.
+/// Replaces a single file that holds several frames by these frames.
 pub fn in_files(frames: Vec<Frame>) -> Vec<Frame> {
     let [frame] = frames.as_slice() else { return frames };
     if !frame.also.is_empty() {
         return frames;
     }
-    // A file that can't be read tells when its turn comes.
+    // If the file cannot be read, the error is reported when it is drawn.
     let steps = particles::steps(&frame.path).unwrap_or_default();
     if steps.is_empty() {
         return frames;
@@ -46,7 +47,7 @@ pub fn in_files(frames: Vec<Frame>) -> Vec<Frame> {
     steps.into_iter().map(of).collect()
 }
 
-/// A failure to expand inputs, with advice where their form is that of another program.
+/// An error of expanding inputs, with advice if the pattern has the syntax of another program.
 pub fn advised(error: SequenceError) -> Failure {
     let advice = match &error {
         SequenceError::NotFound { input } => foreign(input),
@@ -61,10 +62,11 @@ pub fn advised(error: SequenceError) -> Failure {
     }
 }
 
-/// How other programs name the number of a frame: Rust and Python, Houdini, Nuke and Maya, and printf with blanks.
+/// Placeholders for the frame number in other programs, recognised only for advice: `{}` of Rust
+/// and Python, `$F` of Houdini, `#`, `<>` and `@` of Nuke and Maya, and `%4d` of printf.
 const FOREIGN: [&str; 6] = ["{", "#", "$F", "<", "@", "%"];
 
-/// The pattern in the form that is understood here, where it is one of another program.
+/// Advice with the equivalent pattern, if the pattern has a placeholder of another program.
 fn foreign(pattern: &str) -> Option<String> {
     let (folder, name) = match pattern.rsplit_once('/') {
         Some((folder, name)) => (format!("{folder}/"), name),
@@ -80,7 +82,7 @@ fn foreign(pattern: &str) -> Option<String> {
         mark => rest.len() - rest.trim_start_matches(mark).len(),
     };
     let mut name = before.to_string() + "%d" + &rest[end..];
-    // Padded as the files are, where they are.
+    // The number is padded as the files are.
     let fits = |name: &str| sequence::expand(&[format!("{folder}{name}")], None).is_ok();
     if !fits(&name) {
         let padded = (2..=10).map(|width| name.replace("%d", &format!("%0{width}d")));
@@ -88,11 +90,11 @@ fn foreign(pattern: &str) -> Option<String> {
     }
     let found = if fits(&name) { "" } else { ", or * for any text" };
     Some(format!(
-        "the number of a frame is %d here, or %04d where it has four digits{found}: '{folder}{name}'"
+        "write the frame number as %d, or as %04d if it has four digits{found}: '{folder}{name}'"
     ))
 }
 
-/// The same without the padding, or with another one, where files fit that.
+/// Advice with another padding of the frame number, if files match it.
 fn padded(pattern: &str) -> Option<String> {
     let (before, rest) = pattern.rsplit_once('%')?;
     let (spec, after) = rest.split_once('d')?;
@@ -142,7 +144,7 @@ mod tests {
         let text = said("u_%04d.bgeo");
         assert!(text.contains("3 files fit") && text.contains("u_%d.bgeo' (their"), "{text}");
         assert!(said("p_%d.bgeo").contains("2 files fit"), "{}", said("p_%d.bgeo"));
-        // A plain name.
+        // A name without a placeholder.
         assert!(!said("a.bgeo").contains("%d.bgeo'"), "{}", said("a.bgeo"));
     }
 }

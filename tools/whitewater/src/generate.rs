@@ -16,39 +16,40 @@ use crate::settings::generate::GenerateTable;
 use crate::surface_foam::quantile;
 use crate::whitewater_source::{Columns, Sizes};
 
-/// Most whitewater particles at a time, where nothing is said.
+/// Default max number of whitewater particles alive at once.
 const MOST: u32 = 1_000_000;
-/// The part of them that there are when as much is made as goes.
+/// Fraction of the max number that is alive in the steady state, when as many are emitted as die.
 const FULL: f64 = 0.5;
-/// Share of the particles of all frames that are looked at whose potential is less than the most.
+/// Quantile of the potentials, over all probed frames, that becomes the upper limit.
 const NEARLY_ALL: f64 = 0.999;
-/// Of the most, the least.
+/// Lower limit of a potential as a part of its upper limit.
 const LEAST: f32 = 0.1;
-/// The most is no less, so that water at rest makes nothing: trapped air and speed in falls through a
-/// spacing, and crests. Of limits that artists chose the middle.
+/// Min values of the upper limits, so that water at rest emits nothing: trapped air and speed in
+/// units of the speed after a fall through a spacing, and wave crests. They lie in the middle of
+/// limits that artists chose.
 const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
-/// Particles a second of one at most: more are a cloud round it.
+/// Max number of particles that one particle emits per second; more would form a cloud around it.
 const MOST_RATE: f64 = 4000.0;
-/// Of a table that does not say, or not yet.
+/// Limits while the table's are unset.
 const ANY: PotentialRange = PotentialRange { min: 0.0, max: 1.0 };
-/// How far beyond the water spray may fly, of its width.
+/// How far spray may fly beyond the water, as a part of the water's width.
 const ASIDE: f32 = 0.1;
 
-/// What is made, and the frames from which it is found how much.
+/// Emission of whitewater, and the probed frames from which its settings are found.
 pub struct Generate {
     table: GenerateTable,
     spacing: f32,
     bounds: [[f32; 3]; 2],
-    /// How long the sequence is that they are made in; of single frames `None`.
+    /// Duration of the sequence in seconds; `None` for single frames.
     seconds: Option<f32>,
     probes: Vec<Particles>,
     found: Option<GeneratorSettings>,
-    /// Of each kind, how many a column holds that holds any, in the frames that are looked at.
+    /// Mean number of particles of each kind in a column that holds any, in the probed frames.
     columns: [Option<f32>; 3],
 }
 
-/// The limits of trapped air, wave crests and energy by those that particles have. `fall`: the squared speed, over 2, of a fall
-/// through a spacing.
+/// Limits of trapped air, wave crests and energy, from the particles' potentials. `fall` is half
+/// the squared speed after a fall through a spacing.
 fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [PotentialRange; 3] {
     let floors = [FLOORS[0] * fall.sqrt(), FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall];
     [0, 1, 2].map(|which| {
@@ -59,8 +60,8 @@ fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [PotentialRange; 3] {
 }
 
 impl Generate {
-    /// `bounds`: of the water, as far as it is looked at. `seconds`: of the sequence in which they are made, if there is one.
-    /// Fails where the table can't be meant so.
+    /// `bounds` are those of the water in the probed frames, `seconds` the duration of the
+    /// sequence, if there is one. Fails if a value of the table is out of range.
     pub fn new(
         table: GenerateTable,
         spacing: f32,
@@ -71,7 +72,8 @@ impl Generate {
         let mut settings = GeneratorSettings::new(spacing, [ANY; 3], 0.0);
         table.apply(&mut settings);
         settings.check()?;
-        // Nothing else keeps spray in: as far as the water itself ever comes, and a little farther; up as it may.
+        // No walls confine the spray. The bounds are those of the water over all frames, slightly
+        // enlarged, and open upwards.
         let size = bounds.max - bounds.min;
         let aside = Vec3::new(ASIDE * size.x, 0.0, ASIDE * size.z) + spacing;
         let up = Vec3::Y * size.max_element();
@@ -82,12 +84,12 @@ impl Generate {
         Ok(Self { table, spacing, bounds, seconds, probes, found: None, columns })
     }
 
-    /// Most whitewater particles at a time.
+    /// Max number of whitewater particles alive at once.
     pub fn max_particles(&self) -> u32 {
         self.table.max_particles.unwrap_or(MOST)
     }
 
-    /// Most particles of the water that are looked at in a frame.
+    /// Max number of water particles in a probed frame.
     pub fn probed(&self) -> usize {
         if self.found.is_some() {
             return 0;
@@ -95,7 +97,7 @@ impl Generate {
         self.probes.iter().map(|frame| frame.positions.len()).max().unwrap_or(0)
     }
 
-    /// The settings, found by the frames the first time; a line then that says so.
+    /// The settings. The first call finds them from the probed frames and also returns a message.
     pub fn settings(
         &mut self,
         headless: &mut Headless,
@@ -121,14 +123,14 @@ impl Generate {
         Ok((found, Some(line)))
     }
 
-    /// How opaque they are, and how large, by how close together they lie: once the settings are found. What the file of
-    /// settings says is left, and the thesis' look.
+    /// Sets size and opacity from how densely the particles lie, once the settings are found.
+    /// Values in the settings file are kept, and so is the thesis' look.
     pub fn choose(&self, file: &SettingsFile, settings: &mut Settings) -> Option<String> {
         if file.is_thesis() || self.columns == [None; 3] {
             return None;
         }
         let Sizes { radii: [foam, spray, _], half } = Sizes::of_columns(self.columns, self.spacing);
-        // They have one radius for all: of foam, of which there is most, where there is any.
+        // All kinds have one radius: that of foam, the most frequent kind, if there is any.
         let radius = if self.columns[0].is_some() { foam } else { spray };
         let table = &file.whitewater;
         settings.whitewater.radius = table.radius.unwrap_or(radius);
@@ -137,18 +139,19 @@ impl Generate {
         let [radius, half] =
             [settings.whitewater.radius, settings.whitewater.half_intensity_thickness].map(round);
         Some(format!(
-            "radius {radius} and half_intensity_thickness = {half} of them (found; table [whitewater] sets them)"
+            "radius {radius} and half_intensity_thickness = {half} of whitewater particles (found; table [whitewater] sets them)"
         ))
     }
 
-    /// Columns of what is made of each frame by itself, which is about what there is of it in a sequence.
+    /// Mean numbers per column, when each frame emits by itself; that is about as many as in a
+    /// sequence.
     fn count(
         &self,
         headless: &mut Headless,
         settings: &GeneratorSettings,
     ) -> Outcome<[Option<f32>; 3]> {
         let mut columns = Columns::default();
-        // With room for another number those of the frames to come begin anew.
+        // A different capacity makes the frames that follow start without particles.
         let most = self.max_particles();
         let room = if most > 1 { most - 1 } else { 2 };
         self.each_probe(headless, |headless| {
@@ -188,11 +191,11 @@ impl Generate {
                     * (phi(settings.trapped_air, air) + phi(settings.wave_crest, crest))
             });
             let a_frame = each.sum::<f64>() / f64::from(frames.max(1));
-            // A short sequence ends before as many go as come.
+            // In a short sequence emission stops before the steady state.
             let life = 0.5 * (settings.min_lifetime + settings.max_lifetime);
             let life =
                 f64::from(self.seconds.map_or(life, |seconds| life.min(seconds + PRE_ROLLED)));
-            // Of no potentials, as of little ones, as much as there may be.
+            // If the potentials are zero or tiny, the max rate applies.
             let rate_of = |seconds: f64| {
                 (FULL * f64::from(self.max_particles()) / (seconds * a_frame)).min(MOST_RATE) as f32
             };
@@ -202,7 +205,8 @@ impl Generate {
             };
             set(&mut settings, rate_of(life));
             if self.seconds.is_none() {
-                // Of the water in a splash little comes from where there was water too.
+                // A splash in a single frame emits less, because part of the water has just arrived
+                // there.
                 let mut made = 0.0;
                 self.each_probe(headless, |headless| {
                     headless.generate_snapshot(0, &settings, self.max_particles())?;
@@ -218,7 +222,7 @@ impl Generate {
         Ok(settings)
     }
 
-    /// Does something with each frame that is looked at; how many there are.
+    /// Calls `act` for each probed frame; returns the number of frames.
     fn each_probe(
         &self,
         headless: &mut Headless,
@@ -240,8 +244,8 @@ impl Generate {
 mod tests {
     use super::*;
 
-    /// A pool whose particles tremble at a tenth of the speed of a fall through a spacing: its limits are the floors, in units
-    /// of that speed, and it is below them all.
+    /// A pool whose particles tremble at a tenth of the speed after a fall through a spacing: its
+    /// limits are the floors, and its potentials are below them all.
     #[test]
     fn a_calm_pool_makes_nothing() {
         for spacing in [0.02_f32, 0.5] {
@@ -254,7 +258,8 @@ mod tests {
         }
     }
 
-    /// Of 10 000 particles the ten that have most are beyond the limit, of those that have none too.
+    /// The ten particles with the largest potentials of 10 000 are beyond the limit, also if most
+    /// have a potential of 0.
     #[test]
     fn limits_are_by_nearly_all_particles() {
         let wild: Vec<_> = (0..10_000_u16).map(|i| [100.0 + f32::from(i); 4]).collect();

@@ -61,7 +61,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     ))
 }
 
-/// The frames of one sequence; of files that are none, those of each input by itself.
+/// The frames of one sequence. If the inputs are no sequence, the frames of each input by itself.
 fn expand(inputs: &[String]) -> Result<Vec<Frame>, SequenceError> {
     match sequence::expand(inputs, None).map(frames::in_files) {
         Err(SequenceError::Twice { .. }) if inputs.len() > 1 => {
@@ -135,18 +135,18 @@ fn up(particles: &Particles) -> Value {
     }
 }
 
-/// A word on an extent that is no likely one of water in metres.
+/// A message if the water's extent is implausible in metres.
 fn unit(particles: &Particles) -> Option<String> {
     let extent = Bounds::of_bulk(&particles.positions)?.size().max_element();
     let named = placing::named_hint(particles);
     named.or_else(|| placing::hint(extent, placing::fastest(particles)))
 }
 
-/// What an attribute is taken as; none where it is passed over.
+/// The meaning of an attribute; `None` if it is ignored.
 fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
     let of_name = |(_, names): &&(Meaning, Vec<String>)| names.iter().any(|n| n == name);
     let (meaning, _) = particles.meanings.iter().find(of_name)?;
-    // Those that are no whole numbers are dropped.
+    // Values that are not whole numbers are dropped.
     let there = match meaning {
         Meaning::Id => particles.ids.is_some(),
         Meaning::Kind => particles.kinds.is_some(),
@@ -155,7 +155,7 @@ fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
     there.then_some(*meaning)
 }
 
-/// What else is made of an attribute.
+/// Another use of an attribute, beside its meaning.
 fn beside(particles: &Particles, name: &str) -> Option<String> {
     if radii::is_radius(name) {
         return radii::radii(particles).map(|_| "radius".into());
@@ -168,14 +168,14 @@ fn beside(particles: &Particles, name: &str) -> Option<String> {
     phases
         .into_iter()
         .find(|(phase, _)| *phase == name)
-        .map(|_| "--where tells its values apart".into())
+        .map(|_| "--where can select particles by it".into())
 }
 
-/// What is not there, and what that costs.
+/// What is missing, and the consequence.
 fn missing(has: Has) -> Option<&'static str> {
     match (has.velocities, has.ids) {
         (true, true) => None,
-        (true, false) => Some("no ids: foam of a sequence is found anew in each frame"),
+        (true, false) => Some("no ids: in a sequence foam is found for each frame by itself"),
         (false, true) => Some(
             "no velocities: drawn alone this file has no foam; in a sequence velocities are found by the ids",
         ),
@@ -194,7 +194,7 @@ fn statistics(values: &[f32]) -> Option<Value> {
     Some(json!({"min": least, "median": median, "mean": mean as f32, "max": most}))
 }
 
-/// The same for people.
+/// The report as text.
 fn text(value: &Value) -> String {
     let text = |key: &str| value[key].as_str().unwrap_or_default();
     let number = |v: &Value| v.as_f64().map_or("-".into(), |v| format!("{:.6}", v as f32));

@@ -1,4 +1,4 @@
-//! From the renderer's images to named channels.
+//! Converts the renderer's images to named channels.
 
 use whitewater::headless::{Background, Headless, Picture};
 use whitewater::io::picture::{EMPTY, Layers, normals};
@@ -9,7 +9,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 use crate::fluids::Liquids;
 
-/// What can be asked for beside the beauty.
+/// Names that `--layers` accepts.
 const GROUPS: [&str; 30] = [
     "water.depth",
     "water.surface",
@@ -43,10 +43,10 @@ const GROUPS: [&str; 30] = [
     LADDER,
 ];
 
-/// From where what a pixel shows was in the frame before, in pixels.
+/// Motion vectors in pixels: from where the content of a pixel was in the previous frame.
 pub const MOTION: &str = "motion";
 
-/// The composite up to each of its layers: pictures of three channels each.
+/// Cumulative composites, three channels for each layer.
 pub const LADDER: &str = "ladder";
 
 const RUNGS: [(&str, DebugView); 4] = [
@@ -56,13 +56,13 @@ const RUNGS: [(&str, DebugView); 4] = [
     ("front_water", DebugView::FrontWater),
 ];
 
-/// The name that a layer has now, of one that had another.
+/// The new name of a renamed layer.
 fn renamed(name: &str) -> Option<String> {
     let of = |old: &str, new: &str| name.strip_prefix(old).map(|rest| format!("{new}{rest}"));
     of("water.foam", "surface_foam").or_else(|| of("foam", "whitewater"))
 }
 
-/// Understands `--layers`. The ladder is not among `all`: each of its rungs is another frame to draw.
+/// Parses `--layers`. `all` does not include the ladder, because each of its rungs is another frame to draw.
 pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
     match text {
         "all" => return Ok(GROUPS.into_iter().filter(|name| *name != LADDER).collect()),
@@ -91,11 +91,11 @@ pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
         .collect()
 }
 
-/// What one pixel makes of the samples it was drawn with.
+/// How the samples of a pixel become one value.
 #[derive(Clone, Copy)]
 enum Merge {
     Mean,
-    /// Of depths: what is before the rest.
+    /// For depths: the nearest.
     Nearest,
     Most,
 }
@@ -110,8 +110,8 @@ impl Merge {
     }
 }
 
-/// A picture that is no wider than `width`: squares of its pixels become one. It is a whole number
-/// of times as large, or smaller.
+/// Downsamples a picture to at most `width`: each square of its pixels becomes one. The picture's width is a whole
+/// multiple of `width`, or smaller.
 fn merged(picture: &Picture<f32>, width: usize, merge: Merge) -> Picture<f32> {
     let n = (picture.width / width).max(1);
     let row = |y: usize, x: usize| &picture.data[y * picture.width + x * n..][..n];
@@ -123,7 +123,7 @@ fn merged(picture: &Picture<f32>, width: usize, merge: Merge) -> Picture<f32> {
     Picture { width, height, data: data.map(|(x, y)| pixel(x, y)).collect() }
 }
 
-/// Of each square of pixels that [`merged`] makes one, which is the nearest: of the first of a depth.
+/// For each square of pixels that [`merged`] combines, the index of the nearest; if depths are equal, of the first.
 fn nearest(depths: &Picture<f32>, width: usize) -> Picture<usize> {
     let n = (depths.width / width).max(1);
     let (width, height) = (depths.width / n, depths.height / n);
@@ -135,8 +135,8 @@ fn nearest(depths: &Picture<f32>, width: usize) -> Picture<usize> {
     Picture { width, height, data: data.map(|(x, y)| pixel(x, y)).collect() }
 }
 
-/// Reads the beauty and the layers that are wanted back from the device; `size`: of the picture,
-/// which was drawn a power of two times as large.
+/// Reads the beauty and the wanted layers back from the device. `size` is the size of the output; the frame was drawn
+/// at a power of two times that.
 pub fn collect(
     headless: &mut Headless,
     size: (u32, u32),
@@ -204,7 +204,7 @@ pub fn collect(
     {
         let picture = merged(&depth(picture), width, Merge::Nearest);
         if normal {
-            // Texels of a reduced surface are a power of two pixels wide.
+            // A texel of a reduced surface covers a power of two of pixels along an edge.
             let texel = width.div_ceil(picture.width).next_power_of_two() as f32;
             let slope = lens.slope(size, texel);
             let xyz = normals(&picture.data, picture.width, picture.height, slope);
@@ -228,11 +228,12 @@ pub fn collect(
     if wanted.contains(&MOTION)
         && let (Some(x), Some(y)) = (headless.layer("motion.X")?, headless.layer("motion.Y")?)
     {
-        // A mean over an outline is no motion of anything: that of the nearest sample.
+        // Motion vectors are not averaged over an outline, because the mean is no object's motion; the nearest sample
+        // counts.
         let mut depths = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
         for name in ["water.depth", "surface_foam"] {
             if let Some(layer) = headless.layer(name)? {
-                // Texels of a reduced layer are a power of two pixels wide.
+                // A texel of a reduced layer covers a power of two of pixels along an edge.
                 let texel = depths.width.div_ceil(layer.width).next_power_of_two();
                 for (i, z) in depths.data.iter_mut().enumerate() {
                     let (x, y) = (i % depths.width / texel, i / depths.width / texel);
@@ -241,7 +242,7 @@ pub fn collect(
             }
         }
         let samples = nearest(&depths, width);
-        // In pixels of the picture.
+        // Converts to pixels of the output.
         let scale = samples.width as f32 / x.width as f32;
         for (name, picture) in [("motion.X", x), ("motion.Y", y)] {
             let picture = samples.map(|i| picture.data[*i] * scale);
@@ -251,7 +252,7 @@ pub fn collect(
     Ok(layers)
 }
 
-/// Draws the frame again as far as each rung of the ladder, and adds what it shows.
+/// Draws the frame again up to each rung of the ladder and adds the composites.
 pub fn ladder(
     headless: &mut Headless,
     camera: &Camera,
@@ -274,7 +275,7 @@ pub fn ladder(
     Ok(())
 }
 
-/// Has another picture as the beauty.
+/// Replaces the beauty by another picture.
 pub fn show(layers: &mut Layers, picture: &Picture<[f32; 4]>) {
     for (c, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
         let merged = merged(&picture.map(|v| v[c]), layers.width, Merge::Mean);
@@ -283,9 +284,9 @@ pub fn show(layers: &mut Layers, picture: &Picture<[f32; 4]>) {
     }
 }
 
-/// Draws the frame, which was drawn before black, again before white: what it lets through is the difference, and the share
-/// that it hides goes to channel A (Smith and Blinn 1996, whose two backgrounds these are). Of water, which takes more of
-/// red than of blue, it is the mean of the channels.
+/// Computes alpha: the frame was drawn over black and is drawn again over white; the difference is the transmittance,
+/// and 1 minus it goes to channel A (two backgrounds: Smith and Blinn 1996). Water transmits red and blue differently,
+/// so A is the mean of the channels.
 pub fn matte(
     headless: &mut Headless,
     camera: &Camera,
@@ -318,7 +319,7 @@ mod tests {
         assert_eq!(of(Merge::Nearest), [1.0, 4.0]);
         assert_eq!(of(Merge::Most), [6.0, EMPTY]);
         assert_eq!(of(Merge::Mean)[0], 3.0);
-        // What is smaller stays.
+        // A smaller picture stays as it is.
         assert_eq!(merged(&picture, 4, Merge::Mean), picture);
         assert_eq!(merged(&picture, 9, Merge::Mean), picture);
     }

@@ -1,4 +1,4 @@
-//! How the water of files looks where nothing is said: camera, light, surroundings, liquid, foam and spray, found from the
+//! Default look of the water of cache files: camera, light, surroundings, liquid, foam and spray, found from the
 //! particles.
 
 use glam::{Quat, Vec3};
@@ -25,11 +25,11 @@ use crate::surface_foam;
 use crate::turntable::Turning;
 use crate::whitewater_source;
 
-/// The speed at which water of a sequence meets things, m/s: that of its fastest particles, or, where that is more or
-/// there are no velocities, of a fall from its highest particles to its lowest.
+/// Impact speed of the water of a sequence in m/s: the larger of the speed of its fastest particles and the speed after
+/// a fall from its highest particles to its lowest.
 pub fn impact_speed(frames: &[Particles]) -> f32 {
     let fall = |frame: &Particles| {
-        // Without strays, of which one is enough for any height.
+        // Without strays, since one is enough to change the height.
         let bulk = Bounds::of_bulk(&frame.positions)?;
         let inside = frame.positions.iter().filter(|p| bulk.contains(Vec3::from(**p)));
         let heights: Vec<f32> = inside.map(|p| p[1]).collect();
@@ -40,22 +40,24 @@ pub fn impact_speed(frames: &[Particles]) -> f32 {
     each.flatten().fold(0.0, f32::max)
 }
 
-/// Of spray in caches: what is alone, or nearly, is. Solvers' densities read low at every surface, in a sheet and a jet, so
-/// that the library's 0.85 is met by most of a splash (of the highest tenth of two solid jets by 82 %, by these 23 %). One
-/// neighbour at a spacing makes 0.40, a line of particles 0.48.
-/// Sheets of one layer (0.70) hold; what is torn to less has droplets about it and is water still.
+/// Density limits of spray in caches: only lone particles, or nearly lone ones, are all spray. Solvers' densities are
+/// low at every surface, in sheets and in jets, so that the library's limit of 0.85 turns most of a splash to spray (82
+/// % of the highest tenth of two solid jets; these limits 23 %). A particle with one neighbour one spacing away has
+/// 0.40, one in a line 0.48. Sheets of one layer (0.70) stay water; water that is torn further stays water with
+/// droplets around it.
 const SPRAY_DENSITIES: [f32; 3] = [0.44, 0.66, 0.7];
 
-/// Densities by which a lone particle (0.318) is a whole drop of water.
+/// Density limits at which a lone particle (0.318) is drawn as a whole drop of water.
 const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
 
-/// Radius of one particle, or of two in one place, that flies alone: whole, it is a glass ball as large as a fist.
+/// Radius of a lone particle, or of two at one place, relative to a whole one, which would be a glass ball as large as a
+/// fist.
 const LONE: f32 = 0.5;
 
-/// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
-/// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
-/// of the time of a fall through a spacing.
-/// Mist is what fast water is torn to: its share goes with the Weber number, the square of the speed, up to 6 m/s.
+/// Replaces the library's spray settings by those for caches. A particle is as much water as some hundred drops, so
+/// there are many small droplets, scattered widely enough to hide their repeating pattern. They are stretched along
+/// their motion, by their differences in speed over a third of the time of a fall through a spacing. Mist comes from
+/// fast water: its share grows with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
     let mist = 0.55 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
@@ -76,9 +78,9 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
     });
 }
 
-/// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
-/// it is lit by the shape of the splash. (Of the library's whole relief, which is as large as a particle, it is gravel; of its
-/// veil, a cloud.)
+/// Replaces the library's foam settings by those for caches: thin foam is lace, as dim as the water under it, and all
+/// foam is lit by the shape of the splash. (With the library's full relief, which is as large as a particle, it looks
+/// like gravel; with its veil, like a cloud.)
 pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
     *foam = foam.with(|it| {
         it.extinction = 0.35 / spacing;
@@ -87,7 +89,7 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.normal_strength = 0.35;
         it.lace = 1.0;
         it.lace_size = 0.8;
-        // Water that speeds up slides the lace, the longer a period the farther.
+        // Accelerating water shears the lace; the longer the period, the farther.
         it.pattern_period = (5.0 * (spacing / 9.81).sqrt()).min(1.0);
         it.aeration = 0.6;
         it.shape = 0.8;
@@ -96,57 +98,58 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
     });
 }
 
-/// Puts small waves on level water. Particles resolve waves of four spacings and more; a basin looks as large as the waves
-/// on it say, so they go by its width.
+/// Sets small waves on level water. Particles resolve waves of four spacings and more. Wavelength also grows with the
+/// basin's width, because the waves tell the eye how large the basin is.
 pub fn waves_of_caches(water: &mut WaterSettings, spacing: f32, bounds: &Bounds) {
     let wide = bounds.size().x.max(bounds.size().z);
     water.wavelets.slope = 0.06;
     water.wavelets.length = (4.0 * spacing).max(0.07 * wide);
 }
 
-/// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
+/// Width in metres below which water has its natural clarity: a glass or a tub, for which the colour of a pool is too
+/// blue.
 const SMALL: f32 = 2.0;
-/// The part of the colour of a pool's water that is the water's own, where its tiles are blue.
+/// Part of a pool's colour that comes from the water itself; the rest comes from blue tiles.
 const BLUE_TILES: f32 = 0.45;
-/// Metres across above which it is clearer than that, so that its ground is seen: by nature it is dark, and few solvers' units
-/// are metres.
+/// Width in metres above which the water is clearer than nature, so that its ground is visible. Natural water of that
+/// depth is dark, and few solvers' units are metres.
 const LARGE: f32 = 10.0;
 
-/// What was found, or said, before the look.
+/// Results that are found before the look.
 pub struct Found {
     pub camera: Option<CameraFile>,
     pub spacing: f32,
     pub files: Option<whitewater_source::Files>,
-    /// The axis across which the particles lie in one layer.
+    /// Index of the axis perpendicular to a two-dimensional sheet of particles.
     pub sheet: Option<usize>,
 }
 
-/// What time is needed for.
+/// Values that decide which times are needed.
 #[derive(Clone, Copy)]
 pub struct Sequence {
-    /// There is more than one frame.
+    /// Whether there is more than one frame.
     pub is: bool,
-    /// Motion vectors are wanted.
+    /// Whether motion vectors are written.
     pub motion: bool,
-    /// A film is wanted, whose frames are so many numbers apart.
+    /// Step between frame numbers, if a film is written.
     pub film: Option<f32>,
-    /// The camera goes round.
+    /// Orbit of the camera.
     pub turning: Option<Turning>,
-    /// All pictures are of this frame.
+    /// The only frame that is drawn, in all pictures.
     pub still: Option<u64>,
-    /// Numbers a second, where it was said.
+    /// Value of `--fps`.
     pub said: Option<f32>,
-    /// Numbers from a frame to the next.
+    /// Step from one frame number to the next.
     pub step: f32,
 }
 
-/// Where nothing is said: whitewater particles take the place of the water's own foam.
+/// Default of `--surface-foam`: whitewater particles replace the water's own foam.
 pub fn foaming(args: &RenderArgs) -> Foaming {
     if args.whitewater.is_empty() { Foaming::Auto } else { Foaming::None }
 }
 
-/// Particles as they are seen from eight sides, so that a camera that sees all of them sees them all the way round; and
-/// the box about them.
+/// The particles rotated to eight sides, and their bounding box. A camera that sees all of these sees the water during
+/// a whole orbit.
 fn from_all_sides(frames: &[Particles], bounds: &Bounds) -> (Vec<Vec<[f32; 3]>>, Bounds) {
     let centre = bounds.center();
     let mut all = Vec::new();
@@ -165,7 +168,7 @@ fn from_all_sides(frames: &[Particles], bounds: &Bounds) -> (Vec<Vec<[f32; 3]>>,
     (all, Bounds { min: centre - reach, max: centre + reach })
 }
 
-/// The look of a run: what arguments and settings say, and the rest as it is found.
+/// The look of a run: from arguments and settings, with the rest found from the particles.
 pub fn look(
     args: &RenderArgs,
     sequence: Sequence,
@@ -187,14 +190,14 @@ pub fn look(
         settings.water.rest_density = density;
     }
     settings.noise = session::noise(&args.draw);
-    // Of a few particles spray would leave nothing to see.
+    // If there are few particles, spray would leave no water to see.
     let few = probes.spacing().is_none();
     let lone = args.draw.spray.is_none() && few;
     if !file.is_thesis() {
         spray_of_caches(&mut settings.spray, spacing, impact_speed(&probes.frames));
         foam_of_caches(&mut settings.surface_foam, spacing);
         if args.draw.spray == Some(SprayArg::None) || lone {
-            // Nothing is lost: what would be spray is water.
+            // Nothing disappears: particles that would be spray are drawn as water.
             (settings.water.density_threshold, settings.water.density_full) = WHOLE_DROPS;
         } else {
             settings.water.ellipsoids.lone = LONE;
@@ -210,8 +213,8 @@ pub fn look(
             settings.water.medium = settings.water.medium.thinned(LARGE / wide);
             let wide = round(wide);
             progress.say(&format!(
-                "water {wide} metres wide is drawn as clear as a pool of {LARGE} (--unit, where lengths are no metres; \
-                 table [water] medium)"
+                "water {wide} metres wide is drawn as clear as a pool {LARGE} metres wide (--unit, if lengths are not in \
+                 metres; table [water] medium)"
             ));
         }
     }
@@ -225,7 +228,7 @@ pub fn look(
             let copies = files.copies();
             if copies > 1 {
                 progress
-                    .say(&format!("each whitewater particle as {copies}, scattered: they are few"));
+                    .say(&format!("each whitewater particle is drawn as {copies} scattered ones, because there are few"));
             }
             progress.say(&format!(
                 "whitewater particles with radii of {}, {} and {} (foam, spray, bubbles) and half_intensity_thickness = {} (found; table \
@@ -236,7 +239,7 @@ pub fn look(
                 round(settings.whitewater.half_intensity_thickness),
             ));
         }
-        // What a picture was drawn with stands in it.
+        // The picture stores the settings it was drawn with.
         file.whitewater.radii = files.radii();
         file.whitewater.copies = file.whitewater.radii.map(|_| files.copies());
     }
@@ -251,7 +254,7 @@ pub fn look(
             }
             None => {
                 let mut frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
-                // A drop by itself does not fill the picture.
+                // A margin, so that a lone drop does not fill the picture.
                 let room = bounds.padded(2.0 * spacing);
                 let of = |side: usize| if side == 0 { room.min } else { room.max };
                 let corners = [0, 1, 2, 3, 4, 5, 6, 7]
@@ -281,7 +284,7 @@ pub fn look(
         ));
     }
     let surrounded = args.scene.is_none() || args.set.is_some();
-    // A sun that the walls of a basin don't keep out, and that shines through what flies.
+    // The sun is placed so that the basin's walls do not block it and it shines through the spray.
     let own_sky = surrounded && args.draw.environment == "sky";
     let sun = own_sky.then(|| stage::side_light(eye - bounds.center()));
     let mut scene = match &args.scene {
@@ -330,7 +333,7 @@ pub fn look(
         file.light.put(&mut settings.light);
     }
     environment.light_scene(&mut scene);
-    // Whitewater particles take the place of the water's own foam and spray.
+    // Whitewater particles replace the water's own foam and spray.
     let has_whitewater = !args.whitewater.is_empty();
     let spray = args.draw.spray.unwrap_or(if has_whitewater || lone {
         SprayArg::None
@@ -338,7 +341,7 @@ pub fn look(
         SprayArg::Auto
     });
     let spray = spray == SprayArg::Auto;
-    // As `Session::frame` does it.
+    // The same as in `Session::frame`.
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
         frame.densities = session::guessed_densities(spray, frame, &settings.water);
     }
@@ -350,7 +353,8 @@ pub fn look(
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
     let wanted = args.draw.surface_foam.unwrap_or(foaming(args));
-    // In a sequence by speed: where air is trapped changes from frame to frame, three times as much as foam by speed does.
+    // A sequence uses the Weber number of speed: the trapped air changes from frame to frame three times as much as
+    // foam by speed does.
     let steady = sequence.is.then_some(FoamBy::Speed);
     let by = file
         .surface_foam
@@ -377,8 +381,8 @@ pub fn look(
     } else if wanted == Foaming::Auto && probes.frames.iter().any(|f| f.velocities.is_some()) {
         let onset = surface_foam::ONSET;
         progress.say(&format!(
-            "no foam: the water is calm, or moves as a whole; it draws in air from {onset} metre a second on, by which it \
-             moves past its surroundings (--surface-foam N sets a Weber number; --unit, where lengths are no metres)"
+            "no foam: the water is calm or moves as a whole; it entrains air from {onset} m/s relative to its \
+             surroundings (--surface-foam N sets a Weber number; --unit, if lengths are not in metres)"
         ));
     }
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
@@ -443,7 +447,7 @@ pub fn look(
     })
 }
 
-/// Four digits are enough to read.
+/// Rounds to four significant digits for messages.
 pub fn round(value: f32) -> f32 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
@@ -452,7 +456,7 @@ pub fn round(value: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// A column of water 2 metres high, and strays high above it.
+    /// A column of water 2 metres high, with strays high above it.
     fn column(strays: usize) -> Particles {
         let at =
             |i: usize| [0.1 * (i % 10) as f32, 0.02 * (i / 100) as f32, 0.1 * (i / 10 % 10) as f32];
@@ -464,7 +468,7 @@ mod tests {
     #[test]
     fn water_meets_things_as_fast_as_it_falls_or_flies() {
         let fall = impact_speed(&[column(0)]);
-        // Free fall through 2 metres, less the share of the quantiles.
+        // Speed after a fall through 2 metres, minus the share that the quantiles cut off.
         let free = (2.0_f32 * 9.81 * 2.0).sqrt();
         assert!(fall < free && fall > 0.97 * free, "{fall}, not {free}");
         assert_eq!(impact_speed(&[column(60)]), fall, "strays");

@@ -1,12 +1,12 @@
-//! Dressed stone: blocks with round edges, and rows of them.
+//! Dressed stone: blocks with chamfered edges, and rows of them.
 
 use glam::{Vec3, vec3};
 use whitewater::headless::scene::{Material, Mesh};
 
 use crate::shore::terrain::number;
 
-/// A box whose edges are broken by a chamfer that is shaded round. `hidden`: faces that others hide, in the order +x -x +y
-/// -y +z -z.
+/// A box whose edges have a chamfer with smooth normals. `hidden` lists faces that other objects hide, in the order +x
+/// -x +y -y +z -z.
 pub fn dressed(low: Vec3, high: Vec3, chamfer: f32, material: Material, hidden: &[usize]) -> Mesh {
     let mut mesh = Mesh { name: "stone".into(), material, ..Mesh::default() };
     add(&mut mesh, low, high, chamfer, hidden);
@@ -21,7 +21,7 @@ fn add(mesh: &mut Mesh, low: Vec3, high: Vec3, chamfer: f32, hidden: &[usize]) {
         let of = |axis: usize| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 };
         vec3(of(0), of(1), of(2))
     };
-    // Each corner three times, once for each face that meets there.
+    // Each corner is three vertices, one for each adjacent face.
     for corner in 0..8 {
         for axis in 0..3 {
             let sign = sign(corner);
@@ -49,7 +49,7 @@ fn add(mesh: &mut Mesh, low: Vec3, high: Vec3, chamfer: f32, hidden: &[usize]) {
     for axis in 0..3 {
         let (u, v) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
         for side in 0..2 {
-            // The faces are in pairs, the positive one first.
+            // Faces are in pairs, the positive side first.
             if !hidden.contains(&(2 * axis + 1 - side)) {
                 let base = side << axis;
                 polygon(&[base, base | u, base | u | v, base | v].map(|c| vertex(c, axis)));
@@ -67,7 +67,7 @@ fn add(mesh: &mut Mesh, low: Vec3, high: Vec3, chamfer: f32, hidden: &[usize]) {
     }
 }
 
-/// A row of stones that fills a box along an axis, each about so long and of its own shade.
+/// A row of stones that fills a box along an axis. Each has about the given length, and its own shade.
 pub fn row(
     (low, high): (Vec3, Vec3),
     axis: usize,
@@ -86,7 +86,7 @@ pub fn row(
     let count = ((high[axis] - low[axis]) / long).round().max(1.0) as usize;
     for i in 0..count {
         let at = |i: usize| {
-            // Not cut to one measure.
+            // The stones' lengths vary.
             let off = if i == 0 || i == count { 0.0 } else { 0.24 * (number(i, seed) - 0.5) };
             low[axis] + (high[axis] - low[axis]) * (i as f32 + off) / count as f32
         };
@@ -124,7 +124,7 @@ mod tests {
             area += face;
         }
         assert!(area.length() < 1.0e-5, "open: {area}");
-        // The box less twelve prisms, but for its corners.
+        // Volume of the box minus twelve prisms; the corners are neglected.
         let prisms = 0.5 * 0.05 * 0.05 * 4.0 * (high - low).element_sum();
         let expected = (high - low).element_product() - prisms;
         assert!((volume - expected).abs() < 8.0 * 0.05_f32.powi(3), "{volume} {expected}");

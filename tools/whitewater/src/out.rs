@@ -5,9 +5,10 @@ use std::io::{ErrorKind, Write, stderr, stdout};
 
 use crate::failure::{Failure, Kind, Outcome};
 
-/// Writes to the standard output, at once.
+/// Writes to standard output and flushes.
 ///
-/// A reader that has gone (`| head`) is [`Kind::Closed`], which ends the program without a word.
+/// If the reader has closed the pipe (`| head`), the error is [`Kind::Closed`], and the program ends with code 0 and
+/// without a message.
 pub fn print(text: Arguments<'_>) -> Outcome<()> {
     let mut to = stdout().lock();
     to.write_fmt(text).and_then(|()| to.flush()).map_err(|error| match error.kind() {
@@ -16,7 +17,7 @@ pub fn print(text: Arguments<'_>) -> Outcome<()> {
     })
 }
 
-/// A line for the user. Where it cannot be written nothing is lost but the line.
+/// Prints a line for the user on stderr. If that fails, only the line is lost.
 pub fn note(text: Arguments<'_>) {
     let _ = writeln!(stderr(), "whitewater: {text}");
 }

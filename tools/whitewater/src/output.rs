@@ -1,8 +1,8 @@
 //! Writes files under a temporary name in the same folder, then renames them. Ctrl-C removes them; the next run
 //! that writes the same file removes what a killed run has left.
 //!
-//! A file without a name (O_TMPFILE) would leave nothing at all, but it can only be linked to a free name,
-//! which that of a redrawn picture is not, and not all file systems support it.
+//! An unnamed file (O_TMPFILE) would leave nothing behind, but it can only be linked to a name that is free, so it
+//! could not replace an existing picture, and not all file systems support it.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -15,31 +15,31 @@ use whitewater::io::particles::WriteFormat;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::out;
 
-/// Temporary files there are now. What Ctrl-C has to remove; the lock is held while one is renamed.
+/// Existing temporary files, which Ctrl-C has to remove. The lock is held during a rename.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn temporary() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What Ctrl-C does first: writes what was measured until then.
+/// A last action of Ctrl-C, which writes the measurements so far.
 type Last = Box<dyn FnOnce() -> Outcome<()> + Send>;
 static LAST: Mutex<Option<Last>> = Mutex::new(None);
 
-/// Has Ctrl-C do this before it ends the program; nothing else that was set so.
+/// Sets the last action of Ctrl-C, in place of an earlier one.
 pub fn at_interrupt(last: impl FnOnce() -> Outcome<()> + Send + 'static) {
     *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
 }
 
-/// Does at the end what Ctrl-C would have done, so that it is done once.
+/// Runs the last action at the end of the program and clears it, so that it runs once.
 pub fn at_end() -> Outcome<()> {
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
     last.take().map_or(Ok(()), |last| last())
 }
 
-/// From here on Ctrl-C (and SIGTERM) removes what is half written, and ends with code 130.
+/// Installs the handler: Ctrl-C and SIGTERM remove unfinished files and end the program with code 130.
 pub fn clean_up_on_interrupt() {
-    // Without a handler the system's own holds: a half file may stay, and nothing else is lost.
+    // If no handler can be installed, the default one applies: a partial file may remain, and nothing else is lost.
     let _ = ctrlc::set_handler(|| {
         if let Err(failure) = at_end() {
             out::note(format_args!("{}", failure.message));
@@ -49,17 +49,17 @@ pub fn clean_up_on_interrupt() {
             let _ = std::fs::remove_file(file);
         }
         out::note(format_args!("interrupted; finished files are kept"));
-        // The lock is still held: no other thread renames or makes a file now.
-        // What was said is out: `out` flushes each time, and another thread may hold the standard output.
+        // The lock is still held, so no other thread renames or creates a file. Output is complete: `out` flushes each
+        // time, and another thread may hold standard output.
         end(130);
     });
 }
 
-/// Ends at once. The driver's threads may be at work: what it and the layers tear down at an ordinary exit would be
-/// gone under them.
+/// Ends the process immediately. Drivers' threads may still run; an ordinary exit would destroy data of the driver and
+/// the layers while they use it.
 fn end(code: i32) -> ! {
     #[cfg(unix)]
-    // SAFETY: of this process, which needs nothing after it.
+    // SAFETY: it ends this process, and nothing runs after it.
     unsafe {
         libc::_exit(code)
     }
@@ -67,25 +67,25 @@ fn end(code: i32) -> ! {
     std::process::exit(code)
 }
 
-/// Takes a temporary file away where writing failed; after the renaming there is none.
+/// Removes a temporary file if writing failed; after the rename the file no longer exists.
 struct Guard(PathBuf);
 
 impl Guard {
-    /// A temporary file for `path`. It is locked as long as it is open, which is how others know that it is in use.
+    /// Creates a temporary file for `path`. It stays locked while open, so that other runs know that it is in use.
     fn new(path: &Path) -> io::Result<(Self, File)> {
         let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         sweep(path, &name);
         let process = std::process::id();
         let mut files = temporary();
-        // A name is taken where a run of the same number has it: a killed one's, or one on another machine.
+        // A name is taken if another run with the same process number uses it: a killed one, or one on another machine.
         for number in 0..100 {
             let path = path.with_file_name(format!(".{name}.{process}.{number}.tmp"));
             let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
                 opened => opened?,
             };
-            // Before the lock another run may take the file for a leftover. A file system without locks has no
-            // such runs either.
+            // Until the lock is taken another run may mistake the file for a leftover. On a file system without locks
+            // no run removes leftovers.
             let locked = !matches!(FileExt::try_lock(&file), Err(TryLockError::WouldBlock));
             if locked && path.exists() {
                 files.push(path.clone());
@@ -96,7 +96,7 @@ impl Guard {
     }
 }
 
-/// Takes away the temporary files of `path` that nobody has locked: the runs that made them were killed.
+/// Removes temporary files of `path` that no run has locked; the runs that made them were killed.
 fn sweep(path: &Path, name: &str) {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten();
@@ -105,7 +105,7 @@ fn sweep(path: &Path, name: &str) {
         if !regular || !is_temporary(&entry.file_name().to_string_lossy(), name) {
             continue;
         }
-        // Opened to write: some file systems lock others only so.
+        // Opened for writing, because some file systems grant locks only then.
         let file = OpenOptions::new().write(true).open(entry.path());
         if file.is_ok_and(|file| FileExt::try_lock(&file).is_ok()) {
             let _ = std::fs::remove_file(entry.path());
@@ -113,7 +113,7 @@ fn sweep(path: &Path, name: &str) {
     }
 }
 
-/// Whether a file is a temporary one of the file `of`, by its name.
+/// Whether a file name is that of a temporary file of `of`.
 fn is_temporary(name: &str, of: &str) -> bool {
     let numbers = name
         .strip_prefix('.')
@@ -133,8 +133,7 @@ impl Drop for Guard {
     }
 }
 
-/// Writes a file as a whole or not at all. What is no regular file (`/dev/stdout`, a link to a device) is written
-/// to as it is.
+/// Writes a file as a whole or not at all. Special files (`/dev/stdout`, or a link to a device) are written directly.
 pub fn write(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -169,7 +168,7 @@ fn write_io(
     renamed
 }
 
-/// Fails where a file could not be written, before time is spent on what shall be in it.
+/// Fails early if a file cannot be written, before time is spent on its contents.
 pub fn probe(path: &Path) -> Outcome<()> {
     let fail = |error: io::Error| Failure::writing(path, &error);
     match std::fs::metadata(path) {
@@ -187,7 +186,7 @@ pub fn probe(path: &Path) -> Outcome<()> {
     Guard::new(&path).map(drop).map_err(fail)
 }
 
-/// Kinds of pictures.
+/// Picture formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureFormat {
     Exr,
@@ -195,7 +194,7 @@ pub enum PictureFormat {
 }
 
 impl PictureFormat {
-    /// By the end of a name.
+    /// The format for a file extension.
     fn of(name: &Path) -> Option<Self> {
         match name.extension()?.to_string_lossy().to_lowercase().as_str() {
             "exr" => Some(Self::Exr),
@@ -210,16 +209,16 @@ fn no_such(pattern: &Path, endings: &str) -> Failure {
     Failure::usage(format!("expected an output that ends in {endings}, found {pattern}; rename it"))
 }
 
-/// What frames become.
+/// What the frames are written to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Output {
-    /// A file each.
+    /// One file per frame.
     Picture(PictureFormat),
-    /// One file of all.
+    /// One file for all frames.
     Film,
 }
 
-/// Where pictures go, or other files of each frame.
+/// Output files of each frame: pictures, or particles.
 #[derive(Clone, Debug)]
 pub struct Target<F = PictureFormat> {
     pattern: PathBuf,
@@ -228,7 +227,7 @@ pub struct Target<F = PictureFormat> {
 }
 
 impl Target<WriteFormat> {
-    /// The same of particles.
+    /// The same for particles.
     pub fn of_particles(pattern: &Path, sequence: bool) -> Outcome<Self> {
         let Some(format) = WriteFormat::from_path(pattern) else {
             let pattern = pattern.display();
@@ -241,7 +240,7 @@ impl Target<WriteFormat> {
 }
 
 impl Target {
-    /// Understands the name of an output; `sequence`: there is more than one frame.
+    /// Parses the name of an output. `sequence` says whether there is more than one frame.
     pub fn new(pattern: &Path, sequence: bool) -> Outcome<Self> {
         let Some(format) = PictureFormat::of(pattern) else {
             return Err(no_such(pattern, ".exr or .png"));
@@ -251,7 +250,7 @@ impl Target {
 }
 
 impl Target<Output> {
-    /// The same where all frames may become a film.
+    /// The same for outputs that may also be a film.
     pub fn of_frames(pattern: &Path, sequence: bool) -> Outcome<Self> {
         let film = pattern.extension().is_some_and(|end| end.eq_ignore_ascii_case("mp4"));
         if !film {
@@ -288,7 +287,7 @@ impl<F> Target<F> {
         self.pattern.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default()
     }
 
-    /// True where each frame has a file of its own.
+    /// Whether each frame has its own file.
     pub fn is_numbered(&self) -> bool {
         self.sequence || self.name().contains('%')
     }
@@ -310,7 +309,7 @@ impl<F> Target<F> {
     }
 }
 
-/// Text before, width and text after the one `%d` or `%04d`.
+/// Splits a name at its only `%d` or `%04d`: the text before, the width, the text after.
 fn number_field(name: &str) -> Option<(&str, usize, &str)> {
     let (before, rest) = name.split_once('%')?;
     let (spec, after) = rest.split_once('d')?;
@@ -379,7 +378,7 @@ mod tests {
     fn only_leftovers_of_the_same_file_are_swept() {
         let folder = tempfile::tempdir().unwrap();
         let leftovers = [".a.txt.1.0.tmp", ".a.txt.4194304.3.tmp"];
-        // Of another file, of another form, in use.
+        // A temporary file of another file, one of another format, and one in use.
         let others = [".a.txt.notes.tmp", ".b.txt.1.0.tmp", ".a.txt.2.0.tmp"];
         for name in leftovers.iter().chain(&others) {
             std::fs::write(folder.path().join(name), "half").unwrap();

@@ -10,23 +10,23 @@ use crate::failure::{Failure, Outcome};
 use crate::out;
 use crate::output::{self, PictureFormat, Target};
 
-/// From where on a picture is white.
+/// Default luminance from which a pixel is white.
 const THRESHOLD: f32 = 0.5;
-/// Texels a side.
+/// Default side length in texels.
 const SIZE: u32 = 512;
 
-/// What a texture is made of.
+/// Source of a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// A picture.
     File(PathBuf),
-    /// The web of this seed.
+    /// The built-in web with this seed.
     Web(u32),
-    /// The noise of this seed.
+    /// The noise with this seed.
     Noise(u32),
 }
 
-/// Of the command line.
+/// Parses a source from the command line.
 pub fn named(text: &str) -> Result<Source, String> {
     let seed = |name: &str, seed: &str| {
         let bad = |_| format!("{name}: expected a seed from 0 to {}, as in {name}:1", u32::MAX);
@@ -91,7 +91,7 @@ fn of_picture(path: &Path, args: &PatternArgs) -> Outcome<Layers> {
     let picture = picture::read(path)?;
     let (width, height) = (picture.width, picture.height);
     let threshold = args.threshold.unwrap_or(THRESHOLD);
-    // What is transparent is no line: it lies on what is none. What is no number is none either.
+    // Transparent pixels and NaN count as background, not as lines.
     let ground = if args.invert { threshold.max(1.0) } else { 0.0 };
     let light = over(&picture, ground);
     let line = |v: &f32| if args.invert { *v < threshold } else { *v >= threshold };
@@ -121,24 +121,24 @@ fn of_picture(path: &Path, args: &PatternArgs) -> Outcome<Layers> {
     Ok(layers)
 }
 
-/// A web of the user's: the values of a picture as they are, 0 where it is transparent, and its size.
+/// Texture from a user's picture: size and unchanged values, 0 where the picture is transparent.
 pub fn values(path: &Path) -> Outcome<([u32; 2], Vec<f32>)> {
     let picture = picture::read(path)?;
     let size = [picture.width as u32, picture.height as u32];
     Ok((size, over(&picture, 0.0)))
 }
 
-/// Luminance of the values as they are, over a ground where there is alpha.
+/// Luminance of the unchanged values, composited over `ground`.
 fn over(picture: &Layers, ground: f32) -> Vec<f32> {
     let light = luminance(picture);
     let Some(alpha) = picture.channel("A") else { return light };
-    // EXR files hold colours that are multiplied by it.
+    // Colours in EXR files are premultiplied by alpha.
     let straight = picture.encoding == Encoding::Srgb;
     let one = |(v, a): (f32, &f32)| if straight { v * a } else { v } + (1.0 - a) * ground;
     light.into_iter().zip(alpha).map(one).collect()
 }
 
-/// By the channels there are: red, green and blue, or `Y`, or the mean of all but alpha.
+/// Luminance from the existing channels: red, green and blue, or `Y`, or the mean of all channels but alpha.
 fn luminance(picture: &Layers) -> Vec<f32> {
     let color = |name: &str| match name {
         "R" => 0.2126,
@@ -155,7 +155,7 @@ fn luminance(picture: &Layers) -> Vec<f32> {
     let mut light = vec![0.0; picture.width * picture.height];
     for channel in &picture.channels {
         let weight = of(&channel.name, kind) / all;
-        // Others may hold what is no number.
+        // Channels with weight 0 may hold NaN.
         if weight > 0.0 {
             light.iter_mut().zip(&channel.data).for_each(|(light, v)| *light += weight * v);
         }

@@ -9,7 +9,7 @@ use crate::args::{Unit, Up};
 use crate::surface_foam::quantile;
 
 impl Up {
-    /// The one of this index, or against it.
+    /// The axis with this index; with `against`, its negative.
     pub fn along(axis: usize, against: bool) -> Self {
         match (axis, against) {
             (0, false) => Self::X,
@@ -21,7 +21,7 @@ impl Up {
         }
     }
 
-    /// The index of its axis.
+    /// Index of the axis.
     pub fn axis(self) -> usize {
         match self {
             Self::X | Self::MinusX => 0,
@@ -30,7 +30,7 @@ impl Up {
         }
     }
 
-    /// As the option has it.
+    /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::X => "x",
@@ -42,7 +42,7 @@ impl Up {
         }
     }
 
-    /// A vector of the files turned so that this axis is y. Nothing is mirrored.
+    /// Rotates a vector of the files so that this axis becomes y. There is no reflection.
     pub fn turn<T: Neg<Output = T>>(self, [x, y, z]: [T; 3]) -> [T; 3] {
         match self {
             Self::Y => [x, y, z],
@@ -54,7 +54,7 @@ impl Up {
         }
     }
 
-    /// The same back.
+    /// The inverse rotation.
     pub fn turn_back<T: Neg<Output = T>>(self, vector: [T; 3]) -> [T; 3] {
         let inverse = match self {
             Self::Z => Self::MinusZ,
@@ -67,13 +67,13 @@ impl Up {
     }
 }
 
-/// How the particles of files are put into the scene.
+/// Transform from the files to the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placing {
     pub up: Up,
-    /// Metres of a unit of the files.
+    /// Metres per unit of the files.
     pub scale: f32,
-    /// What is taken off positions that lie far out, in the unit of the files: one for all frames.
+    /// Offset that is subtracted from positions far from the origin, in units of the files; one for all frames.
     pub origin: [f64; 3],
 }
 
@@ -94,8 +94,8 @@ impl Placing {
         }
     }
 
-    /// A point in the axes and the unit of the scene that is where the files have it, less what is taken off their positions;
-    /// none where it is nearer to the water as it is.
+    /// A point of the scene minus the offset, for a point that is given as in the files. `None` if the unchanged point
+    /// is nearer to the water.
     pub fn moved(&self, point: [f32; 3]) -> Option<[f32; 3]> {
         let origin = self.up.turn(self.origin.map(|c| c * f64::from(self.scale)));
         let moved: [f64; 3] = std::array::from_fn(|i| f64::from(point[i]) - origin[i]);
@@ -109,7 +109,7 @@ impl Placing {
         }
     }
 
-    /// As the files have them.
+    /// The inverse transform, back to the files.
     pub fn back(&self, positions: &mut [[f32; 3]], velocities: &mut [[f32; 3]]) {
         if self.up != Up::Y {
             let vectors = positions.iter_mut().chain(velocities.iter_mut());
@@ -124,23 +124,23 @@ impl Placing {
     }
 }
 
-/// Acceleration of a fall, m/s².
+/// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
-/// Water that falls from its own height is as fast as the root of twice this number times that (a Froude number squared of
-/// 2); a jet under pressure may be some times as fast, water in a unit that is a hundredth or a thousandth is not.
+/// Max squared Froude number, v² / (g · extent), that is plausible. Water after a fall through its own height has 2, a
+/// jet under pressure a few times as much; if the unit is really a hundredth or a thousandth of a metre, the number is
+/// far larger.
 const FASTEST: f32 = 40.0;
-/// Metres across from which on, and up to which, water is asked whether it is so large, or small, where its speed does not
-/// tell.
+/// Extents in metres above and below which the user is asked for the unit, if the speed gives no hint.
 const LARGE: f32 = 200.0;
 const TINY: f32 = 0.005;
 
-/// How fast nearly all particles are at most; none without velocities.
+/// The 0.99 quantile of the speeds; `None` without velocities.
 pub fn fastest(particles: &Particles) -> Option<f32> {
     let speeds = particles.velocities.as_ref()?.iter().map(|v| Vec3::from(*v).length());
     quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
 }
 
-/// The unit in brackets behind the names of positions, where it is no metre.
+/// The unit in brackets after the names of positions, if it is not metres.
 pub fn named(particles: &Particles) -> Option<Unit> {
     let (_, names) = particles.meanings.iter().find(|(m, _)| *m == Meaning::Position)?;
     let unit = |name: &String| {
@@ -152,21 +152,22 @@ pub fn named(particles: &Particles) -> Option<Unit> {
     units?.first().copied()
 }
 
-/// A word on that.
+/// A message about that unit.
 pub fn named_hint(particles: &Particles) -> Option<String> {
     let unit = named(particles)?.name();
     Some(format!(
-        "the names of the positions say {unit}, which are taken for metres: --unit {unit} makes metres of them"
+        "the names of the positions say {unit}, but they are read as metres; --unit {unit} converts them"
     ))
 }
 
-/// A word on an extent that is no likely one of water in metres; `fastest`: of nearly all, where velocities are known.
+/// A message if the extent in metres is implausible. `fastest` is the speed that nearly all particles stay below, if
+/// known.
 pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
     let spans = format!("the water spans {} metres", crate::looks::round(extent));
     let froude = fastest.map(|speed| speed * speed / (GRAVITY * extent));
     match froude {
         Some(number) if number.is_finite() && number > FASTEST => {
-            // In a unit of so many metres the number is that many times it.
+            // In a unit of this many metres the number is multiplied by as much.
             let off = |unit: &Unit| (number * unit.metres()).ln().abs();
             let units = [Unit::Mm, Unit::Cm];
             let unit = units.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
@@ -176,11 +177,11 @@ pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
                 unit.name()
             ))
         }
-        // As fast as water of that size.
+        // The speed is plausible for this extent.
         Some(number) if number > 0.02 => None,
         // A single particle has no extent.
         _ if extent.is_finite() && extent > 0.0 && !(TINY..=LARGE).contains(&extent) => {
-            Some(format!("{spans}: if the files are in another unit, --unit mm, cm or km says so"))
+            Some(format!("{spans}: if the files are in another unit, set --unit mm, cm or km"))
         }
         _ => None,
     }
@@ -190,7 +191,7 @@ pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// A dam of half a metre in metres, millimetres and centimetres, one of a kilometre, a cup, and what is at rest.
+    /// A dam of half a metre in metres, millimetres and centimetres, one of a kilometre, a cup, and water at rest.
     #[test]
     fn units_that_cannot_be_are_told() {
         assert_eq!(hint(1.3, Some(3.5)), None);
@@ -205,7 +206,7 @@ mod tests {
         assert_eq!(hint(f32::NAN, None), None);
     }
 
-    /// Frames of which another origin was taken off each lie where they are to each other.
+    /// If frames have different offsets, their positions relative to each other are kept.
     #[test]
     fn frames_have_one_origin() {
         let placing = Placing { origin: [4096.0, 0.0, -64.0], ..Placing::default() };
@@ -219,7 +220,7 @@ mod tests {
         assert_eq!(found, [[1.5, 2.0, -3.0], [129.5, 2.0, 61.0], [-4094.5, 2.0, 61.0]]);
     }
 
-    /// An eye beside particles that lie far out is given where they are, or where they are moved to.
+    /// A camera position near particles far from the origin may be given in either coordinates.
     #[test]
     fn a_point_far_out_is_moved_with_the_particles() {
         let far = Placing { up: Up::Z, scale: 0.5, origin: [4096.0, 1024.0, 64.0] };
@@ -228,7 +229,7 @@ mod tests {
         assert_eq!(Placing::default().moved([9.0, 1.0, 0.0]), None);
     }
 
-    /// Each axis that is up becomes y, by a rotation, and comes back.
+    /// Each up axis becomes y by a rotation, which can be inverted.
     #[test]
     fn every_axis_is_turned_to_y() {
         for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! What is found from a few frames of a sequence.
+//! Properties that are found from a few frames of a sequence.
 
 use std::ops::Range;
 
@@ -12,22 +12,22 @@ use crate::placing;
 use crate::reader::{Has, Reader};
 use crate::surface_foam;
 
-/// Frames of a sequence that are looked at: as water comes in and comes to rest, few are like the rest.
+/// Number of probed frames. Water that flows in and comes to rest differs from frame to frame, so a few are not enough.
 const PROBES: usize = 16;
 
-/// A few frames of the whole sequence, from which its look is found: the same however it is cut into jobs.
+/// A few frames of the whole sequence, from which its look is found. They do not depend on the range that a job draws.
 pub struct Probes {
     pub frames: Vec<Particles>,
     pub numbers: Vec<u64>,
-    /// Frames a second by two that follow each other.
+    /// Frames per second, from two consecutive frames.
     pub fps: Option<f32>,
-    /// The number of the first of the sequence.
+    /// Number of the sequence's first frame.
     pub first: u64,
-    /// What any of the files has of its own.
+    /// Attributes that any of the files has itself.
     pub own: Has,
 }
 
-/// Pairs of frames that are asked how far they are apart: some may lack what tells it.
+/// Number of frame pairs from which the time step is estimated; some may lack the necessary data.
 const PAIRS: usize = 6;
 
 impl Probes {
@@ -46,7 +46,7 @@ impl Probes {
                 Err(failure) => _ = first_failure.get_or_insert(failure),
             }
         }
-        // All of them are bad: whichever can be read, or the reason why none can.
+        // No probed frame can be read: use another readable one, or report the reason of the first.
         if frames.is_empty() {
             let readable = left.iter().find_map(|frame| reader.read(frame).ok());
             match (readable, first_failure) {
@@ -59,7 +59,7 @@ impl Probes {
             }
         }
         let own = reader.seen;
-        // Of velocities that are found by it the rate is what they say: as the files have them.
+        // The rate comes from velocities in the files, since estimated velocities depend on it.
         let apart = |pair: &[Frame]| {
             let [a, b] = pair else { return None };
             let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);
@@ -73,7 +73,7 @@ impl Probes {
         Ok(Self { frames, numbers, fps, first, own })
     }
 
-    /// What to say of what none of the files of a sequence has, where foam is wanted.
+    /// A message about attributes that no file of the sequence has, if foam is wanted.
     pub fn missing(&self, files: usize) -> Option<String> {
         let velocities = self.frames.iter().any(|frame| frame.velocities.is_some());
         let Has { velocities: own, ids, .. } = self.own;
@@ -81,7 +81,7 @@ impl Probes {
             1 if !velocities => {
                 let ids = if ids { "" } else { " and no ids" };
                 format!(
-                    "no velocities{ids}: no foam (of a sequence velocities are found, where particles have ids or keep \
+                    "no velocities{ids}: no foam (in a sequence velocities are found if particles have ids or keep \
                      their order)"
                 )
             }
@@ -89,10 +89,10 @@ impl Probes {
                 "no velocities and no ids, and particles do not keep their order: no foam".into()
             }
             _ if !velocities => {
-                "no velocities, and ids that tell no particle from frame to frame: no foam".into()
+                "no velocities, and ids that do not identify particles from frame to frame: no foam".into()
             }
             2.. if own && !ids => {
-                "no ids: foam is found anew in each frame (with ids it comes and goes with the particles)".into()
+                "no ids: foam is found for each frame by itself (with ids it forms and decays on the particles)".into()
             }
             _ => return None,
         })
@@ -103,7 +103,7 @@ impl Probes {
         self.frames.iter().find_map(each)
     }
 
-    /// A word on what is no likely extent of water.
+    /// A message if the water's extent is implausible.
     pub fn unit_hint(&self) -> Option<String> {
         if let Some(named) = self.frames.iter().find_map(placing::named_hint) {
             return Some(named);
@@ -117,12 +117,12 @@ impl Probes {
         self.frames.iter().filter_map(|f| Bounds::of_bulk(&f.positions)).reduce(|a, b| a.union(&b))
     }
 
-    /// In the unit of the file: 1000 where that fits, else what most of the particles have.
+    /// Rest density in the unit of the file: 1000 if that fits, otherwise the density that most particles have.
     pub fn rest_density(&self) -> Option<f32> {
         self.rest_density_of((0, 1))
     }
 
-    /// The same of one of so many fluids.
+    /// The same for one of several fluids: its index and their number.
     pub fn rest_density_of(&self, (fluid, count): (usize, usize)) -> Option<f32> {
         let part = |frame: &'_ Particles| {
             let Range { start, end } = fluids::ranges(frame, count).get(fluid)?.clone();

@@ -10,19 +10,20 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::out;
 
-/// A step that lasts so long is told of; again after ten times as long, and twice that, and so on.
+/// Time after which a running step is reported. It is reported again after ten times as long, then whenever the time
+/// has doubled.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// What is being done.
+/// The current step.
 struct Step {
     name: String,
     began: Instant,
-    /// When it is told of next.
+    /// Time of its next report.
     due: Duration,
 }
 
 impl Step {
-    /// What there is to say after so long.
+    /// The report that is due after this time.
     fn told(&mut self, gone: Duration) -> Option<String> {
         (gone >= self.due).then(|| {
             self.due = (2 * self.due).max(10 * PATIENCE);
@@ -31,7 +32,7 @@ impl Step {
     }
 }
 
-/// A run of so many frames, or other things.
+/// Progress over a number of frames or other items.
 pub struct Progress {
     bar: Option<ProgressBar>,
     step: Arc<Mutex<Option<Step>>>,
@@ -40,7 +41,7 @@ pub struct Progress {
     began: Instant,
 }
 
-/// Where steps are told of.
+/// Reports steps.
 #[derive(Clone)]
 pub struct Steps {
     bar: Option<ProgressBar>,
@@ -52,7 +53,7 @@ fn lock(step: &Mutex<Option<Step>>) -> MutexGuard<'_, Option<Step>> {
 }
 
 impl Progress {
-    /// `things`: what there are many of, such as frames.
+    /// `things` names the items, such as frames.
     pub fn new(total: usize, things: &str) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let (bar, template) = match total {
@@ -77,17 +78,17 @@ impl Progress {
         Self { bar, step, total, done: 0, began: Instant::now() }
     }
 
-    /// For those who take them.
+    /// A handle for code that runs steps.
     pub fn steps(&self) -> Steps {
         Steps { bar: self.bar.clone(), step: Arc::clone(&self.step) }
     }
 
-    /// A line that stays.
+    /// Prints a line that stays.
     pub fn say(&self, line: &str) {
         self.aside(|| out::note(format_args!("{line}")));
     }
 
-    /// Does what writes to the terminal.
+    /// Runs `write`, which prints to the terminal, without the bar in its way.
     pub fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
         match &self.bar {
             Some(bar) => bar.suspend(write),
@@ -95,7 +96,7 @@ impl Progress {
         }
     }
 
-    /// One more is done, well or not; `line` is shown where there is no bar.
+    /// Counts one more item, successful or not. `line` is printed if there is no bar.
     pub fn advance(&mut self, line: &str) {
         self.done += 1;
         if let Some(bar) = &self.bar
@@ -134,7 +135,7 @@ impl Drop for Progress {
 }
 
 impl Steps {
-    /// A line that stays.
+    /// Prints a line that stays.
     pub fn say(&self, line: &str) {
         let note = || out::note(format_args!("{line}"));
         match &self.bar {
@@ -143,7 +144,7 @@ impl Steps {
         }
     }
 
-    /// Does a step, which is told of where it takes long.
+    /// Runs a step, and reports it if it takes long.
     pub fn during<T>(&self, name: impl Display, work: impl FnOnce() -> T) -> T {
         if let Some(bar) = &self.bar {
             bar.set_message(name.to_string());
@@ -156,7 +157,7 @@ impl Steps {
     }
 }
 
-/// Tells of steps that last, until they are no one's.
+/// Reports long steps until all handles are dropped.
 fn watch(step: &Weak<Mutex<Option<Step>>>) {
     while let Some(step) = step.upgrade() {
         if let Some(step) = lock(&step).as_mut()

@@ -1,5 +1,5 @@
-//! Radii of particles in files. The renderer draws all particles alike: where radii differ much, large particles are drawn
-//! as several small ones in their place.
+//! Radii of particles in files. The renderer draws all particles with one radius: if radii differ much, each large
+//! particle is replaced by several small ones.
 
 use std::f32::consts::PI;
 
@@ -10,25 +10,26 @@ use crate::extras::find;
 use crate::fluids::reorder;
 use crate::surface_foam::quantile;
 
-/// Names of radii.
+/// Attribute names of radii.
 pub const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];
-/// Names of twice that: of LAMMPS, and of OpenFOAM's clouds.
+/// Attribute names of diameters: LAMMPS, and OpenFOAM's clouds.
 pub const DIAMETERS: [&str; 3] = ["diameter", "diam", "d"];
 
-/// Particles whose radii differ by less are drawn alike: twice the volume.
+/// Ratio of radii below which particles are drawn alike: twice the volume.
 const ALIKE: f32 = 1.26;
-/// Of the radii, the one that becomes that of all, where no more particles come of it than so many times as many.
+/// Quantile of the radii that becomes the common radius, if the number of particles grows by no more than [`MOST`];
+/// otherwise a larger one.
 const BASE: f64 = 0.05;
 const MOST: usize = 8;
-/// A particle fills a cube of twice its radius; a ball of so many radii has its volume.
+/// A particle fills a cube whose edge is twice its radius; a ball of this many radii has the same volume.
 const BALL: f32 = 1.2407;
 
-/// Whether an attribute is taken for radii.
+/// Whether an attribute is taken as radii.
 pub fn is_radius(name: &str) -> bool {
     RADII.iter().chain(&DIAMETERS).any(|radius| same_name(radius, name))
 }
 
-/// The radii of the particles, in the unit of the file.
+/// Radii of the particles, in the unit of the file.
 fn of(particles: &Particles) -> Option<Vec<f32>> {
     let radius = RADII.iter().find_map(|name| Some((find(particles, name)?, 1.0)));
     let diameter = || DIAMETERS.iter().find_map(|name| Some((find(particles, name)?, 0.5)));
@@ -36,7 +37,7 @@ fn of(particles: &Particles) -> Option<Vec<f32>> {
     Some(extra.values.iter().map(|r| (of * *r) as f32).collect())
 }
 
-/// The smallest radius of the particles, the middle one and the largest, in the unit of the file.
+/// Min, median and max radius of the particles, in the unit of the file.
 pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
     let mut radii = of(particles)?;
     radii.retain(|radius| radius.is_finite() && *radius > 0.0);
@@ -44,17 +45,17 @@ pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
     Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
 }
 
-/// How large particles are split: the same in all frames.
+/// How large particles are split, in all frames alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split {
-    /// The radius of all, in the unit of the file.
+    /// The common radius, in the unit of the file.
     pub base: f32,
-    /// Most particles that come of one.
+    /// Max number of particles that replace one.
     most: u32,
 }
 
 impl Split {
-    /// By the particles of a frame; none where they are all alike.
+    /// From the particles of a frame; `None` if their radii are alike.
     pub fn of(particles: &Particles) -> Option<Self> {
         let mut radii = of(particles)?;
         radii.retain(|radius| radius.is_finite() && *radius > 0.0);
@@ -69,12 +70,12 @@ impl Split {
         while count(base) > MOST * radii.len() {
             base *= 1.1;
         }
-        // What becomes larger later is split no finer than this.
+        // Particles that are larger in later frames are not split more finely.
         let most = copies(largest, base).max(2);
         Some(Self { base, most })
     }
 
-    /// Splits the particles of a frame; says how many there were.
+    /// Splits the particles of a frame; returns their previous number if any was split.
     pub fn apply(&self, particles: &mut Particles) -> Option<usize> {
         let radii = of(particles)?;
         let count = radii.len();
@@ -100,7 +101,7 @@ impl Split {
                     *position = (Vec3::from(*position) + away).to_array();
                 }
                 at += 1;
-                // A particle that no number is left for is one of many.
+                // If the ids run out, the particle has none of its own.
                 let id = id.and_then(|id| id.checked_mul(self.most)?.checked_add(k));
                 own = own.zip(id).map(|(mut own, id)| {
                     own.push(id);
@@ -113,7 +114,7 @@ impl Split {
     }
 }
 
-/// How many particles of a radius fill as much as one.
+/// Number of particles of the base radius with the volume of one particle.
 fn copies(radius: f32, base: f32) -> u32 {
     let times = radius / base;
     if times.is_finite() && times > ALIKE {
@@ -123,18 +124,18 @@ fn copies(radius: f32, base: f32) -> u32 {
     }
 }
 
-/// One of so many points that fill the unit ball evenly: on spirals, by the golden angle.
+/// Point `k` of `count` points that fill the unit ball evenly: spirals by the golden angle.
 fn even(k: u32, count: u32) -> Vec3 {
     let part = (k as f32 + 0.5) / count as f32;
-    // By another number over the height than outwards, so that a shell has all directions.
+    // Another irrational step for the height than for the distance, so that each shell has all directions.
     let height = 1.0 - 2.0 * (0.5 + k as f32 * 0.754_877_7).fract();
     let around = k as f32 * PI * (3.0 - 5.0_f32.sqrt());
     let level = (1.0 - height * height).max(0.0).sqrt();
-    // A particle in the middle of its part: no farther out than it is itself.
+    // The point is in the middle of its part, so the copies do not extend beyond the particle.
     part.cbrt() * 0.85 * Vec3::new(level * around.cos(), height, level * around.sin())
 }
 
-/// A direction of its own for each particle, so that copies make no pattern.
+/// A random rotation for each particle, so that the copies form no pattern.
 fn turn(id: u32) -> Quat {
     let hash = |salt: u32| {
         let mixed = (id ^ salt).wrapping_mul(0x9e37_79b9);
@@ -166,7 +167,7 @@ mod tests {
         assert_eq!(super::radii(&particles(&radii)).unwrap()[0], 0.1);
     }
 
-    /// One of twice the radius becomes eight of its volume, that stay what they are from frame to frame.
+    /// A particle with twice the radius becomes eight with its volume, which stay the same from frame to frame.
     #[test]
     fn large_particles_become_several() {
         let radii: Vec<f32> = (0..100).map(|i| if i % 10 == 9 { 0.2 } else { 0.1 }).collect();
@@ -184,7 +185,7 @@ mod tests {
         let mut again = particles(&radii);
         split.apply(&mut again);
         assert_eq!(again.positions, all.positions);
-        // No more than eight times as many.
+        // The number of particles grows by a factor of eight at most.
         let radii: Vec<f32> = (0..1000).map(|i| if i < 100 { 0.01 } else { 0.2 }).collect();
         let mut many = particles(&radii);
         let split = Split::of(&many).unwrap();
@@ -192,7 +193,7 @@ mod tests {
         assert!((2000..=8000).contains(&many.positions.len()), "{}", many.positions.len());
     }
 
-    /// Points fill the ball: as many in each half and each eighth of the volume.
+    /// The points fill the ball: each half and each eighth of the volume holds as many.
     #[test]
     fn copies_are_even() {
         let all: Vec<Vec3> = (0..512).map(|k| even(k, 512) / 0.85).collect();

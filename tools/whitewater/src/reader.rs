@@ -1,5 +1,5 @@
-//! The frames of `render` in drawing order: turned to y-up, with warnings about unusual data, and with
-//! velocities from frame to frame where the files have none.
+//! Reads the frames of `render` in drawing order: rotated to y-up, with warnings about unusual data, and with
+//! velocities from finite differences if the files have none.
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -17,18 +17,18 @@ use crate::placing::Placing;
 use crate::radii::{self, Split};
 use crate::surface_foam::quantile;
 
-/// Frames a second, where that can't be found.
+/// Frames per second if no rate can be found.
 pub const DEFAULT_FPS: f32 = 30.0;
 
-/// A particle that goes farther from frame to frame than this part of what lies between two of them is another one
-/// by the same name, or place in the file.
+/// Max displacement between frames as a part of the water's size. A particle that moves farther is taken for another
+/// one with the same id or index.
 const FAR: f32 = 0.25;
-/// Times that are seconds are no nearer each other than this.
+/// Min difference of two times in seconds; smaller values are no seconds.
 const LEAST: f32 = 1.0e-4;
-/// Particles that are looked at for that.
+/// Number of particles from which the water's size is estimated.
 const LOOKED_AT: usize = 4096;
 
-/// What the frame after one needs of it.
+/// Data of a frame for the velocities of the next one.
 struct Known {
     number: u64,
     positions: Vec<[f32; 3]>,
@@ -41,18 +41,18 @@ pub struct Reader<'a> {
     placing: Placing,
     conditions: &'a [Condition],
     fluids: &'a Fluids,
-    /// Radii of particles in the first frame that was read: the least, the middle one, the largest.
+    /// Min, median and max radius in the first frame that was read.
     pub radii: Option<[f32; 3]>,
-    /// How large particles are split, by the first frame that was read.
+    /// How large particles are split; determined by the first frame that was read.
     split: OnceCell<Option<Split>>,
-    /// Frames a second, where velocities are to be found; else none are.
+    /// Frames per second if velocities are estimated, otherwise `None`.
     fps: Option<f32>,
     last: Option<Known>,
-    /// Some were found.
+    /// Whether any velocities were estimated.
     pub found_velocities: bool,
-    /// What frames of the sequence have; one that has not is told of.
+    /// Attributes that frames of the sequence have; a frame without one gets a warning.
     pub expected: Has,
-    /// What those have that were read.
+    /// Attributes of the frames read so far.
     pub seen: Has,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Reader<'a> {
         {
             self.neighbour(frame.number);
             let known = self.last.take();
-            // As the file has it, so that the frames after are the same however a sequence is cut into jobs.
+            // Positions as in the file, so that later frames do not depend on the range that a job draws.
             self.last = Some(Known {
                 number: frame.number,
                 positions: particles.positions.clone(),
@@ -120,44 +120,44 @@ impl<'a> Reader<'a> {
         if let Some(names) = lacks.names() {
             let found = Has::of(&particles).without(own).and(lacks).names();
             let found = found.map_or(String::new(), |found| {
-                format!("; {found} are found by where particles are in the frame beside it")
+                format!("; {found} are found from the particles of the neighbouring frame")
             });
             particles.warnings.push(format!("no {names}, which other frames have{found}"));
         }
         Ok(particles)
     }
 
-    /// Frames a second by the times that the first files say, or their names, where these are no numbers of steps.
+    /// Frames per second from times in the first files, or from times in their names unless these are step numbers.
     pub fn rate(&self) -> Option<f32> {
         let [a, b, ..] = self.all else { return None };
         let [first, second] = [a, b].map(|frame| self.as_it_is(frame).ok()?.time.or(frame.time));
         let seconds = (second? - first?) as f32;
-        // Steps are a whole number apart.
+        // Step numbers differ by whole numbers.
         (seconds > LEAST && seconds < 1.0).then(|| (b.number - a.number) as f32 / seconds)
     }
 
-    /// The radius to which larger particles are split; none where all are alike.
+    /// The radius that larger particles are split to; `None` if radii are alike.
     pub fn base(&self) -> Option<f32> {
         Some(self.split.get().copied()??.base * self.placing.scale)
     }
 
-    /// Has particles drawn alike, whatever their radii.
+    /// Disables splitting: all particles are drawn with one radius.
     pub fn alike(&mut self) {
         self.split = OnceCell::from(None);
     }
 
-    /// Has frames turned from now on; those that were read are by whoever has them.
+    /// Sets the up axis for frames that are read from now on; the caller rotates earlier ones.
     pub fn turn(&mut self, up: Up) {
         self.placing.up = up;
         self.last = None;
     }
 
-    /// Has velocities found by another rate, where they are found.
+    /// Sets the rate for estimated velocities, if velocities are estimated.
     pub fn set_rate(&mut self, fps: f32) {
         self.fps = self.fps.map(|_| fps);
     }
 
-    /// A frame without what is found or told of it.
+    /// Reads a frame without estimated attributes and without warnings about missing ones.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
         let mut particles = extras::read(frame, self.conditions, self.fluids)?;
         extras::select(&mut particles, self.conditions, &frame.path)?;
@@ -174,7 +174,7 @@ impl<'a> Reader<'a> {
             && let Some(count) = split.apply(&mut particles)
         {
             particles.warnings.push(format!(
-                "radii differ: {count} particles are drawn as {}, so many that each fills its part",
+                "radii differ: {count} particles are split into {} of one radius, by volume",
                 particles.positions.len()
             ));
         }
@@ -182,8 +182,8 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Has the frame before one, or after the first, as the last that was read. One that can't be read tells when its
-    /// turn comes.
+    /// Makes the previous frame, or for the first frame the next one, the last that was read. If it cannot be read, the
+    /// error is reported when it is drawn.
     fn neighbour(&mut self, number: u64) {
         let before = self.all.iter().filter(|frame| frame.number < number).max_by_key(|f| f.number);
         let after = self.all.iter().filter(|frame| frame.number > number).min_by_key(|f| f.number);
@@ -202,7 +202,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What particles have that makes a difference to the picture.
+/// Attributes that change the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Has {
     pub velocities: bool,
@@ -239,7 +239,7 @@ impl Has {
         self.zip(other, |a, b| a & !b)
     }
 
-    /// In words; none where there is nothing.
+    /// The names in words; `None` if there is none.
     pub fn names(self) -> Option<String> {
         let all =
             [(self.velocities, "velocities"), (self.ids, "ids"), (self.densities, "densities")];
@@ -253,7 +253,7 @@ impl Has {
     }
 }
 
-/// Ids of another frame, where particles are in the same order there: nearly all are nearly where they were.
+/// Ids of the neighbouring frame, if particles are in the same order in both: nearly all have moved little.
 fn ids_by_place(now: &Particles, known: &Known) -> Option<Vec<u32>> {
     let ids = known.ids.as_ref().filter(|ids| ids.len() == now.positions.len())?;
     let most = FAR * size(&now.positions)?;
@@ -262,9 +262,9 @@ fn ids_by_place(now: &Particles, known: &Known) -> Option<Vec<u32>> {
     (10 * near > 9 * ids.len()).then(|| ids.clone())
 }
 
-/// How fast particles go, by where they are and were so many seconds ago. Told by their ids or, where neither frame has
-/// any and both have as many, by their places in the files. What is new is at rest; none where most are, or fly about
-/// as only those do whose order is another in each file.
+/// Velocities from the positions now and `seconds` ago. Particles are matched by id or, if neither frame has ids and
+/// the counts are equal, by index. A new particle is at rest. `None` if most particles are new or move implausibly far,
+/// which means that the order differs from file to file.
 fn velocities(now: &Particles, known: &Known, seconds: f32) -> Option<Vec<[f32; 3]>> {
     let before: Vec<Option<[f32; 3]>> = match (&now.ids, &known.ids) {
         (Some(ids), Some(before)) => {
@@ -290,12 +290,12 @@ fn velocities(now: &Particles, known: &Known, seconds: f32) -> Option<Vec<[f32; 
     })
 }
 
-/// How far from each other any two particles are, in the middle.
+/// Median distance between pairs of particles.
 fn size(positions: &[[f32; 3]]) -> Option<f32> {
     let count = positions.len();
     let step = (count / LOOKED_AT).max(1);
     let apart = |i: usize| {
-        // No neighbours in a file's order, which is often one in space.
+        // The pair is far apart in the file's order, which often is an order in space.
         let other = (i + count / 2 + i * 7919) % count;
         Vec3::from(positions[i]).distance(Vec3::from(positions[other]))
     };
@@ -307,7 +307,7 @@ fn size(positions: &[[f32; 3]]) -> Option<f32> {
 mod tests {
     use super::*;
 
-    /// A block that has moved by so much since.
+    /// A block, and the same block before it moved by `moved`.
     fn pair(moved: [f32; 3]) -> (Particles, Known) {
         let at = |i: u32| [i % 10, i / 10 % 10, i / 100].map(|i| 0.1 * i as f32);
         let positions: Vec<_> = (0..1000).map(at).collect();
@@ -325,15 +325,15 @@ mod tests {
         let (mut now, mut known) = pair([0.05, 0.0, -0.02]);
         let found = velocities(&now, &known, 0.1).unwrap();
         assert!(nearly(&found, [0.5, 0.0, -0.2]), "{:?}", found[0]);
-        // The frame after: time runs the other way.
+        // Against the next frame, time runs backwards.
         assert!(nearly(&velocities(&now, &known, -0.1).unwrap(), [-0.5, 0.0, 0.2]));
         now.ids = Some((0..1000).collect());
-        // One frame alone has ids.
+        // Only one of the frames has ids.
         assert!(velocities(&now, &known, 0.1).is_none());
         known.positions.reverse();
         known.ids = Some((0..1000).rev().collect());
         assert!(nearly(&velocities(&now, &known, 0.1).unwrap(), [0.5, 0.0, -0.2]));
-        // One that is new is at rest, and so is one that has jumped.
+        // A particle that is new or has jumped is at rest.
         known.ids = Some((1..1001).rev().collect());
         known.positions[0] = [90.0; 3];
         let mut ids: Vec<u32> = (0..1000).collect();

@@ -37,13 +37,13 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         Some(bubbles::Which::File(path)) => {
             let (blobs, moves) = bubbles::read(path)?;
             if moves {
-                let why = "blobs that move are drawn without particles";
+                let why = "a file of moving blobs cannot be drawn together with particles";
                 return Err(Failure::input(format!("{}: {why}", path.display())));
             }
             Some(blobs)
         }
         Some(_) => {
-            let why = "--bubbles: one, slope and box are scenes of their own: a file expected beside particles";
+            let why = "--bubbles: expected a file with particle inputs; one, slope and box are scenes of their own";
             return Err(Failure::usage(why));
         }
         None => None,
@@ -53,7 +53,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let (fluids, said_of_fluids) = Fluids::find(&args.fluids, &mut all)?;
     let frames = frames::within(&all, range)?;
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
-    // Of one file as many pictures as a turn has.
+    // A turntable draws one file as often as an orbit has frames.
     let still = args.turntable.filter(|_| all.len() == 1 && !frames.is_empty());
     let frames = match still {
         Some(turntable) => stills(&all[0], turntable, args.fps.unwrap_or(DEFAULT_FPS))?,
@@ -64,13 +64,14 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let keep = args.write_whitewater.as_deref();
     let keep = keep.map(|file| output::Target::of_particles(file, all.len() > 1)).transpose()?;
     if keep.is_some() && args.whitewater != [Whitewater::Generate] {
-        let why = "--write-whitewater: expected --whitewater generate as well, found none made";
+        let why = "--write-whitewater: expected --whitewater generate as well; nothing is emitted without it";
         return Err(Failure::usage(why));
     }
     if let Some(file) =
         keep.iter().flat_map(|keep| all.iter().find(|f| keep.path(f.number) == f.path)).next()
     {
-        let why = format!("--write-whitewater: {} is read; name another", file.path.display());
+        let why =
+            format!("--write-whitewater: {} is an input; name another file", file.path.display());
         return Err(Failure::usage(why));
     }
     let settings = SettingsFile::of_args(&args.draw)?;
@@ -122,12 +123,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let made = args.whitewater == [Whitewater::Generate];
     let foams = args.draw.surface_foam.unwrap_or(foaming(args)) != Foaming::None;
     let moving = made || foams || sequence.motion;
-    // Numbers may be those of steps: a second has so many numbers.
+    // Frame numbers may be step numbers; the rate is in numbers per second.
     let step = step_of(&all);
     let said = args.fps.map(|fps| fps * step);
     let fps = moving.then(|| said.unwrap_or(DEFAULT_FPS * step));
     let scale = args.unit.map(Unit::metres).or(args.scale).unwrap_or(1.0);
-    // One that can't be read tells when its turn comes.
+    // If a frame cannot be read, the error is reported when it is drawn.
     let origin = |first: &Frame| match first.step {
         Some(step) => Ok(particles::read_step(&first.path, step, &[])?.origin),
         None => particles::find_origin(&first.path),
@@ -145,15 +146,18 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     probes.fps = probes.fps.or(by_time);
     let found = upright::find(&probes.frames);
     let particles = probes.frames.iter().any(|frame| frame.positions.len() > 1);
-    // Who gives a camera has seen where up is.
+    // A user who gives a camera knows the up axis.
     if args.up_axis.is_none() && found.is_none() && camera.is_none() && particles {
         progress.say(
-            "up is a guess: y, as neither where the water lies nor how it moves shows it (--up-axis z, -y and the like turn it)",
+            "up is a guess: y, because neither where the water lies nor how it moves shows it (--up-axis z, -y etc. set it)",
         );
     }
     let found = found.filter(|found| found.up != Up::Y);
     if let (None, Some(Upright { up, why, .. })) = (args.up_axis, found) {
-        progress.say(&format!("{} is up in the files: {why} (--up-axis y: not turned)", up.name()));
+        progress.say(&format!(
+            "{} is up in the files: {why} (--up-axis y keeps them unrotated)",
+            up.name()
+        ));
         placing.up = up;
         reader.turn(up);
         let turned = Placing { up, scale: 1.0, origin };
@@ -168,14 +172,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     if reader.found_velocities && !probes.own.velocities {
         progress.say(
-            "velocities are not in the files: found by where particles are from frame to frame",
+            "velocities are not in the files; they are found from the positions in neighbouring frames",
         );
     }
     fluids.missing(&probes.frames).iter().for_each(|line| progress.say(line));
     if !probes.frames.is_empty() && probes.frames.iter().all(|frame| frame.positions.is_empty()) {
-        progress.say(
-            "no particles in the frames that were looked at: the scene is drawn without water",
-        );
+        progress.say("no particles in the probed frames: the scene is drawn without water");
     }
     if made || foams {
         probes.missing(all.len()).into_iter().for_each(|line| progress.say(&line));
@@ -187,7 +189,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let settings_of_bubbles = settings.bubbles.config();
     let shores = Shores::of_particles(&settings)?;
     if settings_of_bubbles.crossfade && (foam.is_some() || args.whitewater.is_empty()) {
-        let why = "--settings, [bubbles] crossfade: whitewater particles become blobs, so that --whitewater is expected, and no \
+        let why = "--settings, [bubbles] crossfade turns whitewater particles into blobs: expected --whitewater and no \
                    --bubbles";
         return Err(Failure::usage(why));
     }
@@ -205,10 +207,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     {
         camera.eye = Some(eye);
         camera.target = camera.target.map(|target| placing.moved(target).unwrap_or(target));
-        progress.say("--eye and --target are taken where the files have them, far from the origin");
+        progress.say("--eye and --target are read in the files' coordinates, far from the origin");
     }
     let found = Found { camera, spacing, files, sheet };
-    // Those that are estimated are all in the unit of one rest density.
+    // Estimated densities use one rest density for all fluids.
     let told = probes.own.densities && settings.water.rest_density.is_none();
     let own_densities: Vec<Option<f32>> = (0..fluids.count())
         .map(|fluid| probes.rest_density_of((fluid, fluids.count())).filter(|_| told))
@@ -224,8 +226,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let several = fluids.settings(&look.settings, &own_densities)?;
     let mut look = Look { fluids: several, bubbles: foam, shores, ..look };
     if fluids.drawn() > 1 {
-        // What leaves one where they touch does not enter air: bent and mirrored as by air, the other one would be seen as
-        // through rough glass.
+        // At the surface between two liquids light leaves into the other liquid, not into air; refraction and
+        // reflection as into air would make the other one look as through rough glass.
         look.file.water.leave_straight();
     }
     let mut session = Session::new(&args.draw, checked, look, steps)?;
@@ -242,7 +244,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
             }
             Err(failure) => {
                 progress.finish();
-                // What was measured until here is kept, if it can be.
+                // Measurements so far are kept if possible.
                 let _ = session.finish();
                 return Err(failure);
             }
@@ -254,7 +256,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     report(left.len(), failed)
 }
 
-/// One frame from file to file.
+/// Reads one frame, draws it and writes its files.
 fn draw(
     reader: &mut Reader<'_>,
     session: &mut Session<'_>,
@@ -287,12 +289,12 @@ fn draw(
     ))
 }
 
-/// What was said of frames: once where it is the same but for its numbers.
+/// Warnings about frames; each is printed once if it differs only in its numbers.
 #[derive(Default)]
 struct Warnings(Vec<Warning>);
 
 struct Warning {
-    /// Without numbers.
+    /// The text without its numbers.
     kind: String,
     file: String,
     text: String,
@@ -300,7 +302,7 @@ struct Warning {
 }
 
 impl Warnings {
-    /// The line to say; none where it was said of another frame.
+    /// The line to print; `None` if it was printed for another frame.
     fn first(&mut self, file: &str, text: &str) -> Option<String> {
         let kind: String = text.chars().filter(|c| !c.is_ascii_digit()).collect();
         if let Some(known) = self.0.iter_mut().find(|known| known.kind == kind) {
@@ -311,7 +313,7 @@ impl Warnings {
         Some(format!("{file}: {text}"))
     }
 
-    /// What was not said again, of how many frames.
+    /// A summary of the warnings that were not repeated, with the number of frames.
     fn again(&self, total: usize) -> Vec<String> {
         let repeated = self.0.iter().filter(|warning| warning.frames > 1);
         let line = |Warning { file, text, frames, .. }: &Warning| {
@@ -322,8 +324,8 @@ impl Warnings {
     }
 }
 
-/// Lets foam come and go by the frames before one, from the first of the sequence on: how it is cut into
-/// jobs does not show. Those that can't be read are left out.
+/// Runs the foam simulation over the frames before the first drawn one, from the start of the sequence, so that the
+/// result does not depend on the range that a job draws. Frames that cannot be read are skipped.
 fn remember(
     reader: &mut Reader<'_>,
     session: &mut Session<'_>,
@@ -338,7 +340,7 @@ fn remember(
         };
         let Some(next) = all.iter().find(next) else { return Ok(()) };
         match reader.read(next) {
-            // With more room foam begins anew.
+            // A new renderer with more room starts without foam.
             Ok(particles) if particles.positions.len() > session.room() => {
                 room = particles.positions.len();
             }
@@ -348,7 +350,7 @@ fn remember(
     }
 }
 
-/// The end of a run in which all frames had their turn.
+/// The result of a run in which all frames were processed.
 fn report(total: usize, failed: Vec<(u64, Failure)>) -> Outcome<()> {
     match failed.as_slice() {
         [] => Ok(()),
@@ -367,7 +369,7 @@ fn report(total: usize, failed: Vec<(u64, Failure)>) -> Outcome<()> {
     }
 }
 
-/// The rest spacing: as it is said, or found.
+/// The rest spacing: given by the user, or found.
 fn spacing(
     args: &RenderArgs,
     (probes, reader): (&Probes, &Reader<'_>),
@@ -411,7 +413,7 @@ fn spacing(
     }
 }
 
-/// Numbers from one frame to the next, as they are for most.
+/// The most frequent step between frame numbers.
 fn step_of(all: &[Frame]) -> f32 {
     let apart: Vec<f32> =
         all.windows(2).map(|two| (two[1].number - two[0].number) as f32).collect();

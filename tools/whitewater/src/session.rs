@@ -33,89 +33,89 @@ use crate::surface_foam;
 use crate::timings::Times;
 use crate::whitewater_source::{self, WhitewaterSource};
 
-/// What is the same in every frame.
+/// Everything that is the same in all frames.
 pub struct Look {
     pub camera: CameraFile,
     pub settings: Settings,
-    /// Of several fluids those of each; empty, or one, where there is one.
+    /// Settings of each fluid if there are several; otherwise empty or one.
     pub fluids: Vec<Settings>,
-    /// The file of settings: what in it chooses passes.
+    /// The settings file; some of its values determine passes.
     pub file: SettingsFile,
     pub environment: Environment,
     pub scene: Scene,
-    /// Nothing but the water is drawn, with the share that it hides.
+    /// Only water, foam and spray are drawn, over transparency.
     pub matte: bool,
-    /// All pictures are of this frame, from where the camera is in theirs.
+    /// All pictures show this frame, each from the camera of its own number.
     pub still: Option<u64>,
-    /// When water foams; none: never.
+    /// Settings of foam formation; `None` if no water foams.
     pub foam: Option<WeberSettings>,
-    /// Whitewater particles beside the water.
+    /// Whitewater particles in addition to the water.
     pub whitewater: Option<WhitewaterSource>,
-    /// Bubble foam, and how it is drawn.
+    /// Bubble foam and its configuration.
     pub bubbles: Option<(Blobs, BubbleConfig)>,
     /// Shoreline and contact foam.
     pub shores: Option<Shores>,
-    /// Where nothing else is said it is drawn as a camera has it.
+    /// Whether motion blur and depth of field have a camera's values by default.
     pub photograph: bool,
-    /// Stops beside those of the environment.
+    /// Exposure in stops, added to the environment's.
     pub exposure: f32,
-    /// Particles of the water turn to spray.
+    /// Whether particles of low density are drawn as spray.
     pub spray: bool,
-    /// Where water and foam cast shadows.
+    /// Region in which water and foam cast shadows.
     pub region: LightVolume,
-    /// Frames a second by which foam comes and goes; none: each frame for itself.
+    /// Frames per second of the foam simulation; `None` if each frame is independent.
     pub fps: Option<f32>,
-    /// Frames a second by which the motion layer is made; none: nothing moves.
+    /// Frames per second for motion vectors; `None` if nothing moves.
     pub rate: Option<f32>,
-    /// Frames a second of a film.
+    /// Frames per second of a film.
     pub film: f32,
-    /// Particles of the fullest frame that was looked at: there is room for them from the first one on.
+    /// Number of particles of the fullest probed frame; the first renderer has room for that many.
     pub fullest: usize,
 }
 
-/// Numbers of the frames by which foam came and went.
+/// Numbers of the frames that each simulation has reached.
 #[derive(Clone, Copy, Default)]
 struct Memory {
     passed: Option<u64>,
     stepped: Option<u64>,
-    /// By which whitewater particles were made.
+    /// Last frame of the emission of whitewater.
     made: Option<u64>,
-    /// To which bubble foam moved.
+    /// Last frame of the blob simulation.
     heaped: u64,
 }
 
-/// Draws frames.
+/// Draws the frames of a run.
 pub struct Session<'a> {
     args: &'a DrawArgs,
     targets: Vec<Target<Output>>,
     wanted: Vec<&'static str>,
-    /// Motion vectors are made.
+    /// Whether motion vectors are rendered.
     motion: bool,
     look: Look,
     /// The frame whose scene is on the device.
     staged: u64,
-    /// A device without a renderer yet, or a renderer, or neither after an error.
+    /// A device without a renderer. Either this or `headless` is set, or neither after an error.
     device: Option<Device>,
     headless: Option<Headless>,
     memory: Memory,
-    /// How whitewater particles are made, and how many at most.
+    /// Settings of the whitewater emission, and the max number of particles.
     making: Option<(GeneratorSettings, u32)>,
-    /// How many whitewater particles were read for the frame drawn last; none where none are.
+    /// Number of whitewater particles in the files of the last drawn frame; `None` if none are read.
     pub read: Option<usize>,
-    /// It was said that there is no room for more of them.
+    /// The warning about lack of room has been printed.
     full: bool,
-    /// It was said that nothing moves.
+    /// The warning about missing velocities has been printed.
     unmoved: bool,
-    /// Where what is made goes.
+    /// Output files of emitted whitewater.
     pub keep: Option<Target<WriteFormat>>,
-    /// In which axes and unit.
+    /// Axes and unit of those files.
     pub placing: Placing,
-    /// What goes into films.
+    /// The film, if one is written.
     reel: Option<Reel>,
     pub times: Times,
 }
 
-/// What can be said about the arguments before anything is read.
+/// Checks arguments before anything is read.
 pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target<Output>>, Vec<&'static str>)> {
     let targets: Vec<Target<Output>> =
         args.outputs.iter().map(|o| Target::of_frames(o, sequence)).collect::<Outcome<_>>()?;
@@ -132,18 +132,18 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target<Output>>, V
     Ok((targets, wanted))
 }
 
-/// Whether all frames go into one file.
+/// Whether any output is a film.
 pub fn has_film(targets: &[Target<Output>]) -> bool {
     targets.iter().any(|target| target.format == Output::Film)
 }
 
-/// Whether any picture will hold motion vectors.
+/// Whether any output holds motion vectors.
 pub fn has_motion((targets, wanted): &(Vec<Target<Output>>, Vec<&'static str>)) -> bool {
     let exr = |target: &Target<Output>| target.format == Output::Picture(PictureFormat::Exr);
     wanted.contains(&layers::MOTION) && targets.iter().any(exr)
 }
 
-/// The environment that is asked for; `sun`: of the sky, where nothing is said.
+/// The environment of the arguments. `sun` is the default direction to the sun for the sky.
 pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environment> {
     match args.environment.as_str() {
         "sky" => Environment::sky(args.sun.or(sun)),
@@ -151,7 +151,7 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
     }
 }
 
-/// How the baseline's noise looks where nothing is said.
+/// Default settings of the baseline's noise.
 pub fn noise(args: &DrawArgs) -> SurfaceNoiseSettings {
     match args.noise {
         NoiseArg::Foam => SurfaceNoiseSettings::SOURCE,
@@ -159,16 +159,17 @@ pub fn noise(args: &DrawArgs) -> SurfaceNoiseSettings {
     }
 }
 
-/// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
+/// Warm-up of surface foam: number and length (in seconds) of steps with the first frame of a sequence, before it is
+/// drawn. Together they are longer than foam takes to form.
 const WARM_UP: u32 = 8;
 const WARM_STEP: f32 = 0.1;
-/// The same of whitewater particles that are made by a frame and move in it: a moment, for spray would fly out of a wave
-/// that stands still.
+/// Warm-up of emitted whitewater: number and length (in seconds) of steps with the first frame. It is short, because
+/// spray would fly out of a wave that stands still.
 const PRE_ROLL: u32 = 8;
 const PRE_STEP: f32 = 1.0 / 30.0;
 pub const PRE_ROLLED: f32 = PRE_ROLL as f32 * PRE_STEP;
 
-/// Of a file that has none, in the unit of the rest density, where there is to be spray.
+/// Estimated densities for a file without densities, in the unit of the rest density, if spray is drawn.
 pub fn guessed_densities(
     spray: bool,
     particles: &Particles,
@@ -182,7 +183,7 @@ pub fn guessed_densities(
 }
 
 impl<'a> Session<'a> {
-    /// Checks the outputs and opens the device; `steps`: where it says what it does.
+    /// Checks the outputs and opens the device. `steps` reports progress.
     pub fn new(
         args: &'a DrawArgs,
         checked: (Vec<Target<Output>>, Vec<&'static str>),
@@ -207,7 +208,7 @@ impl<'a> Session<'a> {
         let films = targets.iter().filter(|target| target.format == Output::Film);
         let films = films.map(|target| target.path(0)).collect();
         let reel = Reel::new(films, args.size, look.film)?;
-        // Broken off, a film has the frames that were drawn.
+        // After an interruption the film holds the frames drawn so far.
         let filmed = reel.clone();
         output::at_interrupt(move || {
             filmed.map_or(Ok(()), |reel| reel.write())?;
@@ -235,18 +236,18 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// How many times as wide and high frames are drawn.
+    /// Factor by which the rendered width and height exceed the output's.
     fn supersample(&self) -> u32 {
         let averaged = Blur::of(self.args, self.look.photograph, 1.0).is_some();
         self.args.supersample.unwrap_or(if averaged { 1 } else { 2 })
     }
 
-    /// Where a frame goes.
+    /// Output files of a frame.
     pub fn paths(&self, frame: u64) -> Vec<PathBuf> {
         self.targets.iter().map(|t| t.path(frame)).collect()
     }
 
-    /// Draws one frame and writes its pictures; `before`: number of the one before it in the sequence.
+    /// Draws one frame and writes its pictures. `before` is the number of the previous frame in the sequence.
     pub fn frame(
         &mut self,
         number: u64,
@@ -283,13 +284,12 @@ impl<'a> Session<'a> {
         self.step(number, source, particles, true)
     }
 
-    /// Seconds at a frame; 0 in all where each is for itself.
+    /// Time of a frame in seconds; 0 if frames are independent.
     fn time(&self, number: u64) -> f64 {
         number as f64 / f64::from(self.look.fps.unwrap_or(f32::INFINITY))
     }
 
-    /// Draws frames of a scene in which are no particles, those of a sequence that are not there yet. What is said of each
-    /// begins with a word on it.
+    /// Draws those frames of a scene without particles that do not exist yet. Progress lines begin with `word`.
     pub fn frames_without_particles(
         &mut self,
         frames: &[u64],
@@ -302,7 +302,7 @@ impl<'a> Session<'a> {
             let paths = self.paths(number);
             let there = |path: &PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
             if frames.len() > 1 && !self.args.overwrite && paths.iter().all(there) {
-                let line = format!("frame {number}: is there (--overwrite draws it again)");
+                let line = format!("frame {number}: exists (--overwrite draws it again)");
                 progress.advance(&line);
                 continue;
             }
@@ -314,13 +314,14 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Lets foam come and go by a frame that is not drawn, after [`make_room`](Self::make_room).
+    /// Advances the foam simulation by a frame that is not drawn. [`make_room`](Self::make_room) has to be called
+    /// before.
     pub fn pass(&mut self, number: u64, particles: &Particles) -> Outcome<()> {
         self.step(number, "", particles, false)
     }
 
-    /// How many whitewater particles were made that are in the frame drawn last; none where none are made. Says so, once,
-    /// when there was no room for more.
+    /// Number of emitted whitewater particles in the last drawn frame; `None` if none are emitted. Warns once if there
+    /// was no room for more.
     pub fn made(&mut self) -> Outcome<Option<u32>> {
         let (Some((_, most)), Some(headless)) = (&self.making, &mut self.headless) else {
             return Ok(None);
@@ -328,30 +329,30 @@ impl<'a> Session<'a> {
         let (made, lost) = headless.generated_count()?;
         if lost > 0 && !std::mem::replace(&mut self.full, true) {
             self.times.say(&format!(
-                "there is room for {most} whitewater particles, {lost} more were not made: raise max_particles of \
+                "there is room for {most} whitewater particles; {lost} more were not emitted: raise max_particles of \
                  table [generate], or lower its rates"
             ));
         }
         Ok(Some(made))
     }
 
-    /// Goes past a frame that can't be read.
+    /// Skips a frame that cannot be read.
     pub fn skip(&mut self, number: u64) {
         self.memory.passed = Some(number);
     }
 
-    /// Foam goes by the frames before.
+    /// Whether foam depends on earlier frames.
     pub fn remembers(&self) -> bool {
         let made = matches!(self.look.whitewater, Some(WhitewaterSource::Made(_)));
         (self.look.foam.is_some() || made) && self.look.fps.is_some()
     }
 
-    /// Number of the last frame that passed; none: no frame did since foam began anew.
+    /// Number of the last simulated frame; `None` before the first one since the foam simulation started.
     pub fn passed(&self) -> Option<u64> {
         self.memory.passed
     }
 
-    /// How many particles there is room for.
+    /// Number of particles that the renderer has room for.
     pub fn room(&self) -> usize {
         self.headless.as_ref().map_or(0, |h| h.renderer().config().max_particles as usize)
     }
@@ -379,7 +380,7 @@ impl<'a> Session<'a> {
             }
             self.making = Some((settings, made.max_particles()));
         }
-        // Spray goes by density.
+        // Spray is chosen by density.
         let water = &self.look.settings.water;
         let densities = times.step("densities", number, || {
             let guessed = guessed_densities(self.look.spray, particles, water).map(Cow::Owned);
@@ -416,12 +417,12 @@ impl<'a> Session<'a> {
                     (Some(fps), Some(last)) => {
                         headless.step(Some(number.saturating_sub(last) as f32 / fps), settings)
                     }
-                    // It was as in the first frame for long enough.
+                    // Warm-up: the first frame is held until foam is in a steady state.
                     (Some(_), None) => {
                         (0..WARM_UP).try_for_each(|_| headless.step(Some(WARM_STEP), settings))
                     }
                 }?;
-                // It moves as the water does.
+                // Foam moves with the water's own velocities.
                 match (&particles.velocities, drive) {
                     (Some(velocities), Some(_)) => headless.motion(velocities, ids),
                     _ => Ok(()),
@@ -432,7 +433,7 @@ impl<'a> Session<'a> {
                 times.passes(number, headless.step_timings(Stepped::Foam));
             }
         }
-        // Of several fluids the first makes whitewater.
+        // With several fluids, the first one emits whitewater.
         headless.show(fluids::first(particles, self.look.fluids.len()));
         if let (Some((settings, most)), Some(_)) = (&self.making, &particles.velocities) {
             times.step("generate", number, || match (self.look.fps, self.memory.made) {
@@ -440,7 +441,8 @@ impl<'a> Session<'a> {
                     let dt = number.saturating_sub(last) as f32 / fps;
                     headless.generate(dt, content as u32, settings, *most)
                 }
-                // Nothing is known of before: it was as now for a moment, of a single frame for as long as foam lives.
+                // Warm-up: a short time with this frame held. For a single frame, whitewater of a whole lifetime is
+                // emitted first.
                 (fps, _) => {
                     if fps.is_none() {
                         headless.generate_snapshot(content as u32, settings, *most)?;
@@ -455,7 +457,7 @@ impl<'a> Session<'a> {
                 times.passes(number, headless.step_timings(Stepped::Generate));
             }
         } else {
-            // Without velocities none are made, and those of the frame before are not this one's.
+            // Without velocities nothing is emitted, and particles of the previous frame do not belong to this one.
             headless.hide_generated();
         }
         if let Some((Blobs { motion: Some(motion), .. }, _)) = &self.look.bubbles {
@@ -541,13 +543,13 @@ impl<'a> Session<'a> {
             ));
         }
         let layers = self.with_attributes(layers, source, &camera_file)?;
-        // Before the pictures, by which a frame counts as finished.
+        // Written before the pictures, because a frame counts as finished when its pictures exist.
         self.write_made(number)?;
         times.step("write", number, || self.write(number, &layers))
     }
 
-    /// Writes the whitewater particles that were made; seconds left, as the longest life has them, so that they have
-    /// the same ages where they are read.
+    /// Writes the emitted whitewater particles. Remaining lifetimes are relative to the longest lifetime, so that a
+    /// reader gets the same ages.
     fn write_made(&mut self, number: u64) -> Outcome<()> {
         let times = self.times.clone();
         let (Some(keep), Some((settings, _)), Some(headless)) =
@@ -571,7 +573,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// The picture of a frame, in all its files.
+    /// Writes the picture of a frame to all its files.
     fn write(&self, number: u64, layers: &Layers) -> Outcome<()> {
         let look = &self.look;
         let exposure = look.environment.exposure() + look.exposure + self.args.exposure;
@@ -585,12 +587,12 @@ impl<'a> Session<'a> {
                 Output::Picture(PictureFormat::Png) => {
                     output::write(&path, |to| picture::write_png_as(layers, &display, to))?;
                 }
-                // Of all frames: below.
+                // Films are written at the end.
                 Output::Film => {}
             }
         }
         self.reel.as_ref().map_or(Ok(()), |reel| {
-            // A film has no alpha: over black.
+            // A film has no alpha; the picture is composited over black.
             let display = Display { alpha: false, ..display };
             reel.push(&layers.shown(&display).unwrap_or_default())
         })
@@ -621,7 +623,7 @@ impl<'a> Session<'a> {
         Ok(layers)
     }
 
-    /// Writes the times and gives the device back.
+    /// Writes the timings and returns the device.
     pub fn finish(mut self) -> Outcome<()> {
         let gone = match self.headless.take() {
             Some(headless) => headless.finish().map(drop),

@@ -13,22 +13,21 @@ use crate::shore::terrain::{Lump, block, lumps, number, octaves, rise, smooth_no
 /// Where the water is.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// The middle of its floor.
+    /// Centre of its floor.
     pub middle: Vec3,
-    /// Half of what it takes with its walls, along x and z.
+    /// Half of its size with its walls, along x and z.
     pub half: Vec2,
-    /// From where it is looked at.
+    /// Position of the camera.
     pub eye: Vec3,
 }
 
 impl Place {
-    /// The longer side, by which a set is as large as it is.
+    /// The longer side, to which a set's size is relative.
     pub fn wide(&self) -> f32 {
         (2.0 * self.half.max_element()).max(f32::MIN_POSITIVE)
     }
 
-    /// A direction of the level plane as the eye sees it: away along the axis of the world that it looks along more,
-    /// and beside that away as well.
+    /// Signs of x and z of the direction away from the camera.
     fn away(&self) -> Vec2 {
         let d = self.middle - self.eye;
         let sign = |v: f32| if v > 0.0 { 1.0 } else { -1.0 };
@@ -36,14 +35,14 @@ impl Place {
     }
 }
 
-/// How many metres the longer side of the water has to procedural surfaces.
+/// Length in metres that procedural surfaces assume for the longer side of the water.
 const METRES: f32 = 6.0;
 
 pub fn material(base_color: [f32; 3], roughness: f32, pattern: Pattern) -> Material {
     Material { base_color, roughness, pattern, texture: None }
 }
 
-/// Sets ground and surroundings.
+/// Adds ground and surroundings to a scene.
 pub fn furnish(scene: &mut Scene, set: SetArg, ground: Material, place: &Place) {
     let wide = place.wide();
     scene.metre = Some(wide / METRES);
@@ -57,7 +56,7 @@ pub fn furnish(scene: &mut Scene, set: SetArg, ground: Material, place: &Place) 
     }
 }
 
-/// Meshes in units of the water's width, from the middle of its floor; x and z away from the eye.
+/// Builds meshes in units of the water's width around the centre of its floor; x and z point away from the camera.
 struct Builder {
     meshes: Vec<Mesh>,
     middle: Vec3,
@@ -88,17 +87,17 @@ impl Builder {
     }
 }
 
-/// How high the terrace lies over the sea, how far it reaches round the basin and how high its parapet is, metres.
+/// In metres: height of the terrace above the sea, distance that it extends around the basin, height of its parapet.
 const CLIFF: f32 = 11.0;
 const REACH: f32 = 3.6;
 const PARAPET: f32 = 0.46;
 
-/// A paved terrace over the sea, with a low parapet and its coping; headlands in blue air.
+/// A paved terrace above the sea, with a low parapet and coping; hazy headlands.
 fn terrace(scene: &mut Scene, place: &Place) {
     let mut b = Builder::new(place);
     let m = b.wide / METRES;
     let half = place.half * METRES / b.wide;
-    // The ground lies about the middle of all that stands on it.
+    // The ground is centred on all objects that stand on it.
     let (low, high) = scene.bounds();
     let middle = 0.5 * (low + high) - b.middle;
     let middle = vec2(middle.x, middle.z) * b.away / m;
@@ -106,14 +105,14 @@ fn terrace(scene: &mut Scene, place: &Place) {
     if let Some(ground) = &mut scene.ground {
         ground.reach = Some(reach * m);
     }
-    // As the basin's: each pattern costs a pipeline.
+    // The same slabs as the basin's, because each pattern costs a pipeline.
     let slabs = Pattern::Stone { course: b.wide };
     let blocks = Pattern::Blocks { course: 0.155 * m };
     let wall = material([0.45, 0.41, 0.345], 0.9, blocks);
     let coping = material([0.50, 0.455, 0.385], 0.8, slabs);
     let paving = scene.ground.as_ref().map(|ground| ground.material.clone()).unwrap_or_default();
 
-    // Towards the eye the terrace goes on.
+    // The terrace continues towards the camera.
     let (far, near) = (middle + reach, -26.0_f32);
     let metres = |v: Vec3| v / METRES;
     let put =
@@ -125,7 +124,7 @@ fn terrace(scene: &mut Scene, place: &Place) {
     put(&mut b, "terrace", vec3(near, -0.1, back.y), vec3(back.x, 0.0, far.y), 2.0, &paving);
     let (thick, over, slab) = (0.34, 0.035, 0.07);
     let inner = far - 0.06;
-    // Its inner faces in small cells: light falls off under the coping and at the foot.
+    // The inner faces have small cells, because lighting falls off under the coping and at the foot.
     let face = inner + 0.02;
     put(&mut b, "parapet", vec3(near, -0.1, inner.y), vec3(face.x, PARAPET, face.y), 0.15, &wall);
     put(&mut b, "parapet", vec3(inner.x, -0.1, near), vec3(face.x, PARAPET, inner.y), 0.15, &wall);
@@ -150,7 +149,7 @@ fn terrace(scene: &mut Scene, place: &Place) {
             b.push("coping", mesh);
         }
     }
-    // Headlands: directions from the line of sight, to the right; how far away and how high.
+    // Headlands: the two directions from the line of sight to the right, distance and height.
     let sight =
         vec2(place.middle.x - place.eye.x, place.middle.z - place.eye.z).normalize_or(Vec2::NEG_Y);
     let land = material([0.052, 0.052, 0.042], 0.95, slabs);
@@ -173,13 +172,13 @@ fn terrace(scene: &mut Scene, place: &Place) {
         scattering: calm.scattering.map(|s| s / m),
         waves: 0.05 * m,
         length: 3.0 * m,
-        // Across the line of sight: crests along it, not in lines from side to side.
+        // Waves run across the line of sight; otherwise crests would be lines from side to side.
         towards: Vec2::from_angle(1.0).rotate(sight).to_array(),
         ..calm
     });
 }
 
-/// A ridge that runs out into the sea, between two directions, so many metres away and high.
+/// A ridge that runs out into the sea between two directions, at this distance and of this height in metres.
 fn headland(
     [from, to]: [f32; 2],
     way: impl Fn(f32) -> Vec2,
@@ -194,7 +193,7 @@ fn headland(
     let wide = (to - from).to_radians() * away;
     for i in 0..=ALONG {
         let t = i as f32 / ALONG as f32;
-        // High where it leaves the picture, low where it ends in the sea.
+        // The ridge is high where it leaves the picture and low where it ends in the sea.
         let inland = if from.abs() > to.abs() { 1.0 - t } else { t };
         let s = t * wide / height;
         let ridge = height
@@ -225,7 +224,7 @@ fn headland(
     mesh
 }
 
-/// A floor that passes into the backdrop without a seam, as a cyclorama's does: by haze.
+/// A floor that fades into the backdrop by haze, without a seam, like a cyclorama.
 fn studio(scene: &mut Scene, place: &Place) {
     scene.haze = Some(4.5 * place.wide());
 }
@@ -288,7 +287,7 @@ fn beach(scene: &mut Scene, place: &Place) {
     });
 }
 
-/// A hall: a floor of resin, a tiled wall with a plain one above it.
+/// A hall with a resin floor and a wall that is tiled below and plain above.
 fn laboratory(scene: &mut Scene, place: &Place) {
     let mut b = Builder::new(place);
     let tiles = Pattern::Tiles { size: 0.05 * b.wide, band: None };
@@ -311,7 +310,7 @@ fn laboratory(scene: &mut Scene, place: &Place) {
     scene.backdrop.append(&mut b.meshes);
 }
 
-/// A height field round a rectangle, out to a distance, ever coarser.
+/// A height field around a rectangle, with cells that grow with distance.
 fn ring_of_cells(
     low: Vec2,
     high: Vec2,

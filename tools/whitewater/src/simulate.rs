@@ -52,7 +52,7 @@ pub fn run(args: &SimulateArgs) -> Outcome<()> {
             turns.push(simulation.turn());
             let frame = simulation.frame();
             if frames.contains(&number) && keep.contains(&number) {
-                // What moves has a pose for each frame there is, wherever the run ends.
+                // Moving parts have a pose for every frame of the scene, even if the run ends earlier.
                 let json = simulation.scene().to_json(spacing, REST_DENSITY, &turns);
                 text(&args.out.join("scene.json"), &scene::text(&json))?;
                 let path = args.out.join(format!("{name}_{number:04}.bgeo"));

@@ -1,38 +1,38 @@
-//! Spouts: what water comes out of where a solver lets it in, in mid-air. Files hold the water alone, and a jet that begins
-//! as a flat face in the air looks cut off.
+//! Detects spouts: places in mid-air where a solver emits water. Files hold only the water, and a jet that begins as a
+//! flat face in the air looks cut off, so a channel is drawn around it.
 
 use glam::{Mat3, Quat, Vec2, Vec3};
 use whitewater::headless::scene::{Material, Mesh};
 
 use crate::cells::Cells;
 
-/// Particles of a mouth, at least.
+/// Min number of particles of a mouth.
 const FEW: usize = 12;
-/// How far behind a particle of the mouth there is none, and how far beside that, in spacings.
+/// Size of the cylinder behind a particle of the mouth that holds no other particle: length and radius in spacings.
 const BEHIND: f32 = 2.5;
 const BESIDE: f32 = 1.2;
-/// How much the velocities of neighbours differ at most, of their own.
+/// Max difference between the velocities of neighbours, relative to their speed.
 const ALIKE: f32 = 0.1;
-/// How steep a jet is at most, as a sine: the upper face of what falls looks like a mouth as well.
+/// Max sine of a jet's slope; the upper face of falling water would look like a mouth as well.
 const STEEP: f32 = 0.5;
-/// How far the particles of a mouth are from its plane at most, in spacings, and how much of its rectangle they fill at
-/// least: a circle fills 0.79 of it.
+/// Max distance of a mouth's particles from its plane, in spacings, and the min part of its rectangle that they fill (a
+/// circle fills 0.79).
 const FLAT: f32 = 0.8;
 const FULL: f32 = 0.55;
 
-/// Where a jet begins.
+/// The start of a jet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spout {
-    /// The middle of its mouth.
+    /// Centre of its mouth.
     pub mouth: Vec3,
-    /// To the right and upwards across the jet, and along it: a right-handed frame.
+    /// A right-handed frame: to the right across the jet, upwards across it, and along it.
     pub frame: Mat3,
-    /// Half of its width and of its height.
+    /// Half of the mouth's width and height.
     pub half: Vec2,
 }
 
-/// The spouts of a frame's particles at so many metres apart: flat faces, above `floor`, of water that moves out of them as
-/// one and has none behind it. One that moves slower than it would after a fall through a spacing is at rest.
+/// Finds the spouts among a frame's particles: flat faces above `floor`, of water that moves out of them uniformly and
+/// has none behind it. Water slower than after a fall through a spacing counts as at rest.
 pub fn find(
     positions: &[[f32; 3]],
     velocities: &[[f32; 3]],
@@ -81,12 +81,12 @@ pub fn find(
         }
         spouts.extend(spout(positions, &mouth, velocity, spacing));
     }
-    // The same from run to run, whatever the threads were.
+    // Sorted, because the order from the threads differs from run to run.
     spouts.sort_by(|a, b| a.mouth.x.total_cmp(&b.mouth.x).then(a.mouth.z.total_cmp(&b.mouth.z)));
     spouts
 }
 
-/// That of the particles of a mouth, if they fill a flat one.
+/// The spout of connected particles, if they fill a flat mouth.
 fn spout(
     positions: &[[f32; 3]],
     mouth: &[usize],
@@ -114,7 +114,7 @@ fn spout(
 }
 
 impl Spout {
-    /// A channel with thick walls that the water comes out of, on a pier that stands on the floor `back` behind the mouth.
+    /// A channel with thick walls around the spout, on a pier on the floor at distance `back` behind the mouth.
     pub fn meshes(&self, spacing: f32, floor: f32, back: f32, stone: &Material) -> Vec<Mesh> {
         let wall = (0.25 * self.half.min_element()).max(0.7 * spacing);
         let turn = Quat::from_mat3(&self.frame).to_array();
@@ -124,7 +124,7 @@ impl Spout {
             Mesh { name: name.into(), ..mesh }
         };
         let Vec2 { x, y } = self.half + 0.25 * spacing;
-        // The lip stands before the plane that hides where the water begins.
+        // The lip is in front of the plane that hides the start of the water.
         let (lip, hidden) = (0.9 * spacing, 0.3 * spacing);
         let long = 0.5 * (back + lip);
         let middle = lip - long;
@@ -141,7 +141,7 @@ impl Spout {
         ] {
             meshes.push(push("spout", at, half));
         }
-        // Upright, whatever the slope of the jet.
+        // The pier is upright for every slope of the jet.
         let end = self.mouth - back * self.frame.z_axis;
         let top = end.y + y + wall;
         let level = Vec3::new(self.frame.z_axis.x, 0.0, self.frame.z_axis.z).normalize_or(Vec3::Z);
@@ -163,7 +163,7 @@ mod tests {
 
     const SPACING: f32 = 0.05;
 
-    /// A jet 10 wide and 6 high that goes 30 layers along a direction from a height, and water at rest under it.
+    /// A jet of 10 by 6 particles and 30 layers in a direction, starting at a height, and water at rest below it.
     fn jet(along: Vec3, speed: f32, height: f32) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         let right = along.cross(Vec3::Y).normalize();
         let up = right.cross(along);
@@ -218,7 +218,7 @@ mod tests {
         let low = all.iter().copied().reduce(Vec3::min).unwrap();
         let high = all.iter().copied().reduce(Vec3::max).unwrap();
         assert!((low.y + 0.2).abs() < 1.0e-4, "{low}");
-        // No farther than the lip, and behind the mouth by the pier.
+        // The channel extends no farther forward than the lip, and back to the pier.
         assert!(high.z > 0.5 * SPACING && high.z < SPACING && low.z < -0.8, "{low} {high}");
         let core = corners(&meshes[0]).into_iter().reduce(Vec3::max).unwrap();
         assert!(core.z > 0.1 * SPACING && core.z < high.z);

@@ -1,4 +1,4 @@
-//! The scene behind the water: from a file, a basin around water that a box holds, or a paved ground below it.
+//! Scenes behind the water: from a file, a basin around water that stands in a box, or paved ground below it.
 
 use std::path::Path;
 
@@ -18,12 +18,12 @@ pub fn read(path: &Path) -> Outcome<Scene> {
     Scene::load(path).map_err(|error| Failure::input(format!("{error}; mend the file")))
 }
 
-/// Of what the ground, the inside of a basin and its walls are, for water so long.
+/// Materials of the ground, of the inside of a basin and of its walls, for water of this length.
 fn materials(set: SetArg, longest: f32) -> [Material; 3] {
     let of = material;
     let tiles = |part: f32| Pattern::Tiles { size: round_length(longest / part), band: None };
     match set {
-        // Blue tiles, so that shallow water and deep water are of one colour.
+        // The tiles are blue, so that shallow and deep water have one colour.
         SetArg::Pool | SetArg::None => [
             of([0.175, 0.16, 0.145], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
             of([0.29, 0.43, 0.48], 0.22, tiles(36.0)),
@@ -47,7 +47,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
     }
 }
 
-/// A set under the bulk of the water.
+/// Surroundings with the ground below the bulk of the water.
 pub fn ground_under(bounds: &Bounds, eye: Vec3, set: SetArg) -> Scene {
     let size = bounds.size();
     let middle = Vec3::new(bounds.center().x, bounds.min.y, bounds.center().z);
@@ -58,7 +58,7 @@ pub fn ground_under(bounds: &Bounds, eye: Vec3, set: SetArg) -> Scene {
     scene
 }
 
-/// A set round a scene that stands on level ground.
+/// Adds surroundings to a scene that stands on level ground.
 pub fn furnish(scene: &mut Scene, eye: Vec3, set: SetArg) {
     let (low, high) = scene.bounds();
     let ground = scene.ground.as_ref().map_or(low.y, |ground| ground.y);
@@ -75,11 +75,11 @@ pub fn paving_under(bounds: &Bounds) -> Scene {
     Scene { ground: Some(Ground { y: bounds.min.y, material, reach: None }), ..scene }
 }
 
-/// A scene as large as the water, with nothing in it.
+/// An empty scene of the water's size.
 fn extent(bounds: &Bounds, set: SetArg) -> Scene {
     let longest = bounds.size().max_element().max(f32::MIN_POSITIVE);
     let [_, material, _] = materials(set, longest);
-    // A sheet just under the ground, which hides it: it tells how large the scene is.
+    // A sheet just below the ground, hidden by it, that sets the scene's size.
     let y = bounds.min.y - 1.0e-3 * longest;
     let corner = |x: f32, z: f32| {
         let at = bounds.center() + longest * glam::Vec3::new(x, 0.0, z);
@@ -99,35 +99,35 @@ fn extent(bounds: &Bounds, set: SetArg) -> Scene {
 /// One side of a box of water.
 #[derive(Clone, Copy, Debug)]
 struct Side {
-    /// 0 or 2.
+    /// Axis of the side's normal: 0 or 2.
     axis: usize,
-    /// -1 or 1: where it lies.
+    /// -1 or 1: the end of the axis.
     sign: f32,
-    /// Its place on the axis.
+    /// Coordinate on the axis.
     at: f32,
-    /// Heights that the water has there nearly always, and that nearly all of it stays below.
+    /// Heights of the water at the side: exceeded nearly always, and hardly ever.
     level: f32,
     highest: f32,
-    /// Height up to which water lies against it.
+    /// Height up to which the water touches the side.
     reach: f32,
 }
 
-/// Part of a spacing by which particles of the outermost layer are pressed out, at most.
+/// Thickness of the outermost layer in spacings: particles are pressed out by up to this.
 const LAYER: f32 = 0.9;
-/// How far beyond water that runs freely the box ends, of its width.
+/// Distance from freely running water to the end of the box, as a part of the water's width.
 const FREE: f32 = 0.3;
 
-/// The sides of the box that finite particles fill or run in; `None` where none or one holds them. Most solvers hold
-/// their water by walls that are in no file: bare, it looks like fog.
+/// Sides of the box in which the particles stand or run; `None` if fewer than two sides hold them. Most solvers' walls
+/// are in no file, and water without walls looks like fog.
 fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side; 4]> {
     let side = |axis: usize, sign: f32| {
         let all = frames.iter().copied().flatten();
         let mut places: Vec<f32> = all.map(|p| sign * p[axis]).collect();
         places.sort_unstable_by(f32::total_cmp);
-        // Without strays.
+        // Strays are excluded.
         let last = *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;
-        // The middle of the outermost layer: what is pressed farther out at the floor would leave a gap above.
-        // Not the one behind it, which is a spacing away.
+        // The median of the outermost layer, because particles at the floor are pressed farther out and would leave a
+        // gap above. The next layer, one spacing inwards, is excluded.
         let layer = &places[places.partition_point(|p| *p < last - LAYER * spacing)..];
         let at = sign * *layer.get(layer.len() / 2)?;
         let touches = |p: &&[f32; 3]| sign * (p[axis] - at) > -1.5 * spacing;
@@ -135,11 +135,11 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
             let mut touching: Vec<f32> =
                 frames.iter().copied().flatten().filter(touches).map(|p| p[1]).collect();
             touching.sort_unstable_by(|a, b| b.total_cmp(a));
-            // Drops are no sheet: above it there is less than a row of particles, of each frame.
+            // Drops do not count as a sheet: above this height there is less than a row of particles per frame.
             let rows = (bounds.size()[2 - axis] / spacing + 1.5) * frames.len() as f32;
             touching.get(rows as usize).copied().unwrap_or(bounds.min.y)
         };
-        // A dam stands, or a wave runs up, in one frame alone: among the rest it is few.
+        // The max over frames: a dam or a run-up wave in one frame is too few particles among all frames.
         let each = frames.iter().map(|frame| reach(std::slice::from_ref(frame)));
         let reach = each.fold(reach(frames), f32::max);
         let across = 2 - axis;
@@ -159,7 +159,7 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
                 heights.push(bin.1);
             }
         }
-        // Water that stands at half of a side is held there; where it still runs a wall is farther on.
+        // If the water touches half of a side, it is held there; otherwise it still runs and the wall is farther away.
         let share = held.iter().filter(|held| **held).count() as f32 / count as f32;
         heights.sort_unstable_by(f32::total_cmp);
         let free = |low: f32| low + sign * FREE * bounds.size().x.max(bounds.size().z);
@@ -174,9 +174,9 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
     (held >= 2).then_some(sides.map(|(side, _)| side))
 }
 
-/// A basin around water that a box holds: low walls towards the camera, high ones behind it; all low if the camera orbits. Panes of
-/// glass stand where water leans higher, and `spouts` where jets begin. `None`
-/// where no box holds the particles.
+/// A basin around water that stands in a box: low walls towards the camera, high ones behind; all walls are low if the
+/// camera orbits. Panes of glass hold water that leans higher, and `spouts` are built where jets begin. `None` if no
+/// box holds the particles.
 pub fn basin_round(
     frames: &[&[[f32; 3]]],
     bounds: &Bounds,
@@ -190,16 +190,16 @@ pub fn basin_round(
     let longest = bounds.size().max_element();
     let wide = bounds.size().x.max(bounds.size().z);
     let (thick, lining) = (0.035 * wide, 0.006 * wide);
-    // A slab on the wall, and how far it juts out.
+    // The slab on the wall, and its overhang.
     let (slab, over) = (0.011 * wide, 0.008 * wide);
-    // Of panes of glass.
+    // Thickness of panes of glass.
     let edge = 0.0022 * wide;
     let floor = bounds.min.y;
     let [ground, tiles, stone] = materials(set, wide);
     let slabs = |color, roughness| material(color, roughness, Pattern::Stone { course: wide });
     let glass = material([0.42, 0.56, 0.52], 0.15, Pattern::Plain);
     let steel = material([0.30, 0.31, 0.32], 0.3, Pattern::Plain);
-    // Inner faces. They cut the drawn spheres of the outermost layer, so that water reaches its walls.
+    // The inner faces cut the drawn spheres of the outermost layer, so that the water reaches its walls.
     let face = |side: &Side| side.at;
     let [left, right, back, front] = &sides;
     let (low, high) = (
@@ -212,7 +212,7 @@ pub fn basin_round(
         true => (slabs([0.47, 0.435, 0.375], 0.8), slabs([0.125, 0.117, 0.105], 0.55)),
         false => (stone.clone(), stone.clone()),
     };
-    // Without the faces that others hide: each vertex that is lit takes rays.
+    // Faces that other objects hide are left out, because the lighting of each vertex takes rays.
     let cuboid = |name: &str, from: Vec3, to: Vec3, material: &Material, hidden: &[usize]| {
         let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
         let turn = [0.0, 0.0, 0.0, 1.0];
@@ -223,23 +223,23 @@ pub fn basin_round(
         mesh
     };
     let (mut meshes, mut panes) = (Vec::new(), Vec::new());
-    // All near walls are as high as one another, and all far ones.
+    // All near walls have one height, and all far walls have one.
     let towards_eye =
         |side: &Side| from_all_sides || side.sign * (eye[side.axis] - face(side)) > 0.0;
     let highest = |near: bool| {
         let of = sides.iter().filter(|side| towards_eye(side) == near);
         of.map(|s| if near { s.level + spacing } else { s.highest + thick }).fold(floor, f32::max)
     };
-    // Where water stands, not splashes, the walls behind it are as high as it.
+    // Walls behind standing water (not splashes) are as high as the water.
     let stands = sides.iter().filter(|side| !towards_eye(side)).map(|side| side.level + thick);
     let stands = stands.fold(floor, f32::max);
-    // Not so high that they hide the water, or keep the sun from it.
+    // They are not so high that they hide the water, or shade it from the sun.
     let top_of = |near: bool| {
         let most = if near { 0.12 } else { 0.2 };
         let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
         if near { top } else { top.max(stands - slab) }
     };
-    // What would stand in the air without a wall is held by panes, as high as one another.
+    // Panes hold water that is higher than the walls; all panes have one height.
     let foot = |side: &Side| top_of(towards_eye(side)) + slab;
     let held = sides.iter().filter(|side| side.reach > foot(side) + 4.0 * spacing);
     let head = held.map(|side| side.reach + spacing + 2.0 * edge).fold(floor, f32::max);
@@ -263,14 +263,14 @@ pub fn basin_round(
         let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
         meshes.push(cuboid("basin lining", from, to, &tiles, &[2, 3, outside]));
         let outer = inner + side.sign * thick;
-        // Into the slab: what is inside of a solid takes its light from what is beside it.
+        // The lining extends into the slab, because the inside of a solid takes its light from beside it.
         let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
         let mut mesh = masonry::dressed(from, to, 0.3 * lining, stone.clone(), &[2, 3]);
         mesh.name = "basin wall".into();
         meshes.push(mesh);
         let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
         from.y = top;
-        // Those of two sides share their corners; one of them is cut off there.
+        // Two adjacent sides share a corner; one of them is cut off there.
         let (length, chamfer) = (0.16 * wide, 0.14 * slab);
         let seed = 20 + 2 * outside as u32;
         for mut mesh in masonry::row((from, to), across, length, chamfer, &coping, seed) {
@@ -278,7 +278,7 @@ pub fn basin_round(
             meshes.push(mesh);
         }
         if paved {
-            // A course of darker, damp stones in the paving, along the foot.
+            // A course of darker, damp paving stones along the foot.
             let course = outer + side.sign * 0.055 * wide;
             let (from, mut to) = wall(outer, course, floor, thick + 0.055 * wide);
             to.y = floor + 0.0002 * wide;
@@ -289,7 +289,7 @@ pub fn basin_round(
                 meshes.push(mesh);
             }
         }
-        // Of clear glass the edges are seen, and what holds it.
+        // The edges of clear glass are visible, and its mount.
         let foot = foot(side);
         if head > foot + 4.0 * spacing {
             for (name, material, inner, outer, low, high, ends) in [
@@ -303,7 +303,7 @@ pub fn basin_round(
                     false,
                 ),
                 ("pane edge", &glass, inner, inner + side.sign * edge, head - edge, head, false),
-                // From where it stands out of its foot.
+                // From the top of the mount.
                 (
                     "pane edge",
                     &glass,
@@ -314,7 +314,7 @@ pub fn basin_round(
                     true,
                 ),
             ] {
-                // The level ones end before those at the corners: what is inside of a solid is dark.
+                // Level edges end before the upright ones at the corners, because the inside of a solid is dark.
                 let (mut from, to) =
                     wall(inner, outer, high, if ends { edge } else { -0.1 * edge });
                 from.y = low;
@@ -322,7 +322,7 @@ pub fn basin_round(
                     let (mut first, mut last) = (to, from);
                     first[across] = from[across] + edge;
                     last[across] = to[across] - edge;
-                    // The water would show that of the far corner as a crack in it.
+                    // The upright edge at the far corner is left out; through the water it would look like a crack.
                     let beside = |sign: f32| {
                         let at = |s: &&Side| s.axis == across && s.sign == sign;
                         sides.iter().find(at).is_some_and(towards_eye)
@@ -341,10 +341,10 @@ pub fn basin_round(
         }
     }
     scene.meshes.extend(meshes);
-    // Edges of glass let light through and are thin: the sun's disc blurs what shadow they have.
+    // Glass edges are thin and transparent, and the sun's disc blurs their shadow, so they cast none.
     scene.backdrop = panes;
     for spout in spouts {
-        // To behind the wall that it comes through.
+        // Extends to behind the wall that the spout comes through.
         let way = -spout.frame.z_axis;
         let beyond = |side: &Side| {
             let towards = side.sign * way[side.axis];
@@ -363,11 +363,11 @@ pub fn basin_round(
     Some(scene)
 }
 
-/// From the direction towards the eye to the sun's, degrees: before the water, so that what faces the eye is lit, and far
-/// enough aside to show its relief.
+/// Degrees from the direction towards the camera to the sun: in front of the water, so that the visible faces are lit,
+/// and far enough to the side to show its relief.
 const SUN_ASIDE: f32 = 72.0;
 
-/// Towards a sun that stands high, on the side to which the face of a box turns that the eye sees more of.
+/// Direction to a high sun, on the side of the box face that the camera sees more of.
 pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
     let level = glam::Vec3::new(towards_eye.x, 0.0, towards_eye.z).normalize_or(glam::Vec3::Z);
     let faces = match level.x.abs() > level.z.abs() {
@@ -379,17 +379,18 @@ pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
     (0.36 * turned + 0.933 * glam::Vec3::Y).to_array()
 }
 
-/// Stops by which the pictures of a set are brighter: where its stone is dark, as photographers do.
+/// Exposure correction of a set in stops: dark stone is photographed brighter.
 pub fn exposure(set: SetArg) -> f32 {
     if set == SetArg::Pool { 0.45 } else { 0.0 }
 }
 
-/// The light of a set that has its own; `towards_eye`: from the water.
+/// The light of a set, if it has its own. `towards_eye` is the direction from the water.
 pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
     let key = side_light(towards_eye);
     let grey = |from: f32, to: f32, d: Vec3| Vec3::splat(from + (to - from) * (0.5 + 0.5 * d.y));
     Ok(match set {
-        // A soft box in a dark room under a grey ceiling: the floor passes into the dark, water stands bright before it.
+        // A soft box in a dark room below a grey ceiling: the floor fades into the dark, and the water is bright in
+        // front of it.
         SetArg::Studio => {
             let room = |d: Vec3| {
                 let [up, over] = [d.y / 0.2, (d.y - 0.35) / 0.45].map(|t| t.clamp(0.0, 1.0));
@@ -397,7 +398,7 @@ pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
             };
             Some(Environment::lit(room, key, (Vec3::splat(7.0), 0.8))?)
         }
-        // Rows of lamps under a ceiling.
+        // Rows of lamps below a ceiling.
         SetArg::Lab => {
             let room = |d: Vec3| {
                 let lamp = match d.y > 0.1 {
@@ -417,7 +418,7 @@ pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
     })
 }
 
-/// 1, 2 or 5 by a power of ten, as people cut slabs.
+/// Rounds a length to 1, 2 or 5 times a power of ten, usual sizes of slabs.
 fn round_length(rough: f32) -> f32 {
     let power = 10.0_f32.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|n| n * power);
@@ -428,7 +429,7 @@ fn round_length(rough: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// A block of water, spacing 0.1, with a corner cut off or not.
+    /// A block of water with a spacing of 0.1, optionally with a corner cut off.
     fn block(cut: bool) -> Vec<[f32; 3]> {
         let cells = (0..20).flat_map(|x| (0..6).flat_map(move |y| (0..30).map(move |z| (x, y, z))));
         cells
@@ -453,14 +454,14 @@ mod tests {
         let walls: Vec<f32> =
             scene.meshes.iter().filter(|m| m.name == "basin wall").map(top).collect();
         assert_eq!(walls.len(), 4);
-        // The far ones, at -x and -z, are with their slabs as high as the water at least; the near ones hide little.
+        // The far walls, at -x and -z, are at least as high as the water with their slabs; the near ones hide little.
         assert!(walls[0] > 0.46 && walls[2] > 0.46, "{walls:?}");
         assert!(walls[1] < 0.4 && walls[3] < 0.4, "{walls:?}");
-        // Its tiles are blue, as those of pools.
+        // The tiles are blue.
         let [r, g, b] =
             scene.meshes.iter().find(|m| m.name == "basin floor").unwrap().material.base_color;
         assert!(r < g && g < b, "{r} {g} {b}");
-        // A tall block stands before walls as high as it.
+        // A tall block stands in front of walls of its own height.
         let tall: Vec<_> =
             (0..12_000).map(|i| [i % 20, i / 20 % 30, i / 600].map(|i| 0.1 * i as f32)).collect();
         let scene = basin(&tall).unwrap();
@@ -470,7 +471,7 @@ mod tests {
             walls[0] > 2.86 && walls[2] > 2.86 && walls[1] < 0.4 && walls[3] < 0.4,
             "{walls:?}"
         );
-        // A wedge leans on two sides; where it runs freely the walls are farther on.
+        // A wedge leans against two sides; on the others, where it runs freely, walls are farther away.
         let wide = |scene: &Scene| {
             let walls = scene.meshes.iter().filter(|m| m.name == "basin wall");
             let all = walls.flat_map(|m| {
@@ -488,7 +489,7 @@ mod tests {
         assert!(basin(&[[0.0; 3]]).is_none());
     }
 
-    /// Few particles that are pressed out at the floor leave no gap between the water above and its wall.
+    /// If a few particles at the floor are pressed out, there is no gap between the water above and its wall.
     #[test]
     fn walls_touch_most_of_the_water() {
         let right = |points: &[[f32; 3]]| {
@@ -498,7 +499,7 @@ mod tests {
         let mut points = block(false);
         let still = right(&points);
         assert!((still - 1.9).abs() < 1.0e-4, "{still}");
-        // On an exact lattice the layer behind is no part of it, though it has more particles.
+        // On an exact lattice the next layer is excluded, although it has more particles.
         let exact: Vec<_> = (0..20 * 6 * 30)
             .map(|i| [i % 20, i / 20 % 6, i / 120].map(|c| c as f32))
             .filter(|p| p[0] < 18.5 || p[1] < 4.5)
@@ -509,7 +510,7 @@ mod tests {
         assert!((right(&points) - still).abs() < 0.011, "{}", right(&points));
     }
 
-    /// Whichever face of a box the eye sees more of, the sun shines on it.
+    /// The sun shines on the box face that the camera sees more of.
     #[test]
     fn the_sun_shines_on_the_face_that_is_seen() {
         for degrees in (0..360).step_by(7) {
@@ -539,7 +540,7 @@ mod tests {
             panes.map(top).collect()
         };
         assert!(edges(&block(false)).is_empty(), "the walls hold it");
-        // A sheet as high as 2 on the wall towards the eye, along all of it; then a row as high.
+        // A sheet up to a height of 2 on all of the wall towards the camera, then a row up to that height.
         let on_wall = |rows: usize| {
             let at = |i: usize| [1.9, 2.0 - 0.1 * (i / 30) as f32, 0.1 * (i % 30) as f32];
             let mut all = block(false);
@@ -547,15 +548,15 @@ mod tests {
             all
         };
         let found = edges(&on_wall(14));
-        // Four upper edges, and two upright ones each but at the far corner.
+        // Four upper edges, and two upright ones each except at the far corner.
         assert_eq!(found.len(), 10);
-        // As high as all but a row, and all alike.
+        // The height of all but a row, equal for all panes.
         assert!(found.iter().all(|top| (1.9..2.2).contains(top)), "{found:?}");
         assert!(found.iter().all(|top| (top - found[0]).abs() < 1.0e-4), "{found:?}");
         assert!(edges(&on_wall(1)).is_empty(), "drops");
     }
 
-    /// A dam of one frame, the first or another, that lies low in all others stands between panes, as high as it.
+    /// A dam that stands in only one frame, the first or another, stands between panes of its height.
     #[test]
     fn panes_hold_the_dam_that_falls() {
         let dam: Vec<_> =

@@ -1,4 +1,4 @@
-//! The Weber number from which water foams, found from the data.
+//! Finds the Weber number from which water foams.
 
 use std::collections::HashMap;
 
@@ -11,27 +11,30 @@ use crate::air;
 use crate::args::Foaming;
 use crate::settings::{FoamBy, SurfaceFoamTable};
 
-/// Share of the water that does not foam.
+/// Quantile of the Weber numbers that becomes the threshold.
 const CALM: f64 = 0.95;
-/// Most of a frame's water that foams or has not yet stopped to: what is foam all over shows no water.
+/// Max share of a frame's particles that foam or still carry foam; with foam everywhere no water would be visible.
 const MOST: f64 = 0.3;
-/// Of trapped air no less than the speed of water that falls through an eighth of a spacing: twice what the particles of
-/// calm water tremble by. So water at rest, and what flows or falls as a whole, stay clear.
+/// Lower limit of the threshold for trapped air: the speed of water after a fall through this many spacings. Particles
+/// of calm water tremble at half that speed, so that water at rest, and water that flows or falls as a whole, stays
+/// clear.
 const FALL: f32 = 0.125;
-/// Acceleration of a fall, m/s².
+/// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
-/// Speed relative to its surroundings from which on water draws in air, m/s: a plunging jet does from 0.8 (rough) to 2.5 m/s
-/// (smooth) on, about 1 m/s where it is as turbulent as most are (Ervine et al. 1980, "Effect of turbulence intensity on the
-/// rate of air entrainment by plunging water jets"; Chanson 1996, "Air bubble entrainment in free-surface turbulent shear
-/// flows").
+/// Speed relative to its surroundings, m/s, from which water entrains air. A plunging jet does from 0.8 m/s (rough) to
+/// 2.5 m/s (smooth), from about 1 m/s if it is as turbulent as most jets (Ervine et al. 1980, "Effect of turbulence
+/// intensity on the rate of air entrainment by plunging water jets"; Chanson 1996, "Air bubble entrainment in
+/// free-surface turbulent shear flows").
 pub const ONSET: f32 = 1.0;
-/// Share of a frame's water that is so fast, below which all of it is calm.
+/// If less than this share of a frame's particles exceeds that speed, the frame is calm.
 const STIRRED: f64 = 0.001;
-/// Water flows as a whole where its speed is so many times what half of it deviates by.
+/// Min ratio of the mean velocity's length to the median deviation from the mean velocity, for water to count as flowing as a
+/// whole. The mean velocity then does not count for foam.
 const UNIFORM: f32 = 2.0;
 
-/// The settings for frames of a sequence and their seconds, where they have velocities. A threshold does not
-/// transfer from one simulation to another: where neither `wanted` nor the table says one it is taken from the frames.
+/// Settings of foam formation for frames of a sequence and their times in seconds; `None` if no water foams or
+/// velocities are missing. A threshold does not transfer from one simulation to another, so if neither `wanted` nor the
+/// table sets one, it is found from the frames.
 pub fn settings(
     wanted: Foaming,
     (table, by): (&SurfaceFoamTable, FoamBy),
@@ -47,7 +50,7 @@ pub fn settings(
             if flows.iter().all(|flow| flow.fast < ONSET) {
                 return None;
             }
-            // What goes with the water round it does not foam, however fast that is.
+            // Water that moves with the surrounding water does not foam, however fast both are.
             let flow = Flow::together(&flows);
             if table.air.is_none() && flow.mean.length() > UNIFORM * flow.deviation {
                 foam.air = flow.mean.to_array();
@@ -56,7 +59,7 @@ pub fn settings(
         }
         FoamBy::Speed => (Vec::new(), 0.0),
         FoamBy::Air => {
-            // Of neighbours: the wind does not matter.
+            // The speed is relative to neighbours, so the wind does not matter.
             foam.air = [0.0; 3];
             let floor = foam.scale * foam.rest_density * 2.0 * GRAVITY * FALL * spacing;
             (frames.iter().map(|frame| driven(frame, spacing)).collect(), floor)
@@ -76,7 +79,8 @@ pub fn settings(
             let all = moving.flat_map(|frame| numbers(frame, &foam, spray)).map(|(_, n)| n);
             let calm = quantile(all.collect(), CALM)?;
             let calm = calm.max(of_lifetimes(frames, seconds, &foam, spray).unwrap_or(0.0));
-            // Nothing will come: a frame by itself foams from half of it on, and between frames at rest nothing does.
+            // A single frame foams if some particle exceeds half of the lower limit; a sequence foams unless all its
+            // frames are at rest.
             let least = if frames.len() == 1 { 0.5 * floor } else { 0.0 };
             let some = |frame| numbers(frame, &foam, spray).iter().any(|(_, n)| *n > least);
             if by == FoamBy::Air && !frames.iter().any(some) {
@@ -89,11 +93,11 @@ pub fn settings(
     (threshold > 0.0).then_some(foam.with(|it| it.threshold = threshold))
 }
 
-/// How the water of a frame moves.
+/// Motion of the water in a frame.
 #[derive(Clone, Copy, Debug)]
 struct Flow {
     mean: Vec3,
-    /// From the mean: of half of the water, and of what is faster than nearly all.
+    /// Deviation from the mean velocity: the median, and the quantile at 1 - [`STIRRED`].
     deviation: f32,
     fast: f32,
 }
@@ -102,7 +106,7 @@ impl Flow {
     fn of(frame: &Particles) -> Option<Self> {
         let velocities = frame.velocities.iter().flatten().map(|v| Vec3::from(*v));
         let velocities: Vec<Vec3> = velocities.filter(|v| v.is_finite()).collect();
-        // The middle one, which a few that fly off do not move.
+        // The median of each component, which a few stray particles do not change.
         let middle = |axis: usize| quantile(velocities.iter().map(|v| v[axis]).collect(), 0.5);
         let mean = Vec3::new(middle(0)?, middle(1)?, middle(2)?);
         let off: Vec<f32> = velocities.iter().map(|v| v.distance(mean)).collect();
@@ -110,7 +114,7 @@ impl Flow {
         Some(Self { mean, deviation: quantile(off, 0.5)?, fast })
     }
 
-    /// Of several frames, of which each may flow another way.
+    /// Combines frames; each may flow in another direction.
     fn together(flows: &[Self]) -> Self {
         let share = (flows.len().max(1) as f32).recip();
         let mean = flows.iter().map(|flow| flow.mean * share).sum();
@@ -120,13 +124,14 @@ impl Flow {
     }
 }
 
-/// What water foams by in the place of its velocities, as fast as neighbours run into it.
+/// Substitute for the velocities, if foam is driven by trapped air: vectors whose length is the speed at which
+/// neighbours approach.
 pub fn drive(particles: &Particles, spacing: f32) -> Option<Vec<[f32; 3]>> {
     let speeds = air::trapped(&particles.positions, particles.velocities.as_ref()?, spacing);
     Some(speeds.into_iter().map(|speed| [speed, 0.0, 0.0]).collect())
 }
 
-/// A frame with that, and without places.
+/// A frame with these vectors as velocities, and without positions.
 fn driven(frame: &Particles, spacing: f32) -> Particles {
     Particles {
         velocities: drive(frame, spacing),
@@ -136,14 +141,14 @@ fn driven(frame: &Particles, spacing: f32) -> Particles {
     }
 }
 
-/// The number that a share of them is below.
+/// The quantile of the numbers at `share`.
 pub fn quantile(mut numbers: Vec<f32>, share: f64) -> Option<f32> {
     let at = (numbers.len() as f64 * share) as usize;
     (at < numbers.len()).then(|| *numbers.select_nth_unstable_by(at, f32::total_cmp).1)
 }
 
-/// The number that no more than [`MOST`] of any frame's particles have passed within the lifetime of foam, as far
-/// as the frames say; none without ids.
+/// The threshold at which no frame has more than [`MOST`] of its particles with foam, that is, above the threshold
+/// within the lifetime of foam; `None` without ids. It is based on the given frames.
 fn of_lifetimes(
     frames: &[Particles],
     seconds: &[f32],
@@ -168,7 +173,7 @@ fn of_lifetimes(
     (0..frames.len().min(seconds.len())).filter_map(of_frame).reduce(f32::max)
 }
 
-/// Weber numbers of the particles that are no spray, and which those are.
+/// Indices and Weber numbers of the particles that are not spray.
 fn numbers(frame: &Particles, foam: &WeberSettings, spray: f32) -> Vec<(usize, f32)> {
     // 0 marks a particle that was just emitted and has no sum yet.
     let known = |i: usize| frame.densities.as_ref().map(|d| d[i]).filter(|d| *d > 0.0);
@@ -184,7 +189,7 @@ fn numbers(frame: &Particles, foam: &WeberSettings, spray: f32) -> Vec<(usize, f
         .collect()
 }
 
-/// Seconds from one frame to another: by how far particles with the same ids went, and how fast they are.
+/// Seconds between two frames: the median, over particles with the same id, of displacement over speed.
 pub fn seconds(first: &Particles, second: &Particles) -> Option<f32> {
     let (ids, velocities) = (first.ids.as_ref()?, first.velocities.as_ref()?);
     let later = second.ids.as_ref()?.iter().zip(&second.positions);
@@ -213,7 +218,7 @@ mod tests {
     use whitewater::io::particles::Extension;
     use whitewater::io::particles::read_bytes;
 
-    /// A hundred particles, each faster than the one before.
+    /// A hundred particles; each is faster than the previous one.
     fn csv() -> Particles {
         let rows = (0..100).map(|i| format!("0,{i},0,{i},0,0\n"));
         let text = format!("x,y,z,vx,vy,vz\n{}", rows.collect::<String>());
@@ -257,11 +262,11 @@ mod tests {
         assert!((found.threshold / number(95.0) - 1.0).abs() < 1.0e-5, "{found:?}");
         assert_eq!(of(Foaming::From(7.0), &frame).unwrap().threshold, 7.0);
         assert!(of(Foaming::None, &frame).is_none());
-        // Spray is no water: then it is the particle before.
+        // Spray does not count as water, so the threshold is that of the next slower particle.
         frame.densities = Some((0..100).map(|i| if i > 95 { 1.0 } else { 1000.0 }).collect());
         let without = of(Foaming::Auto, &frame).unwrap();
         assert!((without.threshold / number(91.0) - 1.0).abs() < 1.0e-5, "{without:?}");
-        // One that was just emitted has no density yet, and is water as any other.
+        // A particle that was just emitted has no density yet, and counts as water.
         frame.densities = Some(vec![0.0; 100]);
         assert_eq!(of(Foaming::Auto, &frame), Some(found));
         frame.velocities = Some(vec![[0.0; 3]; 100]);
@@ -270,8 +275,8 @@ mod tests {
         assert!(of(Foaming::Auto, &frame).is_none() && of(Foaming::From(7.0), &frame).is_none());
     }
 
-    /// What goes with the wind does not foam, and what is at rest in it does: by the number of the relative velocity
-    /// (Eq. 3.1 of the thesis), whatever its unit.
+    /// Water that moves with the wind does not foam, and water at rest in wind does: the Weber number uses the relative
+    /// velocity (Eq. 3.1 of the thesis), in any unit.
     #[test]
     fn water_foams_by_its_speed_through_the_air() {
         let frame = csv();
@@ -292,7 +297,7 @@ mod tests {
             let with = of([200.0, 0.0, 0.0], weber);
             let speed = |foam: WeberSettings| (foam.threshold / (foam.scale * 1000.0)).sqrt();
             assert!((speed(against) - 105.0).abs() < 1.0e-3, "{against:?}");
-            // The slowest are now the fastest, from 101 to 200.
+            // The slowest particles are now the fastest, from 101 to 200.
             assert!((speed(with) - 196.0).abs() < 1.0e-3, "{with:?}");
         }
         let said = SurfaceFoamTable { threshold: Some(7.0), ..SurfaceFoamTable::default() };
@@ -305,7 +310,8 @@ mod tests {
         assert!(of(Foaming::None).is_none());
     }
 
-    /// Two blocks that run into each other foam where they meet; one that flows, however fast, or that trembles, does not.
+    /// Two blocks that collide foam where they meet. A block that flows at any speed does not, and neither does one
+    /// that trembles.
     #[test]
     fn water_foams_where_it_traps_air() {
         let spacing = Settings::default().water.spacing;
@@ -333,7 +339,7 @@ mod tests {
         };
         assert_eq!(of(&tremble), None, "trembles");
         let (count, farthest) = of(&|_, p| [0.0, -2.0 * p[1].signum(), 0.0]).unwrap();
-        // Of two layers of 256 on either side those that have neighbours all round.
+        // Of two layers of 256 particles on either side, those with neighbours all around.
         assert!((100..=512).contains(&count) && farthest < 1.6 * spacing, "{count} {farthest}");
         frame.velocities = None;
         let by = (&SurfaceFoamTable::default(), FoamBy::Air);
@@ -341,8 +347,8 @@ mod tests {
         assert_eq!(settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()), None);
     }
 
-    /// Water that trembles, that flows as a whole and that is slow does not foam in a sequence; what is faster than the flow by
-    /// as much as draws in air does, and nothing else.
+    /// In a sequence, water that trembles, that flows as a whole or that is slow does not foam. Only water that exceeds
+    /// the flow by the speed of air entrainment does.
     #[test]
     fn air_is_not_drawn_in_by_calm_water() {
         let noise = |i: usize, seed: usize| ((i * 7919 + seed * 104_729) as f32).sin();
@@ -359,14 +365,15 @@ mod tests {
         assert_eq!(of(&|_| [3.0, 0.0, 0.0]), None, "uniform");
         assert_eq!(of(&|i| [3.0 + 0.01 * noise(i, 1), 0.0, 0.01 * noise(i, 2)]), None, "a river");
         assert!(of(&trembles(3.0)).is_some());
-        // A jet into a pool at rest, of one in a hundred: slower water does not foam though that is a twentieth.
+        // A jet, one particle in a hundred, into a pool at rest: slower water does not foam, although a twentieth of
+        // the particles would be above the quantile.
         let jet = of(&|i| [0.0, if i % 100 == 0 { -4.0 } else { 0.2 * noise(i, 1) }, 0.0]).unwrap();
         assert!((jet.threshold / (jet.scale * 1000.0) - ONSET * ONSET).abs() < 1.0e-4, "{jet:?}");
         assert_eq!(jet.air, [0.0; 3]);
-        // Behind a stone in a river.
+        // The wake of a stone in a river.
         let wake = of(&|i| [if i % 50 == 0 { -1.0 } else { 3.0 }, 0.0, 0.0]).unwrap();
         assert_eq!(wake.air, [3.0, 0.0, 0.0], "the water's own speed does not count");
-        // A number that is said is taken as it is.
+        // A threshold that the user sets is used unchanged.
         let mut frame = Particles::from_positions(vec![[0.0; 3]; 10]);
         frame.velocities = Some(vec![[0.001; 3]; 10]);
         let by = (&SurfaceFoamTable::default(), FoamBy::Speed);
@@ -395,8 +402,8 @@ mod tests {
         );
     }
 
-    /// Other four of a hundred are fast in each of ten frames: less than a twentieth. All that were within a
-    /// lifetime are more than three tenths.
+    /// In each of ten frames a different 4 % of the particles is fast, less than a twentieth. Those that were fast
+    /// within a lifetime are more than three tenths.
     #[test]
     fn no_more_than_three_tenths_foam_at_a_time() {
         let mut frames: Vec<Particles> = (0..10)

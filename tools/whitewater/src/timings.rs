@@ -1,4 +1,4 @@
-//! Writes times: CSV, JSON, and a trace for Perfetto and chrome://tracing.
+//! Writes timings: CSV, JSON, and a trace for Perfetto and chrome://tracing.
 
 use std::io::Write;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::failure::{Failure, Outcome};
 use crate::output;
 use crate::progress::Steps;
 
-/// A step of the tool's own, in microseconds since the start.
+/// A step of this program; times in microseconds since the start.
 struct Step {
     name: &'static str,
     frame: u64,
@@ -20,17 +20,18 @@ struct Step {
     length: f64,
 }
 
-/// What was measured.
+/// All measurements.
 struct Record {
     began: Instant,
     adapter: String,
     driver: String,
     steps: Vec<Step>,
-    /// Frame, when its submission began (microseconds since the start), its passes.
+    /// For each frame: its number, the start of its submission (microseconds since the start), and its passes.
     frames: Vec<(u64, f64, Vec<Timing>)>,
 }
 
-/// The same for all who measure, and for who writes it where Ctrl-C ends the program.
+/// A shared handle of the measurements. All clones write to one record, so that the Ctrl-C handler can save it before
+/// the program ends.
 #[derive(Clone)]
 pub struct Times {
     record: Arc<Mutex<Record>>,
@@ -38,7 +39,7 @@ pub struct Times {
 }
 
 impl Times {
-    /// `steps`: where they are told of as well.
+    /// `steps` also shows the steps as progress.
     pub fn new(steps: Steps, adapter: &str, driver: &str) -> Self {
         let record = Record {
             began: Instant::now(),
@@ -54,12 +55,12 @@ impl Times {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A line that stays.
+    /// Prints a line that stays.
     pub fn say(&self, line: &str) {
         self.steps.say(line);
     }
 
-    /// Does a step and notes how long it took.
+    /// Runs a step and records its duration.
     pub fn step<T>(&self, name: &'static str, frame: u64, work: impl FnOnce() -> T) -> T {
         let start = self.now();
         let result = self.steps.during(format_args!("frame {frame}: {name}"), work);
@@ -73,7 +74,7 @@ impl Times {
         self.record().began.elapsed().as_secs_f64() * 1.0e6
     }
 
-    /// The passes of a frame, or of a step of what it shows, which was the step noted last.
+    /// Records the passes of a frame, or of a simulation step; they belong to the step that was recorded last.
     pub fn passes(&self, frame: u64, passes: Vec<Timing>) {
         if passes.is_empty() {
             return;
@@ -83,7 +84,7 @@ impl Times {
         record.frames.push((frame, start, passes));
     }
 
-    /// Fails early where a name of a file of times is of no known kind.
+    /// Fails early if the extension of a timings file is unknown.
     pub fn check(path: &Path, trace: bool) -> Outcome<()> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         match extension.as_deref() {
@@ -97,7 +98,7 @@ impl Times {
         }
     }
 
-    /// Frame, pass, start and length in nanoseconds.
+    /// Writes frame, pass, start and length in nanoseconds.
     pub fn write(&self, path: &Path) -> Outcome<()> {
         let Record { adapter, driver, frames, .. } = &*self.record();
         let csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
@@ -127,8 +128,8 @@ impl Times {
         })
     }
 
-    /// All of it as Chrome's trace events: the tool's steps, and the passes on the device. The clocks of both are
-    /// not one: a frame's first pass is put where its drawing began.
+    /// Writes all measurements as Chrome trace events: steps of this program, and passes on the device. The two clocks
+    /// are not synchronised; the first pass of a frame is placed at the start of its submission.
     pub fn write_trace(&self, path: &Path) -> Outcome<()> {
         let Record { adapter, steps, frames, .. } = &*self.record();
         let thread = |tid: u32, name: &str| json!({"ph": "M", "name": "thread_name", "pid": 1, "tid": tid, "args": {"name": name}});

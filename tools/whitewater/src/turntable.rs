@@ -1,4 +1,4 @@
-//! A camera that goes round the water.
+//! A camera that orbits the water.
 
 use whitewater::io::particles::sequence::Frame;
 
@@ -6,11 +6,11 @@ use crate::args::{RenderArgs, Turntable};
 use crate::camera::Turn;
 use crate::failure::{Failure, Outcome};
 
-/// How the camera goes round.
+/// Orbit of the camera.
 #[derive(Clone, Copy)]
 pub struct Turning {
     turntable: Turntable,
-    /// Number of the first picture, and how many numbers on the first would come after the last.
+    /// Number of the first frame, and the number of frame numbers from it to one step behind the last frame.
     first: u64,
     span: f32,
 }
@@ -26,7 +26,7 @@ impl Turning {
         Some(Self { turntable, first, span: apart * frames.len() as f32 })
     }
 
-    /// The turn, of so many frames a second.
+    /// The orbit, at this frame rate.
     pub fn turn(&self, fps: f32) -> Turn {
         let frames = match self.turntable {
             Turntable::Auto => self.span,
@@ -37,10 +37,10 @@ impl Turning {
     }
 }
 
-/// Pictures of a turn round one frame, where nothing is said.
+/// Default number of pictures for an orbit around one frame.
 const STILLS: u32 = 96;
 
-/// One frame as often as a turn has pictures, from 1 on.
+/// The same frame repeated for each picture of an orbit, numbered from 1.
 pub fn stills(frame: &Frame, turntable: Turntable, fps: f32) -> Outcome<Vec<Frame>> {
     let count = match turntable {
         Turntable::Auto => STILLS,

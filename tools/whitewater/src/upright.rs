@@ -8,38 +8,40 @@ use whitewater::io::particles::{self, Particles};
 use crate::args::Up;
 use crate::bounds::Bounds;
 
-/// Columns that are looked at are so many spacings wide.
+/// Width in spacings of the columns in which water is measured.
 const COLUMN: f32 = 3.0;
-/// Particles so many spacings from an end of an axis lie at it.
+/// Distance in spacings from an end of an axis within which particles count as being at that end.
 const NEAR: f32 = 2.0;
-/// What is no thicker than so many spacings is one layer.
+/// Max thickness in spacings of a single layer.
 const LAYER: f32 = 0.6;
-/// How much more of the water lies on a floor than under a lid of the same kind, so that it is taken for one.
+/// Min excess of columns that touch the lower end over columns that touch the upper end, for the lower end to be a
+/// floor.
 const OPEN: f32 = 0.35;
-/// Of the root mean square speed: how fast water as a whole goes up, or down.
+/// Min mean velocity along an axis, relative to the root mean square speed, for the water to move up or down as a
+/// whole.
 const MOVES: f32 = 0.1;
-/// The same of water that falls as a whole.
+/// The same for water that falls as a whole.
 const FALLS: f32 = 0.25;
-/// What little of a surface there is, of such water.
+/// Min excess (as [`OPEN`]) of water that falls as a whole; little of its surface is open.
 const SOME: f32 = 0.03;
 
-/// What an axis looks like as the one that points up.
+/// Evidence for an axis as the up axis.
 #[derive(Clone, Copy, Debug)]
 struct Axis {
     up: Up,
-    /// Share of the columns along it that begin at its lower end, less those that end at its upper end.
+    /// Share of the columns that touch the lower end, minus the share that touch the upper end.
     open: f32,
-    /// Mean velocity along it, in root mean square speeds.
+    /// Mean velocity along the axis, relative to the root mean square speed.
     moves: f32,
 }
 
 impl Axis {
-    /// The same seen from its other end.
+    /// The evidence for the opposite direction.
     fn against(self) -> Self {
         Self { up: Up::along(self.up.axis(), true), open: -self.open, moves: -self.moves }
     }
 
-    /// Whether water lies at its lower end and is open above.
+    /// Whether water lies at the lower end and is open above.
     fn lies(&self) -> bool {
         self.open >= OPEN && self.moves <= MOVES
     }
@@ -67,23 +69,23 @@ impl Axis {
     }
 }
 
-/// Where the water lies and how it moves say the same.
+/// Position and motion agree.
 const CLEAR: &str = "clear";
-/// One of the two tells.
+/// Only one of position and motion shows it.
 const LIKELY: &str = "likely";
 
-/// Which axis points up in files.
+/// The up axis of files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     pub up: Up,
-    /// What speaks for it.
+    /// The reason, for the user.
     pub why: String,
     pub sure: &'static str,
 }
 
-/// Which axis points up, told by frames of a sequence as they are in the files: water lies on a floor and is open above,
-/// and as a whole it comes down. Asked are y and z, either way; x is too often the one along which a dam breaks. None where
-/// it is not told, or several may be it: it is y then, as is usual.
+/// Detects the up axis from frames of a sequence in the files' coordinates: water lies on a floor, is open above, and
+/// moves down as a whole. Only y and z are candidates, in both directions, because a dam often breaks along x. `None`
+/// if the evidence is missing or ambiguous; callers then assume y.
 pub fn find(frames: &[Particles]) -> Option<Found> {
     let across = flat(frames);
     let of = |frames: &[Particles]| {
@@ -92,7 +94,7 @@ pub fn find(frames: &[Particles]) -> Option<Found> {
     };
     let axes = of(frames)?;
     let by_frames = || {
-        // Water that sinks from frame to frame lies on no floor of all of them: most frames by themselves tell as well.
+        // Water that sinks from frame to frame lies on no common floor; then a majority of single frames decides.
         if frames.len() < 2 {
             return None;
         }
@@ -105,7 +107,7 @@ pub fn find(frames: &[Particles]) -> Option<Found> {
     let usual = || match (across, axes.as_slice()) {
         (Some(1), _) => Some(Found {
             up: Up::Z,
-            why: "they are two-dimensional, with z beside x".into(),
+            why: "the particles are two-dimensional, in the plane of x and z".into(),
             sure: LIKELY,
         }),
         (_, [y, ..]) => y.lies().then(|| y.found(true)),
@@ -114,21 +116,21 @@ pub fn find(frames: &[Particles]) -> Option<Found> {
     other(&axes).or_else(by_frames).or_else(usual)
 }
 
-/// Whether it is another than y, of y and z, or one of them.
+/// Whether the up axis is another than y, among y and z or the only one of them.
 fn other(axes: &[Axis]) -> Option<Found> {
     if let [y, z] = axes {
         if z.lies() && z.open - y.open >= OPEN {
             return Some(z.found(true));
         }
-        // Against a wall it lies as on a floor: it goes away from one, and down on the other. Of a block that has just
-        // begun to fall the surface is nearly a lid.
+        // Water against a wall looks like water on a floor, but it moves away from the wall, and down towards the
+        // floor. A block that has just begun to fall has almost no open surface.
         let from_wall = z.lies() && z.moves < -MOVES && y.moves > MOVES;
         let falls = z.moves < -FALLS && y.moves.abs() < MOVES && z.open - y.open > SOME;
         if from_wall || falls {
             return Some(z.found(from_wall));
         }
     }
-    // Files that point down are rare: more has to speak for it.
+    // Files whose axis points down are rare, so more evidence is needed.
     axes.iter().find_map(|axis| {
         let against = axis.against();
         let mut others = axes.iter().filter(|other| other.up != axis.up);
@@ -139,7 +141,7 @@ fn other(axes: &[Axis]) -> Option<Found> {
     })
 }
 
-/// Across which axis all particles of all frames lie in one layer: they are two-dimensional.
+/// The axis perpendicular to a single layer of all particles in all frames: the particles are two-dimensional.
 pub fn flat(frames: &[Particles]) -> Option<usize> {
     let mut found = [true; 3];
     for frame in frames {
@@ -147,7 +149,7 @@ pub fn flat(frames: &[Particles]) -> Option<usize> {
         let size = Bounds::of_bulk(&frame.positions)?.size();
         (0..3).for_each(|axis| found[axis] &= size[axis] < LAYER * spacing);
     }
-    // A line, or a point, lies in many planes.
+    // A line or a point lies in several planes.
     let mut flat = (0..3).filter(|axis| found[*axis] && !frames.is_empty());
     flat.next().filter(|_| flat.next().is_none())
 }
@@ -197,7 +199,7 @@ mod tests {
 
     const SPACING: f32 = 0.05;
 
-    /// Water on a floor that slopes away from a wall, and velocities: along, across and up.
+    /// Water on a floor whose surface slopes away from a wall, with velocities: along, across and up.
     fn dam(turn: impl Fn([f32; 3]) -> [f32; 3], moves: bool) -> Particles {
         let cells =
             (0..40).flat_map(|x| (0..12).flat_map(move |y| (0..20).map(move |z| (x, y, z))));
@@ -238,14 +240,14 @@ mod tests {
         assert!(is_z(&[dam(z_up, true)]).is_some());
         assert_eq!(is_z(&[dam(y_up, false)]), None);
         assert_eq!(is_z(&[dam(y_up, true)]), None);
-        // The dam breaks along the axis that may be taken for the one that is up: how it moves tells.
+        // The dam breaks along the axis that could be the up axis; the motion decides.
         let z_up = |[x, y, z]: [f32; 3]| [y, x, z];
         let y_up = |[x, y, z]: [f32; 3]| [y, z, x];
         assert!(is_z(&[dam(z_up, true)]).is_some());
         assert_eq!(is_z(&[dam(y_up, true)]), None);
         assert_eq!(is_z(&[dam(z_up, false)]), None, "nothing tells: y");
         assert_eq!(is_z(&[dam(y_up, false)]), None);
-        // A block that falls, of whose surface a part has sunk.
+        // A falling block; part of its surface has sunk.
         let sunk = |turn: &dyn Fn([f32; 3]) -> [f32; 3]| {
             let at = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(|i| SPACING * i as f32));
             let at = at.filter(|[x, _, z]| *x < 0.33 || *z < 0.33);
@@ -255,7 +257,7 @@ mod tests {
         };
         assert!(sunk(&|p| p));
         assert!(!sunk(&|[x, y, z]| [x, z, -y]));
-        // Water that goes through its floor, from frame to frame.
+        // Water that sinks through its floor from frame to frame.
         let sinking = |turn: &dyn Fn([f32; 3]) -> [f32; 3]| {
             let frame =
                 |i: usize| dam(|[x, y, z]| turn([x, y, z - 3.0 * SPACING * i as f32]), false);
@@ -263,14 +265,14 @@ mod tests {
         };
         assert!(sinking(&|p| p));
         assert!(!sinking(&|[x, y, z]| [x, z, -y]));
-        // A block, and nothing.
+        // A block, and no particles.
         let block = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(|i| SPACING * i as f32));
         assert_eq!(is_z(&[Particles::from_positions(block.collect())]), None);
         assert_eq!(is_z(&[Particles::from_positions(Vec::new())]), None);
         assert_eq!(is_z(&[]), None);
     }
 
-    /// A dam turned every way: what its motion and its open side tell, and what they leave open.
+    /// A dam in every orientation: what its motion and its open side show, and what they leave ambiguous.
     #[test]
     fn water_that_hangs_is_turned() {
         let up = |particles: Particles| find(&[particles]).map(|found| (found.up, found.sure));
@@ -278,16 +280,16 @@ mod tests {
             let way = |[x, y, z]: [f32; 3]| up_axis.turn_back([x, z, -y]);
             assert_eq!(up(dam(way, true)), Some((up_axis, "clear")));
             assert_eq!(up(dam(way, false)), Some((up_axis, "likely")));
-            // The dam breaks along the other axis that may be up, from its low or its high end.
+            // The dam breaks along the other candidate axis, from its low or its high end.
             for side in [1.0, -1.0] {
                 let way = |[x, y, z]: [f32; 3]| up_axis.turn_back([y, z, side * x]);
                 assert_eq!(up(dam(way, true)).map(|found| found.0), Some(up_axis), "{side}");
             }
         }
-        // On its side x is up: not told, and nothing else is.
+        // With x up nothing is detected: x is no candidate, and no other axis is found.
         let side = |[x, y, z]: [f32; 3]| Up::X.turn_back([y, z, x]);
         assert!(up(dam(side, true)).is_none_or(|found| found.0 == Up::Y));
-        // What rises from a floor is no fall to a lid.
+        // A jet that rises from a floor is not a fall towards a lid.
         let mut fountain = dam(|[x, y, z]| [x, z, -y], false);
         fountain.velocities = Some(vec![[0.0, 1.0, 0.0]; fountain.positions.len()]);
         assert_eq!(find(&[fountain]), None);

@@ -1,4 +1,4 @@
-//! Whitewater particles from files of the same frames.
+//! Reads whitewater particles from files of the same frames.
 
 use std::collections::{BTreeMap, HashMap};
 use std::f32::consts::PI;
@@ -19,42 +19,42 @@ use crate::generate::Generate;
 use crate::placing::Placing;
 use crate::settings::SettingsFile;
 
-/// Frames in which the longest life is looked for, and how close together particles lie.
+/// Number of probed frames, from which the longest lifetime and the particles' density are found.
 const PROBES: usize = 16;
 
-/// Where the whitewater particles come from.
+/// Source of the whitewater particles.
 pub enum WhitewaterSource {
     Files(Files),
     Made(Box<Generate>),
 }
 
-/// The files of a sequence, by frame.
+/// Files of a sequence, by frame number.
 pub struct Files {
     frames: BTreeMap<u64, Vec<(PathBuf, Option<u32>)>>,
     placing: Placing,
-    /// The longest life: none where no file says how long they live.
+    /// The longest remaining lifetime; `None` if no file stores lifetimes.
     life: Option<f32>,
-    /// Of each kind, how many a column holds that holds any; none where there are none of it.
+    /// Mean number of particles of each kind in a column that holds any; `None` if there are none of that kind.
     columns: [Option<f32>; 3],
-    /// The most particles of a frame.
+    /// Max number of particles in a frame.
     most: usize,
-    /// How each is drawn, where that is found.
+    /// Size and number of drawn particles, if they were found.
     drawn: Option<Drawn>,
 }
 
 /// How the particles of files are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Drawn {
-    /// Of foam, spray and bubbles.
+    /// Radii of foam, spray and bubbles.
     radii: [f32; 3],
-    /// So many in the place of one.
+    /// Number of drawn particles for each particle of a file.
     copies: u32,
-    /// The water's.
+    /// Particle spacing of the water.
     spacing: f32,
 }
 
-/// The whitewater particles of a frame, in files that are open. Nothing needs all of them at once: of the frames before
-/// nothing is known of them, camera and light are found by the water. So no more than a part is in memory.
+/// The whitewater particles of a frame, in opened files. They are read and uploaded part by part, so that only a part
+/// is in memory: nothing else needs them, since camera and light are found from the water.
 pub struct Reading {
     files: Vec<(Parts<'static>, Option<u32>)>,
     placing: Placing,
@@ -62,7 +62,7 @@ pub struct Reading {
     drawn: Option<Drawn>,
 }
 
-/// A part of them, as it is uploaded.
+/// A part of the particles, ready for upload.
 struct Part {
     positions: Vec<[f32; 3]>,
     kinds: Vec<u32>,
@@ -71,46 +71,47 @@ struct Part {
     ids: Option<Vec<u32>>,
 }
 
-/// Kinds: foam, spray and bubbles. What has another number is foam.
+/// Number of kinds: foam, spray and bubbles. An unknown kind counts as foam.
 const KINDS: usize = 3;
 
 fn kind_of(number: u32) -> usize {
     usize::try_from(number).ok().filter(|kind| *kind < KINDS).unwrap_or(0)
 }
 
-/// Thickness that foam of one particle a column adds to it on average, with a radius as long as the column is wide: its
-/// disc, by its mean size squared (a radius is divided by 1 to 5; Akinci et al. 2013, Sec. 2.1) and its mean shape
-/// (1 - x^2.25).
+/// Mean thickness that one foam particle adds to a column, if its radius is the column's width: its disc, with the mean
+/// squared size (a radius is divided by 1 to 5; Akinci et al. 2013, Sec. 2.1) and the mean shape (1 - x^2.25).
 const SHARE: f32 =
     PI * (1.0 + 1.0 / 4.0 + 1.0 / 9.0 + 1.0 / 16.0 + 1.0 / 25.0) / 5.0 * (1.0 - 2.0 / 4.25);
-/// What a column of the mean number of particles hides where they lie evenly, and radii can be chosen so. Few that lie
-/// anyhow leave gaps, and hide less on average.
+/// Opacity of a column with the mean number of particles, if they are spread evenly and the radius is within its
+/// limits. A few randomly placed particles leave gaps and hide less on average.
 const HIDDEN: f32 = 0.8;
-/// `half` of few particles: the middle of one alone hides 1 / 1.12, as a drop of white water does.
+/// `half` for few particles: the centre of a single one has an opacity of 1 / 1.12, as a drop of white water.
 const FEW: f32 = 0.12;
-/// So many particles a column that holds any are drawn at least, of foam or spray, where there are fewer: each as several,
-/// no more than the second number and no more of all than the third.
+/// Copies are drawn if a column that holds any foam or spray has fewer particles than the first number. The second is
+/// the max number of copies of a particle, the third the max number of all drawn particles.
 const COPIES: (f32, u32, usize) = (60.0, 24, 3_000_000);
-/// Copies lie so many spacings from their particle at most, of foam, spray and bubbles; foam a third of that above and below.
+/// Max distance of copies from their particle in spacings, for foam, spray and bubbles; for foam a third of that
+/// vertically.
 const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
-/// Shortest and longest radius in spacings: in smaller spheres their own shadow is not found, larger ones look like balls.
+/// Min and max radius in spacings: the shadow search does not resolve smaller spheres, and larger ones look like balls.
 const RADII: [f32; 2] = [0.1, 0.25];
 
-/// How large and how opaque whitewater particles are. Files hold ten thousand or ten million for the same splash: Akinci's
-/// numbers are for millions, and make a few a haze.
+/// Size and opacity of whitewater particles. Files hold ten thousand or ten million particles for the same splash;
+/// Akinci's constants are for millions, and would turn a few into a haze.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
-    /// Of foam, spray and bubbles.
+    /// Radii of foam, spray and bubbles.
     pub radii: [f32; 3],
-    /// ρ_mod of the intensity.
+    /// Half-intensity thickness, ρ_mod of the intensity.
     pub half: f32,
 }
 
 impl Sizes {
-    /// By how many a column of one spacing squared holds that holds any. Thickness of a column of `n` with a radius of `r`
-    /// spacings is `SHARE n r^2`; the radius is such that the mean column hides [`HIDDEN`] with `half` of [`FEW`], within
-    /// [`RADII`]. Where that is more, as the least radius makes it of many, `half` rises so that it hides as much, to the
-    /// source's 3 at most: from there on many hide more. By foam and spray: bubbles are seen through water.
+    /// Size and opacity from the mean number of particles in a column of one spacing squared that holds any. A column
+    /// of `n` particles with a radius of `r` spacings has the thickness `SHARE n r^2`. The radius is chosen within
+    /// [`RADII`] so that the mean column has the opacity [`HIDDEN`] with `half` = [`FEW`]. If even the min radius gives
+    /// more, `half` rises to keep that opacity, up to the source's 3; more particles are then more opaque. Only foam
+    /// and spray count, because bubbles are seen through water.
     pub fn of_columns(columns: [Option<f32>; 3], spacing: f32) -> Self {
         let WhitewaterSettings { half_intensity_thickness: most, exponent, .. } =
             WhitewaterSettings::of_spacing(spacing);
@@ -126,17 +127,17 @@ impl Sizes {
     }
 }
 
-/// How many of each kind lie in columns of one spacing squared.
+/// Counts particles of each kind in columns of one spacing squared.
 #[derive(Default)]
 pub struct Columns {
-    /// Of the frame that is looked at.
+    /// Counts of the current frame.
     here: HashMap<[i64; 2], [u32; KINDS]>,
-    /// Of all: particles, and columns with any.
+    /// Sums over all frames: particles, and columns that hold any.
     sums: [[u64; 2]; KINDS],
 }
 
 impl Columns {
-    /// Those of a frame, or a part of them.
+    /// Adds the particles of a frame, or a part of them.
     pub fn add(&mut self, part: &Particles, kind: Option<u32>, placing: Placing, spacing: f32) {
         let across = [0, 1, 2].map(|axis| placing.up.axis() != axis);
         for (i, position) in part.positions.iter().enumerate() {
@@ -162,15 +163,15 @@ impl Columns {
         }
     }
 
-    /// Particles to a column of those that hold any, of each kind.
+    /// Mean number of particles of each kind in a column that holds any.
     pub fn means(&self) -> [Option<f32>; KINDS] {
         self.sums.map(|[all, columns]| (columns > 0).then(|| all as f32 / columns as f32))
     }
 }
 
 impl Files {
-    /// Finds them; none where none are named. `single`: one frame is drawn, whose file may have any number. `spacing`: of
-    /// the water.
+    /// Finds the files; `None` if none are named. `single` is set if one frame is drawn; its file may have any number.
+    /// `spacing` is the water's.
     pub fn find(
         named: &[Whitewater],
         placing: Placing,
@@ -200,7 +201,7 @@ impl Files {
         Ok(Some(files))
     }
 
-    /// At some frames of the whole sequence, so that what is found is the same however it is cut into jobs.
+    /// Reads some frames of the whole sequence, so that the results do not depend on the range that a job draws.
     fn look(&mut self, spacing: f32) {
         let step = self.frames.len().div_ceil(PROBES).max(1);
         let (mut longest, mut columns, mut here) = (None, Columns::default(), 0);
@@ -215,7 +216,7 @@ impl Files {
                 columns.add(part, kind, self.placing, spacing);
                 here += part.positions.len();
             });
-            // One that can't be read is said when its frame is drawn.
+            // If a file cannot be read, the error is reported when its frame is drawn.
             if read.is_ok() {
                 longest = most.into_iter().chain(longest).reduce(f32::max);
             }
@@ -228,8 +229,8 @@ impl Files {
         self.columns = columns.means();
     }
 
-    /// Chooses radii and opacity by how close together they lie, where the file of settings does not say them. The thesis'
-    /// look has none of its own: it is left as it is.
+    /// Sets radii and opacity from how densely the particles lie, unless the settings file has them. The thesis' look
+    /// is not changed.
     pub fn choose(&mut self, file: &SettingsFile, settings: &mut Settings) {
         if file.is_thesis() {
             return;
@@ -250,17 +251,17 @@ impl Files {
             table.half_intensity_thickness.unwrap_or(found.half);
     }
 
-    /// Radii of foam, spray and bubbles, where they are not all alike.
+    /// Radii of foam, spray and bubbles, if they differ.
     pub fn radii(&self) -> Option<[f32; 3]> {
         self.drawn.map(|drawn| drawn.radii)
     }
 
-    /// As how many each is drawn.
+    /// Number of drawn particles for each particle of a file.
     pub fn copies(&self) -> u32 {
         self.drawn.map_or(1, |drawn| drawn.copies)
     }
 
-    /// What to say where some of the frames have no file of their number; fails where none has.
+    /// A message if some frames have no file with their number. Fails if none has one.
     pub fn missing(&self, frames: &[u64]) -> Outcome<Option<String>> {
         let without = frames.iter().filter(|frame| !self.frames.contains_key(frame));
         let without: Vec<_> = without.collect();
@@ -285,12 +286,12 @@ impl Files {
         }
         let (count, total) = (without.len(), frames.len());
         Ok(Some(format!(
-            "--whitewater: {count} of {total} frames, from {first} on, have no file of their number and are drawn without \
+            "--whitewater: {count} of {total} frames, from {first} on, have no file with their number and are drawn without \
              whitewater particles"
         )))
     }
 
-    /// Opens those of a frame; none where there is no file of its number.
+    /// Opens the files of a frame; the result is empty if there is no file with its number.
     pub fn open(&self, frame: u64) -> Outcome<Reading> {
         let named = self.frames.get(&frame).into_iter().flatten();
         let open =
@@ -301,22 +302,22 @@ impl Files {
 }
 
 impl Reading {
-    /// Particles of all files.
+    /// Number of particles in all files.
     pub fn read(&self) -> usize {
         self.files.iter().map(|(parts, _)| parts.total()).sum()
     }
 
-    /// Particles of all files, as they are drawn.
+    /// Number of drawn particles of all files.
     pub fn total(&self) -> usize {
         let copies = self.drawn.map_or(1, |drawn| drawn.copies as usize);
         self.files.iter().map(|(parts, _)| parts.total() * copies).sum()
     }
 
-    /// Reads them and makes them those of the frames to come.
+    /// Reads and uploads the particles; the device keeps them for the frames that follow.
     pub fn upload(self, headless: &mut Headless) -> Outcome<()> {
         let mut upload = headless.whitewater_parts(self.total())?;
         let mut first = 0;
-        // All files have them, or they are of no use.
+        // Ids are used only if all files have them.
         let identified = self.files.iter().all(|(parts, _)| parts.about().ids.is_some());
         for (parts, kind) in self.files {
             for part in parts {
@@ -346,7 +347,7 @@ impl Part {
         let count = read.positions.len();
         let kinds = kind.map(|kind| vec![kind; count]).or(read.kinds);
         let age = |left: f32| match life {
-            // What is left is less than nothing: gone.
+            // A particle whose remaining lifetime is 0 or less is dead.
             Some(life) if left > 0.0 => (1.0 - left / life).max(0.0),
             _ => 1.0,
         };
@@ -367,7 +368,8 @@ impl Part {
         part
     }
 
-    /// Puts several round each, the first in its place, by its id, or by its number where it has none.
+    /// Adds the copies around each particle; the first stays in its place. Their offsets depend on the particle's id,
+    /// or on its index if it has none.
     fn scatter(&mut self, drawn: &Drawn, first: u32) {
         let copies = drawn.copies as usize;
         if copies < 2 {
@@ -378,10 +380,10 @@ impl Part {
         for (i, &p) in self.positions.iter().enumerate() {
             positions.push(p);
             let kind = kind_of(self.kinds[i]);
-            // A ball has more outside than in its middle; these are denser there.
+            // The distances are uniform, so that the copies are denser in the middle than in a uniform ball.
             let reach = SCATTER[kind] * drawn.spacing;
             let high = if kind == 0 { reach / 3.0 } else { reach };
-            // The golden ratio's bits: neighbours' numbers are far apart.
+            // Multiplying by the golden ratio's bits spreads the seeds of consecutive ids.
             let mut random = Random((u64::from(known(i)) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
             positions.extend((1..copies).map(|_| {
                 let away = Vec3::from([(); 3].map(|()| 2.0 * random.next() - 1.0));
@@ -402,7 +404,7 @@ impl Part {
     }
 }
 
-/// As how many particles each is drawn: by the kind of foam and spray that has the fewest a column.
+/// Number of drawn particles for each particle, from the sparser of foam and spray.
 fn copies(columns: [Option<f32>; KINDS], most: usize) -> u32 {
     let (wanted, copies, all) = COPIES;
     let fewest = columns.into_iter().take(2).flatten().fold(f32::INFINITY, f32::min);
@@ -410,7 +412,7 @@ fn copies(columns: [Option<f32>; KINDS], most: usize) -> u32 {
     ((wanted / fewest).ceil() as u32).clamp(1, room)
 }
 
-/// `generate` or `[KIND=]FILES`.
+/// Parses `generate` or `[KIND=]FILES`.
 pub fn named(text: &str) -> Result<Whitewater, String> {
     if text == "generate" {
         return Ok(Whitewater::Generate);
@@ -427,7 +429,7 @@ pub fn named(text: &str) -> Result<Whitewater, String> {
     Ok(Whitewater::Files { kind, files: files.into() })
 }
 
-/// Their number, where it is one that the renderer takes.
+/// The number of particles, if the renderer supports it.
 pub fn counted(count: usize) -> Outcome<u32> {
     u32::try_from(count)
         .map_err(|_| Failure::input("expected fewer than 2^32 whitewater particles, found more"))
@@ -453,14 +455,14 @@ mod tests {
         }
     }
 
-    /// Opacity of a column of `n` particles of foam (Akinci et al. 2013, Sec. 2.3).
+    /// Opacity of a column of `n` foam particles (Akinci et al. 2013, Sec. 2.3).
     fn hidden(n: f32, radius: f32, half: f32) -> f32 {
         let power = (SHARE * n * radius * radius).powf(1.25);
         power / (half + power)
     }
 
-    /// The same patch of 40 by 40 columns, resolved by a thousand to ten million particles. With the library's numbers it
-    /// is a hundredth as opaque, or less, where they are ten thousand.
+    /// The same patch of 40 by 40 columns, resolved by a thousand to ten million particles. With the library's
+    /// constants, ten thousand would have a hundredth of the opacity or less.
     #[test]
     fn ten_thousand_and_ten_million_read_as_foam() {
         let of = |n: f32, spacing: f32| {
@@ -474,7 +476,7 @@ mod tests {
             "more hides no less: {all:?}"
         );
         let [thousand, ten, hundred, million, _, most] = all;
-        // Less than one a column: a ball of the longest radius here and there.
+        // With less than one particle per column the radius is at its max.
         assert!(thousand.1 == RADII[1] && thousand.2 == FEW, "{thousand:?}");
         assert!((0.45..0.8).contains(&ten.0) && ten.1 == RADII[1] && ten.2 == FEW, "{ten:?}");
         assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 < 0.2, "{hundred:?}");
@@ -482,9 +484,9 @@ mod tests {
         assert!(most.0 > HIDDEN && most.2 == 3.0, "{most:?}");
         assert!([million, most].iter().all(|of| (of.1 - RADII[0]).abs() < 1.0e-6));
         assert!(hidden(1.0e4 / 1600.0, 0.15, 3.0) < 0.02, "as the source's numbers have it");
-        // Whatever the unit.
+        // The result does not depend on the unit.
         assert!((of(30.0, 0.02).1 - of(30.0, 5.0).1).abs() < 1.0e-6);
-        // Spray is sparse where foam is dense; of what is not there anything may do.
+        // Sparse spray and dense foam have different radii; the radius of a missing kind is arbitrary.
         let Sizes { radii, .. } = Sizes::of_columns([Some(200.0), Some(2.0), None], 1.0);
         assert_eq!(radii, [RADII[0], RADII[1], RADII[1]]);
     }
@@ -523,7 +525,7 @@ mod tests {
         ids.sort_unstable();
         ids.dedup();
         assert_eq!(ids.len(), 30);
-        // In another place of the file the same particle has the same copies.
+        // At another index of the file, the same particle has the same copies.
         read.positions.reverse();
         read.ids.as_mut().unwrap().reverse();
         read.kinds.as_mut().unwrap().reverse();
@@ -551,15 +553,16 @@ mod tests {
             columns.end_frame();
             columns.means()
         };
-        // Four of foam in three columns; what is no number and what is gone in none.
+        // Four foam particles in three columns; particles with NaN or without remaining lifetime count in none.
         assert_eq!(counted(&mut columns, None, Up::Y), [Some(4.0 / 3.0), Some(1.0), None]);
         assert_eq!(counted(&mut columns, None, Up::Y), [Some(4.0 / 3.0), Some(1.0), None]);
         let mut columns = Columns::default();
         assert_eq!(counted(&mut columns, Some(2), Up::Y), [None, None, Some(5.0 / 3.0)]);
-        // Of z-up files the second axis is across: of five four lie at y = 0 (one has no z), in four columns with the rest.
+        // In z-up files the second axis is horizontal: four of five particles are at y = 0 (one has no z), in four
+        // columns with the rest.
         let mut columns = Columns::default();
         assert_eq!(counted(&mut columns, Some(0), Up::Z)[0], Some(6.0 / 5.0));
-        // Two files of one frame are in the same columns.
+        // Two files of one frame count in the same columns.
         let mut columns = Columns::default();
         columns.add(&part, Some(0), Placing::default(), 1.0);
         assert_eq!(counted(&mut columns, Some(0), Up::Y)[0], Some(10.0 / 3.0));

@@ -1,10 +1,10 @@
-//! Values of flags.
+//! Parsers for the values of flags.
 
 use whitewater::water::Rule;
 
 use super::{Foaming, Turntable};
 
-/// A flag that has another name now is refused, with that name.
+/// Refuses a renamed flag and names the new one.
 pub(super) fn was_foam(_: &str) -> Result<Foaming, String> {
     Err("--foam was renamed: use --surface-foam".into())
 }
@@ -45,7 +45,7 @@ pub(super) fn exposure(text: &str) -> Result<f32, String> {
     }
 }
 
-/// A number, or one over another.
+/// Seconds, as a number or a fraction such as 1/50.
 pub(super) fn seconds(text: &str) -> Result<f32, String> {
     let found = match text.split_once('/') {
         Some((over, under)) => finite(over).and_then(|over| Ok(over / finite(under)?)),

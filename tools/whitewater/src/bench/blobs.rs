@@ -1,4 +1,4 @@
-//! Bubble foam: the built-in scenes of blobs, drawn, and moved on the GPU and on the CPU.
+//! Bubble foam: the built-in scenes of blobs, drawn, and simulated on the GPU and on the CPU.
 
 use std::sync::Mutex;
 use std::time::Instant;
@@ -19,10 +19,10 @@ use crate::failure::{Failure, Outcome};
 use crate::progress::Progress;
 use crate::settings::SettingsFile;
 
-/// Steps before those that are counted: blobs have fallen onto each other.
+/// Warm-up steps, which are not counted: blobs fall onto each other.
 const FALLING: u32 = 30;
 
-/// The source's picture.
+/// Picture size of the source.
 const SIZE: (u32, u32) = (640, 480);
 
 pub fn measure_all(
@@ -69,7 +69,7 @@ fn measure(
         it.max_blobs = max_blobs;
         it.crossfade = false;
     });
-    // There is no water, and room for it is not zero.
+    // There is no water, but room for 0 particles is not allowed.
     let config = Config::new(extent, COLOR_FORMAT, 64).with(|it| it.bubbles = Some(bubbles));
     let mut headless = Headless::new(Device::new(options)?, &config)?;
     let rows = sample(&mut headless, args, file, (which, set), config, bubbles);
@@ -129,12 +129,12 @@ fn sample(
     };
     let calibration = times.calibration();
     let mut rows = times.rows(&template, &Drawn::nothing(config));
-    // What has nothing to run against falls on the ground.
+    // Blobs without a scene fall onto the ground.
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
     let moved = blobs.motion.map(|motion| (motion.settings, motion.solids));
     let (settings, solids) =
         moved.unwrap_or_else(|| (BlobSimulationSettings::default(), vec![floor]));
-    // Whole: the CPU's do not split.
+    // Blobs stay whole, because the CPU simulation does not split them.
     headless.heap(&blobs.blobs, None, 0)?;
     let gpu = steps(args, || {
         headless.heap_step(1.0 / FPS, &settings, &solids)?;
@@ -152,7 +152,7 @@ fn sample(
     Ok(rows)
 }
 
-/// Milliseconds of the steps that count, by what one took.
+/// Milliseconds of each counted step; `step` runs one and returns its time.
 fn steps(args: &BenchArgs, mut step: impl FnMut() -> Outcome<f64>) -> Outcome<Vec<f64>> {
     for _ in 0..FALLING {
         step()?;

@@ -1,5 +1,5 @@
-//! A small fixed piece of work on one core: frames are stated in multiples of it, which holds on
-//! shared and throttled machines where milliseconds do not.
+//! Calibration loop: a small fixed workload on one core. Frame times in multiples of it are comparable on shared and
+//! throttled machines, where milliseconds are not.
 
 use std::hint::black_box;
 use std::time::Instant;

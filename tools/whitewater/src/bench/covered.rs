@@ -1,4 +1,4 @@
-//! What of a picture the band of shoreline foam covers, by the meshes and the scene's depth.
+//! The part of a picture that shoreline foam can cover, from the scene's meshes and depth.
 
 use std::collections::HashMap;
 
@@ -11,14 +11,15 @@ use crate::camera::Lens;
 use crate::failure::Outcome;
 use crate::shore::transforms;
 
-/// Pieces of the lines where meshes meet the water, by the cells of a grid that they reach into.
+/// Segments of the waterline, where meshes meet the sea's level, in a grid: each cell lists the segments within reach
+/// of it.
 pub struct Waterline {
     reach: f32,
     cells: HashMap<IVec2, Vec<[Vec2; 2]>>,
 }
 
 impl Waterline {
-    /// Of a scene's frame. What of a line is inside of other land doesn't matter: seen from the water its own shore is
+    /// The waterline of a scene's frame. Segments inside other land stay in: as seen from the water, its own shore is
     /// nearer.
     pub fn new(scene: &Scene, level: f32, reach: f32) -> Self {
         let mut line = Self { reach, cells: HashMap::new() };
@@ -49,7 +50,7 @@ impl Waterline {
         (p / self.reach).floor().as_ivec2()
     }
 
-    /// Whether a place is within the reach of a shore.
+    /// Whether a place is within `reach` of a shore.
     fn is_near(&self, p: Vec2) -> bool {
         let pieces = self.cells.get(&self.cell(p)).map_or(&[][..], |pieces| pieces);
         let near = |[a, b]: &[Vec2; 2]| {
@@ -61,7 +62,7 @@ impl Waterline {
     }
 }
 
-/// Where an edge goes through the water.
+/// Point where an edge crosses the water's level.
 fn crossing(a: Vec3, b: Vec3, level: f32) -> Option<Vec2> {
     let (above, below) = (a.y - level, b.y - level);
     ((above >= 0.0) != (below >= 0.0)).then(|| {
@@ -88,7 +89,8 @@ impl Rays {
         self.eye
     }
 
-    /// Where one meets a level below the eye; of a place in the picture, 0 to 1 from its first corner.
+    /// Point where the ray through a place in the picture meets a level below the eye. `at` is 0 to 1 from the first
+    /// corner.
     pub fn meets(&self, at: Vec2, level: f32) -> Option<Vec3> {
         let ndc = 2.0 * at - 1.0;
         let through = self.inverse.project_point3(ndc.extend(0.5));
@@ -98,7 +100,8 @@ impl Rays {
     }
 }
 
-/// The share of a picture, of which this is the depth, that shows water with v from 0 to 2: within the reach of a shore.
+/// Share of the picture that shows water with v from 0 to 2, that is, within reach of a shore. `depth` is the picture's
+/// device depth.
 pub fn band(depth: &Picture<f32>, camera: &Camera, level: f32, line: &Waterline) -> Outcome<f64> {
     let (rays, lens) = (Rays::new(camera), Lens::new(camera)?);
     let size = Vec2::new(depth.width as f32, depth.height as f32);
@@ -119,7 +122,7 @@ mod tests {
     use super::*;
     use crate::camera::CameraFile;
 
-    /// A ball half in the water, seen from straight above: a ring.
+    /// A ball half in the water, seen from straight above: the band is a ring.
     #[test]
     fn a_ring_round_a_ball() {
         let ball = Mesh::sphere([0.5, 2.0, -1.0], 3.0, Material::default());
@@ -141,7 +144,7 @@ mod tests {
         let (width, height) = (200, 100);
         let camera = camera.camera((200, 100)).unwrap();
         let rays = Rays::new(&camera);
-        // Reversed: 0 is nothing, and a lid over half of the picture is at 1.
+        // Depth is reversed: 0 is the far end; half of the picture has a lid at depth 1.
         let pixel = |i: usize| if i % width < width / 2 { 1.0 } else { 0.0 };
         let data = (0..width * height).map(pixel).collect();
         let depth = Picture { width, height, data };

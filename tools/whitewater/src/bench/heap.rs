@@ -1,4 +1,4 @@
-//! The physics of blobs on the CPU, where the source has it, to time the GPU's beside: the same forces and the same grid,
+//! The blob simulation on the CPU, as in the source, to time it against the GPU's: the same forces and the same grid,
 //! on all cores.
 
 use std::num::NonZero;
@@ -7,9 +7,9 @@ use glam::{IVec3, Quat, Vec3};
 use whitewater::bubbles::{BlobSimulationSettings, Solid};
 use whitewater::headless::Bubble;
 
-/// Of a ball's moment of inertia: 1 / (2/5).
+/// Reciprocal of the factor 2/5 in a ball's moment of inertia.
 const ROUND: f32 = 2.5;
-/// Of a bucket no more are looked at, as on the GPU.
+/// Limit of balls that are visited in a bucket, as on the GPU.
 const MOST_IN_BUCKET: usize = 128;
 
 #[derive(Clone, Copy)]
@@ -22,18 +22,18 @@ struct Ball {
     id: u32,
 }
 
-/// Blobs that move.
+/// Blobs in motion.
 pub struct CpuHeap {
     balls: Vec<Ball>,
     settings: BlobSimulationSettings,
     solids: Vec<Solid>,
-    /// Cells a metre.
+    /// Grid cells per metre.
     cells: f32,
     threads: usize,
 }
 
 impl CpuHeap {
-    /// At rest, of radii above 0.
+    /// Blobs at rest; all radii are above 0.
     pub fn new(blobs: &[Bubble], settings: &BlobSimulationSettings, solids: &[Solid]) -> Self {
         let ball = |blob: &Bubble| {
             let [x, y, z, radius] = blob.ball;
@@ -56,14 +56,14 @@ impl CpuHeap {
         }
     }
 
-    /// Moves them on.
+    /// Advances the blobs by `dt` seconds.
     pub fn step(&mut self, dt: f32) {
         for _ in 0..self.settings.substeps {
             self.part(dt / self.settings.substeps as f32);
         }
     }
 
-    /// Those of a bucket stand beside each other in the order of their ids, and stay so.
+    /// One substep. The balls of a bucket are adjacent, in the order of their ids.
     fn part(&mut self, dt: f32) {
         let grid = Grid::new(&mut self.balls, self.cells);
         let mut moved = self.balls.clone();
@@ -90,7 +90,7 @@ impl CpuHeap {
             let beside = cell + IVec3::new(i % 3, i / 3 % 3, i / 9) - 1;
             for j in grid.bucket(beside) {
                 let other = &self.balls[j];
-                // Cells share buckets.
+                // Several cells share a bucket.
                 if j != index && grid.cell(other.place) == beside {
                     let (by, turned) = self.pushed_by(&own, other);
                     push += by;
@@ -114,7 +114,7 @@ impl CpuHeap {
         Ball { place: own.place + dt * speed, speed, spin, turn: turn.normalize(), ..own }
     }
 
-    /// What another does to the speed and to the spin, a second.
+    /// Acceleration and angular acceleration that a ball receives from another one.
     fn pushed_by(&self, own: &Ball, other: &Ball) -> (Vec3, Vec3) {
         let s = &self.settings;
         let to = other.place - own.place;
@@ -137,14 +137,14 @@ impl CpuHeap {
             - own.spin.cross(own.radius * n);
         let (parting, near) = (slip.dot(n), part.min(1.0));
         let across = s.tangential_damping * near * (slip - parting * n);
-        // The same force on both: by their masses.
+        // The force on both balls is equal and opposite; it is divided by their masses.
         let [a, b] = [own.radius, other.radius].map(|r| r * r * r);
         let share = 2.0 * b / (a + b);
         let push = (along + s.normal_damping * near * parting) * n + across;
         (share * push, share * ROUND / own.radius * n.cross(across))
     }
 
-    /// A solid pushes as it is pressed, and holds what slides by as much.
+    /// Contact with a solid: a penalty force along the normal and friction in proportion to it.
     fn touch(
         &self,
         (n, distance): (Vec3, f32),
@@ -163,14 +163,14 @@ impl CpuHeap {
         let slip = *speed - speed.dot(n) * n + spin.cross(-radius * n);
         let slip = slip - slip.dot(n) * n;
         let fast = slip.length();
-        // What stops it where it touches: it rolls then.
+        // At most the change that stops sliding at the contact; the ball then rolls.
         let held = (s.friction * gained).min(fast / (1.0 + ROUND));
         let change = if fast > 0.0 { -held / fast * slip } else { Vec3::ZERO };
         *speed += change;
         *spin += ROUND / radius * (-n).cross(change);
     }
 
-    /// Where they are, in the order of their ids.
+    /// Positions in the order of the ids.
     #[cfg(test)]
     pub fn places(&self) -> Vec<Vec3> {
         let mut all: Vec<_> = self.balls.iter().map(|ball| (ball.id, ball.place)).collect();
@@ -179,15 +179,15 @@ impl CpuHeap {
     }
 }
 
-/// Buckets of cells.
+/// Hash table of grid cells.
 struct Grid {
     cells: f32,
-    /// Where each bucket ends among the balls.
+    /// Index of the first ball behind each bucket.
     ends: Vec<usize>,
 }
 
 impl Grid {
-    /// Sorts them by bucket, and by id in each.
+    /// Sorts the balls by bucket, then by id.
     fn new(balls: &mut [Ball], cells: f32) -> Self {
         let mut grid = Self { cells, ends: vec![0; balls.len().next_power_of_two()] };
         balls.sort_by_cached_key(|ball| (grid.number(grid.cell(ball.place)), ball.id));
@@ -219,7 +219,7 @@ impl Grid {
     }
 }
 
-/// The way out of a solid, and the distance from it.
+/// The direction out of a solid, and the distance from it.
 fn solid_at(solid: &Solid, place: Vec3) -> (Vec3, f32) {
     match *solid {
         Solid::Plane { normal, distance } => {
@@ -249,8 +249,8 @@ mod tests {
     use super::*;
     use crate::bubbles::{Motion, Which, set};
 
-    /// What is timed beside the GPU does the same: a tenth of a second of blobs that slide, in which errors grow with each
-    /// push, to a hundredth of a radius; and they have moved by far more.
+    /// The CPU simulation equals the GPU's: after a tenth of a second of sliding, positions agree to a hundredth of a
+    /// radius (errors grow with each contact), though blobs have moved much farther.
     #[test]
     fn it_is_the_heap_of_the_gpu() -> Result<(), Error> {
         let blobs = set(&Which::Slope(200)).unwrap().blobs;

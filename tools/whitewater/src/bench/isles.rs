@@ -1,4 +1,5 @@
-//! Round islands on a level sea, by a formula, as large as it takes for their foam to cover so much of the picture.
+//! Round islands on a level sea, by a formula. They are scaled so that their foam covers the requested part of the
+//! picture.
 
 use glam::{Vec2, Vec3, vec2};
 use whitewater::headless::scene::{Ground, Material, Scene, Sea};
@@ -10,17 +11,17 @@ use crate::shore::ShoreScene;
 use crate::shore::strip::{self, Reach};
 use crate::shore::terrain::{self, Patch, number};
 
-/// What the picture shows, in metres at scale 1: all of it is sea with islands.
+/// Camera position in metres at scale 1: the picture shows nothing but sea and islands.
 const EYE: Vec3 = Vec3::new(0.0, 46.0, 62.0);
 const TARGET: Vec3 = Vec3::new(0.0, 0.0, -22.0);
 const FOV: f32 = 36.0;
-/// Of the islands' lattice.
+/// Spacing of the islands' lattice.
 const SPACING: f32 = 60.0;
 const LOW: Vec2 = Vec2::new(-170.0, -210.0);
 const HIGH: Vec2 = Vec2::new(220.0, 60.0);
 const FLOOR: f32 = -4.0;
 
-/// Middle and radius of each at scale 1.
+/// Centre and radius of each island at scale 1.
 fn islands() -> Vec<(Vec2, f32)> {
     let rows = ((HIGH.y - LOW.y) / (0.866 * SPACING)) as usize;
     let columns = ((HIGH.x - LOW.x) / SPACING) as usize;
@@ -33,18 +34,18 @@ fn islands() -> Vec<(Vec2, f32)> {
     cells.enumerate().map(island).collect()
 }
 
-/// Metres inland of the nearest shore, below 0 at sea.
+/// Metres inland of the nearest shore; negative at sea.
 fn inland(islands: &[(Vec2, f32)], p: Vec2) -> f32 {
     let of = |(middle, radius): &(Vec2, f32)| radius - p.distance(*middle);
     islands.iter().map(of).fold(f32::MIN, f32::max)
 }
 
-/// A beach, a hill behind it, a floor.
+/// Height of the ground: floor, beach and a hill behind it.
 fn height(inland: f32) -> f32 {
     (0.1 * inland + 0.25 * (inland - 3.0).max(0.0)).max(FLOOR)
 }
 
-/// Whether land stands between two places.
+/// Whether land hides `place` from the eye.
 fn is_hidden(islands: &[(Vec2, f32)], place: Vec3, eye: Vec3) -> bool {
     const HIGHEST: f32 = 5.0;
     const STEPS: usize = 48;
@@ -64,13 +65,13 @@ fn camera(scale: f32) -> CameraFile {
     }
 }
 
-/// By what islands and camera have to be enlarged for water within a reach of a shore to be so much of a picture.
+/// Scale of islands and camera at which water within `reach` of a shore fills the share `cover` of the picture.
 fn scale(islands: &[(Vec2, f32)], size: (u32, u32), cover: f64, reach: f32) -> Outcome<f32> {
-    /// Rays each way.
+    /// Number of rays along x and along y.
     const RAYS: usize = 256;
     let rays = Rays::new(&camera(1.0).camera(size)?);
     let at = |i: usize| vec2((i % RAYS) as f32 + 0.5, (i / RAYS) as f32 + 0.5) / RAYS as f32;
-    // Metres from the shore of what is water.
+    // Distance from the shore of each ray that hits water.
     let away: Vec<f32> = (0..RAYS * RAYS)
         .filter_map(|i| {
             let place = rays.meets(at(i), 0.0)?;
@@ -82,7 +83,7 @@ fn scale(islands: &[(Vec2, f32)], size: (u32, u32), cover: f64, reach: f32) -> O
         let near = away.iter().filter(|away| scale * **away <= reach).count();
         near as f64 / (RAYS * RAYS) as f64
     };
-    // Bisected: the larger the islands, the less is near to a shore.
+    // Bisection: the larger the scale, the less water is within reach.
     let (mut low, mut high) = (0.05_f32, 500.0_f32);
     let most = covered(low);
     if cover > most {
@@ -100,7 +101,7 @@ fn scale(islands: &[(Vec2, f32)], size: (u32, u32), cover: f64, reach: f32) -> O
     Ok(high)
 }
 
-/// The scene, and one of its islands: the least and the greatest x and z.
+/// The scene, and the min and max x and z of one of its islands.
 pub fn isles(
     size: (u32, u32),
     cover: f64,
@@ -149,7 +150,7 @@ mod tests {
         let of = |cover| scale(&islands, (320, 180), cover, 12.0);
         let (some, more) = (of(0.1).unwrap(), of(0.4).unwrap());
         assert!(some > more && more > 0.3, "{some} and {more}");
-        // All lengths by one factor.
+        // All lengths scale by one factor.
         let twice = scale(&islands, (320, 180), 0.1, 24.0).unwrap();
         assert!((twice / some - 2.0).abs() < 1e-3, "{some} and {twice}");
         let failure = of(0.99).unwrap_err();

@@ -1,5 +1,5 @@
-//! `whitewater bench`: GPU times per pass, over particle counts, resolutions and paths, with the bytes that
-//! each pass has to move. For water, whitewater of a sea, bubble foam, and shoreline foam.
+//! `whitewater bench`: GPU time per pass, and the minimum bytes that each pass moves, over particle counts, resolutions
+//! and paths. It measures water, whitewater of a sea, bubble foam, and shoreline foam.
 
 mod blobs;
 mod bytes;
@@ -46,7 +46,8 @@ use report::{Format, Report, Row};
 pub struct BenchArgs {
     /// Particle counts: 16k, 64k, 256k, 1m or any number
     ///
-    /// The pool stays the same at a finer resolution. With --shore it is the water that foam is compared with.
+    /// A larger count resolves the same pool more finely. With --shore this pool is the water that the foam's time is
+    /// compared with.
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
     /// Picture sizes [default: 1280x720; for a sea the paper's, 800x600 or 1280x960; for bubbles 640x480]
@@ -62,7 +63,7 @@ pub struct BenchArgs {
     bubbles: Vec<Which>,
     /// Measure shoreline and contact foam instead of water
     ///
-    /// Frames with it, without it, and of the water are drawn in turn.
+    /// Frames with the foam, frames without it, and frames of the bench's water are drawn in turn.
     #[arg(long, value_delimiter = ',', value_enum)]
     shore: Vec<shore::Scenery>,
     /// Fraction of the picture that the foam band (shore coordinate 0 to 2) covers; the islands of 'isles' are
@@ -78,7 +79,7 @@ pub struct BenchArgs {
     /// Sampling of the ambient occlusion of whitewater [default: fast]
     #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
     occlusion: Vec<sea::OcclusionArg>,
-    /// Sort whitewater particles along a space-filling curve, in packets that are culled outside the view
+    /// Sort whitewater particles along a space-filling curve, in packets; packets outside the view are culled
     #[arg(long, requires = "sea")]
     packets: bool,
     /// Degrees by which a sea's camera is turned to the left [default: 0]
@@ -91,7 +92,7 @@ pub struct BenchArgs {
         hide_default_value = true
     )]
     turned: f32,
-    /// Distance of a sea's camera from its target, metres [default: the sea's]
+    /// Distance of a sea's camera from its target in metres [default: set by the sea]
     #[arg(long, value_name = "METRES", requires = "sea", value_parser = sea::parse_distance)]
     away: Option<f32>,
     /// Write the last frame of a sea or shore with one combination; an .exr has all layers of its foam
@@ -108,7 +109,7 @@ pub struct BenchArgs {
     /// Number of measured frames
     #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
     frames: u32,
-    /// Number of frames drawn before these
+    /// Number of warm-up frames before the measured ones
     #[arg(long, default_value_t = 3)]
     warmup: u32,
     /// Output format
@@ -121,12 +122,12 @@ pub struct BenchArgs {
     device: Option<String>,
 }
 
-/// A flag that has another name now is refused, with that name.
+/// Refuses a renamed flag and names the new one.
 fn was_diffuse(_: &str) -> Result<u32, String> {
     Err("--diffuse was renamed: use --whitewater".into())
 }
 
-/// A way to draw.
+/// A path: one way to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Path {
     /// The library's choice
@@ -181,9 +182,9 @@ pub enum Path {
     Baseline,
     /// The baseline with its noise and foam
     BaselineNoise,
-    /// As `render` draws a file by default: with surface foam, spray and mist, shadows, caustics and a basin
+    /// As `render` draws a file by default: surface foam, spray and mist, shadows, caustics and a basin
     Render,
-    /// Shores, as all that follow: v from a distance map
+    /// Shores, as all paths below: v from a distance map
     Map,
     /// v from a strip
     Strip,
@@ -205,7 +206,7 @@ pub enum Path {
     All,
 }
 
-/// What a way to draw is of.
+/// The kind of scene that a path draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Of {
     Water,
@@ -237,9 +238,9 @@ impl Path {
     fn configure(self, config: &mut Config) {
         let query = |gate| Some(Smoothing::Query(gate));
         match self {
-            // `Rendered` configures its own.
+            // `Rendered` sets the configuration of `Render`.
             Self::Default | Self::All | Self::Render => {}
-            // No ways to draw water.
+            // These paths do not draw water.
             Self::Map
             | Self::Strip
             | Self::Screen
@@ -285,7 +286,7 @@ impl Path {
     }
 }
 
-/// What was drawn, for the bytes.
+/// Counts of the last frame, from which minimum bytes are computed.
 pub struct Drawn {
     pub extent: vk::Extent2D,
     pub config: Config,
@@ -297,19 +298,19 @@ pub struct Drawn {
     pub covered: u64,
     /// Whitewater particles, and full-resolution pixels with their foam.
     pub whitewater: u32,
-    /// How often they are gone through.
+    /// Number of dispatches over all whitewater particles.
     pub goes: u64,
     pub foam: u64,
     /// Full-resolution pixels with a coat of foam.
     pub coat: u64,
     /// Active pixels summed over the iterations of the smoothing.
     pub iterations: u64,
-    /// Most iterations of a pixel.
+    /// Max number of iterations of a pixel.
     pub most_iterations: u32,
 }
 
 impl Drawn {
-    /// Nothing yet, in a frame of a configuration's extent.
+    /// Counts of 0, for a frame of this configuration.
     fn nothing(config: Config) -> Self {
         Self {
             extent: config.extent,
@@ -328,7 +329,7 @@ impl Drawn {
     }
 }
 
-/// Runs everything asked for and prints it: what was measured, also where it ends early.
+/// Measures all combinations and prints the results, also those before an early end.
 pub fn run(args: &BenchArgs) -> Outcome<()> {
     let paths = paths(args)?;
     shore::check(args)?;
@@ -349,12 +350,12 @@ pub fn run(args: &BenchArgs) -> Outcome<()> {
     } else {
         measure_all(args, &paths, &options, &report)
     };
-    // What there is is told, whatever became of the rest.
+    // Whatever failed, the results so far are printed.
     let told = output::at_end();
     outcome.and(told)
 }
 
-/// The ways that are asked for.
+/// The paths that the arguments ask for.
 fn paths(args: &BenchArgs) -> Outcome<Vec<Path>> {
     let (own, others) = match args.shore.is_empty() {
         true => (Of::Water, Of::Shore),
@@ -363,8 +364,8 @@ fn paths(args: &BenchArgs) -> Outcome<Vec<Path>> {
     if let Some(path) = args.path.iter().find(|path| path.of() == others) {
         let name = path.name();
         return Err(Failure::usage(match own {
-            Of::Water => format!("--path {name}: a way to draw shores; add --shore isles"),
-            _ => format!("--path {name}: a way to draw water; leave it out, or --shore"),
+            Of::Water => format!("--path {name} draws shores; add --shore isles"),
+            _ => format!("--path {name} draws water; leave out either it or --shore"),
         }));
     }
     let all = || Path::value_variants().iter().copied();
@@ -374,7 +375,7 @@ fn paths(args: &BenchArgs) -> Outcome<Vec<Path>> {
     })
 }
 
-/// What can be said of the picture before anything is measured; `paths`: how many ways there are.
+/// Checks `--picture` before anything is measured; `paths` is the number of paths.
 fn check_picture(args: &BenchArgs, paths: usize) -> Outcome<()> {
     let Some(path) = &args.picture else { return Ok(()) };
     let (count, of) = match args.shore.is_empty() {
@@ -390,7 +391,7 @@ fn check_picture(args: &BenchArgs, paths: usize) -> Outcome<()> {
     output::probe(path)
 }
 
-/// Writes a picture of the last frame, with layers where it is an .exr.
+/// Writes a picture of the last frame; an .exr has layers.
 fn write_picture(
     headless: &mut Headless,
     path: &std::path::Path,
@@ -449,7 +450,7 @@ fn measure_all(
                         progress.aside(|| lock(report).add(rows))?;
                         progress.advance(&what);
                     }
-                    // A device may lack one path; the others still count.
+                    // If a device lacks one path, the others are still measured.
                     Err(Error::Missing { what: lacks, why }) => {
                         progress.advance(&format!("{what}: skipped: {lacks} is missing: {why}"));
                     }
@@ -469,7 +470,7 @@ fn measure_all(
     Ok(())
 }
 
-/// One combination.
+/// Measures one combination.
 fn measure(
     device: Device,
     args: &BenchArgs,
@@ -545,7 +546,7 @@ fn sample(
     Ok(times.rows(&template, &drawn))
 }
 
-/// What the frames took, milliseconds.
+/// Milliseconds of each frame.
 #[derive(Default)]
 struct Times {
     passes: Vec<(&'static str, Vec<f64>)>,
@@ -553,7 +554,7 @@ struct Times {
     calibration: Vec<f64>,
 }
 
-/// Draws all frames.
+/// Draws the warm-up frames and the measured frames.
 fn times(
     headless: &mut Headless,
     args: &BenchArgs,
@@ -571,7 +572,7 @@ fn times(
 }
 
 impl Times {
-    /// Of the frame that was drawn last.
+    /// Adds the times of the frame drawn last.
     fn note(&mut self, headless: &mut Headless) {
         let mut total = 0.0;
         for timing in headless.timings() {
@@ -585,7 +586,7 @@ impl Times {
         self.totals.push(total);
     }
 
-    /// Of a pass, frame by frame; nothing where there is none.
+    /// Times of a pass in each frame; empty if it did not run.
     fn of(&self, pass: &str) -> &[f64] {
         self.passes.iter().find(|(name, _)| *name == pass).map_or(&[], |(_, list)| list)
     }
@@ -594,7 +595,7 @@ impl Times {
         report::median(&mut self.calibration.clone())
     }
 
-    /// A row a pass, and one of the whole frame.
+    /// One row for each pass, and one for the whole frame.
     fn rows(mut self, template: &Row, drawn: &Drawn) -> Vec<Row> {
         let template = Row { calibration: self.calibration(), ..template.clone() };
         let row = |pass: &str, list: &mut Vec<f64>, bytes: Option<u64>| Row {
@@ -612,7 +613,7 @@ impl Times {
     }
 }
 
-/// A fortieth is spray, the highest.
+/// Densities: the highest fortieth of the particles is spray.
 fn densities(pool: &pool::Pool) -> Vec<f32> {
     let mut heights: Vec<f32> = pool.positions.iter().map(|p| p[1]).collect();
     heights.sort_unstable_by(f32::total_cmp);
@@ -620,7 +621,7 @@ fn densities(pool: &pool::Pool) -> Vec<f32> {
     pool.positions.iter().map(|p| if p[1] > high { 300.0 } else { 1000.0 }).collect()
 }
 
-/// A plate over half of the pool, as high over it as that is wide.
+/// A plate over half of the pool, at a height equal to the pool's radius.
 fn plate(pool: &pool::Pool) -> Scene {
     let LightVolume { center: [x, y, z], radius: r } = region(pool);
     let corner = |i: i32, j: i32| [x + 0.5 * r * i as f32, y + r, z + 0.5 * r * j as f32];
@@ -638,13 +639,13 @@ fn plate(pool: &pool::Pool) -> Scene {
     }
 }
 
-/// The pool, seen from the sun.
+/// Bounding sphere of the pool, for the light's maps.
 fn region(pool: &pool::Pool) -> LightVolume {
     Bounds::of_bulk(&pool.positions)
         .map_or(LightVolume { center: [0.0; 3], radius: 1.0 }, |bounds| bounds.region())
 }
 
-/// As fast as it is high: the splash foams. How many particles do.
+/// Sets velocities that grow with height, so that the splash foams. Returns the number of foaming particles.
 fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let mut heights: Vec<f32> = pool.positions.iter().map(|p| p[1].max(0.0)).collect();
     let velocities: Vec<[f32; 3]> = heights.iter().map(|y| [20.0 * y, 0.0, 0.0]).collect();
@@ -671,7 +672,7 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
         let [x, y, first_x, first_y] = levels.level[0].slope;
         for (i, (n, z)) in iterations.data.iter().zip(&surface.data).enumerate() {
             let at = [i % surface.width, i / surface.width].map(|v| v as f32 + 0.5);
-            // A texel of a level stands for four of the one before.
+            // A texel of a level covers four texels of the next finer one.
             let (level, _) = levels.shown(*z, [x * at[0] + first_x, y * at[1] + first_y]);
             sum += f64::from(*n) / 4.0_f64.powi(level as i32);
             most = most.max(*n);
@@ -687,7 +688,7 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
     })
 }
 
-/// Where the pool is seen from.
+/// Camera position for the pool.
 const EYE: Vec3 = vec3(1.7, 1.15, 2.15);
 
 fn camera(extent: vk::Extent2D) -> Camera {
@@ -722,7 +723,7 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
-/// The defaults in a light that is the same in all measurements.
+/// The default settings, with a light that is the same in all measurements.
 fn plain() -> Settings {
     Settings::default().with(|it| {
         it.light.color = [4.0, 3.8, 3.4];

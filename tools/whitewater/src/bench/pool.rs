@@ -11,7 +11,7 @@ pub struct Pool {
     pub spacing: f32,
 }
 
-/// A random number in [0, 1) for each index and use.
+/// A random number in [0, 1) for each index and purpose.
 fn random(index: u32, which: u32) -> f32 {
     let mut h = index.wrapping_mul(0x9e37_79b9) ^ which.wrapping_mul(0x85eb_ca6b);
     h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);

@@ -1,4 +1,4 @@
-//! The bench's pool as `render` draws a cache where nothing is said: with spray, surface foam, shadows, caustics and a basin.
+//! The bench's pool as `render` draws a cache by default: with spray, surface foam, shadows, caustics and a basin.
 
 use glam::Vec3;
 use whitewater::headless::Headless;
@@ -17,10 +17,10 @@ use crate::session::room;
 use crate::settings::SettingsFile;
 use crate::stage;
 
-/// The smoothing's and the thickness' level of `render`.
+/// Default of `--smoothing-level` and `--thickness-level` of `render`.
 const LEVEL: u32 = 1;
 
-/// What the renderer is given of it.
+/// Settings and scene for the renderer.
 pub struct Rendered {
     file: SettingsFile,
     settings: Settings,
@@ -30,7 +30,7 @@ pub struct Rendered {
 }
 
 impl Rendered {
-    /// Of a pool that is seen from `eye`.
+    /// For a pool that is seen from `eye`.
     pub fn new(pool: &Pool, eye: Vec3) -> Outcome<Self> {
         let nowhere = || Failure::input("the pool has no particles");
         let bounds = Bounds::of_bulk(&pool.positions).ok_or_else(nowhere)?;
@@ -58,7 +58,7 @@ impl Rendered {
         Ok(Self { file, settings, scene, sky, densities })
     }
 
-    /// The passes, as `Session` chooses them.
+    /// Enables the same passes as `Session`.
     pub fn configure(&self, config: &mut Config) {
         room::passes_of(&self.file, false, config);
         config.smoothing_level = LEVEL;
@@ -70,7 +70,7 @@ impl Rendered {
         config.light_map_size = Some(room::light_texels(config.extent.width));
     }
 
-    /// Puts it before the renderer; returns the settings.
+    /// Uploads scene, light and particles; returns the settings.
     pub fn stage(&self, headless: &mut Headless, pool: &Pool) -> Result<Settings, Error> {
         headless.sky(&self.sky)?;
         headless.scene(&self.scene, true)?;

@@ -1,4 +1,4 @@
-//! Rows of the result as a table, CSV or JSON.
+//! Rows of results as a table, CSV or JSON.
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -7,12 +7,12 @@ use whitewater::headless::Headless;
 use crate::failure::Outcome;
 use crate::out;
 
-/// How to print.
+/// Output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// For reading
     Table,
-    /// Comma-separated, one row a pass
+    /// Comma-separated, one row per pass
     Csv,
     /// One object with adapter, driver and rows
     Json,
@@ -32,30 +32,30 @@ pub struct Row {
     pub low: f64,
     /// 90 % quantile.
     pub high: f64,
-    /// Bytes it has to move at least.
+    /// Minimum bytes that the pass moves.
     pub bytes: Option<u64>,
-    /// Milliseconds of the calibration loop in this run.
+    /// Milliseconds of the calibration loop in the same run.
     pub calibration: f64,
-    /// Most smoothing iterations of a pixel.
+    /// Max number of smoothing iterations of a pixel.
     pub most_iterations: u32,
-    /// Nanoseconds a whitewater particle, of the pass that is by particles.
+    /// Nanoseconds per whitewater particle, for the pass that runs over the particles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ns_per_whitewater: Option<f64>,
-    /// Bytes of the renderer, and of the whitewater particles.
+    /// Memory of the renderer and of the whitewater particles, bytes.
     pub memory: u64,
     pub inputs: u64,
-    /// Of a sea.
+    /// Columns of a sea.
     #[serde(flatten)]
     pub sea: Option<SeaRow>,
-    /// Of bubble foam.
+    /// Columns of bubble foam.
     #[serde(flatten)]
     pub blobs: Option<BlobRow>,
-    /// Of a shore.
+    /// Columns of a shore.
     #[serde(flatten)]
     pub shore: Option<ShoreRow>,
 }
 
-/// What there is to say of a sea beside.
+/// Additional columns of a sea.
 #[derive(Clone, Debug, Serialize)]
 pub struct SeaRow {
     pub sea: &'static str,
@@ -64,12 +64,12 @@ pub struct SeaRow {
     pub occlusion: &'static str,
 }
 
-/// What there is to say of bubble foam beside.
+/// Additional columns of bubble foam.
 #[derive(Clone, Debug, Serialize)]
 pub struct BlobRow {
     pub bubble_scene: String,
     pub blobs: u32,
-    /// Of all.
+    /// Number of bubbles of all blobs together.
     pub bubbles: u32,
     pub layers: u32,
     pub impostor: &'static str,
@@ -77,26 +77,26 @@ pub struct BlobRow {
     pub steps: u32,
 }
 
-/// What there is to say of a shore beside.
+/// Additional columns of a shore.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShoreRow {
     pub shore: &'static str,
-    /// What tells how far it is.
+    /// Source of the shore coordinate.
     pub way: &'static str,
     pub edge: &'static str,
-    /// What of the picture is to be water with v from 0 to 2, and what is; none without shoreline foam.
+    /// Requested and actual share of the picture that shows water with v from 0 to 2; `None` without shoreline foam.
     pub cover: Option<f64>,
     pub covered: Option<f64>,
-    /// What of it has foam.
+    /// Share of the picture that has foam.
     pub foam: f64,
-    /// Particles of the water in the same run.
+    /// Number of particles of the water in the same run.
     pub water: u32,
-    /// Its foam as a part of that water's frame.
+    /// Time of the foam over the frame time of that water.
     pub ratio: f64,
 }
 
 impl Row {
-    /// The same of a pass, by its times.
+    /// A copy of the row for one pass, with the quantiles of its times.
     pub fn of_pass(&self, pass: &str, times: &mut [f64]) -> Self {
         Self {
             pass: pass.to_owned(),
@@ -107,7 +107,7 @@ impl Row {
         }
     }
 
-    /// What the renderer alone says.
+    /// A row with only the renderer's data.
     pub fn of(headless: &Headless) -> Self {
         let memory = headless.renderer().memory();
         Self {
@@ -118,31 +118,31 @@ impl Row {
     }
 }
 
-/// The value below which a share of the samples lies.
+/// The quantile of the samples at `share`.
 pub fn quantile(samples: &mut [f64], share: f64) -> f64 {
     samples.sort_by(f64::total_cmp);
     let last = samples.len().saturating_sub(1);
     samples.get((share * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
 }
 
-/// The middle sample.
+/// The median.
 pub fn median(samples: &mut [f64]) -> f64 {
     quantile(samples, 0.5)
 }
 
-/// What is printed to the standard output: tables and CSV as they come, JSON at the end.
+/// Results on standard output: tables and CSV are printed as they come, JSON at the end.
 pub struct Report {
     format: Format,
     adapter: String,
     driver: String,
-    /// Not yet told.
+    /// Rows that are not printed yet.
     rows: Vec<Row>,
 }
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl Report {
-    /// Begins it.
+    /// Prints what precedes the rows.
     pub fn new(format: Format, adapter: String, driver: String) -> Outcome<Self> {
         match format {
             Format::Table => out::print(format_args!("{adapter}, {driver}\n"))?,
@@ -157,7 +157,7 @@ impl Report {
         Ok(Self { format, adapter, driver, rows: Vec::new() })
     }
 
-    /// One combination more.
+    /// Adds the rows of one combination.
     pub fn add(&mut self, rows: Vec<Row>) -> Outcome<()> {
         match self.format {
             Format::Table => out::print(format_args!("{}", table(&rows))),
@@ -173,7 +173,7 @@ impl Report {
         }
     }
 
-    /// Ends it.
+    /// Prints what follows the rows.
     pub fn finish(&self) -> Outcome<()> {
         if self.format != Format::Json {
             return Ok(());
@@ -226,7 +226,7 @@ fn csv(adapter: &str, driver: &str, r: &Row) -> String {
     )
 }
 
-/// Of one combination.
+/// The table of one combination.
 fn table(rows: &[Row]) -> String {
     let Some(first) = rows.first() else { return String::new() };
     let mb = |bytes: u64| bytes as f64 * 1e-6;
@@ -294,7 +294,7 @@ fn table(rows: &[Row]) -> String {
     text
 }
 
-/// The row of all that foam of shores costs.
+/// Name of the row with the total cost of shore foam.
 pub const FOAM: &str = "foam";
 
 fn shore(row: &Row, s: &ShoreRow) -> String {

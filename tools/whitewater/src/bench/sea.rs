@@ -21,18 +21,18 @@ use crate::failure::{Failure, Outcome};
 use crate::progress::Progress;
 use crate::settings::SettingsFile;
 
-/// Particles that are made and uploaded at a time.
+/// Number of particles that are generated and uploaded at a time.
 const PART: u32 = 1 << 20;
 
-/// What of the foam is written beside its picture.
+/// Layers that are written beside the picture.
 const LAYERS: &str = "whitewater,whitewater.radius,whitewater.normal,whitewater.thickness,whitewater.intensity,whitewater.shadow,whitewater.irradiance,scene";
 
-/// How the shadow is sampled.
+/// How ambient occlusion is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum OcclusionArg {
-    /// A sixteenth of the points a pixel
+    /// A sixteenth of the source's samples
     Fast,
-    /// As printed by the source
+    /// The samples of the source
     Reference,
 }
 
@@ -54,13 +54,13 @@ impl From<OcclusionArg> for Occlusion {
     }
 }
 
-/// Of `--sea`.
+/// Parser of `--sea`.
 pub fn parser() -> impl TypedValueParser<Value = Sea> {
     PossibleValuesParser::new(Sea::ALL.map(Sea::name))
         .try_map(|name| Sea::from_name(&name).ok_or("no such sea"))
 }
 
-/// Of `--whitewater`: decimal, as the source counts.
+/// Parser of `--whitewater`. Suffixes are decimal, as in the source.
 pub fn parse_count(text: &str) -> Result<u32, String> {
     let lower = text.to_lowercase();
     let (digits, scale) = match lower.strip_suffix('k') {
@@ -76,7 +76,7 @@ pub fn parse_count(text: &str) -> Result<u32, String> {
     }
 }
 
-/// Of `--away`. The camera's near plane is at half a metre.
+/// Parser of `--away`. The camera's near plane is at half a metre.
 pub fn parse_distance(text: &str) -> Result<f32, String> {
     match text.parse() {
         Ok(metres) if (1.0..=1.0e5).contains(&metres) => Ok(metres),
@@ -113,7 +113,7 @@ fn cases(args: &BenchArgs) -> Vec<Case> {
     cases
 }
 
-/// How many combinations are asked for.
+/// Number of combinations that the arguments ask for.
 pub fn count(args: &BenchArgs) -> usize {
     cases(args).len()
 }
@@ -152,7 +152,7 @@ pub fn measure_all(
 
 fn measure(args: &BenchArgs, options: &DeviceOptions, case: Case) -> Outcome<Vec<Row>> {
     let device = Device::new(options)?;
-    // There are none, and it is not zero.
+    // There is no water, but room for 0 particles is not allowed.
     let mut config = Config::new(case.extent, COLOR_FORMAT, 64);
     config.whitewater = Some(WhitewaterConfig::new(case.count).with(|it| {
         it.occlusion = case.occlusion.into();
@@ -181,7 +181,7 @@ fn sample(
     headless.particles(&[], None)?;
     upload(headless, sea, count, args.packets)?;
     let mut settings = Settings::default().with(|it| {
-        // Of a scene of the source's size the source's reach.
+        // The scene has the source's size, so it takes the source's search radius.
         it.whitewater = WhitewaterSettings::default().with(|it| {
             it.radius = sea.radius(count);
             it.reach = OcclusionReach::Metres(5.0);
@@ -223,7 +223,7 @@ fn sample(
     Ok(rows)
 }
 
-/// A part after the other: never all are in the host's memory.
+/// Uploads the foam part by part, so that the host's memory never holds all of it.
 fn upload(headless: &mut Headless, sea: Sea, count: u32, sorted: bool) -> Result<(), Error> {
     let mut parts = headless.whitewater_parts(count as usize)?;
     let mut first = 0;
@@ -245,8 +245,8 @@ fn upload(headless: &mut Headless, sea: Sea, count: u32, sorted: bool) -> Result
     parts.finish()
 }
 
-/// The same particles, near each other in space where they are near each other in order: along a Morton curve
-/// through their box.
+/// Sorts the particles along a Morton curve through their bounding box, so that neighbours in the list are near each
+/// other in space.
 fn along_curve(foam: &Foam) -> Foam {
     let all = || foam.positions.iter().map(|p| Vec3::from(*p));
     let low = all().fold(Vec3::INFINITY, Vec3::min);

@@ -1,6 +1,6 @@
-//! The coat of foam along shores and round what stands in the water: what it adds to a frame, in parts of a frame of the
-//! bench's water. Frames with it, without it and of the water are drawn in turn, so that all have the machine's same
-//! moments.
+//! Cost of shoreline and contact foam: the time that it adds to a frame, relative to a frame of the bench's water.
+//! Frames with foam, without it and of the water are drawn in turn, so that changes of the machine's speed affect all
+//! alike.
 
 use std::sync::Mutex;
 
@@ -24,25 +24,25 @@ use crate::settings::SettingsFile;
 use crate::settings::shore::By;
 use crate::shore::{ShoreScene, Shores, Which, changed, scene_of};
 
-/// Of a sequence, so that what moves is on its way.
+/// Time of the drawn frame in seconds, so that moving objects are under way.
 const TIME: f64 = 5.0;
 const SIZE: (u32, u32) = (1280, 720);
-/// Where nothing is said.
+/// Default of `--cover`.
 const COVER: f64 = 0.2;
 const LAYERS: &str = "shore.amount,contact.amount,scene";
 
-/// What has a shore.
+/// Scenes with a shore.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Scenery {
     /// Round islands, whose foam covers --cover of the picture
     Isles,
-    /// Of `render --shore`
+    /// The scene of `render --shore archipelago`
     Archipelago,
-    /// Of `render --shore`: contact foam alone
+    /// The pool of `render --shore`, with contact foam alone
     Pool,
-    /// Of `render --shore`: contact foam alone
+    /// The lava of `render --shore`, with contact foam alone
     Lava,
-    /// Contact foam on the bench's water, round what stands in it
+    /// Contact foam on the bench's water, around objects that stand in it
     Splash,
 }
 
@@ -57,7 +57,7 @@ impl Scenery {
         }
     }
 
-    /// What is to be covered, each a combination of its own.
+    /// The covered shares to measure, one combination each.
     fn covers(self, args: &BenchArgs) -> Vec<Option<f64>> {
         match (self, &args.cover[..]) {
             (Self::Isles, []) => vec![Some(COVER)],
@@ -67,7 +67,7 @@ impl Scenery {
     }
 }
 
-/// Of `--cover`.
+/// Parser of `--cover`.
 pub fn parse_cover(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share) if (0.001..=1.0).contains(&share) => Ok(share),
@@ -98,23 +98,23 @@ fn cases(args: &BenchArgs, paths: &[Path]) -> Vec<Case> {
     cases
 }
 
-/// How many combinations are asked for.
+/// Number of combinations that the arguments ask for.
 pub fn count(args: &BenchArgs, paths: usize) -> usize {
     cases(args, &[Path::Default]).len() * paths
 }
 
-/// What can be said before anything is measured.
+/// Checks arguments before anything is measured.
 pub fn check(args: &BenchArgs) -> Outcome<()> {
     if args.shore.is_empty() {
         return Ok(());
     }
     if !args.cover.is_empty() && !args.shore.contains(&Scenery::Isles) {
-        return Err(Failure::usage("--cover: of isles alone; add isles to --shore"));
+        return Err(Failure::usage("--cover applies to isles only; add isles to --shore"));
     }
     if args.particles.len() != 1 {
         let found = args.particles.len();
         return Err(Failure::usage(format!(
-            "--particles: with --shore one water to measure by expected, found {found}"
+            "--particles: expected one count with --shore, found {found}"
         )));
     }
     Ok(())
@@ -141,7 +141,9 @@ pub fn measure_all(
                 progress.aside(|| lock(report).add(rows))?;
                 progress.advance(&what);
             }
-            Ok(None) => progress.advance(&format!("{what}: skipped: not a way of this scene")),
+            Ok(None) => {
+                progress.advance(&format!("{what}: skipped: the path does not apply to this scene"))
+            }
             Err(failure) => {
                 progress.finish();
                 return Err(Failure { message: format!("{what}: {}", failure.message), ..failure });
@@ -152,25 +154,25 @@ pub fn measure_all(
     Ok(())
 }
 
-/// A scene with a coat, and how it is drawn.
+/// A scene with shore foam, and how it is drawn.
 struct Setting {
     scene: Scene,
     environment: Environment,
     camera: Camera,
     settings: Settings,
     shores: Shores,
-    /// What tells how far the shore is.
+    /// Source of the shore coordinate.
     way: &'static str,
-    /// Height of the sea, where there is one.
+    /// Height of the sea; `None` without a sea.
     level: Option<f32>,
-    /// Of particles, which stand in it.
+    /// Whether particles of water surround the objects.
     water: bool,
-    /// A part of the land that could move: the least and the greatest x and z.
+    /// Min and max x and z of a part of the land that could move.
     part: Option<[[f32; 2]; 2]>,
     exposure: f32,
 }
 
-/// `None`: the scene has nothing that could be drawn in this way.
+/// The scene as a path draws it; `None` if the path does not apply to it.
 fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option<Setting>> {
     let Case { scenery, cover, extent, path } = case;
     let size = (extent.width, extent.height);
@@ -241,7 +243,7 @@ fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option
     }))
 }
 
-/// The bench's pool with what stands in it.
+/// The bench's pool with objects in it.
 fn splash(
     file: &SettingsFile,
     pool: &pool::Pool,
@@ -286,7 +288,7 @@ fn splash(
     }))
 }
 
-/// All that a look can ask for.
+/// Enables every feature of the look.
 fn everything(look: &mut ShorelineSettings) {
     let noise = |amplitude, metres: f32| Noise { amplitude, scale: 1.0 / metres };
     look.frequency_noise = noise(5.0, 90.0);
@@ -313,7 +315,7 @@ fn measure(
     let Some(setting) = setting(file, pool, case)? else { return Ok(None) };
     let count = pool.positions.len() as u32;
     let water = Config::new(case.extent, COLOR_FORMAT, count);
-    // Without water there is room for some: none is not to be had.
+    // Without water there is still room for some particles, because 0 is not allowed.
     let max_particles = if setting.water { count } else { 64 };
     let shadow = (case.path == Path::Pcf).then_some(Shadows::Map);
     let without = water.with(|it| {
@@ -352,7 +354,7 @@ fn measure(
     Ok(rows)
 }
 
-/// What is behind the coat.
+/// Uploads everything but the foam.
 fn set_up(headless: &mut Headless, setting: &Setting, pool: &pool::Pool) -> Result<(), Error> {
     if let Source::Sky(sky) = &setting.environment.source {
         headless.sky(sky)?;
@@ -443,19 +445,19 @@ fn sample(
     Ok(rows)
 }
 
-/// Medians, and what they are of, frame by frame.
+/// Medians, and the values of each frame.
 struct Costs {
-    /// The composite without a coat.
+    /// The composite without foam.
     bare: (f64, Vec<f64>),
-    /// What it takes longer with one.
+    /// Additional time of the composite with foam.
     coat: (f64, Vec<f64>),
-    /// With the passes that make it.
+    /// The same, plus the passes that compute the foam.
     all: (f64, Vec<f64>),
     water: (f64, Vec<f64>),
 }
 
 impl Costs {
-    /// Of differences of medians, not medians of differences.
+    /// Subtracts medians; a median of differences would be another number.
     fn new(with: &Times, without: &Times, water: &Times) -> Self {
         let median = |times: &[f64]| report::median(&mut times.to_vec());
         let (more, less) = (with.of("composite"), without.of("composite"));
@@ -478,7 +480,7 @@ impl Costs {
     }
 }
 
-/// What of the picture is water within the reach of a shore; none without shoreline foam.
+/// Share of the picture that is water within reach of a shore; `None` without shoreline foam.
 fn covered(headless: &mut Headless, setting: &Setting) -> Outcome<Option<f64>> {
     let Some(level) = setting.level.filter(|_| setting.way != By::None.name()) else {
         return Ok(None);
@@ -488,7 +490,7 @@ fn covered(headless: &mut Headless, setting: &Setting) -> Outcome<Option<f64>> {
     band(&headless.scene_depth()?, &setting.camera, level, &line).map(Some)
 }
 
-/// Steps of the map: all of it, where nothing has changed, where a part has.
+/// Times of an update of the distance map: all of it, without a change, and with a change in a part.
 fn maps(
     headless: &mut Headless,
     args: &BenchArgs,

@@ -1,4 +1,4 @@
-//! Makes the renderer that a frame needs: its passes, and room for its particles.
+//! Creates the renderer that a frame needs, with its passes and with room for its particles.
 
 use whitewater::ash::vk;
 use whitewater::headless::{COLOR_FORMAT, Headless};
@@ -12,30 +12,31 @@ use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
 use crate::settings::SettingsFile;
 use crate::whitewater_source::{self, WhitewaterSource};
 
-/// Edge of the light's maps for a picture so many pixels wide.
+/// Size of the light's maps in texels along an edge, for a picture of this width.
 pub fn light_texels(width: u32) -> u32 {
     (width / 2).next_multiple_of(16).clamp(256, 1024)
 }
 
-/// What settings say of the passes; `matte`: of water alone.
+/// Sets the passes that the settings file asks for. `matte`: only the water is drawn.
 pub fn passes_of(file: &SettingsFile, matte: bool, config: &mut Config) {
     let thesis = file.is_thesis();
-    // GPUs made for computing rasterize with a small part of themselves (docs/performance.md); elsewhere both take as long.
+    // GPUs for computing rasterize with a small part of their hardware (docs/performance.md); on others both paths take
+    // as long.
     config.composite = Some(Shading::Compute);
     config.mirror_steps = file.water.mirror_steps(thesis);
-    // Of water alone the scene behind is another's: what leaves it goes straight on.
+    // If only the water is drawn, the background is unknown, so light leaves the water undeflected.
     config.exit = file.water.exit(thesis || matte);
     config.kernels = file.water.kernels(thesis);
 }
 
 impl Session<'_> {
-    /// Makes a renderer with room for that many particles, if the one there is has not. A new one
-    /// knows of no foam.
+    /// Creates a renderer with room for that many particles, unless the present one has it. A new one starts without
+    /// foam.
     pub fn make_room(&mut self, count: usize) -> Outcome<()> {
         self.make_room_with(count, 0)
     }
 
-    /// What the sunlight does.
+    /// Which objects cast shadows.
     pub(super) fn shadows(&self) -> ShadowArg {
         let scene = self.look.file.is_thesis();
         self.args.shadows.unwrap_or(if scene { ShadowArg::Scene } else { ShadowArg::All })
@@ -50,7 +51,7 @@ impl Session<'_> {
             Some(WhitewaterSource::Made(made)) => Some(made),
             _ => None,
         };
-        // It is looked at in frames of the whole sequence before any is drawn.
+        // Probed frames of the whole sequence are uploaded before the first frame is drawn.
         let count = made.map_or(0, |made| made.probed() as u32).max(count);
         let there = self.headless.as_ref().map(|h| *h.renderer().config());
         let most =
@@ -69,7 +70,7 @@ impl Session<'_> {
         let number = self.look.scene.frame;
         let [width, height] = [args.size.0, args.size.1].map(|n| n.saturating_mul(supersample));
         let extent = vk::Extent2D { width, height };
-        // Frames between those that were looked at may hold more: a quarter.
+        // Frames between the probed ones may hold more particles; the margin is a quarter.
         let room = |count: u32| count.saturating_add(count / 4).max(1024);
         let before = there.as_ref();
         let whitewater = room(whitewater).max(before.map_or(0, most));
@@ -103,7 +104,7 @@ impl Session<'_> {
             bubbles.with(|it| it.max_blobs = max_blobs)
         });
         config.shore = self.look.shores.as_ref().map(|shores| shores.config);
-        // Half the resolution of the picture, as it is drawn for one sample a pixel.
+        // Half the resolution of the picture, measured without supersampling.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
         let shadows = self.shadows();
         config.shadow = (shadows != ShadowArg::None).then(|| self.look.file.shadows());
@@ -114,12 +115,12 @@ impl Session<'_> {
         let rule = if thesis { Rule::Source } else { Rule::ConstantWidth };
         config.rule = args.rule.unwrap_or(rule);
         if config.kernels == Kernels::Ellipsoids && !self.look.file.water.says_kernels() {
-            // A device may not bind so many.
+            // A device may not be able to bind a buffer of that size.
             let offer = DeviceSupport::of(&device.instance, device.physical, COLOR_FORMAT);
             let spheres = config.with(|it| it.kernels = Kernels::Spheres);
             if offer.check(&config).is_err() && offer.check(&spheres).is_ok() {
                 times.say(&format!(
-                    "{room} particles are drawn as spheres: the device binds the shapes of fewer"
+                    "{room} particles are drawn as spheres, because the device cannot bind the ellipsoids of so many"
                 ));
                 config = spheres;
             }

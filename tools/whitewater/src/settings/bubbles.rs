@@ -6,10 +6,10 @@ use whitewater::bubbles::{
 
 use super::table::{table, words};
 
-/// Of what whitewater foam near the eye becomes: blobs at most, different ones, bubbles of each. A particle is a small
-/// cluster, whose bubbles are seen one by one.
+/// Defaults if whitewater foam near the camera becomes blobs: max number of blobs, number of different blobs, bubbles
+/// of each. A particle is a small cluster whose bubbles are seen one by one.
 const CROSSFADED: (u32, u32, u32) = (65_536, 32, 9);
-/// Its core: little of it is opaque.
+/// Opaque and outer radius of its core; little of it is opaque.
 const CLUSTER: [f32; 2] = [0.25, 0.9];
 
 table! {
@@ -34,11 +34,11 @@ table! {
     optional {}
     not { crossfade }
     beside {
-        /// Near and far; that it is there hands foam over.
+        /// Distances `[near, far]` of the cross-fade; if they are set, whitewater foam near the camera becomes blobs.
         crossfade: [f32; 2],
         crossfade_size: f32,
         crossfade_blobs: u32,
-        /// Not of the look, as all below: they choose passes.
+        /// These keys, and all below, determine passes and are not part of the look.
         variants: u32,
         bubbles: u32,
         seed: u32,
@@ -59,7 +59,8 @@ words!(FresnelWord of FilmFresnel { Exact, Schlick, Source });
 words!(SpectrumWord of Spectrum { Three, Whole });
 
 impl BubbleTable {
-    /// What of the foam chooses passes, for any number of blobs; or for those that whitewater foam becomes.
+    /// The configuration of passes, without the number of blobs; with `crossfade`, for the blobs that replace
+    /// whitewater foam.
     pub fn config(&self) -> BubbleConfig {
         let mut standard = BubbleConfig::new(1);
         if self.crossfade.is_some() {
@@ -85,7 +86,7 @@ impl BubbleTable {
         })
     }
 
-    /// Puts what the table says over a look.
+    /// Applies the table to a look.
     pub fn apply(&self, look: &mut BubbleSettings) {
         if let Some([near, far]) = self.crossfade {
             [look.core_opaque_radius, look.core_outer_radius] = CLUSTER;
@@ -95,7 +96,7 @@ impl BubbleTable {
         self.put(look);
     }
 
-    /// The table that says all of a look, and of the passes as this table does.
+    /// The complete table of a look, with this table's configuration of passes.
     pub fn all(&self, look: &BubbleSettings) -> Self {
         let Crossfade { near, far, size } = look.crossfade;
         let BubbleConfig {
@@ -115,7 +116,7 @@ impl BubbleTable {
         Self {
             crossfade: crossfade.then_some([near, far]),
             crossfade_size: Some(size),
-            // How many blobs there are is of the input where none are handed over.
+            // Without a cross-fade the number of blobs depends on the input.
             crossfade_blobs: crossfade.then_some(max_blobs),
             variants: Some(variants),
             bubbles: Some(bubbles),

@@ -1,4 +1,4 @@
-//! Table `[generate]`: of `--whitewater generate`.
+//! Table `[generate]`, for `--whitewater generate`.
 
 use serde::{Deserialize, Serialize};
 use whitewater::{GeneratorSettings, PotentialRange};
@@ -23,12 +23,12 @@ table! {
     not { spacing, trapped_air_rate, wave_crest_rate, bounds }
     beside {
         max_particles: u32,
-        /// Of trapped air and of wave crests, particles a second.
+        /// Emission rates by trapped air and by wave crests, particles per second.
         rates: [f32; 2],
     }
 }
 
-/// From where on, and from where on fully.
+/// Lower and upper limit of a potential.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub struct Span([f32; 2]);
 
@@ -45,7 +45,7 @@ impl From<PotentialRange> for Span {
 }
 
 impl GenerateTable {
-    /// Puts what the table says over settings.
+    /// Applies the table to settings.
     pub fn apply(&self, settings: &mut GeneratorSettings) {
         self.put(settings);
         if let Some([trapped_air, wave_crest]) = self.rates {
@@ -54,7 +54,7 @@ impl GenerateTable {
         }
     }
 
-    /// The table that says all of settings and how many are made at most.
+    /// The complete table of settings and the max number of particles.
     pub fn all(settings: &GeneratorSettings, max_particles: u32) -> Self {
         Self {
             max_particles: Some(max_particles),

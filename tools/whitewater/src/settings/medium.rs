@@ -1,4 +1,4 @@
-//! Liquids by name: their medium, index of refraction, and the colours of their foam.
+//! Liquids by name: medium, index of refraction, and colours of their foam.
 
 use std::str::FromStr;
 
@@ -6,21 +6,21 @@ use serde::{Deserialize, Serialize};
 use whitewater::Settings;
 use whitewater::water::{Fresnel, Medium};
 
-/// What a liquid is beside its medium.
+/// Properties of a liquid besides its medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Liquid {
-    /// Index of refraction; none: as nothing is said of it.
+    /// Index of refraction; `None` keeps the default.
     index: Option<f32>,
-    /// Albedo of much foam and of little; none: white.
+    /// Albedo of thick foam and of thin foam; `None` is white.
     foam: Option<[[f32; 3]; 2]>,
-    /// So viscous that small waves die at once.
+    /// Whether it is so viscous that small waves die at once.
     thick: bool,
 }
 
 /// Its foam is as white as that of water.
 const WATERY: Liquid = Liquid { index: None, foam: None, thick: false };
 
-/// A liquid by its name, and how much of what absorbs and scatters is in it.
+/// Name of a liquid, and a factor for its absorption and scattering.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct MediumName {
@@ -96,7 +96,7 @@ impl From<MediumName> for String {
 }
 
 impl MediumName {
-    /// The medium for particles of a spacing.
+    /// The medium, for particles of this spacing.
     pub fn medium(self, spacing: f32) -> Medium {
         let whole = match self.word {
             Word::Clear => Medium::CLEAR,
@@ -115,7 +115,7 @@ impl MediumName {
         whole.thinned(self.share)
     }
 
-    /// Colours by eye: bubbles are as white as water's, tinted by what of the liquid is in their walls.
+    /// Foam colours, chosen by eye: bubbles are as white as those of water, tinted by the liquid in their walls.
     pub fn liquid(self) -> Liquid {
         let thick = matches!(self.word, Word::Honey | Word::Lava);
         let of =
@@ -136,7 +136,7 @@ impl MediumName {
 }
 
 impl Liquid {
-    /// Puts the liquid's surface and colours into settings.
+    /// Applies surface and foam colours to settings.
     pub fn put(&self, settings: &mut Settings) {
         if let Some(index) = self.index {
             settings.water.fresnel = Fresnel::of_index(index);
@@ -184,10 +184,10 @@ mod tests {
         };
         assert_eq!(of("ocean"), Settings::default());
         let honey = of("honey");
-        // ((n - 1)/(n + 1))^2 of 1.49.
+        // f0 = ((n - 1)/(n + 1))^2 for n = 1.49.
         let Fresnel::Schlick { f0 } = honey.water.fresnel else { panic!("{honey:?}") };
         assert!((f0 - 0.0387).abs() < 1.0e-4, "{f0}");
-        // Small waves die on what is viscous.
+        // Viscous liquids have no small waves.
         let mut rough = Settings::default();
         rough.water.wavelets.slope = 0.1;
         let slope = |name: &str| {
@@ -196,7 +196,7 @@ mod tests {
             settings.water.wavelets.slope
         };
         assert_eq!(["lake", "beer", "honey", "lava"].map(slope), [0.1, 0.1, 0.0, 0.0]);
-        // Cream, pink, dark.
+        // Foam of beer is cream, of blood pink, of lava dark.
         let [r, g, b] = of("beer").surface_foam.front_color;
         assert!(r > g && g > b && b > 0.5);
         let [r, g, b] = of("blood").surface_foam.front_color;

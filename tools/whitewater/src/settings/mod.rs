@@ -25,11 +25,11 @@ pub use medium::MediumName;
 pub use water::Weber;
 pub use water::{FoamBy, SurfaceFoamTable};
 
-/// The file.
+/// The settings file.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SettingsFile {
-    /// Over what all the tables are laid.
+    /// The preset that the tables modify.
     pub look: Option<LookWord>,
     pub water: water::WaterTable,
     pub ellipsoids: water::EllipsoidTable,
@@ -47,22 +47,22 @@ pub struct SettingsFile {
     pub light: water::LightTable,
 }
 
-/// How all looks where nothing else is said.
+/// A preset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum LookWord {
-    /// The tool's own.
+    /// The defaults of this program.
     Default,
-    /// That of the thesis' demo.
+    /// The look of the thesis' demo.
     Thesis,
 }
 
-/// What was found for a run beside its settings.
+/// Settings that were found for a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Found<'a> {
-    /// By what water foams.
+    /// Settings of foam formation.
     pub foam: Option<&'a WeberSettings>,
-    /// By what whitewater particles are made, and how many at most.
+    /// Settings of the whitewater emission, and the max number of particles.
     pub generate: Option<&'a (GeneratorSettings, u32)>,
 }
 
@@ -85,7 +85,7 @@ impl SettingsFile {
         })
     }
 
-    /// The file that `--settings` names and `--look` begins.
+    /// The file of `--settings`, with the preset of `--look`.
     pub fn of_args(args: &DrawArgs) -> Outcome<Self> {
         let file = args.settings.as_deref().map(Self::read).transpose()?.unwrap_or_default();
         let mut water = file.water;
@@ -95,12 +95,12 @@ impl SettingsFile {
         Ok(Self { look: args.look.or(file.look), water, ..file })
     }
 
-    /// Whether all looks as in the thesis.
+    /// Whether the preset is the thesis.
     pub fn is_thesis(&self) -> bool {
         self.look == Some(LookWord::Thesis)
     }
 
-    /// What the tables are laid over, for particles of a spacing in a light.
+    /// The settings of the preset, for particles of this spacing in this light.
     pub fn look(&self, spacing: f32, light: Light) -> Settings {
         let light = self.in_light(light);
         if self.is_thesis() {
@@ -109,17 +109,17 @@ impl SettingsFile {
         Settings::new(spacing, 1.0).with_light(light)
     }
 
-    /// A light as the look has it.
+    /// The light, changed by the preset.
     pub fn in_light(&self, light: Light) -> Light {
         if self.is_thesis() { light.thesis() } else { light }
     }
 
-    /// How the scene's shadow map is filtered.
+    /// Filter of the scene's shadow map.
     pub fn shadows(&self) -> Shadows {
         self.shadow.passes(self.is_thesis())
     }
 
-    /// Puts what the file says over settings.
+    /// Applies the file to settings.
     pub fn apply(&self, settings: &mut Settings) {
         if let Some(liquid) = self.water.liquid() {
             liquid.put(settings);
@@ -139,9 +139,9 @@ impl SettingsFile {
         self.light.put(&mut settings.light);
     }
 
-    /// The file that says all: of settings, of what was found, and of what chooses passes as this file does.
+    /// The complete file: settings, results found for the run, and this file's configuration of passes.
     pub fn all(&self, settings: &Settings, found: Found<'_>) -> Self {
-        // The tool's worlds have y up; the ladder is of the layers that are written.
+        // `up` is not a key, because the program's scenes are y-up; `ladder` follows from the layers that are written.
         let Settings {
             water,
             surface_foam,
@@ -176,7 +176,7 @@ impl SettingsFile {
         }
     }
 
-    /// As TOML.
+    /// The file as TOML.
     pub fn text(&self) -> Result<String, String> {
         toml::to_string(self).map_err(|error| error.to_string())
     }

@@ -1,6 +1,6 @@
-//! Tables and keys that had another name before: refused, with the name that they have now.
+//! Renamed tables and keys. The old names are refused, and the error gives the new ones.
 
-/// A table, the key in it (none: the table itself), and the new name.
+/// Table, old key (empty for the table itself), and new name.
 pub const RENAMED: &[(&str, &str, &str)] = &[
     ("foam", "", "[surface_foam]"),
     ("diffuse", "", "[whitewater]"),
@@ -35,7 +35,7 @@ pub const RENAMED: &[(&str, &str, &str)] = &[
     ("shore", "web_size", "texture_size"),
 ];
 
-/// The message for the first table or key of a text that has another name now.
+/// The message for the first renamed table or key in a text.
 pub fn find(text: &str) -> Option<String> {
     let file: toml::Table = text.parse().ok()?;
     RENAMED.iter().find_map(|(table, key, new)| {

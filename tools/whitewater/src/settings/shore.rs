@@ -11,28 +11,28 @@ use whitewater::shore::{
 use super::table::{table, words};
 
 table! {
-    /// Table `[shore]`: what is the same in all frames.
+    /// Table `[shore]`: values that are the same in all frames.
     ShoreTable of ShoreSettings
     keys {}
-    // Seconds after which all repeats.
+    // Seconds after which the foam's animation repeats.
     optional { period: f32 }
     not { time, shoreline, contact }
     beside {
         edge: EdgeWord,
         texture_size: u32,
         seed: u32,
-        /// A picture in place of the built-in web.
+        /// A picture that replaces the built-in web.
         web: PathBuf,
-        /// A mesh whose second texture coordinate is v, for `by = "strip"`, which it makes the default.
+        /// A mesh whose second texture coordinate is v, for `by = "strip"`; it makes that the default.
         strip: PathBuf,
-        /// What tells how far the shore is.
+        /// Source of the shore coordinate.
         by: By,
-        /// Texels of the map each way.
+        /// Size of the distance map in texels along an edge.
         map: u32,
     }
 }
 
-/// What tells how far the shore is.
+/// Source of the shore coordinate.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
@@ -57,7 +57,7 @@ impl By {
 words!(EdgeWord of Edge { Smooth, Clip, Coverage });
 
 impl ShoreTable {
-    /// What of it chooses passes.
+    /// The configuration of passes.
     pub fn config(&self) -> ShoreConfig {
         let standard = ShoreConfig::default();
         standard.with(|it| {
@@ -67,7 +67,7 @@ impl ShoreTable {
         })
     }
 
-    /// The table that says all of a look, and of the passes and of what they read as this table does.
+    /// The complete table of a look, with this table's configuration and files.
     pub fn all(&self, look: &ShoreSettings) -> Self {
         let ShoreConfig { edge, texture_size, seed, .. } = self.config();
         Self {
@@ -119,7 +119,7 @@ table! {
     beside {}
 }
 
-/// A noise: amplitude and repetitions a metre.
+/// A noise: amplitude, and repetitions per metre.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub struct Pair([f32; 2]);
 
@@ -135,10 +135,10 @@ impl From<Noise> for Pair {
     }
 }
 
-/// How many layers a web has at most.
+/// Max number of layers of a web.
 const LAYERS: usize = 4;
 
-/// The layers of the web, as many as there are.
+/// The layers of the web.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(try_from = "Vec<LayerTable>", into = "Vec<LayerTable>")]
 pub struct Layers([TextureLayer; LAYERS]);
@@ -214,7 +214,7 @@ table! {
     optional { particle_depth: f32 }
     not {}
     beside {
-        /// A picture over the view in place of the web: where it is black the mask takes foam away.
+        /// A picture across the view that replaces the web as a mask: black removes foam.
         mask_picture: PathBuf,
     }
 }
@@ -222,12 +222,12 @@ table! {
 words!(MeasureWord of Measure { Distance, View, Vertical });
 
 impl ContactTable {
-    /// The table that says all of a look, and of its picture as this table does.
+    /// The complete table of a look, with this table's picture.
     pub fn all(&self, look: &ContactSettings) -> Self {
         Self { mask_picture: self.mask_picture.clone(), ..Self::of(look) }
     }
 
-    /// Whether there is some on the particles' water.
+    /// Whether contact foam is drawn on the particles' water.
     pub fn on_particles(&self) -> bool {
         self.particle_opacity.is_some_and(|opacity| opacity > 0.0)
     }

@@ -1,11 +1,11 @@
-//! What makes a table of TOML keys of a part of the settings.
+//! Macros for TOML tables of parts of the settings.
 
-/// A table whose keys are fields of a part of the settings, each of which may be left out: `put` lays what it says over
-/// such a part, `of` says all of one. Each field is a key or named among those that are none: the test
-/// `no_field_is_forgotten` compares `FIELDS` with those of the part.
+/// A table whose keys are fields of a part of the settings, all optional: `put` applies the table to the part, `of`
+/// makes a complete table of it. Each field is a key or listed as an exception: the test `no_field_is_forgotten`
+/// compares `FIELDS` with the fields of the part.
 ///
-/// `keys`: fields, and as what they are written. `optional`: fields that are `Option`s themselves. `not`: fields that
-/// are no keys. `beside`: keys that are no fields, which `of` leaves out.
+/// `keys` lists fields and the types they are written as. `optional` lists fields that are an `Option` themselves.
+/// `not` lists fields that are no keys. `beside` lists keys that are no fields; `of` leaves them out.
 macro_rules! table {
     (
         $(#[$about:meta])* $table:ident of $part:ident
@@ -29,7 +29,7 @@ macro_rules! table {
             pub const FIELDS: &[&str] =
                 &[$(stringify!($key),)* $(stringify!($optional),)* $(stringify!($not),)*];
 
-            /// Puts what the table says over a part.
+            /// Applies the table to a part.
             pub fn put(&self, part: &mut $part) {
                 $(if let Some(value) = self.$key.clone() {
                     part.$key = value.into();
@@ -37,7 +37,7 @@ macro_rules! table {
                 $(part.$optional = self.$optional.or(part.$optional);)*
             }
 
-            /// The table that says all of a part.
+            /// The complete table of a part.
             pub fn of(part: &$part) -> Self {
                 let $part { $($key,)* $($optional,)* $($not: _,)* .. } = *part;
                 Self {

@@ -10,7 +10,7 @@ fn applied(text: &str) -> Settings {
     settings
 }
 
-/// All that settings say, as text.
+/// All settings as text.
 fn written(settings: &Settings) -> String {
     SettingsFile::default().all(settings, Found::default()).text().unwrap()
 }
@@ -39,7 +39,7 @@ fn media_are_read_by_name_and_by_numbers() {
     settings.water.medium = turbid;
     settings.water.fresnel = Fresnel::Schlick { f0: 0.25 };
     assert_eq!(applied(&written(&settings)), settings);
-    // What the tables say goes before what the name brings.
+    // Values of the tables override those of the named liquid.
     let beer = applied("[water]\nmedium = 'beer'\n[surface_foam]\nfront_color = [0.1, 0.2, 0.3]");
     assert_eq!(beer.surface_foam.front_color, [0.1, 0.2, 0.3]);
     assert_ne!(beer.surface_foam.back_color, Settings::default().surface_foam.back_color);
@@ -65,7 +65,7 @@ fn water_foams_as_asked() {
     let text = "[water]\nspacing = 0.02\nrest_density = 998.0\n[surface_foam]\n";
     let standard = WeberSettings::reduced(0.02, 1.0).with(|it| it.rest_density = 998.0);
     assert_eq!(of(text), standard);
-    // Section 3.2 of the thesis: ρ v² l / σ, of a particle's width l and a surface tension of 0.0728 N/m.
+    // Section 3.2 of the thesis: ρ v² l / σ, with a particle's width l and a surface tension of 0.0728 N/m.
     let full = of(&format!("{text}weber = 'full'\nthreshold = 30.0"));
     assert!((full.scale / (0.02 / 0.0728) - 1.0).abs() < 1.0e-6, "{full:?}");
     assert_eq!(full.threshold, 30.0);
@@ -106,14 +106,14 @@ fn settings_go_out_and_come_back() {
     assert_eq!(applied(&written(&settings)), settings);
 }
 
-/// Of each table the keys that the reader knows: it says so where one is unknown.
+/// The keys of a table, as listed in the reader's error about an unknown key.
 fn known(table: &str) -> Vec<String> {
     let message = SettingsFile::parse(&format!("{table}\nno_such_key = 0")).unwrap_err();
     let (_, keys) = message.split_once("expected").unwrap();
     keys.split('`').skip(1).step_by(2).map(String::from).collect()
 }
 
-/// A file that says all that may be said, other than by default where that is a number or a truth.
+/// A file with every key, whose numbers and booleans differ from the defaults.
 fn everything() -> SettingsFile {
     let text = "
         [water]
@@ -152,7 +152,7 @@ fn every_key_is_written() {
     assert!(tables.len() >= 12, "{tables:?}");
     for name in tables {
         let table = all.get(&name).and_then(toml::Value::as_table);
-        // Keys of the file itself, which are no tables, are choices of where to begin: all that they choose is written.
+        // Keys outside of tables are presets; everything that they choose is written in tables.
         let Some(table) = table else { continue };
         let keys = known(&format!("[{name}]"));
         assert!(!keys.is_empty());
@@ -162,11 +162,11 @@ fn every_key_is_written() {
     }
 }
 
-/// Each number and each truth of a tree of values, one after the other, changed.
+/// Variants of a tree of values, each with one number or boolean changed.
 fn changed(value: &toml::Value) -> Vec<toml::Value> {
     use toml::Value::{Array, Boolean, Float, Integer, Table};
     match value {
-        // Halves of eighths are exact in single precision, and written back as they are.
+        // Multiples of 1/16 are exact in single precision and in text.
         Float(x) => vec![Float(f64::from(*x as f32 * 0.5 + 0.125))],
         Integer(n) => vec![Integer(n + 1)],
         Boolean(b) => vec![Boolean(!b)],
@@ -195,8 +195,8 @@ fn changed(value: &toml::Value) -> Vec<toml::Value> {
     }
 }
 
-/// One value after the other is changed in the file that says all: read, laid over the defaults and written again it
-/// has arrived and nothing else has changed.
+/// Each value of the complete file is changed in turn. The file is read, applied to the defaults and written again: the
+/// value has changed, and no other one.
 #[test]
 fn every_value_arrives_and_is_written() {
     let all: toml::Table = everything().text().unwrap().parse().unwrap();
@@ -220,7 +220,7 @@ fn every_value_arrives_and_is_written() {
     assert!(compared > 200, "{compared}");
 }
 
-/// Numbers to single precision.
+/// Compares numbers in single precision.
 fn same(a: &toml::Value, b: &toml::Value) -> bool {
     use toml::Value::{Array, Float, Table};
     match (a, b) {
@@ -256,7 +256,7 @@ fn mistakes_are_named() {
     }
 }
 
-/// Each old name is refused, and each name that a message names is known.
+/// Each old name is refused, and each new name in the message is a known key.
 #[test]
 fn old_names_are_refused_with_the_new_ones() {
     for (text, says) in [
@@ -286,7 +286,7 @@ fn old_names_are_refused_with_the_new_ones() {
     }
 }
 
-/// Names of the fields of a struct, by its derived `Debug`.
+/// Field names of a struct, from its derived `Debug`.
 fn fields(of: &impl std::fmt::Debug) -> Vec<String> {
     let text = format!("{of:#?}");
     let own = text.lines().filter_map(|line| line.strip_prefix("    "));
@@ -294,7 +294,7 @@ fn fields(of: &impl std::fmt::Debug) -> Vec<String> {
     named.filter_map(|line| Some(line.split_once(':')?.0.to_owned())).collect()
 }
 
-/// The library's structs may grow: each field of them has a key, or is named as one that has none.
+/// If a struct of the library gets a new field, this test asks for a key or an exception.
 #[test]
 fn no_field_is_forgotten() {
     fn same(of: &impl std::fmt::Debug, known: &[&str]) {
@@ -320,7 +320,7 @@ fn no_field_is_forgotten() {
     let limits = PotentialRange { min: 0.0, max: 1.0 };
     let generated = whitewater::GeneratorSettings::new(1.0, [limits; 3], 1.0);
     same(&generated, generate::GenerateTable::FIELDS);
-    // Those that are taken apart by hand.
+    // Structs that have no table macro.
     let parts = "up water surface_foam spray whitewater bubbles shore shadow noise light ladder";
     let words = |names: &'static str| names.split(' ').collect::<Vec<_>>();
     same(&all, &words(parts));

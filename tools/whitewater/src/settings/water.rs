@@ -34,7 +34,7 @@ table! {
     not { medium, ellipsoids, wavelets }
     beside {
         medium: MediumTable,
-        /// Not of the settings, but of the passes.
+        /// Steps of the reflection march; determines a pass and is not part of the settings.
         mirror_steps: u32,
         exit: ExitWord,
         kernels: KernelWord,
@@ -47,7 +47,7 @@ words!(ExitWord of Exit { TwoInterfaces, Straight });
 words!(KernelWord of Kernels { Spheres, Ellipsoids });
 words!(BedWord of Bed { Submerged, Source });
 
-/// A medium by name or by its numbers.
+/// A medium by name or by its coefficients.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(
     untagged,
@@ -86,7 +86,7 @@ pub struct Source {
 }
 
 impl MediumTable {
-    /// The medium for particles of a spacing.
+    /// The medium, for particles of this spacing.
     fn medium(self, spacing: f32) -> Medium {
         match self {
             Self::Named(name) => name.medium(spacing),
@@ -115,7 +115,7 @@ impl From<Medium> for MediumTable {
     }
 }
 
-/// A reflectance by the numbers of either form.
+/// Reflectance, by the numbers of either form.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(untagged, expecting = "fresnel: expected {f0=0.02} or {bias=0.1, scale=0.4, power=2}")]
 pub enum FresnelTable {
@@ -158,7 +158,7 @@ impl From<Fresnel> for FresnelTable {
 }
 
 impl WaterTable {
-    /// The liquid that a medium of a name is, beside its medium.
+    /// The liquid of a named medium.
     pub fn liquid(&self) -> Option<Liquid> {
         match self.medium {
             Some(MediumTable::Named(name)) => Some(name.liquid()),
@@ -166,20 +166,19 @@ impl WaterTable {
         }
     }
 
-    /// Puts what the table says over settings, the medium too.
+    /// Applies the table, including the medium, to settings.
     pub fn apply(&self, water: &mut WaterSettings) {
         self.put(water);
         water.medium = self.medium.map_or(water.medium, |medium| medium.medium(water.spacing));
     }
 
-    /// Steps of the march for what is mirrored of the scene, in the thesis' look or ours.
+    /// Steps of the march for reflections of the scene; the default depends on the preset.
     pub fn mirror_steps(&self, thesis: bool) -> u32 {
         let standard = Config::new(Default::default(), Default::default(), 0).mirror_steps;
         self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
     }
 
-    /// What is seen through water with air behind it; straight on where nothing is said and that is the standard.
-    /// Has what leaves the water go straight on, where the file does not say how.
+    /// Makes light that leaves the water go straight on, unless the file sets `exit`.
     pub fn leave_straight(&mut self) {
         self.exit.get_or_insert(Exit::Straight.into());
     }
@@ -189,18 +188,18 @@ impl WaterTable {
         self.exit.map_or(if straight { Exit::Straight } else { standard }, Into::into)
     }
 
-    /// What of each particle is drawn, in the thesis' look or ours.
+    /// Shape of the drawn particles (spheres or ellipsoids); the default depends on the preset.
     pub fn kernels(&self, thesis: bool) -> Kernels {
         let standard = if thesis { Kernels::Spheres } else { Kernels::Ellipsoids };
         self.kernels.map_or(standard, Into::into)
     }
 
-    /// Whether the table says so itself.
+    /// Whether the table sets that shape.
     pub fn says_kernels(&self) -> bool {
         self.kernels.is_some()
     }
 
-    /// The table that says all of them, and of the passes as this table does.
+    /// The complete table, with this table's configuration of passes.
     pub fn all(&self, water: &WaterSettings, thesis: bool) -> Self {
         Self {
             medium: Some(water.medium.into()),
@@ -213,7 +212,7 @@ impl WaterTable {
 }
 
 table! {
-    /// Table `[ellipsoids]`: of particles with `[water] kernels = 'ellipsoids'`.
+    /// Table `[ellipsoids]`, for particles with `[water] kernels = 'ellipsoids'`.
     EllipsoidTable of Ellipsoids
     keys { reach: f32, ratio: f32, fewest: f32, lone: f32, centred: f32 }
     optional {}
@@ -258,51 +257,52 @@ table! {
     optional {}
     not { time }
     beside {
-        /// Not of the look, as all below: of which water foams. Whose speed the Weber number is of.
+        /// The keys from here on are not part of the look; they set which water foams. `by`: the speed in the Weber
+        /// number.
         by: FoamBy,
-        /// In which unit it is.
+        /// Unit of the Weber number.
         weber: Weber,
-        /// From which Weber number on, where the command line does not say.
+        /// Weber number from which water foams, unless the command line sets it.
         threshold: f32,
-        /// Mean seconds until foam is gone.
+        /// Mean lifetime of foam in seconds.
         lifetime: f32,
-        /// Velocity of the air, scene units a second.
+        /// Velocity of the air, scene units per second.
         air: [f32; 3],
-        /// Of the random times.
+        /// Seed of the random lifetimes.
         seed: u32,
     }
 }
 
-/// In which unit the Weber number is.
+/// Unit of the Weber number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Weber {
-    /// That of the source's demo, which does not depend on the unit of length.
+    /// The reduced form of the source's demo, which does not depend on the unit of length.
     Reduced,
     /// `ρ v² l / σ` in SI units.
     Full,
 }
 
-/// Whose speed the Weber number is of, by which water foams.
+/// The speed in the Weber number that decides which water foams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FoamBy {
-    /// Of the neighbours that run into a particle: where air is trapped (Ihmsen et al. 2012).
+    /// The speed at which neighbours approach a particle: trapped air (Ihmsen et al. 2012).
     Air,
-    /// Of the particle through the air (Bagar 2010).
+    /// The particle's speed through the air (Bagar 2010).
     Speed,
 }
 
 impl SurfaceFoamTable {
-    /// Whose speed water foams by: by trapped air, but where the table says otherwise, or a number that is of the particles'
-    /// own speed through the wind is said.
+    /// The speed in the Weber number. The default is trapped air; a threshold or wind applies to the particles' own
+    /// speed.
     pub fn by(&self, wanted: Foaming, thesis: bool) -> FoamBy {
         let own = thesis || self.threshold.is_some() || self.air.is_some();
         let own = own || matches!(wanted, Foaming::From(_));
         self.by.unwrap_or(if own { FoamBy::Speed } else { FoamBy::Air })
     }
 
-    /// Which water foams; the threshold is the table's, or 1.
+    /// Settings of foam formation; the threshold is the table's, or 1.
     pub fn formation(&self, water: &WaterSettings) -> WeberSettings {
         let threshold = self.threshold.unwrap_or(1.0);
         let standard = match self.weber {
@@ -317,10 +317,10 @@ impl SurfaceFoamTable {
         })
     }
 
-    /// The table that says all of a look, and by what water foams, as this table and `found` say.
+    /// The complete table of a look and of foam formation, from this table and `found`.
     pub fn all(&self, look: &SurfaceFoamSettings, found: Option<&WeberSettings>) -> Self {
         let said = self.formation(&WaterSettings::default());
-        // The rest is found, or goes by the spacing.
+        // The other values are found, or follow from the spacing.
         let WeberSettings { foam_lifetime, air, seed, .. } = *found.unwrap_or(&said);
         Self {
             by: Some(self.by.unwrap_or(FoamBy::Speed)),
@@ -363,7 +363,7 @@ table! {
 }
 
 table! {
-    /// Table `[shadow]`: of the scene's shadow map. The last four choose the passes.
+    /// Table `[shadow]`, for the scene's shadow map. The last four keys determine passes.
     ShadowTable of ShadowFilter
     keys { width: f32, damping: f32, offset: f32, scale: f32 }
     optional {}
@@ -379,7 +379,7 @@ pub enum FilterWord {
 }
 
 impl ShadowTable {
-    /// How the scene's shadow map is filtered, in the thesis' look or ours.
+    /// Filter of the scene's shadow map; the default depends on the preset.
     pub fn passes(&self, thesis: bool) -> Shadows {
         match self.filtered(thesis) {
             FilterWord::Convolution => Shadows::Convolution(self.convolution()),
@@ -401,7 +401,7 @@ impl ShadowTable {
         }
     }
 
-    /// The table that says all of a filter, and of the passes as this table does.
+    /// The complete table of a filter, with this table's configuration of passes.
     pub fn all(&self, filter: &ShadowFilter, thesis: bool) -> Self {
         let Convolution { terms, texels, bits } = self.convolution();
         Self {

@@ -42,11 +42,11 @@ table! {
     optional {}
     not {}
     beside {
-        /// Radii of foam, spray and bubbles of files, in the place of `radius`.
+        /// Radii of foam, spray and bubbles from files; they replace `radius`.
         radii: [f32; 3],
-        /// As how many a particle of files is drawn, scattered about its place.
+        /// Number of particles that are drawn for each particle of a file, scattered around it.
         copies: u32,
-        /// Not of the look, as the next: they choose passes.
+        /// This key and the next determine passes and are not part of the look.
         occlusion: OcclusionWord,
         splat: SplatWord,
     }
@@ -107,17 +107,17 @@ impl From<OcclusionReach> for ReachTable {
 }
 
 impl WhitewaterTable {
-    /// How the shadow is sampled.
+    /// How ambient occlusion is sampled.
     pub fn occlusion(&self) -> Occlusion {
         self.occlusion.map_or(Occlusion::Fast, Into::into)
     }
 
-    /// How particles become pixels; `None`: as the library chooses.
+    /// How particles are rasterized; `None` is the library's choice.
     pub fn splat(&self) -> Option<WhitewaterSplat> {
         self.splat.map(Into::into)
     }
 
-    /// The table that says all of a look, and of the passes as this table does.
+    /// The complete table of a look, with this table's configuration of passes.
     pub fn all(&self, look: &WhitewaterSettings) -> Self {
         let Self { radii, copies, splat, .. } = *self;
         Self { occlusion: Some(self.occlusion().into()), radii, copies, splat, ..Self::of(look) }

@@ -23,7 +23,7 @@ use crate::settings::SettingsFile;
 use crate::settings::shore::By;
 use crate::stage;
 
-/// Texels of the map each way where nothing is said.
+/// Default size of the distance map in texels along an edge.
 const MAP: u32 = 1024;
 
 /// A scene with a shore.
@@ -32,11 +32,11 @@ pub enum Which {
     Archipelago,
     Pool,
     Lava,
-    /// The user's own.
+    /// A scene from a file.
     File(PathBuf),
 }
 
-/// Of the command line.
+/// Parses the name on the command line.
 pub fn named(text: &str) -> Result<Which, String> {
     match text {
         "archipelago" => Ok(Which::Archipelago),
@@ -47,19 +47,19 @@ pub fn named(text: &str) -> Result<Which, String> {
     }
 }
 
-/// Shoreline and contact foam of a session.
+/// Shoreline and contact foam of a run.
 pub struct Shores {
     pub config: ShoreConfig,
     shore: Shore,
     land: Land,
-    /// Texels of a web of the user's, and of a mask over the view.
+    /// Size and texels of a user's web, and of a mask across the view.
     web: Option<([u32; 2], Vec<f32>)>,
     mask: Option<([u32; 2], Vec<f32>)>,
 }
 
-/// What tells how far the shore is.
+/// Source of the shore coordinate.
 enum Land {
-    /// The frame itself, or nothing.
+    /// The depth of the frame, or no source.
     None,
     Strip(Strip),
     Map {
@@ -69,19 +69,19 @@ enum Land {
 }
 
 impl Shores {
-    /// Contact foam on the particles' water alone, where a file asks for it.
+    /// Contact foam on the particles' water alone, if the settings file asks for it.
     pub fn of_particles(file: &SettingsFile) -> Outcome<Option<Self>> {
         file.contact.on_particles().then(|| Self::on_particles(file)).transpose()
     }
 
-    /// The same, asked for or not.
+    /// The same, unconditionally.
     pub fn on_particles(file: &SettingsFile) -> Outcome<Self> {
         let shore = Shore::new(0.0).with(|it| it.surface = None);
         let config = file.shore.config();
         Ok(Self { config, shore, land: Land::None, web: web(file)?, mask: mask(file)? })
     }
 
-    /// On the sea of a scene.
+    /// Foam on the sea of a scene.
     pub fn of(
         file: &SettingsFile,
         scene: &Scene,
@@ -118,7 +118,7 @@ impl Shores {
         Ok(Self { config: file.shore.config(), shore, land, web: web(file)?, mask: mask(file)? })
     }
 
-    /// Hands over what is the same in all frames.
+    /// Uploads data that is the same in all frames.
     pub fn set_up(&self, headless: &mut Headless, scene: &Scene) -> Result<(), Error> {
         if let Some((size, texels)) = &self.web {
             headless.shore_web(*size, texels)?;
@@ -143,13 +143,13 @@ impl Shores {
         Ok(())
     }
 
-    /// The land where it is in the scene's frame, after another.
+    /// Updates the land for the scene's frame; `before` is the previous one.
     pub fn moved(&self, headless: &mut Headless, scene: &Scene, before: u64) -> Result<(), Error> {
         let Some(changed) = changed(scene, before) else { return Ok(()) };
         self.step(headless, scene, Some(changed))
     }
 
-    /// The map, where there is one, of the land of a scene's frame: what has changed of it, or all.
+    /// Updates the distance map, if there is one, for the scene's frame: only the changed part, or all of it.
     pub fn step(
         &self,
         headless: &mut Headless,
@@ -160,7 +160,7 @@ impl Shores {
         headless.shore_map_step(area, &transforms(scene, scene.frame), changed)
     }
 
-    /// Whether a map tells how far the shore is.
+    /// Whether a distance map gives the shore coordinate.
     pub fn by_map(&self) -> bool {
         matches!(self.land, Land::Map { .. })
     }
@@ -185,7 +185,7 @@ pub fn transforms(scene: &Scene, frame: u64) -> Vec<Mat4> {
     (0..scene.meshes.len()).map(|index| pose(index) * scene.meshes[index].transform).collect()
 }
 
-/// The least and the greatest x and z of what stands elsewhere than in another frame, then and now.
+/// Min and max x and z of the meshes that moved since frame `before`, at both positions.
 pub fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
     let [then, now] = [before, scene.frame].map(|frame| transforms(scene, frame));
     let (mut least, mut most) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
@@ -201,7 +201,7 @@ pub fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
     least.cmple(most).all().then(|| [least.to_array(), most.to_array()])
 }
 
-/// A scene by its name, how foam looks there and by what it knows the shore.
+/// A scene by name. Sets how its foam looks and the source of its shore coordinate.
 pub fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(ShoreScene, By)> {
     let contact = &mut settings.shore.contact;
     Ok(match which {
@@ -211,7 +211,7 @@ pub fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(
             (scenes::pool(), By::None)
         }
         Which::Lava => {
-            // Of the crust's own glow.
+            // Contact foam glows in the colour of the hot lava.
             (contact.color, contact.lit) = ([4.2, 1.35, 0.12], 0.0);
             (contact.depth, contact.mask_scale, contact.mask) = (0.75, 1.0 / 1.8, 0.7);
             contact.mask_speed = [0.02, 0.3];
@@ -225,7 +225,7 @@ pub fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(
     })
 }
 
-/// A scene of the user's in a sea.
+/// A user's scene in a sea.
 fn file(path: &Path, level: f32) -> Outcome<ShoreScene> {
     let mut scene = stage::read(path)?;
     let strip = own::taken(path, &mut scene)?;
@@ -282,7 +282,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         }
     }
     settings.light = environment.light();
-    // The scenes come round.
+    // The built-in scenes repeat.
     let built_in = !matches!(which, Which::File(_));
     settings.shore.period = built_in.then(|| shown.frames as f32 / shown.fps);
     file.apply(&mut settings);

@@ -1,4 +1,4 @@
-//! A strip of foam of the user's: a mesh whose second texture coordinate is v.
+//! A user's strip of shore foam: a mesh whose second texture coordinate is v.
 
 use std::path::Path;
 
@@ -8,20 +8,20 @@ use super::strip::Strip;
 use crate::failure::{Failure, Outcome};
 use crate::stage;
 
-/// What is said of v where it is not as it should be.
+/// Expectation in errors about v.
 const EXPECTED: &str = "expected v as the second texture coordinate of each vertex (TEXCOORD_0 of glTF, vt of OBJ): 0 at the \
                         sea's edge, 1 at the shore line, 2 on the land";
 
-/// How far beyond its ends v may be by rounding.
+/// Tolerance at the ends of v's range, for rounding.
 const SLACK: f32 = 0.01;
 
-/// All of a file.
+/// All meshes of a file as one strip.
 pub fn read(path: &Path) -> Outcome<Strip> {
     let scene = stage::read(path)?;
     joined(path, &scene.meshes.iter().collect::<Vec<_>>())
 }
 
-/// The meshes of a scene that are named so, taken out of it: they are no land.
+/// Removes the meshes named `strip` from a scene and returns them as a strip; they are no land.
 pub fn taken(path: &Path, scene: &mut Scene) -> Outcome<Option<Strip>> {
     let is_strip = |mesh: &Mesh| mesh.name.to_lowercase().contains("strip");
     let (own, land): (Vec<_>, Vec<_>) =
@@ -37,7 +37,7 @@ pub fn taken(path: &Path, scene: &mut Scene) -> Outcome<Option<Strip>> {
     joined(path, &own.iter().collect::<Vec<_>>()).map(Some)
 }
 
-/// One strip of all of them, in the world.
+/// One strip of all meshes, in world space.
 fn joined(path: &Path, meshes: &[&Mesh]) -> Outcome<Strip> {
     let mut strip = Strip::default();
     for mesh in meshes {
@@ -53,12 +53,12 @@ fn joined(path: &Path, meshes: &[&Mesh]) -> Outcome<Strip> {
     Ok(strip)
 }
 
-/// Its coordinates are read as those of pictures, from the top down.
+/// Whether the file is OBJ, whose texture coordinates are read with v flipped, as for pictures.
 fn is_obj(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"))
 }
 
-/// A mesh as a strip, or what is wrong with it.
+/// Converts a mesh to a strip, or says what is wrong with it.
 fn of(mesh: &Mesh, upward: bool) -> Result<Strip, String> {
     if mesh.uvs.len() != mesh.positions.len() {
         return Err("has no texture coordinates".into());
@@ -71,7 +71,7 @@ fn of(mesh: &Mesh, upward: bool) -> Result<Strip, String> {
     let (low, high) = v
         .iter()
         .fold((f32::INFINITY, -f32::INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
-    // Pictures are upside down in glTF: what writes it (Blender does) turns v over, to -1 on the land.
+    // In glTF pictures are upside down. Exporters such as Blender flip v, to -1 on the land.
     let turned = (-1.0 - SLACK..-SLACK).contains(&low) && high <= 1.0 + SLACK;
     if turned {
         v.iter_mut().for_each(|v| *v = 1.0 - *v);
@@ -95,7 +95,7 @@ mod tests {
 
     use super::*;
 
-    /// A sheet whose corners have such coordinates.
+    /// A sheet whose corners have these coordinates.
     fn sheet(name: &str, v: [f32; 4]) -> Mesh {
         Mesh {
             name: name.into(),
@@ -111,9 +111,9 @@ mod tests {
     fn v_is_what_the_mesh_says_either_way_up() {
         for (upward, v) in [
             (false, [0.0, 1.0, 2.0, 0.5]),
-            // As exporters turn it over.
+            // With v flipped, as exporters do.
             (false, [1.0, 0.0, -1.0, 0.5]),
-            // OBJ, whose reader does.
+            // With v flipped by the OBJ reader.
             (true, [1.0, 0.0, -1.0, 0.5]),
         ] {
             let strip = of(&sheet("s", v), upward).expect("a strip");

@@ -8,29 +8,29 @@ use whitewater::headless::scene::{Ground, Liquid, Material, Mesh, Motion, Patter
 use super::strip::{self, Reach, Strip};
 use super::terrain::{self, Lump, Patch, joined, number, octaves, rise, warped};
 
-/// A scene with a sea, from where it is looked at, and how long it takes to come round.
+/// A scene with a sea, its camera, and the period of its animation.
 pub struct ShoreScene {
-    /// Its sun is to be taken from the environment: towards `sun`.
+    /// The scene. Its sun is set later, from an environment with the sun in direction `sun`.
     pub scene: Scene,
     pub eye: [f32; 3],
     pub target: [f32; 3],
-    /// Of the picture's height, degrees.
+    /// Vertical field of view, degrees.
     pub fov: f32,
     /// Towards the sun.
     pub sun: [f32; 3],
-    /// Stops beside those that sky and sun ask for.
+    /// Exposure in stops, added to that for the sky and the sun.
     pub exposure: f32,
     /// Height of the sea.
     pub level: f32,
-    /// Frames until all is as it was, from frame 1 on.
+    /// Period of the animation in frames, from frame 1 on.
     pub frames: u64,
-    /// Of them in a second.
+    /// Frames per second.
     pub fps: f32,
-    /// Round the largest island.
+    /// Strip around the largest island.
     pub strip: Option<Strip>,
 }
 
-/// A look of the ground by name, or the plain one.
+/// A ground material by name; the default one if there is none.
 fn material(name: &str) -> Material {
     Material::named(name).unwrap_or_default()
 }
@@ -39,18 +39,18 @@ fn colored(base_color: [f32; 3], roughness: f32) -> Material {
     Material { base_color, roughness, ..Material::default() }
 }
 
-/// An island: overlapping discs, their outline pushed about by noise.
+/// An island: overlapping discs with an outline that is distorted by noise.
 struct Isle {
-    /// Middle and radius of each.
+    /// Centre and radius of each disc.
     discs: &'static [([f32; 2], f32)],
     /// Height of its hills.
     peak: f32,
-    /// Metres down on a metre outward, at the shore line.
+    /// Slope of the beach at the shore line, metres down per metre outward.
     slope: f32,
     seed: u32,
 }
 
-/// The sea's floor.
+/// Height of the sea's floor.
 const FLOOR: f32 = -8.0;
 
 const MAIN: Isle = Isle {
@@ -81,14 +81,14 @@ const OTHERS: [Isle; 3] = [
     Isle { discs: &[([74.0, 30.0], 11.0), ([84.0, 22.0], 8.0)], peak: 3.5, slope: 0.11, seed: 41 },
 ];
 
-/// One that drifts, about its own middle.
+/// The drifting island, around its own centre.
 const DRIFTING: Isle = Isle { discs: &[([0.0, 0.0], 5.2)], peak: 2.6, slope: 0.22, seed: 53 };
 
-/// About where.
+/// Position that it drifts around.
 const DRIFTS: Vec2 = vec2(24.0, 65.0);
 
 impl Isle {
-    /// Metres from the shore line or so; negative on land.
+    /// Approximate distance from the shore line in metres; negative on land.
     fn shore(&self, p: Vec2) -> f32 {
         let size = self.discs.iter().fold(0.0_f32, |most, (_, radius)| most.max(*radius));
         let q = warped(p, 0.32 * size, 0.9 * size, self.seed);
@@ -118,22 +118,22 @@ impl Isle {
 fn land(p: Vec2) -> f32 {
     let height =
         OTHERS.iter().map(|isle| isle.height(p)).fold(MAIN.height(p), |a, b| joined(a, b, 0.6));
-    // Where one drifts it is deep: it slides over the floor.
+    // The sea is deep where the island drifts, because it slides over the floor.
     let channel = rise(6.0, 22.0, MAIN.shore(p)) * rise(36.0, 18.0, p.distance(DRIFTS));
     let height = height - 6.5 * channel;
-    // The floor is not level either.
+    // The floor is uneven.
     let floor = FLOOR - 0.4 + 0.9 * octaves(p / 40.0, 3, 5);
     joined(height, floor, 3.0)
 }
 
-/// The patch that the islands are in.
+/// Extent of the islands' height field.
 const SEA: Patch = Patch { low: Vec2::splat(-150.0), high: Vec2::splat(150.0), cell: 1.5 };
 
-/// The strip round the largest island.
+/// Strip around the largest island.
 pub fn strip() -> Strip {
     let near = Patch { low: Vec2::splat(-80.0), high: Vec2::splat(80.0), cell: 1.5 };
     let loops = strip::contours(near, land);
-    // Others' shores, and ponds, are not its own.
+    // Shores of other islands, and of ponds, are excluded.
     let own = loops.into_iter().filter(|points| points.iter().all(|p| MAIN.shore(*p).abs() < 8.0));
     let longest = own.max_by_key(Vec::len);
     strip::along(longest.as_slice(), 0.0, Reach { sea: 14.0, land: 4.0 }, |p| MAIN.shore(p))
@@ -150,7 +150,7 @@ pub fn archipelago() -> ShoreScene {
     let patch = Patch { low: Vec2::splat(-26.0), high: Vec2::splat(26.0), cell: 0.8 };
     let height = |p: Vec2| DRIFTING.height(p).max(-12.0);
     let place = vec3(DRIFTS.x, 0.0, DRIFTS.y);
-    // Never unturned: its sand moves with it.
+    // The island keeps its orientation, so that its sand moves with it.
     let turn = Quat::from_rotation_y(0.8);
     let transform = Mat4::from_rotation_translation(turn, place);
     let first = meshes.len();
@@ -212,7 +212,7 @@ fn foliage() -> Material {
 
 /// Stones on the shores and in the sea.
 fn rocks() -> Mesh {
-    // Where they lie together, and how many.
+    // Clusters: centre, number of stones and size.
     const GROUPS: [([f32; 2], usize, f32); 7] = [
         ([-8.0, 42.0], 7, 1.5),
         ([45.0, 12.0], 8, 1.8),
@@ -230,7 +230,7 @@ fn rocks() -> Mesh {
             let at = Vec2::from(middle) + Vec2::from_angle(TAU * number(n, 62)) * away;
             let size = size * (0.35 + 0.95 * number(n, 63).powi(2));
             let half = size * vec3(1.0 + 0.6 * number(n, 64), 0.75 + 0.4 * number(n, 65), 1.0);
-            // Such that it shows above the sea, or lies on the land.
+            // The stone is high enough to show above the sea or lie on the land.
             let y = land(at).max(-0.45 * half.y);
             lumps.push(Lump {
                 middle: vec3(at.x, y, at.y),
@@ -278,7 +278,7 @@ fn ball(middle: Vec3, radius: f32, material: Material) -> Mesh {
     terrain::lumps(&[lump], 28, material)
 }
 
-/// A tiled pool with steps at one end and a ramp at the other, and what stands and floats in it.
+/// A tiled pool with steps at one end and a ramp at the other, and objects that stand and float in it.
 pub fn pool() -> ShoreScene {
     let (frames, fps) = (180, 30.0);
     let level = -0.14;
@@ -308,7 +308,7 @@ pub fn pool() -> ShoreScene {
         block([-x - thick, deep - thick, -z], [-x, -0.04, z], &tiles),
         block([x, deep - thick, -z], [x + thick, -0.04, z], &tiles),
     ];
-    // Its rim, and the deck about it.
+    // The rim, and the deck around it.
     let (out_x, out_z) = (x + 0.35, z + 0.35);
     for side in [-1.0_f32, 1.0] {
         let (a, b) = ((side * z).min(side * out_z), (side * z).max(side * out_z));
@@ -320,7 +320,7 @@ pub fn pool() -> ShoreScene {
         let (a, b) = ((side * out_x).min(side * 9.0), (side * out_x).max(side * 9.0));
         meshes.push(block([a, -0.3, -out_z], [b, 0.0, out_z], &deck));
     }
-    // Walls behind it, with what grows before them.
+    // Walls behind it, with plants in front.
     meshes.push(block([-9.0, 0.0, -5.4], [7.4, 3.0, -5.0], &stone));
     meshes.push(block([7.0, 0.0, -5.0], [7.4, 3.0, 7.5], &stone));
     meshes.push(block([-8.0, 0.0, -5.0], [5.8, 0.30, -4.25], &rim));
@@ -332,12 +332,12 @@ pub fn pool() -> ShoreScene {
         })
         .collect();
     meshes.push(terrain::lumps(&balls, 14, foliage()));
-    // Steps down from one end.
+    // Steps at one end.
     for i in 0..4 {
         let (top, end) = (-0.30 - 0.30 * i as f32, -x + 0.34 * (i + 1) as f32);
         meshes.push(block([-x, deep, -z], [end, top, 0.4], &plain));
     }
-    // A ramp up to the other: its upper face, as wide as the pool.
+    // A ramp at the other end; its upper face is as wide as the pool.
     let (foot, head, top) = (0.6, x, 0.0);
     let turn = f32::atan2(top - deep, head - foot);
     let length = vec2(head - foot, top - deep).length();
@@ -350,13 +350,13 @@ pub fn pool() -> ShoreScene {
         rotation.to_array(),
         plain.clone(),
     ));
-    // What stands in it.
+    // Objects that stand in it.
     let concrete = material("concrete");
     meshes.push(Mesh::cylinder([0.2, -0.35, -1.35], 0.27, 2.3, rim.clone()));
     meshes.push(block([-1.9, deep, -1.9], [-1.2, 0.22, -1.2], &concrete));
     let slanted = Quat::from_rotation_y(0.5).to_array();
     meshes.push(Mesh::cuboid([1.7, -0.35, -0.5], [0.34, 0.5, 0.34], slanted, material("timber")));
-    // What floats.
+    // Objects that float.
     meshes.push(ball(vec3(-0.45, level + 0.12, 0.75), 0.34, colored([0.62, 0.05, 0.035], 0.3)));
     meshes.push(ball(vec3(-1.9, level + 0.06, 0.1), 0.22, colored([0.75, 0.52, 0.06], 0.3)));
     meshes.push(ball(vec3(1.1, level + 0.1, 1.5), 0.26, colored([0.75, 0.73, 0.68], 0.3)));
@@ -389,7 +389,7 @@ pub fn pool() -> ShoreScene {
     }
 }
 
-/// Where the river of lava runs: x of its middle at a z.
+/// Course of the lava river: x of its middle at z.
 fn river(z: f32) -> f32 {
     2.6 * (0.23 * z).sin() + 0.035 * (z + 6.0).min(0.0).powi(2)
 }
@@ -408,7 +408,7 @@ fn canyon(p: Vec2) -> f32 {
     let rough = 0.75 * octaves(p / 1.3, 4, 17) + 0.35 * (1.0 - 2.0 * octaves(p / 2.4, 3, 21).abs());
     let rock =
         ledges + 0.55 * (stepped - ledges) * rise(0.0, 1.5, bank) + rough * rise(-0.8, 1.0, bank);
-    // No puddles aside.
+    // No puddles outside the river.
     joined(rock, -3.0 + 3.5 * rise(0.2, 1.2, bank), 0.3)
 }
 
@@ -418,7 +418,7 @@ pub fn lava() -> ShoreScene {
     let rock = Material { base_color: [0.115, 0.10, 0.092], ..material("rock") };
     let patch = Patch { low: vec2(-16.0, -26.0), high: vec2(24.0, 11.0), cell: 0.22 };
     let mut meshes = vec![terrain::field(patch, -9.0, rock.clone(), canyon)];
-    // Stones that stand in it: along, aside, size.
+    // Stones in the river: position along it, position across it, size.
     const STONES: [(f32, f32, f32); 9] = [
         (4.6, -1.3, 0.75),
         (2.6, 1.5, 0.55),
@@ -476,7 +476,7 @@ mod tests {
         for (p, v) in strip.positions.iter().zip(&strip.v) {
             let at = vec2(p[0], p[2]);
             assert_eq!(p[1], 0.0);
-            // Sea on one side of the shore line, land on the other.
+            // The sea is on one side of the shore line, the land on the other.
             match *v {
                 1.0 => {
                     line += 1;
@@ -488,7 +488,7 @@ mod tests {
             }
         }
         assert!(line > 150, "{line} points of the shore line");
-        // Closed: what is at an end of v alone is of one quad, every other edge of two.
+        // The strip is closed: edges at both ends of v belong to one quad, all other edges to two.
         let mut edges = std::collections::HashMap::new();
         for t in strip.indices.chunks_exact(3) {
             for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {

@@ -1,4 +1,4 @@
-//! A strip of foam round an island: laid along the line where a height field meets the sea.
+//! A strip of foam around an island, along the contour where a height field meets the sea.
 
 use std::collections::HashMap;
 
@@ -6,29 +6,28 @@ use glam::{Vec2, vec2};
 
 use super::terrain::Patch;
 
-/// Triangles on the sea round an island. Of their one coordinate v is 0 at the sea's edge, 1 at the shore line, 2 on
-/// the land; there is no other.
+/// Triangles on the sea around an island. The vertices' only texture coordinate is v: 0 at the sea's edge, 1 at the
+/// shore line, 2 on the land.
 #[derive(Clone, Debug, Default)]
 pub struct Strip {
     /// World space; y is the sea's level.
     pub positions: Vec<[f32; 3]>,
-    /// One a vertex.
+    /// One value per vertex.
     pub v: Vec<f32>,
-    /// Three for each triangle.
+    /// Three indices per triangle.
     pub indices: Vec<u32>,
 }
 
-/// How far a strip reaches from the shore line.
+/// Width of a strip on both sides of the shore line.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
-    /// Metres out to the sea.
+    /// Metres towards the sea.
     pub sea: f32,
-    /// Metres into the land.
+    /// Metres towards the land.
     pub land: f32,
 }
 
-/// Closed loops along which a field is 0, where it goes from positive to negative; each turns the same way round what
-/// is positive.
+/// Closed contours on which a field is 0. All have the same orientation around the positive side.
 pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
     let [nx, nz] = patch.cells();
     let at = |i: usize, j: usize| j * (nx + 1) + i;
@@ -37,10 +36,10 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
         .map(|(i, j)| field(patch.corner(i, j)))
         .collect();
     let inside = |corner: usize| values[corner] > 0.0;
-    // From edge to edge, each named by its corners, with the positive side on the left.
+    // Links from one cell edge to the next; an edge is named by its corners, with the positive side on the left.
     let mut next: HashMap<(usize, usize), (usize, usize)> = HashMap::new();
     for (i, j) in (0..nz).flat_map(|j| (0..nx).map(move |i| (i, j))) {
-        // Two triangles a cell: no case is ambiguous.
+        // Each cell is two triangles, so that no case is ambiguous.
         let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
         for [p, q, r] in [[a, b, c], [a, c, d]] {
             for (p, q, r) in [(p, q, r), (q, r, p), (r, p, q)] {
@@ -55,7 +54,7 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
     }
     let corner = |n: usize| patch.corner(n % (nx + 1), n / (nx + 1));
     let place = |(a, b): (usize, usize)| {
-        // Halved until it is known to a thousandth of a cell: between its corners the field may bend.
+        // Bisection to a thousandth of a cell, because the field is not linear between its corners.
         let (mut low, mut high) = (corner(a), corner(b));
         for _ in 0..10 {
             let middle = low.midpoint(high);
@@ -67,7 +66,7 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
         low.midpoint(high)
     };
     let mut loops = Vec::new();
-    // The same order in every run.
+    // Sorted, so that the order is the same in every run.
     let mut starts: Vec<_> = next.keys().copied().collect();
     starts.sort_unstable();
     for start in starts {
@@ -77,7 +76,7 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
             points.push(place(edge));
             edge = following;
         }
-        // What leaves the patch is no loop.
+        // A contour that leaves the patch is not closed.
         if points.len() > 2 && edge == start {
             loops.push(points);
         }
@@ -85,8 +84,9 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
     loops
 }
 
-/// A strip along loops, whose rows lie where `shore`, metres from the shore line and positive at sea, has grown or
-/// fallen by what they are off it: its gradient's lines don't cross, so neither do the strip's.
+/// A strip along contours. `shore` is the distance from the shore line in metres, positive at sea. The rows follow the
+/// gradient of `shore` until it has changed by the row's distance: gradient lines do not cross, so the strip does not
+/// overlap itself.
 pub fn along(loops: &[Vec<Vec2>], level: f32, reach: Reach, shore: impl Fn(Vec2) -> f32) -> Strip {
     const ROWS: [f32; 9] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0];
     let slope = |p: Vec2| {
@@ -94,7 +94,7 @@ pub fn along(loops: &[Vec<Vec2>], level: f32, reach: Reach, shore: impl Fn(Vec2)
         let rise = |d: Vec2| (shore(p + d) - shore(p - d)) / (2.0 * STEP);
         vec2(rise(vec2(STEP, 0.0)), rise(vec2(0.0, STEP)))
     };
-    // Where it has changed by so much, along its gradient; in a narrow bay no farther than to its middle.
+    // Moves along the gradient until the value has changed by `by`; in a narrow bay the move ends in the middle.
     let moved = |from: Vec2, by: f32| {
         const STEPS: usize = 16;
         let mut at = from;
@@ -142,7 +142,7 @@ mod tests {
         let disc = contours(patch, |p| 5.0 - p.length());
         assert_eq!(disc.len(), 1);
         assert!(disc[0].iter().all(|p| (p.length() - 5.0).abs() < 0.05));
-        // It goes round: the sum of what it turns is a whole turn.
+        // It is closed: its angles sum to a full turn.
         let turned: f32 =
             disc[0].iter().zip(disc[0].iter().cycle().skip(1)).map(|(a, b)| a.angle_to(*b)).sum();
         assert!((turned.abs() - std::f32::consts::TAU).abs() < 1e-3, "{turned}");

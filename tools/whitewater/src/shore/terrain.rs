@@ -5,7 +5,7 @@ use std::f32::consts::{PI, TAU};
 use glam::{IVec2, Vec2, Vec3, vec2, vec3};
 use whitewater::headless::scene::{Material, Mesh};
 
-/// A number of a lattice point, 0 to 1.
+/// Hash of a lattice point, 0 to 1.
 fn hash(cell: IVec2, seed: u32) -> f32 {
     let mut h = (cell.x as u32).wrapping_mul(0x8da6_b343)
         ^ (cell.y as u32).wrapping_mul(0xd816_3841)
@@ -16,12 +16,12 @@ fn hash(cell: IVec2, seed: u32) -> f32 {
     ((h ^ (h >> 15)) >> 8) as f32 / (1 << 24) as f32
 }
 
-/// Numbers that are the same in every run, 0 to 1.
+/// A pseudo-random number for an index, 0 to 1, the same in every run.
 pub fn number(index: usize, seed: u32) -> f32 {
     hash(IVec2::new(index as i32, 7), seed)
 }
 
-/// Value noise in [-1, 1], one cell a unit.
+/// Value noise in [-1, 1], with unit cells.
 fn noise(p: Vec2, seed: u32) -> f32 {
     let (cell, f) = (p.floor(), p - p.floor());
     let fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
@@ -30,9 +30,9 @@ fn noise(p: Vec2, seed: u32) -> f32 {
     2.0 * (row(0) + fade.y * (row(1) - row(0))) - 1.0
 }
 
-/// Octaves of it, within about one.
+/// Fractal sum of that noise, within about -1 to 1.
 pub fn octaves(p: Vec2, count: u32, seed: u32) -> f32 {
-    // Each turned against the one before: their lattices don't show.
+    // Each octave is rotated against the one before, so that the lattices do not show.
     let turn = Vec2::from_angle(0.7);
     let step = |(sum, p, amplitude): (f32, Vec2, f32), i: u32| {
         (sum + amplitude * noise(p, seed + i), 2.03 * turn.rotate(p) + 11.3, 0.5 * amplitude)
@@ -40,19 +40,19 @@ pub fn octaves(p: Vec2, count: u32, seed: u32) -> f32 {
     (0..count).fold((0.0, p, 0.5), step).0
 }
 
-/// A place pushed about by noise: so many units far, over so many units.
+/// Domain warping: a point displaced by noise, by up to `reach`, with cells of size `over`.
 pub fn warped(p: Vec2, reach: f32, over: f32, seed: u32) -> Vec2 {
     let q = p / over;
     p + reach * 2.0 * vec2(octaves(q, 3, seed), octaves(q, 3, seed + 50))
 }
 
-/// 0 below `from`, 1 above `to`.
+/// Smooth step: 0 below `from`, 1 above `to`.
 pub fn rise(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
-/// The larger of two, rounded over a width.
+/// Smooth maximum of two numbers over a width.
 pub fn joined(a: f32, b: f32, width: f32) -> f32 {
     let h = (width - (a - b).abs()).max(0.0);
     a.max(b) + 0.25 * h * h / width
@@ -63,12 +63,12 @@ pub fn joined(a: f32, b: f32, width: f32) -> f32 {
 pub struct Patch {
     pub low: Vec2,
     pub high: Vec2,
-    /// Edge of a cell.
+    /// Edge length of a cell.
     pub cell: f32,
 }
 
 impl Patch {
-    /// Cells along x and z.
+    /// Number of cells along x and z.
     pub fn cells(&self) -> [usize; 2] {
         ((self.high - self.low) / self.cell).ceil().to_array().map(|n| n as usize)
     }
@@ -78,7 +78,7 @@ impl Patch {
     }
 }
 
-/// A height field as a mesh; cells all of which lie below `bottom` are left out.
+/// A height field as a mesh, without the cells that are entirely below `bottom`.
 pub fn field(patch: Patch, bottom: f32, material: Material, height: impl Fn(Vec2) -> f32) -> Mesh {
     let [nx, nz] = patch.cells();
     let all: Vec<f32> = (0..=nz)
@@ -107,7 +107,7 @@ pub fn field(patch: Patch, bottom: f32, material: Material, height: impl Fn(Vec2
             }
             *place
         });
-        // Along the diagonal that is the flatter.
+        // Each cell is split along its flatter diagonal.
         let flat =
             |p: (usize, usize), q: (usize, usize)| (all[at(p.0, p.1)] - all[at(q.0, q.1)]).abs();
         match flat(corners[0], corners[2]) < flat(corners[1], corners[3]) {
@@ -118,7 +118,7 @@ pub fn field(patch: Patch, bottom: f32, material: Material, height: impl Fn(Vec2
     mesh
 }
 
-/// Something round: where its middle is, how far it goes each way, and by what of that it is dented.
+/// A rounded object: centre, radii, and the depth of its dents relative to the radii.
 #[derive(Clone, Copy, Debug)]
 pub struct Lump {
     pub middle: Vec3,
@@ -127,7 +127,7 @@ pub struct Lump {
     pub seed: u32,
 }
 
-/// Lumps as one mesh, each of so many rings.
+/// Lumps as one mesh, each with this number of rings.
 pub fn lumps(lumps: &[Lump], rings: u32, material: Material) -> Mesh {
     let mut mesh = Mesh { name: "lumps".into(), material, ..Mesh::default() };
     let sides = rings * 3 / 2;
@@ -136,7 +136,7 @@ pub fn lumps(lumps: &[Lump], rings: u32, material: Material) -> Mesh {
         let place = |up: f32, around: f32| {
             let ((s, c), (sin, cos)) = (up.sin_cos(), around.sin_cos());
             let out = vec3(s * cos, c, s * sin);
-            // Noise on a sphere by three planes through it.
+            // Noise on a sphere, from three planes through it.
             let q = 1.7 * out;
             let dent = octaves(vec2(q.x, q.y), 3, lump.seed)
                 + octaves(vec2(q.y, q.z), 3, lump.seed + 1)
@@ -167,7 +167,7 @@ pub fn lumps(lumps: &[Lump], rings: u32, material: Material) -> Mesh {
     mesh
 }
 
-/// A ring that lies level: radius of its middle line, and of its tube.
+/// A horizontal torus: radius of its centre line, and of its tube.
 pub fn ring(middle: Vec3, [radius, tube]: [f32; 2], material: Material) -> Mesh {
     const AROUND: u32 = 64;
     const ACROSS: u32 = 24;
@@ -188,8 +188,8 @@ pub fn ring(middle: Vec3, [radius, tube]: [f32; 2], material: Material) -> Mesh 
     mesh
 }
 
-/// A box from corner to corner, its faces in cells no wider than `cell`: light is found the faster the more alike the
-/// triangles of a scene are.
+/// A box from corner to corner, with cells no wider than `cell`: ray tracing is faster if the triangles of a scene are
+/// of similar size.
 pub fn block(low: Vec3, high: Vec3, cell: f32, material: Material) -> Mesh {
     let mut mesh = Mesh { name: "block".into(), material, ..Mesh::default() };
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));

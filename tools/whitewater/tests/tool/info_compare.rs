@@ -55,7 +55,10 @@ fn info_tells_what_became_of_attributes() {
     folder.text("b.csv", &rows.replace("1000,", "1000,-"));
     let text = folder.run("info b.csv").ok().stdout();
     assert!(text.contains("id (number x 1): not used"), "{text}");
-    assert!(text.contains("no ids: foam of a sequence is found anew in each frame"), "{text}");
+    assert!(
+        text.contains("no ids: in a sequence foam is found for each frame by itself"),
+        "{text}"
+    );
     folder.particles("c.ply", block(3));
     folder.write("c.vtu", &Particles::from_positions(block(3)));
     for file in ["c.ply", "c.vtu"] {

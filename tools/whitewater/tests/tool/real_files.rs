@@ -378,7 +378,7 @@ fn several_fluids_are_drawn_each_with_its_look() {
         run(&format!("{out}-milk"), &format!("{side} --where Type=1 --medium milk"));
         run(&format!("{out}-lava"), &format!("{side} --where Type=2 --medium lava"));
         let said = run(out, &format!("{side} --fluid Type=1:milk --fluid type=2:lava"));
-        assert!(said.contains("216 of 648 particles are of no --fluid"), "{said}");
+        assert!(said.contains("216 of 648 particles belong to no --fluid"), "{said}");
         let [both, milk, lava] =
             [out, &format!("{out}-milk"), &format!("{out}-lava")].map(|name| {
                 let picture = folder.picture(&format!("{name}.exr"));
@@ -471,7 +471,7 @@ fn few_particles_are_drawn_and_none_are_told() {
         layer.unwrap().data.iter().filter(|z| **z < 1.0e9).count()
     };
     assert!(depth("one") > 50, "{}", depth("one"));
-    assert!(run("none").contains("no particles in the frames that were looked at"));
+    assert!(run("none").contains("no particles in the probed frames"));
     assert_eq!(depth("none"), 0);
 }
 
@@ -498,7 +498,7 @@ fn guesses_are_told() {
         assert!(!said.contains("a guess"), "{more}: {said}");
     }
     let said = run("cm_1.csv", "");
-    assert_eq!(said.matches("say cm, which are taken for metres: --unit cm").count(), 1, "{said}");
+    assert_eq!(said.matches("say cm, but they are read as metres; --unit cm").count(), 1, "{said}");
     assert!(!run("cm_1.csv", "--unit cm").contains("say cm"));
     let text = folder.run("info cm_1.csv").ok().stdout();
     assert!(text.contains("unit        the names of the positions say cm"), "{text}");

@@ -95,7 +95,7 @@ fn blobs_fall_on_the_scene() {
     let (table, ground) = (lowest(0..48), lowest(48..96));
     assert!((0.3..0.45).contains(&table), "{table}");
     assert!((-0.1..0.08).contains(&ground), "{ground}");
-    let text = "blobs that move are drawn without particles";
+    let text = "a file of moving blobs cannot be drawn together with particles";
     folder.particles("a.ply", block(2));
     folder.run(&format!("render a.ply --bubbles b.json -o n.png {look}")).fails(3, &[text]);
 }

@@ -316,7 +316,11 @@ fn whitewater_particles_are_made_of_the_water() {
     let alone = format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate");
     let run = folder.run(&format!("{alone} -o d.exr")).ok();
     // How large and how opaque they are is found by how many there are, where it is not said.
-    assert!(run.stderr().contains(" of them (found; table [whitewater]"), "{}", run.stderr());
+    assert!(
+        run.stderr().contains(" of whitewater particles (found; table [whitewater]"),
+        "{}",
+        run.stderr()
+    );
     folder.text("half.toml", "[whitewater]\nhalf_intensity_thickness = 3.0\nradius = 0.002\n");
     folder.run(&format!("{alone} --settings half.toml -o e.exr")).ok();
     assert!(amount("d.exr") > 2.0 * amount("e.exr") && amount("e.exr") > 0.0);
