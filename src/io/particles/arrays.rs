@@ -95,7 +95,7 @@ struct ArrayStream<'a> {
 /// The segment that is being read.
 struct Current<'a> {
     numbers: Numbers<'a>,
-    /// Number of values that are not read yet.
+    /// Number of values not read yet.
     left: u64,
 }
 
@@ -143,8 +143,8 @@ impl Stream for ArrayStream<'_> {
 }
 
 impl<'a> ArrayStream<'a> {
-    /// Appends up to `left` of the next values to `column`, which will hold `all` of them, and returns how
-    /// many it appended.
+    /// Appends up to `left` of the next values to `column` and returns how many it appended. `all` is the total that
+    /// the column will hold.
     fn some(
         &mut self,
         left: u64,

@@ -94,13 +94,14 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// A number as text. Takes what printf writes for NaN and infinity on any platform, and the doubles of Fortran.
+/// Parses a number. Besides ordinary numbers it accepts NaN and infinity in every spelling of `printf` on any platform,
+/// and Fortran's double-precision exponent D.
 pub(super) fn parse_number(token: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(token).ok()?;
     if let Ok(value) = text.parse() {
         return Some(value);
     }
-    // Fortran writes the exponent of a double behind a D.
+    // Fortran writes the exponent of a double after a D.
     if let Some(d) = text.find(['d', 'D'])
         && let (Some(mantissa), Some(exponent)) = (text.get(..d), text.get(d + 1..))
         && let Ok(value) = format!("{mantissa}e{exponent}").parse()

@@ -111,7 +111,7 @@ impl std::fmt::Display for Attribute {
 pub(super) enum Data {
     F32(Vec<f32>),
     F64(Vec<f64>),
-    /// Unsigned 64-bit values beyond the range are held at its end: no id that large is kept anyway.
+    /// Unsigned 64-bit values beyond the range are clamped to its end; ids of that size are not kept anyway.
     Int(Vec<i64>),
 }
 
@@ -197,10 +197,11 @@ impl Data {
         }
     }
 
-    /// All values as ids, those beyond 32 bits modulo 2^32, or the index of the first that is no natural number.
+    /// All values as ids, those beyond 32 bits modulo 2^32; or the index of the first that is not a non-negative
+    /// integer.
     pub(super) fn to_ids(&self) -> Result<Vec<u32>, usize> {
         let id = |i: usize| match self {
-            // The end of the range stands for all beyond it.
+            // The end of the range stands for all values beyond it.
             Self::Int(v) => v.get(i).filter(|x| (0..i64::MAX).contains(*x)).map(|x| *x as u32),
             _ => {
                 // Doubles hold integers exactly up to 2^53.

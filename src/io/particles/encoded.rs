@@ -54,7 +54,7 @@ impl Encoding {
         }
     }
 
-    /// Number of bytes in the file that hold so many decoded bytes, encoded on their own.
+    /// Number of bytes in the file that hold this many decoded bytes, encoded separately.
     fn stored(self, bytes: u64) -> u64 {
         if self.base64 { bytes.div_ceil(3).saturating_mul(4) } else { bytes }
     }
@@ -91,8 +91,8 @@ impl Named {
 }
 
 impl<'a> Encoded<'a> {
-    /// Reads the header and checks that it promises as many values as the segment has. `spare` holds sources
-    /// that may be read on instead of opening the file again.
+    /// Reads the header and checks that it declares as many values as the segment has. `spare` holds sources that may
+    /// be read on instead of opening the file again.
     pub(super) fn open(
         segment: &Segment<'a>,
         encoding: Encoding,
@@ -229,7 +229,7 @@ impl<'a> Run<'a> {
     fn extended(mut self, bytes: u64) -> Result<Self, ReadError> {
         self.bytes = bytes;
         self.left = self.encoding.stored(bytes).saturating_sub(self.passed);
-        // Padding ends base64: nothing may follow it.
+        // Padding ends base64, so nothing may follow it.
         let padded = (self.decoded.len() as u64) < self.passed / 4 * 3;
         if self.encoding.base64 && self.left > 0 && padded {
             let pad = self.text.iter().position(|b| *b == b'=').unwrap_or(0);
@@ -243,7 +243,7 @@ impl<'a> Run<'a> {
         Ok(self)
     }
 
-    /// Whether all that was decoded was also returned, so that padding ended there.
+    /// Whether all decoded bytes were returned, which means that padding ended the data.
     fn is_ended(&self) -> bool {
         !self.encoding.base64 || self.given == self.decoded.len()
     }
@@ -294,7 +294,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Error of the characters that were read last, with its position counted from the start of the range.
+    /// The error of the characters that were read last, with its position relative to the start of the range.
     fn not_base64(&self, passed: u64, error: &DecodeError) -> ReadError {
         let passed = passed as usize;
         let error = match *error {

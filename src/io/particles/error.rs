@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-/// Where in a file something was found.
+/// Position in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
-    /// Bytes from the start, from 0; of the unpacked content where the file is gzip.
+    /// Byte offset from the start, from 0; in gzip files that of the decompressed content
     Byte(u64),
-    /// Lines from the start, from 1.
+    /// Line number, from 1
     Line(u64),
-    /// Not known.
+    /// Unknown
     Unknown,
 }
 
@@ -33,44 +33,44 @@ pub enum ReadError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         reason: std::io::Error,
     },
-    /// A folder was named.
+    /// The path is a folder.
     #[error("{} is a directory; name a file in it, or a pattern such as {}", path.display(), path.join("*.bgeo").display())]
     Directory {
         /// The folder.
         path: PathBuf,
     },
-    /// The content of a file is at fault.
+    /// The content of the file is invalid.
     #[error("{}: {reason}", path.display())]
     File {
         /// The file.
         path: PathBuf,
-        /// What is wrong in it.
+        /// The error in it.
         reason: Box<ReadError>,
     },
     /// The file has no bytes.
     #[error("the file is empty; it was perhaps read while it was being written: write it again")]
     Empty,
-    /// Neither the content nor the name tells the format.
+    /// Neither content nor name identifies the format.
     #[error(
         "expected BGEO, GEO, VTK, VTU, VTP, PLY, NPY, NPZ, HDF5, CSV, XYZ or JSON, found {found}; \
          text needs the extension .csv, .xyz or .json, raw f32 triples need .xyz"
     )]
     UnknownFormat {
-        /// The first bytes, readable.
+        /// The first bytes, in readable form.
         found: String,
     },
-    /// A format or a part of one that is known and not read.
+    /// A known format, or a part of one, that is not supported.
     #[error("{what} is not read; {advice}")]
     Unsupported {
         /// What was found.
         what: String,
-        /// What to do.
+        /// Advice for the user.
         advice: &'static str,
     },
-    /// The file ends before what its header promises.
+    /// The file ends before the data that its header declares.
     #[error(
         "the file ends too early: {what} at byte {offset} needs {needed} bytes, {found} are there; \
          the file was cut off or its header is wrong: write it again"
@@ -78,35 +78,35 @@ pub enum ReadError {
     Truncated {
         /// What was being read.
         what: String,
-        /// Where it begins.
+        /// Byte offset of its beginning.
         offset: u64,
-        /// Bytes expected (at least).
+        /// Min number of bytes expected.
         needed: u64,
-        /// Bytes found.
+        /// Number of bytes found.
         found: u64,
     },
-    /// Something else stands where the format asks for a certain thing.
+    /// The content violates the format.
     #[error(
         "expected {expected}, found {found}{place}; the file is damaged or not what its header says: write it again"
     )]
     Malformed {
-        /// What the format asks for.
+        /// What the format requires.
         expected: String,
-        /// What is there.
+        /// What the file contains.
         found: String,
-        /// Where.
+        /// Position in the file.
         place: Place,
     },
-    /// Text that is no table, or no list, of particles as far as it is understood.
+    /// Text that could not be interpreted as a table or list of particles.
     #[error("expected {expected}, found {found}{place}; {advice}")]
     Unclear {
-        /// What was looked for.
+        /// What was expected.
         expected: String,
-        /// What is there.
+        /// What the file contains.
         found: String,
-        /// Where.
+        /// Position in the file.
         place: Place,
-        /// What to do.
+        /// Advice for the user.
         advice: &'static str,
     },
     /// An attribute has more or fewer values than there are particles.
@@ -115,29 +115,29 @@ pub enum ReadError {
          write the file again or leave the attribute out"
     )]
     Length {
-        /// Its name in the file.
+        /// Name in the file.
         attribute: String,
-        /// Values there should be.
+        /// Expected number of values.
         expected: u64,
-        /// Values there are.
+        /// Number of values found.
         found: u64,
     },
-    /// The file has no positions that could be recognized.
+    /// The file has no recognizable positions.
     #[error("expected positions ({expected}), found {found}; rename the columns or arrays")]
     NoPositions {
-        /// The names looked for.
+        /// Recognized names.
         expected: &'static str,
-        /// The names there are.
+        /// Names in the file.
         found: String,
     },
-    /// Compressed data grows beyond what particle data can.
+    /// Compressed data that decompresses to more than particle data plausibly can.
     #[error(
         "{what} unpacks to more than {limit} bytes, which the size of the file does not warrant; store it uncompressed"
     )]
     TooLarge {
-        /// What was being unpacked.
+        /// What was being decompressed.
         what: String,
-        /// The limit.
+        /// Limit in bytes.
         limit: u64,
     },
 }
@@ -151,7 +151,7 @@ impl ReadError {
         Self::Malformed { expected: expected.into(), found: found.into(), place }
     }
 
-    /// Of a table in text.
+    /// An error in a text table.
     pub(super) fn table(
         expected: impl Into<String>,
         found: impl Into<String>,
@@ -165,7 +165,7 @@ impl ReadError {
         }
     }
 
-    /// Of JSON.
+    /// An error in JSON.
     pub(super) fn json(expected: impl Into<String>, found: impl Into<String>) -> Self {
         Self::Unclear {
             expected: expected.into(),
@@ -189,12 +189,12 @@ impl ReadError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// The file could not be made, written or renamed.
+    /// The file could not be created, written or renamed.
     #[error("cannot write {}: {reason}; check that the folder exists, may be written to and is not full", path.display())]
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         reason: std::io::Error,
     },
     /// The vectors of the particles differ in length.
@@ -202,19 +202,19 @@ pub enum WriteError {
     Length {
         /// The field of [`Particles`](super::Particles).
         attribute: &'static str,
-        /// Positions there are.
+        /// Number of positions.
         expected: usize,
-        /// Values there are.
+        /// Number of values.
         found: usize,
     },
     /// A number is too large for the format.
     #[error("{what} {value} is over {limit}, the largest that {format} holds; write VTU instead")]
     Range {
-        /// What it is.
+        /// Name of the number.
         what: &'static str,
         /// The number.
         value: u64,
-        /// The largest that fits.
+        /// Max value that the format can store.
         limit: u64,
         /// The format.
         format: &'static str,

@@ -1,4 +1,4 @@
-//! Valid files of unsupported formats, recognised by their first bytes: what they are, and what to do.
+//! Recognises valid files of unsupported formats by their first bytes, and says how to convert them.
 
 use super::error::ReadError;
 
@@ -7,7 +7,7 @@ pub(super) const START: usize = 512;
 
 const EXPORT: &str = "export the particles as classic BGEO, VTU, PLY or NPZ";
 
-/// First bytes, the name of the format, and what to do.
+/// First bytes, name of the format, and advice.
 const MAGIC: &[(&[u8], &str, &str)] = &[
     #[cfg(not(feature = "hdf5"))]
     (

@@ -35,9 +35,9 @@ pub enum Extension {
     Text,
     /// `.json`
     Json,
-    /// `.bobj`: meshes of Blender and Mantaflow, which have no beginning of their own
+    /// `.bobj`: meshes of Blender and Mantaflow, which have no magic bytes
     Bobj,
-    /// None of these
+    /// Any other extension
     Unknown,
 }
 
@@ -69,7 +69,7 @@ impl Extension {
     }
 }
 
-/// Where a VTU or VTP file keeps its numbers.
+/// Encoding of the values in a VTU or VTP file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Storage {
@@ -83,11 +83,11 @@ pub enum Storage {
     AppendedRaw,
 }
 
-/// How a VTU or VTP file packs its numbers.
+/// Compression of the values in a VTU or VTP file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Compression {
-    /// Not at all
+    /// None
     None,
     /// zlib blocks
     Zlib,
@@ -103,16 +103,16 @@ pub enum Compression {
 pub enum Format {
     /// Classic Houdini BGEO, version 5
     Bgeo {
-        /// Wrapped in gzip
+        /// Whether it is compressed with gzip
         gzip: bool,
     },
     /// Classic Houdini GEO, version 5 (ASCII)
     Geo,
     /// Legacy VTK
     VtkLegacy {
-        /// Of the file format
+        /// Version of the file format
         version: (u8, u8),
-        /// Else ASCII
+        /// Binary; otherwise ASCII
         binary: bool,
     },
     /// VTK XML unstructured grid
@@ -123,7 +123,7 @@ pub enum Format {
     PlyAscii,
     /// PLY, binary
     PlyBinary {
-        /// Else little-endian
+        /// Big-endian; otherwise little-endian
         big_endian: bool,
     },
     /// One NumPy array
@@ -193,13 +193,13 @@ impl std::fmt::Display for Format {
     }
 }
 
-/// What [`write`](super::write()) can write.
+/// Formats that [`write`](super::write()) supports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum WriteFormat {
     /// Classic Houdini BGEO, version 5
     Bgeo {
-        /// Wrapped in gzip, as SPlisHSPlasH does
+        /// Compressed with gzip, as by SPlisHSPlasH
         gzip: bool,
     },
     /// VTU, appended raw, zlib: what ParaView writes
@@ -326,18 +326,18 @@ fn is_section(text: &[u8]) -> bool {
     let inner = text.get(1..).unwrap_or_default();
     let word = inner.iter().position(|b| !(b.is_ascii_alphanumeric() || *b == b' '));
     let word = inner.get(..word.unwrap_or(0)).unwrap_or_default();
-    // Values of JSON, and Python's, that are words.
+    // Words that are values in JSON or Python.
     let value = [&b"true"[..], b"false", b"null", b"NaN", b"Infinity"].contains(&word);
     !value
         && word.first().is_some_and(u8::is_ascii_alphabetic)
         && inner.get(word.len()..).is_some_and(|rest| rest.starts_with(b"]"))
 }
 
-/// Least number of rows of numbers in a text whose name says nothing.
+/// Min number of rows of numbers in a text whose name says nothing.
 const ROWS: usize = 3;
 
-/// Whether a text begins as a table of positions: rows of as many numbers, and before them only the names of their
-/// columns, a count, or comments.
+/// Whether a text begins as a table of positions: rows with equally many numbers, preceded only by column names, a
+/// count, or comments.
 fn is_table(text: &[u8]) -> bool {
     let head = text.get(..text.len().min(4096)).unwrap_or(text);
     // The last line may be cut.
@@ -387,7 +387,7 @@ pub(super) fn as_lines(bytes: &[u8]) -> Option<Vec<u8>> {
 fn from_old_mac(bytes: &[u8]) -> Option<Vec<u8>> {
     let head = bytes.get(..bytes.len().min(1 << 16)).unwrap_or(bytes);
     let returns = head.contains(&b'\r') && !head.contains(&b'\n') && is_text(bytes);
-    // A lone line may end so.
+    // A single line may end with a carriage return.
     let several = || head.iter().filter(|b| **b == b'\r').count() > 1;
     let feed = |b: &u8| if *b == b'\r' { b'\n' } else { *b };
     (returns && several()).then(|| bytes.iter().map(feed).collect())

@@ -126,8 +126,8 @@ impl RowReader for Points<'_> {
     }
 }
 
-/// Appends the values of a point to the columns, of which the first holds the positions; `None` if they are
-/// no numbers.
+/// Appends the values of a point to the columns; the first column holds the positions. `None` if a value is not a
+/// number.
 fn point<'l>(
     mut words: impl Iterator<Item = &'l [u8]>,
     fields: &[Field],

@@ -4,15 +4,15 @@
 //!
 //! - VTKHDF: group `VTKHDF` of type PolyData or UnstructuredGrid, or of blocks of these. The points of all
 //!   parts and steps are stored in sequence; group `Steps` says where a step begins.
-//! - PySPH: `particles/NAME/arrays`, one array per property; the time is attribute `t` of `solver_data`. Of
-//!   several kinds of particles those called fluid are read.
-//! - H5Part: groups `Step#N`. Any other groups that differ in a number are frames as well.
+//! - PySPH: `particles/NAME/arrays`, one array per property; the time is attribute `t` of `solver_data`. If there are
+//!   several kinds of particles, those called fluid are read.
+//! - H5Part: groups `Step#N`. Other groups whose names differ only in a number are frames as well.
 //! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
-//! - Positions of that shape in any group, or components of shape (frames, particles): what has as many frames belongs to them.
+//! - Positions of that shape in any group, or components of shape (frames, particles). Arrays with the same number of
+//!   frames belong to them.
 //! - Others: the group, or groups, with an array of positions; several are joined.
 //!
-//! Of the requested frame, only arrays with a meaning are read. Memory use is limited by the size of the
-//! file.
+//! Only arrays of the requested frame that have a meaning are read. Memory use is limited by the size of the file.
 
 use std::io::Read as _;
 use std::ops::Range;
@@ -53,20 +53,20 @@ pub(super) fn read(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadE
     is_one(path).then(|| File::open(path)?.read(asked))
 }
 
-/// Most groups that are searched, and greatest depth.
+/// Max number of groups that are searched, and max depth.
 const GROUPS: usize = 1 << 12;
 const DEEP: usize = 6;
-/// Largest plausible size in bytes of a header, and of a chunk: HDF5 itself makes smaller ones.
+/// Max plausible size in bytes of a header, and of a chunk; HDF5 itself writes smaller ones.
 const HEADER: usize = 1 << 22;
 
 /// An open file.
 pub(super) struct File {
     file: Hdf5File,
-    /// The most bytes that a dataset may unpack to.
+    /// Max number of bytes that a dataset may decompress to.
     limit: usize,
 }
 
-/// Where the particles of a frame are.
+/// The particles of a frame, and where they are stored.
 struct Frame {
     time: Option<f64>,
     parts: Vec<Part>,
@@ -127,7 +127,7 @@ impl File {
         Ok((shape, numbers(&dataset, ty, &Rows::All, self.limit)?))
     }
 
-    /// Times of the frames, where they are known.
+    /// Times of the frames, if known.
     pub(super) fn times(&self) -> Result<Vec<Option<f64>>, ReadError> {
         Ok(self.frames()?.iter().map(|frame| frame.time).collect())
     }
@@ -215,7 +215,8 @@ fn type_of(dataset: &Dataset) -> AttributeType {
 /// Rows that are read at a time, if the dataset is not stored in larger chunks.
 const ROWS: u64 = 1 << 17;
 
-/// What to read one after the other: as many rows as are unpacked together, so that no others are held in memory.
+/// Selections to read in sequence. Each is as many rows as are decompressed together, so that no other rows are in
+/// memory.
 fn selections(dataset: &Dataset, rows: &Rows) -> Vec<SliceInfo> {
     let all = SliceInfoElem::Slice { start: 0, end: u64::MAX, step: 1 };
     let of = |first: Option<SliceInfoElem>| {
@@ -240,7 +241,7 @@ fn selections(dataset: &Dataset, rows: &Rows) -> Vec<SliceInfo> {
     let mut parts = Vec::new();
     let mut at = start;
     while at < end {
-        // Up to where a chunk ends.
+        // Ends at a chunk boundary.
         let next = (at / step).saturating_add(1).saturating_mul(step).min(end);
         parts.push(of(Some(SliceInfoElem::Slice { start: at, end: next, step: 1 })));
         at = next;
@@ -248,8 +249,8 @@ fn selections(dataset: &Dataset, rows: &Rows) -> Vec<SliceInfo> {
     parts
 }
 
-/// Reads values of a dataset, unless they are more bytes than the size of the file warrants: chunks that were never written
-/// need no place in it.
+/// Reads values of a dataset. Fails if they need more bytes than the file's size warrants, because chunks that were
+/// never written take no space in the file.
 fn numbers(
     dataset: &Dataset,
     ty: AttributeType,
@@ -266,7 +267,7 @@ fn numbers(
     };
     // Integers are held in 8 bytes.
     let size = if matches!(Data::for_type(ty), Data::Int(_)) { 8 } else { size };
-    // Rows of nothing take time as well.
+    // Empty rows take time as well, so they count as one byte.
     let bytes = rest.iter().fold(some.saturating_mul(size), |n, d| n.saturating_mul((*d).max(1)));
     if bytes > limit as u64 {
         let what = format!("dataset `{}`", dataset.name());
@@ -301,14 +302,14 @@ fn numbers(
     Ok(data)
 }
 
-/// Memory that a process may still take, in bytes; `None` where the system does not say so.
+/// Memory that a process may still allocate, in bytes; `None` if the system does not report it.
 fn memory_left() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// Bytes of a frame from which the memory is looked at.
+/// Size of a frame in bytes from which available memory is checked.
 const LARGE: u64 = 1 << 28;
 
 /// Refuses a frame that does not fit in memory: HDF5 is not read in parts.
@@ -316,7 +317,7 @@ fn fits(particles: u64, bytes: u64) -> Result<(), ReadError> {
     if bytes < LARGE {
         return Ok(());
     }
-    // A probe that is limited by the process; a system may promise more than it has.
+    // A test allocation: it fails at a limit of the process, although a system may grant more than it has.
     let mut probe: Vec<u8> = Vec::new();
     let probed = usize::try_from(bytes).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
     if probed && memory_left().is_none_or(|left| bytes <= left) {
@@ -396,7 +397,8 @@ impl Frame {
             ));
         }
         let parts: Vec<Part> = parts.into_iter().map(Part::without_empty).collect();
-        // As it is read, as particles, and as much for what is found by them: 4 times was measured.
+        // Memory for the arrays as read, for the particles, and for results computed from them; in total 4 times the
+        // array size was measured.
         let wanted = parts.iter().flat_map(|part| &part.arrays).filter(|a| asked.wants(&a.name));
         let values = wanted.clone().map(|array| {
             let (rows, components) = array.shape();
@@ -598,7 +600,7 @@ fn mesh(block: &Group, limit: usize) -> Option<String> {
     (2 * more > types.len()).then(|| mesh_warning(types.len() as u64, "cells"))
 }
 
-/// The frames of positions with one dimension more, and their times.
+/// Frames of positions with an additional dimension, and their times.
 fn stacked(arrays: &[Array], limit: usize) -> Result<Option<Frames>, ReadError> {
     let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
     let apart = names::have_positions(&names);
@@ -652,7 +654,7 @@ fn of_others(root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
         let found = if names.is_empty() { "no arrays at all".into() } else { names.join(", ") };
         return Err(ReadError::NoPositions { expected: names::POSITION_NAMES, found });
     }
-    // Walls are in groups with other names beside the fluid.
+    // Groups with other names beside the fluid hold walls.
     let fluid = |found: &Found| {
         let path = found.path.to_lowercase();
         ["fluid", "water", "liquid"].iter().any(|name| path.contains(name))

@@ -121,7 +121,7 @@ impl Head {
         1 + missing + head.iter().filter(|b| **b == b'\n').count() as u64
     }
 
-    /// Column of the character at `at`, from 1, in characters.
+    /// Column of the character at `at`, counted in characters from 1.
     fn column(&self, at: usize) -> u64 {
         let characters =
             |from, to| self.text.get(from..to).map_or(0, |text: &str| text.chars().count() as u64);
@@ -171,7 +171,7 @@ enum State {
     /// A tag that begins at this index of the text.
     Tag(usize),
     Quoted(u8),
-    /// A comment or the like, up to these bytes.
+    /// A comment or similar markup, up to these bytes.
     Until(&'static [u8]),
     /// A character reference that begins at this index of the text.
     Reference(usize),
@@ -198,11 +198,10 @@ struct Run {
     length: u64,
     /// Number of bytes after the last line break.
     column: u64,
-    /// Number of these bytes that `out` ends with.
+    /// Number of these bytes at the end of `out`.
     kept: usize,
     lines: u64,
-    /// Range of the run from its first to behind its last byte that is not white space; `None` if there is
-    /// none.
+    /// Range of the run from its first to behind its last non-space byte; `None` if there is none.
     words: Option<(u64, u64)>,
 }
 
@@ -212,8 +211,8 @@ fn is_plain(byte: u8) -> bool {
 }
 
 impl Scan {
-    /// Scans the next bytes; an empty chunk means the end of the file. Returns the offset of the appended
-    /// data where it finds it, which ends the scan.
+    /// Scans the next bytes; an empty chunk means the end of the file. Ends at the appended data and returns its
+    /// offset.
     fn chunk(&mut self, chunk: &[u8]) -> Option<u64> {
         let mut rest = chunk;
         while let Some((&byte, behind)) = rest.split_first() {
@@ -287,7 +286,7 @@ impl Scan {
         self.out.push(if run.words.is_some() { b'0' } else { b' ' });
     }
 
-    /// Fails if the text cannot become UTF-8. `all` says that no bytes will follow.
+    /// Fails if the text cannot become valid UTF-8. `all` says that no more bytes follow.
     fn check(&mut self, all: bool) -> Result<(), ReadError> {
         self.valid = self.valid.min(self.out.len());
         let new = self.out.get(self.valid..).unwrap_or_default();
@@ -308,7 +307,7 @@ impl Scan {
     fn step(&mut self, byte: u8) {
         let start = self.out.len() - 1;
         self.state = match (self.state, byte) {
-            // In an attribute this is an error, which the parser reports. What follows may be text again.
+            // Inside an attribute this is an error, which the parser reports. The bytes after it may be text again.
             (State::Text | State::Tag(_) | State::Quoted(_) | State::Reference(_), b'<') => {
                 State::Tag(start)
             }

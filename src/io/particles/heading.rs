@@ -142,7 +142,7 @@ pub(super) fn number_with_comma(field: &[u8]) -> Option<f64> {
     parse_number(&field)
 }
 
-/// The column of positions of a table whose fields are vectors, `"(1, 2, 3)"`, if it is one.
+/// If the fields of a table are vectors such as `"(1, 2, 3)"`, the column with the positions.
 pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
     if have_positions(&heading.names) {
         return None;
@@ -157,7 +157,8 @@ pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
     all.find(|(name, field)| is_position(name) && vector(field)).map(|(name, _)| name)
 }
 
-/// A line without any number before one with some, from a line on: its index, and the other.
+/// The first line with a number at or below a line; only lines without numbers may precede it. Returns its index and
+/// the line.
 fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
     let mut all = lines.iter().enumerate().skip(from).filter(|(_, line)| !is_comment(&line.text));
     let ((at, units), (_, row)) = (all.next()?, all.next()?);

@@ -133,7 +133,7 @@ pub(super) type Timed = (PathBuf, Option<f64>);
 /// The frames listed in a file, with their times; `None` for any other file.
 ///
 /// # Errors
-/// The expected form.
+/// A description of the expected form.
 pub(super) fn frames(path: &Path) -> Result<Option<Vec<Timed>>, String> {
     let Some(text) = text(path, &["pvd", "series"]) else { return Ok(None) };
     let folder = path.parent().unwrap_or(Path::new(""));

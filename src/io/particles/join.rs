@@ -66,7 +66,7 @@ pub(super) fn append(to: &mut Particles, mut other: Particles) {
     }
 }
 
-/// The attribute of both; `None` with a warning if one has none.
+/// The attribute of both files; `None`, with a warning, if only one has it.
 fn both<T>(
     to: &mut Option<Vec<T>>,
     other: Option<Vec<T>>,

@@ -1,15 +1,14 @@
 //! Reads JSON: an array of positions `[[x, y, z], ...]`, an array of particles `[{"position": [x, y, z],
 //! "id": 7}, ...]`, or an object of arrays by name.
 //!
-//! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density":
-//! [1000]}`. In a flat array the components of vectors follow one another. An object with a single array of
-//! particles, `{"particles": [...]}`, is read as that array. A file with one JSON value per line is read as
-//! an array of these. `null`, and Python's `NaN` and `Infinity`, are NaN. Comments and commas behind the last value are
-//! passed over. Houdini's JSON geometry begins with
-//! `"fileversion"` and is refused.
+//! The arrays of an object hold numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`. In a
+//! flat array the components of vectors follow one another. An object with a single array of particles, `{"particles":
+//! [...]}`, is read as that array. A file with one JSON value per line is read as an array of these. `null`, and
+//! Python's `NaN` and `Infinity`, are NaN. Comments, and commas after the last value, are ignored. Houdini's JSON
+//! geometry begins with `"fileversion"` and is refused.
 //!
-//! Several frames are a list of such lists or objects, such objects by name (`{"frame_1": ..}`), or arrays with
-//! one dimension more (`{"positions": [[[x, y, z], ..], ..]}`): see `json_frames`.
+//! Several frames are stored as a list of such lists or objects, as objects by name (`{"frame_1": ..}`), or as arrays
+//! with an additional dimension (`{"positions": [[[x, y, z], ..], ..]}`): see `json_frames`.
 
 use serde_json::{Map, Value};
 
@@ -33,7 +32,8 @@ pub(super) fn steps(content: &Content<'_>) -> Result<Vec<Step>, ReadError> {
     Ok(times.map(|(index, time)| Step { part: part(index), ..Step::new(index, time) }).collect())
 }
 
-/// The frame that is asked for, read where it is in the file; none where that is not known, or no frame is there any more.
+/// Reads the requested frame at its position in the file; `None` if the position is unknown, or if the bytes there are
+/// no frame any more.
 pub(super) fn read_part(content: &Content<'_>, asked: &Asked) -> Option<Particles> {
     let step = asked.step()?;
     let text = step.part?.text(|start, end| {
@@ -49,7 +49,7 @@ pub(super) fn read_part(content: &Content<'_>, asked: &Asked) -> Option<Particle
 fn value(bytes: &[u8]) -> Result<Value, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match parse(bytes) {
-        // Only after an error: all this is rare, and replacing it takes a copy.
+        // Tried only after an error, because such files are rare and the replacement takes a copy.
         Err(error) => match strict(bytes) {
             Some(bytes) => parse(&bytes),
             None => Err(error),
@@ -104,8 +104,8 @@ fn parse(bytes: &[u8]) -> Result<Value, ReadError> {
     Ok(Value::Array(rows))
 }
 
-/// The text with `null` instead of Python's numbers that JSON does not have, without comments and without commas behind the
-/// last value; `None` if there is none of these.
+/// The text with `null` in place of Python's non-JSON numbers, without comments and without commas after the last
+/// value; `None` if it has none of these.
 fn strict(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut out = Vec::with_capacity(bytes.len());
     let mut rest = bytes;
@@ -156,7 +156,7 @@ pub(super) fn comment(text: &[u8]) -> Option<usize> {
     text.starts_with(b"/*").then(|| end(b"*/").map_or(text.len(), |at| at + 4))
 }
 
-/// Whether nothing but space and comments is before the end of an array or object.
+/// Whether only white space and comments precede the end of an array or object.
 fn closes(mut text: &[u8]) -> bool {
     loop {
         text = text.trim_ascii_start();
@@ -169,7 +169,7 @@ fn closes(mut text: &[u8]) -> bool {
 
 /// Reads rows that are positions, or particles as objects.
 fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
-    // A list of one frame.
+    // A list with one frame.
     while let [Value::Array(inner)] = rows.as_mut_slice() {
         if !inner.first().is_some_and(|first| first.is_array() || first.is_object()) {
             break;

@@ -8,19 +8,19 @@ use serde_json::{Map, Value};
 use super::json::is_list_of_particles;
 use super::names;
 
-/// How a file holds its frames.
+/// How the frames of a file are stored.
 enum Frames {
-    /// A list: of lists of particles, or of objects with such a list or with arrays.
+    /// A list with one entry per frame: a list of particles, or an object with such a list or with arrays.
     List(usize),
-    /// Objects or lists by name, in the order of the numbers in these names.
+    /// Objects or lists by name, ordered by the number in the name.
     Named(Vec<String>),
-    /// Arrays with one dimension more than those of one frame.
+    /// Arrays with an additional dimension for frames.
     Stacked(usize),
-    /// Frames behind the only name of an object.
+    /// Frames inside an object with this single name.
     Behind(String),
 }
 
-/// Whether a value is a list of positions, as lists or objects, or a list of them without the names.
+/// Whether a value is one frame: a list of positions (lists or objects), or columns of them.
 fn is_frame(value: &Value) -> bool {
     match value {
         Value::Array(rows) => rows.first().is_some_and(|row| match row {
@@ -118,7 +118,7 @@ pub(super) fn times(value: &Value) -> Vec<Option<f64>> {
     }
 }
 
-/// What a list holds whose only entry is an object with arrays.
+/// If an object with arrays is the only entry of a list, that object; otherwise the value.
 pub(super) fn alone(value: Value) -> Value {
     match value {
         Value::Array(mut list)
@@ -130,7 +130,7 @@ pub(super) fn alone(value: Value) -> Value {
     }
 }
 
-/// One frame; the value itself where it holds only one.
+/// One frame; the value itself if it holds only one.
 pub(super) fn one(value: Value, index: usize) -> Value {
     match (frames(&value), value) {
         (Some(Frames::List(count)), Value::Array(mut list)) => {
@@ -142,7 +142,7 @@ pub(super) fn one(value: Value, index: usize) -> Value {
         }
         (Some(Frames::Stacked(count)), Value::Object(map)) => {
             let part = |(name, value): (String, Value)| match value {
-                // What is no list of frames is the same in all of them.
+                // A value that is no list of frames belongs to all frames.
                 Value::Array(mut list) if list.len() == count => {
                     (name, list.swap_remove(index.min(count.saturating_sub(1))))
                 }
@@ -157,16 +157,16 @@ pub(super) fn one(value: Value, index: usize) -> Value {
     }
 }
 
-/// Most arrays of a frame that are read each where it is.
+/// Max number of arrays of a frame that are located in the text.
 const ARRAYS: usize = 8;
 
-/// Where a frame is in the text: from and to where each of its arrays goes, after the same of its name. One without a name is
-/// the whole frame.
+/// Position of a frame in the text: for each of its arrays the byte range of its name and of its value. An entry
+/// without a name is the whole frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::io::particles) struct Part([[u64; 4]; ARRAYS]);
 
 impl Part {
-    /// One of arrays, by their names.
+    /// From the arrays' byte ranges: name and value.
     fn of(arrays: impl Iterator<Item = (Range<usize>, Range<usize>)>) -> Self {
         let mut part = Self::default();
         for (to, (name, range)) in part.0.iter_mut().zip(arrays) {
@@ -175,7 +175,7 @@ impl Part {
         part
     }
 
-    /// The same in a text of which this one is a piece.
+    /// The same position in a text that contains this one from byte `by` on.
     fn moved(self, by: usize) -> Self {
         let moved = |[a, b, c, d]: [u64; 4]| {
             let at = |x: u64| x + by as u64;
@@ -184,7 +184,7 @@ impl Part {
         Self(self.0.map(|range| if range == [0; 4] { range } else { moved(range) }))
     }
 
-    /// The text of the frame, by what reads from and to where it is told.
+    /// The frame as JSON text; `read` returns the bytes of a range.
     pub(super) fn text(self, mut read: impl FnMut(u64, u64) -> Option<Vec<u8>>) -> Option<Vec<u8>> {
         let mut text = Vec::new();
         for [from, to, start, end] in self.0.into_iter().filter(|[.., end]| *end > 0) {
@@ -202,20 +202,20 @@ impl Part {
     }
 }
 
-/// Where in the text each frame is; none for one frame, and where a frame has too many arrays.
+/// Position of each frame in the text; `None` for a single frame, and if a frame has too many arrays.
 pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
     let named = || {
         let name = |(name, part): (Range<usize>, _)| {
             let own: String = serde_json::from_slice(text.get(name.clone())?).ok()?;
             Some((own, (name, part)))
         };
-        // Of two of one name the last one is read.
+        // If two names are equal, the last one is used.
         held(text, 1).into_iter().filter_map(name).collect::<HashMap<_, _>>()
     };
     let whole = |range: Range<usize>| Part::of(std::iter::once((0..0, range)));
     match (frames(value)?, value) {
         (Frames::List(count), _) => {
-            // A value on each line, or an array.
+            // One value per line, or an array.
             let lines = held(text, 0);
             let all = if lines.len() == 1 { held(text, 1) } else { lines };
             let parts: Vec<_> = all.into_iter().map(|(_, part)| whole(part)).collect();
@@ -232,7 +232,7 @@ pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
             for (_, (name, range)) in all.filter(|_| arrays.len() <= ARRAYS) {
                 let inner = held(text.get(range.clone())?, 1);
                 for (i, part) in parts.iter_mut().enumerate() {
-                    // What is no list of frames is the same in all of them.
+                    // A value that is no list of frames belongs to all frames.
                     let own = inner.get(i).filter(|_| inner.len() == count);
                     let own = own.map_or(range.clone(), |(_, own)| {
                         own.start + range.start..own.end + range.start
@@ -252,8 +252,8 @@ pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
     }
 }
 
-/// The arrays and objects at a depth of nesting, in valid text, which may have comments: the range of the string before each
-/// (in an object its name), and its own range.
+/// Arrays and objects at a nesting level of valid text, which may have comments. For each: the range of the string
+/// before it (in an object, its name), and its own range.
 fn held(text: &[u8], level: usize) -> Vec<(Range<usize>, Range<usize>)> {
     let mut all = Vec::new();
     let (mut depth, mut begin) = (0_usize, 0);
@@ -280,7 +280,7 @@ fn held(text: &[u8], level: usize) -> Vec<(Range<usize>, Range<usize>)> {
         }
         match byte {
             b'"' => quote = Some(at),
-            // No value begins so.
+            // No JSON value begins with a slash.
             b'/' => {
                 let rest = text.get(at..).unwrap_or_default();
                 comment = at + super::json::comment(rest).unwrap_or(1);

@@ -16,7 +16,7 @@ use super::xyz;
 /// Beginnings of such a file. A unit or a time may precede the step number.
 pub(super) const STARTS: [&[u8]; 3] = [b"ITEM: TIMESTEP", b"ITEM: UNITS", b"ITEM: TIME"];
 
-/// Most lines before the atoms.
+/// Max number of lines before the atoms.
 const LINES: u64 = 64;
 
 /// Where the frames of a file begin, up to frame `upto`.

@@ -1,6 +1,6 @@
 //! Meaning of an attribute.
 
-/// Meaning of an attribute, or of three that form a vector.
+/// Meaning of an attribute, or of three attributes that form a vector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Meaning {

@@ -8,7 +8,7 @@
 //! | --- | --- | --- |
 //! | classic Houdini BGEO v5, plain or gzip | yes | yes |
 //! | classic Houdini GEO v5 (ASCII) | yes | |
-//! | Houdini 12+ BGEO / GEO (JSON), `.bgeo.sc` | refused, says what to do | |
+//! | Houdini 12+ BGEO / GEO (JSON), `.bgeo.sc` | refused, with advice | |
 //! | legacy VTK 1.0 to 5.1, ASCII and binary: POLYDATA, UNSTRUCTURED_GRID | points and point data | |
 //! | PVTU, PVTP, VTM: their pieces, as one frame; PVD, `.series`: see [`sequence`] | yes | |
 //! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points and point data | VTU, appended raw, zlib |
@@ -22,16 +22,15 @@
 //! [`Parts`] reads the same particles in parts, for files that are too large for memory: all of these formats
 //! except JSON, HDF5 and XDMF.
 //!
-//! Any of them may be compressed with gzip. The content decides the format; the extension is only a hint. Case,
-//! blanks and units in names are ignored: `Pos.x [m]` is `pos_x`. A valid file that is not one frame of
-//! particles is refused, with what it is and what to do. Ambiguous interpretations are reported in
-//! [`Particles::warnings`].
+//! Any of them may be compressed with gzip. The content decides the format; the extension is only a hint. Case, blanks
+//! and units in names are ignored: `Pos.x [m]` is `pos_x`. A valid file that is not one frame of particles is refused;
+//! the error says what it is and what to do. Ambiguous interpretations are reported in [`Particles::warnings`].
 //!
 //! Lengths and times are kept as they are; nothing is scaled or reordered. Ghosts are left out. An origin is
 //! subtracted only from double-precision positions that are very far away ([`Particles::origin`]).
 //!
-//! A reader never panics and trusts no count in a header: it allocates in proportion to the bytes that are
-//! there. Content that decompresses to more than 16 MiB + 64 times the file's size is refused.
+//! A reader never panics and trusts no count in a header: it allocates in proportion to the file's actual size. Content
+//! that decompresses to more than 16 MiB + 64 times the file's size is refused.
 #![forbid(unsafe_code)]
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
@@ -96,24 +95,24 @@ pub use write::{write, write_to};
 /// All present vectors have the same length and the file's order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Particles {
-    /// Centres, in the file's unit of length. May hold NaN or infinities: see [`count_non_finite`].
+    /// Centres, in the file's unit of length. They may contain NaN or infinities, see [`count_non_finite`].
     pub positions: Vec<[f32; 3]>,
     /// Velocities, in the file's unit of length per unit of time.
     pub velocities: Option<Vec<[f32; 3]>>,
     /// Mass densities, in the file's unit.
     pub densities: Option<Vec<f32>>,
-    /// Numbers that stay with a particle from frame to frame. Those beyond 32 bits are kept modulo 2^32;
-    /// negative and fractional ones, and ids that repeat, are dropped with a warning.
+    /// Ids: integers that identify a particle from frame to frame. Ids beyond 32 bits are kept modulo 2^32. If any id
+    /// is negative or fractional, or if ids repeat, all are dropped with a warning.
     pub ids: Option<Vec<u32>>,
     /// Remaining lifetime of whitewater particles. At or below zero a particle dies with the next frame.
     pub lifetimes: Option<Vec<f32>>,
     /// Kind of a whitewater particle: 0 foam, 1 spray, 2 bubble. Other values are kept.
     pub kinds: Option<Vec<u32>>,
-    /// Every attribute in the file, read or not, positions included.
+    /// Every attribute in the file, including positions and attributes that are not read.
     pub attributes: Vec<Attribute>,
     /// Meanings of attributes, by their names, positions first. Attributes in no list were ignored.
     pub meanings: Vec<(Meaning, Vec<String>)>,
-    /// Attributes requested with [`read_with`].
+    /// Attributes that were requested with [`read_with`].
     pub extras: Vec<Extra>,
     /// Time of the frame in the file's unit, if the file has it.
     pub time: Option<f64>,
@@ -147,14 +146,14 @@ impl Particles {
         }
     }
 
-    /// Removes the particles for which `kept` is false. Particles beyond its end are kept.
+    /// Removes the particles whose entry in `kept` is false. Particles without an entry are kept.
     pub fn retain(&mut self, kept: &[bool]) {
         survey::retain(self, kept);
     }
 
-    /// Appends the particles of another file of the same frame. Attributes that only one of them has are dropped, with a
-    /// warning, and so are ids that both files give to different particles. [`extras`](Self::extras) are NaN where one of
-    /// them has none.
+    /// Appends the particles of another file of the same frame. Attributes that only one of them has are dropped, with
+    /// a warning, and so are ids that both files give to different particles. [`extras`](Self::extras) are NaN for
+    /// particles of a file that lacks them.
     pub fn append(&mut self, other: Self) {
         join::append(self, other);
     }
@@ -177,8 +176,8 @@ impl Particles {
 /// Reads one file.
 ///
 /// # Errors
-/// [`ReadError::Io`] and [`ReadError::Directory`] where there is no file to read, else
-/// [`ReadError::File`] with the path and what [`read_bytes`] says.
+/// [`ReadError::Io`] or [`ReadError::Directory`] if there is no file to read, otherwise [`ReadError::File`] with the
+/// path and the error of [`read_bytes`].
 pub fn read(path: &Path) -> Result<Particles, ReadError> {
     read_asked(path, &Asked::default())
 }
@@ -195,14 +194,14 @@ fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
     if let Some(read) = of_hdf5(path, asked) {
         return read;
     }
-    // A large file that can't be read isn't.
+    // The beginning is enough to refuse a large file in an unknown format.
     let mut head = Vec::new();
     let file = std::fs::File::open(path).map_err(io)?;
     file.take(foreign::START as u64).read_to_end(&mut head).map_err(io)?;
     if let Some(told) = foreign::told(&head) {
         return Err(ReadError::File { path: path.to_path_buf(), reason: Box::new(told) });
     }
-    // Of several frames no others are held in memory.
+    // If the file holds several frames, the others are not kept in memory.
     if asked.step().is_some() {
         let input = source::Input::new(std::fs::File::open(path).map_err(io)?)?;
         let mut start = Vec::new();
@@ -226,7 +225,7 @@ fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
         .map_err(|reason| ReadError::File { path: path.to_path_buf(), reason: Box::new(reason) })
 }
 
-/// Reads a file of HDF5, or one that names such a file; `None` for any other.
+/// Reads an HDF5 file, or a file that refers to one; `None` for any other.
 #[cfg(feature = "hdf5")]
 fn of_hdf5(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
     let read = hdf5::read(path, asked).or_else(|| xdmf::read(path, asked))?;
@@ -247,10 +246,10 @@ pub fn same_name(a: &str, b: &str) -> bool {
     names::plain(a) == names::plain(b)
 }
 
-/// Reads a file from memory. `hint` decides only where the content does not: text and raw triples.
+/// Reads a file from memory. `hint` matters only where the content is ambiguous: text and raw triples.
 ///
 /// # Errors
-/// Says what was expected, what was found, where, and what to do. It never panics, whatever the bytes.
+/// The error says what was expected, what was found, where, and what to do. No input causes a panic.
 pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError> {
     read_bytes_asked(bytes, hint, &Asked::default())
 }

@@ -82,11 +82,11 @@ pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points
 /// Suffixes of the components of a vector.
 const SUFFIXES: [[&str; 3]; 5] =
     [["x", "y", "z"], ["0", "1", "2"], ["1", "2", "3"], ["i", "j", "k"], ["u", "v", "w"]];
-/// Words before the name of a vector that do not distinguish it.
+/// Words before the name of a vector that are ignored.
 const WORDS: [&str; 7] =
     ["particles", "particle", "parcel", "part", "track", "translational", "linear"];
 
-/// The name in plain form: without what does not distinguish names.
+/// The plain form of a name, without the parts that are ignored.
 pub(super) fn plain(name: &str) -> String {
     let mut out = String::with_capacity(name.len());
     let mut rest = name;
@@ -97,7 +97,7 @@ pub(super) fn plain(name: &str) -> String {
             '(' => ')',
             '{' => '}',
             _ => {
-                // `@id` of Houdini, but `v@P`.
+                // Houdini's `@id`, or the type prefix in `v@P`.
                 let marked = first == '@' && out.is_empty();
                 if !marked && !first.is_whitespace() && !"_-.:\"'#`".contains(first) {
                     out.extend(first.to_lowercase());
@@ -114,7 +114,7 @@ pub(super) fn plain(name: &str) -> String {
         }
         rest = behind;
     }
-    // A prefix that says that it belongs to a particle means nothing.
+    // A prefix such as `particle` carries no meaning.
     let of_particle = ["particles", "particle", "parcel", "part"].iter();
     let stripped = of_particle.filter_map(|word| out.strip_prefix(word)).find(|rest| known(rest));
     match stripped.or_else(|| vector_behind(&out)) {
@@ -123,7 +123,7 @@ pub(super) fn plain(name: &str) -> String {
     }
 }
 
-/// The name of a vector, or of a component, behind words that do not distinguish it.
+/// The name of a vector or component, after words that are ignored.
 fn vector_behind(name: &str) -> Option<&str> {
     let rest = WORDS.iter().find_map(|word| name.strip_prefix(word))?;
     let vector = [POSITION, VELOCITY].iter().any(|names| {
@@ -145,14 +145,14 @@ pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
     let split = bare.chain(names.iter().copied()).flat_map(move |base| {
         let suffixes = SUFFIXES.iter().filter(move |[first, ..]| match base {
             "" => *first == "x",
-            // `xx` is a component of a tensor; `x_0 x_1 x_2` is a position.
+            // `xx` is a component of a tensor, whereas `x_0 x_1 x_2` is a position.
             "x" | "xp" | "xyz" if *first == "x" => false,
-            // `ui` may be anything.
+            // `ui` could have any meaning.
             _ => !matches!(*first, "i" | "u") || base.len() > 2,
         });
         suffixes.map(move |suffixes| suffixes.map(|suffix| format!("{base}{suffix}")))
     });
-    // `X_vel`, `x-coordinate`: not of short names, which are others.
+    // `X_vel` and `x-coordinate` count, but short names with a suffix do not, because they have other meanings.
     let long = names.iter().copied().filter(|base| base.len() > 2);
     let before = long.map(|base| ["x", "y", "z"].map(|axis| format!("{axis}{base}")));
     let own: &[[&str; 3]] = match position {
@@ -197,13 +197,13 @@ pub(super) fn is_time(name: &str) -> bool {
     is_step(name) || ["t", "times", "timesteps", "steps"].contains(&plain(name).as_str())
 }
 
-/// Whether one of these names may be a position, or three or two of them together.
+/// Whether one of these names may be a position, or two or three together.
 pub(super) fn may_have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     let whole = |name: &N| POSITION.contains(&plain(name.as_ref()).as_str());
     names.iter().any(whole) || have_positions(names)
 }
 
-/// Whether an attribute with this name may be text, because nothing that is drawn depends on its numbers.
+/// Whether an attribute with this name may be text, because the picture does not depend on it.
 pub(super) fn may_be_text(name: &str) -> bool {
     let plain = plain(name);
     KIND.contains(&plain.as_str()) || STEP.contains(&plain.as_str()) || !known(&plain)

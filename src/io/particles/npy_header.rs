@@ -16,16 +16,16 @@ pub(super) struct Member {
 
 /// The header of an array.
 pub(super) struct Header {
-    /// Fields; a plain array has one without a name.
+    /// Fields; a plain array has one unnamed field.
     pub(super) members: Vec<Member>,
     pub(super) structured: bool,
     /// Bytes per element.
     pub(super) size: u64,
     pub(super) fortran: bool,
-    /// Without dimensions of 1 if there are more than two.
+    /// The shape; if there are more than two dimensions, those of size 1 are removed.
     pub(super) shape: Vec<u64>,
     pub(super) descr: String,
-    /// Which of the frames in the array is read; the shape is that of one.
+    /// The frame to read, if the array holds several; the shape is that of one frame.
     pub(super) frame: Option<One>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct One {
     pub(super) count: u64,
 }
 
-/// Least number of columns with which an array of 3 rows is taken as transposed particles.
+/// Min number of columns from which an array with 3 rows is taken as transposed particles.
 pub(super) const WIDE: u64 = 8;
 
 impl Header {
@@ -50,7 +50,7 @@ impl Header {
         }
     }
 
-    /// Whether the array has a part for each of so many frames. `vector`: its name is that of a vector.
+    /// Whether the array has an entry for each of `count` frames. `vector` says that its name is that of a vector.
     fn has_frames(&self, count: u64, vector: bool) -> bool {
         match *self.shape.as_slice() {
             [frames, _, _] => frames == count && !self.structured,
@@ -61,7 +61,7 @@ impl Header {
         }
     }
 
-    /// The part of one frame, if the array has several; otherwise all frames share it.
+    /// The array restricted to one frame, if it has several; otherwise it is shared by all frames.
     pub(super) fn of_frame(mut self, frame: Option<One>, vector: bool) -> Self {
         if let Some(one) = frame.filter(|one| self.has_frames(one.count, vector)) {
             self.shape.remove(0);
@@ -71,7 +71,7 @@ impl Header {
     }
 }
 
-/// Every `count`th element of a size, from `index` on: a frame of an array in Fortran order.
+/// Every `count`th element, from `index` on: a frame of an array in Fortran order.
 pub(super) fn every(raw: &[u8], size: u64, one: One) -> Vec<u8> {
     let size = usize::try_from(size).unwrap_or(usize::MAX).max(1);
     let count = usize::try_from(one.count).unwrap_or(usize::MAX).max(1);

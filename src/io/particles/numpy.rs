@@ -5,9 +5,9 @@
 //! and the values. Only the three known keys of the header are parsed. `descr` may be a list of fields,
 //! `[('pos', '<f4', (3,)), ...]`.
 //!
-//! A row is a particle. The array has shape (n, 3), or (3, n) in either order. Two columns are two
-//! dimensions; of six columns the last three are velocities. The first of three dimensions, (t, n, 3), is that
-//! of frames, which are read one by one: see `steps`.
+//! A row is a particle. The array has shape (n, 3), or (3, n) in either order. Two columns are two-dimensional
+//! positions; the last three of six columns are velocities. In an array of shape (t, n, 3) the first dimension counts
+//! frames, which are read one by one: see `steps`.
 //!
 //! The reader is our own, because the crate npyz (0.9) brings a whole Python parser with big integers for
 //! three keys, returns values only in the type in which they are stored, and does not check the shape against
@@ -30,11 +30,11 @@ struct Rowed {
     rows: u64,
     /// Values per row.
     components: usize,
-    /// Stored component after component.
+    /// Whether components are stored one after the other.
     transposed: bool,
 }
 
-/// What to do with an array of frames.
+/// Advice for an array of several frames.
 const FRAMES: &str =
     "save a file for each: for i, frame in enumerate(a): np.save(f'frame_{i:04d}.npy', frame)";
 
@@ -49,10 +49,10 @@ impl Header {
         self.members.first().map_or(AttributeType::Other, |member| member.ty)
     }
 
-    /// `vector`: whether the number of components equals that of dimensions.
+    /// The rows of an array. `vector` says that the number of components equals that of dimensions.
     fn rowed(&self, name: &str, vector: bool) -> Result<Rowed, ReadError> {
         let rowed = self.in_rows(name, vector)?;
-        // Elements of a frame are not beside each other there.
+        // The elements of such a frame are not contiguous.
         let strided = self.frame.is_some() && self.fortran;
         Ok(Rowed { transposed: rowed.transposed || strided, ..rowed })
     }
@@ -85,7 +85,7 @@ impl Header {
         }
     }
 
-    /// Rows of its values, which begin after a header of this length, and the warnings about it. `placed`:
+    /// Rows of the array's values, which begin after a header of this length, and warnings about it. `placed` says that
     /// they are positions, whatever the name. `None` if the particles are not stored one after the other.
     fn rows(
         &self,
@@ -171,7 +171,7 @@ impl Header {
         }
     }
 
-    /// All its values, attribute after attribute.
+    /// All values of the array, attribute after attribute.
     fn columns(
         &self,
         cursor: &mut Cursor<'_>,
@@ -208,7 +208,7 @@ impl Header {
         Ok(columns)
     }
 
-    /// Lists its attributes.
+    /// Lists the attributes of the array.
     fn list(&self, table: &mut Table, name: &str) {
         if self.structured {
             for member in self.members.iter().filter(|member| !member.name.is_empty()) {
@@ -224,7 +224,7 @@ impl Header {
         table.list(name, components.unwrap_or_else(|_| product()), self.ty());
     }
 
-    /// Whether it may hold positions, whatever its name.
+    /// Whether the array may hold positions, whatever its name.
     fn may_be_positions(&self) -> bool {
         let vectors = matches!(*self.shape.as_slice(), [_, 3 | 6] | [_, _, 3 | 6])
             || matches!(*self.shape.as_slice(), [3, n] | [_, 3, n] if n >= WIDE);
@@ -286,7 +286,7 @@ fn of_positions(cursor: &mut Cursor<'_>, asked: &Asked) -> Result<Header, ReadEr
     Ok(header)
 }
 
-/// The frame that is asked for, of so many.
+/// The requested frame, out of `count`.
 fn one(asked: &Asked, count: u64) -> Option<One> {
     let index = asked.step()?.index as u64;
     (count > 0).then(|| One { index: index.min(count - 1), count })
@@ -315,7 +315,7 @@ pub(super) fn times(input: &Input<'_>, zip: bool) -> Result<Vec<Option<f64>>, Re
         let mut raw = Vec::new();
         let all = file.by_ref().take(TIMES).read_to_end(&mut raw);
         let mut cursor = Cursor::new(&raw);
-        // Frames without times are frames, too.
+        // Frames without times count as well.
         if let (Ok(_), Ok(header)) = (all, header(&mut cursor))
             && let Ok(columns) =
                 header.columns(&mut cursor, &name, false, &mut Table::new(&Asked::default()))
@@ -328,7 +328,7 @@ pub(super) fn times(input: &Input<'_>, zip: bool) -> Result<Vec<Option<f64>>, Re
     Ok(times)
 }
 
-/// Most frames of a file, and bytes of their times.
+/// Max number of frames in a file, and max number of bytes of their times.
 const MOST: usize = 1 << 20;
 const TIMES: u64 = 16 << 20;
 
@@ -360,7 +360,7 @@ pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadErr
 
 /// The arrays of a zip.
 pub(super) struct Arrays {
-    /// The arrays that may be used, and where they are.
+    /// Arrays that may be used, and their positions in the file.
     pub(super) rows: Vec<(Piece, Rows)>,
     /// Index of the column that holds the positions, whatever its name.
     pub(super) placed: Option<usize>,
@@ -432,7 +432,7 @@ struct Chosen {
 }
 
 impl Chosen {
-    /// The part of an array that belongs to the frame that is asked for.
+    /// The array's entry for the requested frame.
     fn frame(&self, header: Header, name: &str, asked: &Asked) -> Header {
         let one = self.frames.and_then(|count| one(asked, count));
         header.of_frame(one, names::is_vector(name) || self.positions.as_deref() == Some(name))
@@ -465,7 +465,7 @@ fn choose<R: Read + std::io::Seek>(
         }
         headers.push((name, header));
     }
-    // `savez` numbers arrays without names in their order.
+    // `savez` numbers unnamed arrays in their order.
     able.sort();
     let sure =
         |able: &[String]| able.len() == 1 || able.first().is_some_and(|name| name == "arr_0");

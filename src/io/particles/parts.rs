@@ -12,7 +12,7 @@ use super::source::{self, Content, Input, Piece, Source};
 use super::{Format, Particles};
 use super::{bgeo, comma, geo, lammps, numpy, ply, table, vtk_legacy, vtk_xml, xyz};
 
-/// Bytes that tell the format.
+/// Number of bytes that suffice to detect the format.
 const START: u64 = 1 << 16;
 
 /// The particles of a file in parts. Together they are the particles that [`read`](super::read) returns.
@@ -36,16 +36,16 @@ pub struct Parts<'a> {
     total: usize,
     most: usize,
     rest: Rest<'a>,
-    /// Of a file, for its errors.
+    /// Path for error messages.
     path: Option<PathBuf>,
 }
 
 enum Rest<'a> {
-    /// The second time, from its start on.
+    /// The second pass over the file, from its start.
     File(Box<(Plan<'a>, Option<Pass<'a>>)>),
-    /// All particles, and how many were given.
+    /// All particles, and the number that was returned so far.
     Memory(Box<Particles>, usize),
-    /// Nothing comes after an error.
+    /// After an error nothing more is returned.
     Failed,
 }
 
@@ -121,7 +121,7 @@ pub fn find_origin(path: &Path) -> Result<[f64; 3], ReadError> {
     plan.map_or_else(|| Ok(super::read(path)?.origin), |plan| Ok(plan.origin()))
 }
 
-/// An error with the file it is about.
+/// Adds the file's path to an error.
 pub(super) fn named(path: &Path, error: ReadError) -> ReadError {
     let path = path.to_path_buf();
     match error {
@@ -165,7 +165,7 @@ impl<'a> Parts<'a> {
                 Ok(Self::of_memory(all, most, &mut show))
             }
             Err(error) => {
-                // Where the packing is at fault it is no use to look for faults in what comes out.
+                // If the compression is damaged, errors in the decompressed content are meaningless.
                 if gzip {
                     Source::new(input, &input.whole(true)).finish()?;
                 }
@@ -249,8 +249,7 @@ impl<'a> Parts<'a> {
 impl Iterator for Parts<'_> {
     type Item = Result<Particles, ReadError>;
 
-    /// The next part; after an error there are no more. There is one only where the file is not any more what it was
-    /// when it was opened.
+    /// The next part. An error occurs only if the file has changed since it was opened; no part follows it.
     fn next(&mut self) -> Option<Self::Item> {
         let part = self.part().map_err(|error| {
             self.rest = Rest::Failed;
@@ -273,7 +272,7 @@ impl std::fmt::Debug for Parts<'_> {
     }
 }
 
-/// Some of the particles, without what is of all of them.
+/// A range of the particles, without the data that concerns all of them.
 fn slice(all: &Particles, range: Range<usize>) -> Particles {
     fn some<T: Copy>(list: Option<&Vec<T>>, range: &Range<usize>) -> Option<Vec<T>> {
         list.map(|list| list.get(range.clone()).unwrap_or_default().to_vec())
@@ -291,7 +290,7 @@ fn slice(all: &Particles, range: Range<usize>) -> Particles {
     }
 }
 
-/// Where the particles of a file are; none of a file that can't be read in parts.
+/// Plans how to read the particles of a file; `None` if it cannot be read in parts.
 pub(super) fn plan<'a>(
     input: &Input<'a>,
     hint: Extension,
@@ -302,7 +301,7 @@ pub(super) fn plan<'a>(
     let mut start = Vec::new();
     Source::new(input, &piece).fill(START, &mut start)?;
     let all = (start.len() as u64) < START;
-    // What that is not enough to tell is nothing that comes in parts.
+    // If the beginning is mostly white space, the format may be undetected; such files are not read in parts.
     if !all && start.trim_ascii_start().len() < start.len() / 2 {
         return Ok(None);
     }
@@ -358,7 +357,7 @@ pub(super) fn plan<'a>(
     }))
 }
 
-/// Rows of one length, or arrays of a zip side by side.
+/// Rows of equal length, or arrays of a zip that are read in parallel.
 fn of_rows<'a>(
     input: &Input<'a>,
     rows: Vec<(Piece, Rows)>,

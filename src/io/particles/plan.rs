@@ -1,4 +1,4 @@
-//! A plan to read the particles of a file from the first on, any number of times: all at once, or in parts.
+//! A plan to read the particles of a file in order, any number of times: all at once, or in parts.
 
 use super::asked::Asked;
 use super::columns::{Attribute, AttributeType, Column, Data, Roles, Shape};
@@ -19,7 +19,7 @@ const PART: usize = 1 << 16;
 pub(super) struct Track<'a> {
     /// Empty columns.
     pub(super) columns: Vec<Column>,
-    /// Number of values per column for all particles; `None` if only reading tells.
+    /// Number of values per column for all particles; `None` if it is only known after reading.
     pub(super) lengths: Option<Vec<u64>>,
     /// Name for messages.
     pub(super) what: String,
@@ -31,8 +31,8 @@ type OpenTrack<'a> = dyn Fn(&[bool]) -> Result<Box<dyn Stream + 'a>, ReadError> 
 
 /// Reads a track.
 pub(super) trait Stream: Send {
-    /// Appends the values of up to `count` next particles to the columns that are used, and returns their
-    /// number, which is less than `count` only at the end. `room`: scratch memory.
+    /// Appends the values of up to `count` next particles to the columns that are used, and returns their number, which
+    /// is less than `count` only at the end. `room` is scratch memory.
     fn read(
         &mut self,
         count: usize,
@@ -53,7 +53,7 @@ pub(super) struct Plan<'a> {
     /// For the columns of all tracks, whether they are used.
     used: Vec<bool>,
     roles: Roles,
-    /// Number of particles; `None` if only reading tells.
+    /// Number of particles; `None` if it is only known after reading.
     rows: Option<usize>,
     attributes: Vec<Attribute>,
     meanings: Vec<(Meaning, Vec<String>)>,
@@ -165,7 +165,7 @@ impl<'a> Plan<'a> {
                 used.iter().enumerate().map(|(i, _)| positions.contains(&(first + i))).collect();
             let mut own = track.columns.clone();
             if some.contains(&true) {
-                // An error is found again when all is read.
+                // The error will occur again when everything is read.
                 let read = (track.open)(&some).and_then(|mut s| s.read(count, &mut own, &mut room));
                 if read.is_err() {
                     return [0.0; 3];
@@ -216,14 +216,14 @@ impl<'a> Plan<'a> {
         Ok(Particles { attributes, meanings, warnings, time, ..particles })
     }
 
-    /// Finds all errors, and what only all particles tell.
+    /// Finds all errors, and everything that depends on all particles.
     pub(super) fn survey(
         &self,
         most: usize,
         show: &mut dyn FnMut(&Particles),
     ) -> Result<Surveyed, ReadError> {
         self.survey_once(most, show).map_err(|error| {
-            // Of several errors, report the one that reading all at once would find.
+            // If there are several errors, report the one that reading all at once would find.
             if self.tracks.len() > 1 { self.check().err().unwrap_or(error) } else { error }
         })
     }

@@ -104,7 +104,7 @@ fn faces(elements: &[Element]) -> Vec<String> {
 
 /// Splits the elements into those before the vertices, and the vertices.
 fn split(elements: &[Element]) -> Result<(&[Element], &Element), ReadError> {
-    // Other programs call the points what they are.
+    // Other programs use other names for the points.
     let name =
         |of: &Element| matches!(of.name.as_str(), "point" | "points" | "particle" | "particles");
     let at = elements.iter().position(|element| element.name == "vertex");

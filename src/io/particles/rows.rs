@@ -45,7 +45,7 @@ pub(super) struct Rows {
     pub(super) what: String,
     /// Length of the header in bytes.
     pub(super) header: u64,
-    /// What lies between the header and the rows: name and number of bytes.
+    /// Data between the header and the rows: name and number of bytes.
     pub(super) between: Vec<(String, u64)>,
     pub(super) count: u64,
     /// Bytes per row.
@@ -65,8 +65,8 @@ impl Rows {
         self.fields.iter().map(|f| Column::new(&f.name, f.components, f.ty)).collect()
     }
 
-    /// Appends the values of rows to the columns that are used. `coming`: expected number of rows in total,
-    /// these included.
+    /// Appends the values of rows to the columns that are used. `coming` is the expected total number of rows,
+    /// including these.
     pub(super) fn decode(&self, raw: &[u8], coming: usize, used: &[bool], columns: &mut [Column]) {
         let stride = self.stride as usize;
         for ((field, column), used) in self.fields.iter().zip(columns).zip(used) {
@@ -130,7 +130,7 @@ impl Stream for RowStream<'_> {
             return Ok(count);
         }
         let stride = rows.stride.max(1);
-        // A header that promises more than the file can hold gets no memory for it.
+        // A header that declares more than the file can hold gets no memory for it.
         let most = usize::try_from(self.source.most_left() / stride).unwrap_or(usize::MAX);
         let mut left = count as u64;
         while left > 0 {

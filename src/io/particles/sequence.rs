@@ -74,9 +74,9 @@ pub enum SequenceError {
         "no frame from {first} to {last}: the {count} files found are frames {lowest} to {highest}"
     )]
     OutsideRange {
-        /// Of the range.
+        /// First requested number.
         first: u64,
-        /// Of the range.
+        /// Last requested number.
         last: u64,
         /// Files found.
         count: usize,
@@ -118,7 +118,7 @@ pub enum SequenceError {
 /// Reads a range of frames, `A-B` (both included) or `A`.
 ///
 /// # Errors
-/// [`SequenceError::Pattern`] where it is none of these, or `B` is less than `A`.
+/// [`SequenceError::Pattern`] if the text has another form, or `B` is less than `A`.
 pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
     let bad = || SequenceError::Pattern {
         pattern: text.into(),
@@ -246,7 +246,7 @@ pub fn within(
     Ok(found)
 }
 
-/// Expands one input to files, with their numbers if the input has them.
+/// Expands one input to files, with their numbers if the input determines them.
 fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError> {
     let path = Path::new(input);
     if path.is_dir() {
@@ -380,7 +380,7 @@ struct Number {
     whole: Option<u64>,
     /// Number of characters.
     width: usize,
-    /// The digits before and behind the point, if there is nothing else, and the number of those behind.
+    /// The digits before and after the point, if the number has no other parts, and the number of digits after it.
     pair: Option<(u64, u64, usize)>,
     /// Whether it has a point or an exponent.
     decimal: bool,
@@ -396,9 +396,9 @@ enum Part {
 /// A file, and the parts of its name without extension, of its folder, of the folder above, and so on.
 struct Named {
     levels: Vec<Vec<Part>>,
-    /// Number and time, if given by something other than the name.
+    /// Number and time, if they come from something other than the name.
     said: Option<(u64, Option<f64>)>,
-    /// Whether a list of files gives them.
+    /// Whether they come from a list of files.
     listed: bool,
     path: PathBuf,
 }
@@ -443,7 +443,7 @@ impl Named {
         }
     }
 
-    /// The numbers of a level that are not those of processes, and whether it has such.
+    /// The numbers of a level without process ranks, and whether it has such ranks.
     fn numbers(&self, level: usize) -> (Vec<&Number>, bool) {
         let (mut numbers, mut ranked, mut before) = (Vec::new(), false, "");
         for part in self.levels.get(level).into_iter().flatten() {
@@ -457,11 +457,12 @@ impl Named {
     }
 }
 
-/// Words before the number of a process, which writes a part of each frame.
+/// Words before a process rank; each process writes a part of each frame.
 const RANKS: [&str; 9] =
     ["rank", "proc", "processor", "process", "piece", "mpi", "cpu", "subdomain", "thread"];
 
-/// Whether a number behind this text, as in `fluid_10_rank0`, is that of a process, which writes a part of each frame.
+/// Whether a number after this text, as in `fluid_10_rank0`, is a process rank; each process writes a part of each
+/// frame.
 pub fn is_rank(text: &str) -> bool {
     let text = text.trim_end_matches(['_', '-', '.', '=']);
     let word = text.rsplit(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or(text);

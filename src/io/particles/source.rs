@@ -44,18 +44,18 @@ impl<'a> Input<'a> {
     }
 }
 
-/// The decompressed content of a file, readable from any position.
+/// The decompressed content of a file, which can be opened at any position.
 #[derive(Clone)]
 pub(super) struct Content<'a> {
     input: Input<'a>,
     piece: Piece,
     length: u64,
-    /// Number of lines of the file before it.
+    /// Number of lines of the file before this content.
     lines: u64,
 }
 
 impl<'a> Content<'a> {
-    /// Compressed content is decompressed once, which is the only way to find its length and errors.
+    /// Compressed content is decompressed once, because only that shows its length and errors.
     pub(super) fn new(input: &Input<'a>, gzip: bool) -> Result<Self, ReadError> {
         let piece = input.whole(gzip);
         let mut length = input.length;
@@ -117,7 +117,7 @@ impl<'a> Content<'a> {
         Some(source).filter(|_| self.piece.packing != Packing::None)
     }
 
-    /// Opens a range. `spare`: a source that is read on to there if possible, instead of starting anew.
+    /// Opens a range. `spare` is a source that is read on to the range if possible, instead of starting anew.
     pub(super) fn reach(
         &self,
         spare: Option<Source<'a>>,
@@ -134,7 +134,7 @@ impl<'a> Content<'a> {
     }
 }
 
-/// An error without the file's name, which is added where it is known.
+/// An error without the file's name, which a caller adds.
 pub(super) fn io_error(reason: io::Error) -> ReadError {
     ReadError::Io { path: PathBuf::new(), reason }
 }

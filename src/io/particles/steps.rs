@@ -18,13 +18,13 @@ pub struct Step {
     /// Time in the file's unit, if the file has it. In a table with a column of times it selects the rows of
     /// the frame.
     pub time: Option<f64>,
-    /// Where the frame is in a file of JSON.
+    /// Position of the frame in a JSON file.
     pub(super) part: Option<json_frames::Part>,
 }
 
 impl Step {
-    /// A frame by its index, from 0, and its time where a table selects by that. [`steps`] also knows where a frame of JSON is
-    /// in the file; of one made here the file is read as a whole.
+    /// A frame by its index, from 0, and by its time in a table that selects by time. [`steps`] also knows the position
+    /// of a frame in a JSON file; for a step that is made with this function the whole file is read.
     pub fn new(index: usize, time: Option<f64>) -> Self {
         Self { index, time, part: None }
     }

@@ -1,5 +1,5 @@
-//! Collects what is only known after all particles were seen, at once or in parts: warnings for the user, and
-//! attributes to be dropped.
+//! Collects everything that depends on all particles of a file, whether they are read at once or in parts: warnings for
+//! the user, and attributes to be dropped.
 
 use std::collections::{HashMap, HashSet};
 
@@ -85,30 +85,30 @@ struct Dropped {
     particle: usize,
 }
 
-/// Most positions from which their extent is found.
+/// Max number of positions from which their extent is found.
 const SAMPLES: usize = 8192;
 
 /// Number of particles from which the origin is found.
 pub(super) const FIRST: usize = 1024;
 
-/// An origin is subtracted from positions that are this many times farther out than their extent: the steps
-/// of 32-bit floats are then 1/4000 of the extent.
+/// Min ratio of the positions' distance from the origin to their extent, from which an origin is subtracted. At this
+/// ratio a step of 32-bit floats is 1/4000 of the extent.
 const FAR: f64 = 2000.0;
 
-/// Most values whose repetitions are counted.
+/// Max number of values whose repetitions are counted.
 const COUNTED: usize = 1 << 12;
 
-/// If more than this fraction of ids occurs twice, they are no ids.
+/// Max fraction of repeated ids; above it the attribute is not an id.
 const REPEATED_IDS: f64 = 0.01;
 
-/// If more than this fraction of positions occurs twice, there is a warning.
+/// Fraction of repeated positions above which there is a warning.
 pub(super) const DOUBLED: f64 = 0.05;
 
-/// Most times that are distinguished.
+/// Max number of times that are distinguished.
 const STEPS: usize = 1 << 12;
 
-/// Counts repetitions of values, for those whose hash begins with a number of zeros: for all if there are
-/// few, for a part if there are many.
+/// Counts repetitions of values. If there are many values, it counts only those whose hash begins with a number of
+/// zeros.
 #[derive(Debug, Default)]
 pub(super) struct Repeats {
     zeros: u32,
@@ -155,7 +155,7 @@ impl Repeats {
     }
 }
 
-/// The times of particles, in the order of the file.
+/// The times of the particles, in the order of the file.
 #[derive(Debug, Default)]
 struct Steps {
     name: String,
@@ -180,10 +180,10 @@ impl Steps {
     }
 }
 
-/// What was found so far.
+/// Results so far.
 #[derive(Debug)]
 pub(super) struct Survey {
-    /// Whether this is the first pass, in which nothing is known of the whole.
+    /// Whether this is the first pass, in which nothing is known about all particles.
     asks: bool,
     origin: [f64; 3],
     seen: usize,
@@ -191,7 +191,7 @@ pub(super) struct Survey {
     /// The time of the requested frame, and the number of particles of other frames.
     only: Option<f64>,
     others: usize,
-    /// A few thousand positions, evenly from the whole file: the first of each `step` particles.
+    /// A few thousand positions, spread evenly over the file: the first of each `step` particles.
     samples: Vec<[f64; 3]>,
     step: usize,
     not_finite: usize,
@@ -205,7 +205,7 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    /// `origin`: subtracted from the positions.
+    /// `origin` is subtracted from the positions.
     pub(super) fn new(origin: [f64; 3]) -> Self {
         Self {
             asks: true,
@@ -226,7 +226,7 @@ impl Survey {
         }
     }
 
-    /// Only for particles of one time, if they have several.
+    /// Restricts the survey to particles of one time, if they have several.
     pub(super) fn of_time(self, only: Option<f64>) -> Self {
         Self { only, ..self }
     }
@@ -442,9 +442,9 @@ impl Survey {
         let count = steps.different.len();
         let blocks = steps.changes + 1 == count && self.seen >= 2 * count;
         let several = match self.numbers.counts.is_empty() {
-            // A particle that occurs again has another time.
+            // A particle that occurs twice has different times.
             false => self.numbers.share() > REPEATED_IDS && self.numbers.most() <= count,
-            // Or every particle has its times one after the other.
+            // Or each particle's times are adjacent in the file.
             true => {
                 blocks
                     || (steps.changes + 1 == self.seen

@@ -64,7 +64,7 @@ impl Stream for TableStream<'_> {
             if !self.rows.next(columns)? {
                 return Ok(i);
             }
-            // They must be numbers even if they have no meaning.
+            // The values must be numbers even if they have no meaning.
             used(columns, &self.used, false).for_each(|column| column.data.clear());
         }
         Ok(count)

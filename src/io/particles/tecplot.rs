@@ -1,8 +1,8 @@
 //! Reads Tecplot's text: `VARIABLES` names the columns, and the rows of a zone follow its `ZONE` record.
 //!
-//! Records may go over several lines. Zones are frames, in the order of the file. Zones next to each other with the
-//! same `SOLUTIONTIME`, and without times those whose titles differ in more than numbers (`fluid`, `boundary`), are
-//! parts of one frame; the column `zone` counts them from 0.
+//! Records may go over several lines. Zones are frames, in the order of the file. Adjacent zones are parts of one frame
+//! if they have the same `SOLUTIONTIME` or, without times, if their titles differ in more than numbers (`fluid`,
+//! `boundary`); the column `zone` counts them from 0.
 
 use super::Format;
 use super::asked::Asked;
@@ -56,7 +56,7 @@ pub(super) fn is_zone(line: &[u8]) -> bool {
 
 /// Whether a line is, or continues, a record other than `VARIABLES`.
 pub(super) fn is_record(line: &[u8]) -> bool {
-    // A comma may begin what goes on.
+    // A line that begins with a comma continues a record.
     let line = line.trim_ascii_start();
     let line = line.strip_prefix(b",").unwrap_or(line);
     let key = |key: &&[u8]| {
@@ -85,7 +85,7 @@ pub(super) fn is(lines: &[Line]) -> bool {
     lines.iter().any(|line| is_zone(&line.text))
 }
 
-/// Puts names on lines of their own behind `VARIABLES =`.
+/// Joins names on separate lines to the `VARIABLES =` line before them.
 pub(super) fn joined(lines: Vec<Line>) -> Vec<Line> {
     let mut all: Vec<Line> = Vec::with_capacity(lines.len());
     let mut open = false;
@@ -96,7 +96,7 @@ pub(super) fn joined(lines: Vec<Line>) -> Vec<Line> {
                 before.text.push(b' ');
                 before.text.extend(text);
                 before.next = line.next;
-                // Lines are counted by the places of the others.
+                // Line numbers follow from the other lines' positions, so an empty line remains.
                 all.push(Line { text: Vec::new(), start: line.start, next: line.next });
                 let count = all.len();
                 if count >= 2 {
@@ -111,7 +111,7 @@ pub(super) fn joined(lines: Vec<Line>) -> Vec<Line> {
     all
 }
 
-/// What a record says of its zone.
+/// Properties of a zone in its record.
 #[derive(Default)]
 struct Zone {
     title: String,
@@ -162,14 +162,14 @@ impl Zone {
     }
 }
 
-/// Where the frames of a file begin, up to frame `upto`, and the titles of their zones.
+/// Positions at which the frames of a file begin, up to frame `upto`, and the titles of their zones.
 fn frames(
     content: &Content<'_>,
     upto: Option<usize>,
 ) -> Result<Vec<(Start, Vec<String>)>, ReadError> {
     let (mut text, mut number) = (Text::of(content)?, 0_u64);
     let mut zones: Vec<(Start, Zone)> = Vec::new();
-    // The record that is being read: where it begins, and its text.
+    // The current record: its position, and its text.
     let mut record: Option<(Start, String)> = None;
     let mut different = 0;
     loop {

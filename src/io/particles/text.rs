@@ -187,13 +187,13 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// Error: the file ends, and so many words are missing.
+    /// The error at the end of the file when `missing` more words are expected.
     fn ended(&self, missing: u64, what: &str) -> ReadError {
-        // A number and the space behind it take at least two bytes.
+        // A number and the space after it take at least two bytes.
         truncated(what, self.at(), missing.saturating_mul(2).saturating_sub(1), 0)
     }
 
-    /// Consumes so many words.
+    /// Consumes `count` words.
     pub(super) fn skip_words(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         let mut left = count;
         let mut inside = false;
@@ -213,7 +213,7 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// Consumes so many words and checks that each is a number.
+    /// Consumes `count` words and checks that each is a number.
     pub(super) fn check_numbers(
         &mut self,
         ty: AttributeType,

@@ -103,7 +103,7 @@ struct Reader<'a> {
     found: Vec<Found>,
     points: Option<Found>,
     time: Option<f64>,
-    /// Number of cells that are more than points, their type, and the number of cells that are points.
+    /// Number of cells that are not points, their type, and the number of cells that are points.
     cells: u64,
     cell: &'static str,
     vertices: u64,
@@ -252,7 +252,7 @@ impl<'a> Reader<'a> {
             }
             "VERTICES" | "LINES" | "POLYGONS" | "TRIANGLE_STRIPS" | "CELLS" => {
                 let (first, second) = (w.count(1, "a number of cells")?, w.count(2, "a size")?);
-                // From 5.0 on the number is that of the offsets, which is one more.
+                // From version 5.0 on this is the number of offsets, which is one more.
                 let cells = first.saturating_sub(u64::from(self.version.0 >= 5));
                 match keyword.as_str() {
                     "VERTICES" => self.vertices = self.vertices.saturating_add(cells),
@@ -296,7 +296,7 @@ impl<'a> Reader<'a> {
                     _ => w.count(3, "a number of components")?,
                 };
                 let (name, ty) = (w.text(1, "a name")?, w.ty(2)?);
-                // Without such a line the values follow, and may begin with what looks like white space.
+                // Without this line the values follow directly, and may begin with bytes that look like white space.
                 let ahead = self.text.ahead(LOOKUP)?.trim_ascii_start();
                 if ahead.starts_with(b"LOOKUP_TABLE") {
                     self.keyword_line()?;
@@ -405,7 +405,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Skips values. `keep`: they may be used, so remember where they are.
+    /// Skips values. `keep` says that they may be used, so that their position is stored.
     fn values(
         &mut self,
         ty: AttributeType,
@@ -429,7 +429,7 @@ impl<'a> Reader<'a> {
         self.text.skip(bytes, what)
     }
 
-    /// Texts are one per line, or follow their length, whose top two bits give its size.
+    /// Texts are one per line, or each follows its length; the top two bits of that give its size.
     fn skip_texts(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         for _ in 0..count {
             if !self.binary {

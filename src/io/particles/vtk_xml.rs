@@ -305,12 +305,11 @@ struct Reader<'h, 'a> {
     content: &'h Content<'a>,
     head: &'h Head,
     big_endian: bool,
-    /// Headers have 64 bits.
+    /// Whether headers have 64 bits.
     wide: bool,
     compression: Compression,
     appended: Option<Appended>,
-    /// Bytes that may still be decompressed. Arrays may share data, so the total is limited and not each
-    /// array.
+    /// Number of bytes that may still be decompressed. It is a total, because arrays may share data.
     budget: u64,
 }
 
@@ -406,7 +405,7 @@ impl<'a> Reader<'_, 'a> {
         }
     }
 
-    /// Where `count` values of an array are; `None` if the head lacks a text that cannot be read in place.
+    /// Position of an array's `count` values; `None` if the head lacks a text that cannot be read in place.
     fn segment(
         &mut self,
         array: &Node<'_, '_>,
@@ -442,7 +441,7 @@ impl<'a> Reader<'_, 'a> {
             _ => (Stored::Bytes(encoding(true), offset), self.head.words(array)),
         };
         let (content, start, end) = match text {
-            // The element may contain keys with information besides the text.
+            // The element may contain information keys besides the text.
             Words::Here(text) => {
                 let text = text.as_bytes().to_vec();
                 let length = text.len() as u64;

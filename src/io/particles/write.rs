@@ -1,4 +1,4 @@
-//! Writing particles: classic BGEO, VTU, PLY and NPZ.
+//! Writes particles: classic BGEO, VTU, PLY and NPZ.
 
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -14,11 +14,11 @@ use super::{Particles, WriteFormat};
 /// and renamed, so an incomplete file never has the final name.
 ///
 /// # Errors
-/// Vectors of different lengths, ids too large for BGEO (2^31 - 1), more particles than a format can count, and
-/// what the system says.
+/// Vectors of different lengths, ids above the limit of BGEO (2^31 - 1), more particles than a format can count, and
+/// errors of the system.
 pub fn write(path: &Path, particles: &Particles, format: WriteFormat) -> Result<(), WriteError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
-    // Before there is a file.
+    // Checked before a file is created.
     check(particles, format)?;
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let temporary = path.with_file_name(format!(
@@ -42,7 +42,8 @@ fn create(path: &Path, particles: &Particles, format: WriteFormat) -> io::Result
 /// Writes to an open file or buffer.
 ///
 /// # Errors
-/// Those of [`write()`]; particles that can't be written are [`io::ErrorKind::InvalidInput`], and nothing is.
+/// Those of [`write()`]; if the particles cannot be written, the error is [`io::ErrorKind::InvalidInput`] and nothing
+/// is written.
 pub fn write_to(
     out: &mut (impl Write + io::Seek),
     particles: &Particles,
@@ -62,7 +63,7 @@ pub fn write_to(
     }
 }
 
-/// Takes the temporary file away where writing failed; after the renaming there is none.
+/// Removes the temporary file if writing failed; after the rename it no longer exists.
 struct Temporary(PathBuf);
 
 impl Drop for Temporary {
@@ -142,7 +143,7 @@ impl Values<'_> {
     }
 }
 
-/// What there is, without the positions.
+/// All present attributes except positions.
 fn attributes(p: &Particles) -> Vec<(&'static str, Values<'_>)> {
     let mut list = Vec::new();
     if let Some(v) = &p.velocities {
@@ -220,7 +221,7 @@ fn vtu(out: &mut impl Write, p: &Particles) -> io::Result<()> {
     }
     let points = Values::Vector(&p.positions).bytes(count);
     let points = array("Points", "Float32", 3, &points)?;
-    // A vertex for each point: ParaView draws cells.
+    // One vertex cell per point, because ParaView draws cells.
     let numbers =
         |from: u64| -> Vec<u8> { (from..from + count as u64).flat_map(u64::to_le_bytes).collect() };
     let cells = [
@@ -313,7 +314,8 @@ fn npz(out: &mut (impl Write + io::Seek), p: &Particles) -> io::Result<()> {
         };
         let mut header =
             format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
-        // The numbers begin at a multiple of 64; ten bytes come before the header, a line feed ends it.
+        // The header is padded so that the values begin at a multiple of 64; ten bytes precede it, and a line feed ends
+        // it.
         let padded = (header.len() + 11).next_multiple_of(64) - 11;
         header.extend(std::iter::repeat_n(' ', padded - header.len()));
         header.push('\n');

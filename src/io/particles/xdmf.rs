@@ -16,7 +16,7 @@ use super::hdf5::File;
 use super::index;
 use super::{Format, Particles};
 
-/// Most grids in a file.
+/// Max number of grids in a file.
 const GRIDS: usize = 1 << 16;
 
 /// The text of a file, by its extension; `None` for any other file.
@@ -119,7 +119,7 @@ fn of_document(
     table.time = frame.time;
     let mut reader = Reader { document, path, open: None };
     let geometry = |grid: &Node<'_, '_>| child(grid, "Geometry").is_some();
-    // A series has its geometry once.
+    // A time series may store its geometry once.
     let shared = document.descendants().find(|node| is(node, "Geometry"));
     let mut all: Vec<(String, usize, Data, usize)> = Vec::new();
     let grids: Vec<_> = match frame.grids.iter().any(geometry) {

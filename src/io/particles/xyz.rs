@@ -53,7 +53,7 @@ pub(super) fn raw(length: u64, asked: &Asked) -> Result<Layout, ReadError> {
     })
 }
 
-/// Where the frames of a counted file begin, up to frame `upto`; empty for any other file.
+/// Positions at which the frames of a counted file begin, up to frame `upto`; empty for any other file.
 pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<Start>, ReadError> {
     let lines = heading::lines(content)?;
     let Some(Counted { heading, .. }) = Counted::of(&lines) else { return Ok(Vec::new()) };
@@ -158,10 +158,10 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
     Ok(rows(text, content.lines_before() + heading.line, promised, commas, (&names, &[]), about))
 }
 
-/// A column with fractions of a box's side, and where the side begins and ends.
+/// A column of fractions of a box's side: its name, and both ends of the side.
 pub(super) type Side<'a> = (&'a str, f64, f64);
 
-/// Reads rows with columns of these names, after this number of lines.
+/// Reads rows with these column names, after this number of lines.
 pub(super) fn rows<'a>(
     text: Text<'a>,
     number: u64,
@@ -197,7 +197,7 @@ pub(super) fn rows<'a>(
     Table { columns, about, rows: Box::new(rows) }
 }
 
-/// Reads the rows of zones. `zone`: the column that counts them, if there are several, and whether it is used.
+/// Reads the rows of zones. `zone` is the column that counts them, if there are several, and whether it is used.
 pub(super) fn rows_of_zones<'a>(
     text: Text<'a>,
     number: u64,
@@ -232,7 +232,7 @@ pub(super) fn rows_of_zones<'a>(
     Table { columns, about, rows: Box::new(rows) }
 }
 
-/// Warning about columns without names, of which `from` are the element.
+/// A warning about columns without names; the first `from` of them are the element.
 fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
     let more = columns > from + 3;
     match from {
@@ -247,10 +247,10 @@ fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
     }
 }
 
-/// Number of lines from which it is decided whether the first column counts them.
+/// Number of lines from which it is decided whether the first column is a particle number.
 const COUNTED: usize = 8;
 
-/// Whether the first numbers of the lines count them, from 0 or 1, and others follow.
+/// Whether the first column counts the lines from 0 or 1, and more columns follow.
 pub(super) fn counts(lines: &[Line], at: u64, first: impl Fn(&[u8]) -> Option<f64>) -> bool {
     let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
     let rows: Vec<&Line> = rows.collect();
@@ -281,7 +281,7 @@ fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
     let rows: Vec<Vec<_>> = rows.map(|line| words(&line.text, commas).collect()).collect();
     let numbers = |row: &Vec<&[u8]>| row.iter().filter(|w| number(w).is_some()).count();
     let first = |test: &dyn Fn(&[u8]) -> bool| {
-        // These may include lines of the next frame.
+        // The lines may include some of the next frame.
         rows.first().and_then(|row| row.first()).is_some_and(|word| test(word))
     };
     let of_word = first(&|word| number(word).is_none());
@@ -325,7 +325,7 @@ impl Counted {
         let numbers = words(&comment.text, commas).filter(|w| number(w).is_some()).count();
         let alike = row.is_none_or(|row| fields(row) == fields(comment));
         if numbers >= 2 && numbers == fields(comment) && alike {
-            // This line is no comment, but the first particle.
+            // This line is not a comment but the first particle.
             return Some(Self { heading, count });
         }
         heading.at = comment.next;
@@ -378,14 +378,14 @@ struct Lines<'a> {
     columns: Vec<Option<usize>>,
     /// Columns with fractions of a box's sides: where the side begins, and its length.
     box_of: Vec<(usize, f64, f64)>,
-    /// The zones of Tecplot in which the rows are.
+    /// The Tecplot zones of the rows.
     zones: Option<Zones>,
 }
 
 struct Zones {
-    /// The column of their numbers, if it is used.
+    /// The column for the zone's number, if it is used.
     column: Option<usize>,
-    /// Number of the zone, from 0; before the first -1.
+    /// Number of the current zone, from 0; -1 before the first one.
     index: f64,
 }
 
@@ -449,7 +449,7 @@ pub(super) fn several_frames(line: u64) -> ReadError {
     }
 }
 
-/// Appends the values of a line. `taken`: for each word, the column that takes it.
+/// Appends the values of a line. `taken` holds, for each word, the column that takes it.
 fn row(
     line: &[u8],
     number: u64,
@@ -485,9 +485,9 @@ fn number(word: &[u8]) -> Option<f64> {
     parse_number(word).or_else(|| number_with_comma(word))
 }
 
-/// `commas`: whether commas separate words; otherwise they are decimal commas.
+/// Splits a line into words. If `commas` is false, commas are decimal commas.
 fn words(line: &[u8], commas: bool) -> impl Iterator<Item = &[u8]> {
-    // Vectors may stand in brackets.
+    // Vectors may be in brackets.
     let between = move |b: &u8| match b {
         b',' => commas,
         b';' | b'(' | b')' | b'[' | b']' => true,

@@ -1,4 +1,4 @@
-//! OpenEXR: all channels in one layer, dots in their names as the convention for layers wants it.
+//! Reads and writes OpenEXR: all channels are in one layer, with dots in their names, as is the convention for layers.
 
 use std::io::{self, Cursor, Seek, Write};
 
@@ -25,7 +25,7 @@ pub fn write(layers: &Layers, to: impl Write + Seek) -> io::Result<()> {
     let mut attributes =
         LayerAttributes { software_name: text("whitewater"), ..Default::default() };
     if !layers.attributes.is_empty() {
-        // One attribute: the crate writes several in another order on each run. JSON in ASCII, as its text is
+        // One attribute, because the crate writes several in a random order. JSON in ASCII, because EXR text is
         // Latin-1.
         let map: serde_json::Map<String, Value> =
             layers.attributes.iter().map(|(k, v)| (k.clone(), Value::String(v.clone()))).collect();

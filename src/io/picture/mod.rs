@@ -1,7 +1,7 @@
-//! Pictures: multi-layer OpenEXR out, PNG through a tone map out, EXR, PNG and Radiance HDR in.
+//! Pictures: writes multi-layer OpenEXR and tone-mapped PNG, reads EXR, PNG and Radiance HDR.
 //!
-//! A picture is a set of named channels of one size, see [`Layers`]. Channels of the beauty are `R G B A`,
-//! linear, scene-referred, Rec. 709 primaries; the others are named as their pass (`water.depth.Z`).
+//! A picture is a set of named channels of one size, see [`Layers`]. Channels of the beauty are `R G B A`, linear,
+//! scene-referred, Rec. 709 primaries; the others are named after their pass (`water.depth.Z`).
 #![forbid(unsafe_code)]
 
 mod exr;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub use normal::normals;
 pub use tone::{Tone, aces, agx, neutral, srgb_decode, srgb_encode};
 
-/// Value of every depth channel where there is nothing.
+/// Value of depth channels at pixels without a surface.
 pub const EMPTY: f32 = 1.0e10;
 
 /// Encoding of `R G B`.
@@ -31,7 +31,7 @@ pub enum Encoding {
 /// One channel, row by row, row 0 on top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Its name, `water.depth.Z`.
+    /// Name, such as `water.depth.Z`.
     pub name: String,
     /// One value per pixel.
     pub data: Vec<f32>,
@@ -44,7 +44,7 @@ pub struct Layers {
     pub width: usize,
     /// Height in pixels.
     pub height: usize,
-    /// In any order; names are unique.
+    /// Channels in any order, with unique names.
     pub channels: Vec<Channel>,
     /// Name and text of each attribute. EXR files store them as one JSON object in the attribute `whitewater`.
     pub attributes: Vec<(String, String)>,
@@ -62,7 +62,7 @@ impl Layers {
     /// rounded up each time) is enlarged to the picture's size by repeating its texels.
     ///
     /// # Errors
-    /// [`PictureError::Size`] where `data` is neither of the picture's size nor a reduced one.
+    /// [`PictureError::Size`] if `data` has neither the picture's size nor a reduced one.
     pub fn push(
         &mut self,
         name: &str,
@@ -101,7 +101,8 @@ impl Layers {
         self.channels.iter().find(|c| c.name == name).map(|c| c.data.as_slice())
     }
 
-    /// Red, green and blue of all pixels; `None` without colour. A picture with only `Y` is grey.
+    /// Red, green and blue of all pixels; `None` if the picture has no colour channels. A picture with only channel `Y`
+    /// gives grey.
     pub fn rgb(&self) -> Option<Vec<[f32; 3]>> {
         let one = |name| self.channel(name);
         let (r, g, b) = match (one("R"), one("G"), one("B")) {
@@ -139,8 +140,8 @@ pub struct Display {
     pub exposure: f32,
     /// Tone map, default [`Tone::Neutral`].
     pub tone: Tone,
-    /// Whether channel `A` is the opacity of premultiplied colours: a PNG then keeps it and has straight
-    /// colours. Default false: the picture is opaque.
+    /// Whether channel `A` is the opacity of premultiplied colours. A PNG then stores it, with colours that are divided
+    /// by it. Default false: the picture is opaque.
     pub alpha: bool,
 }
 
@@ -153,17 +154,17 @@ pub enum PictureError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         reason: std::io::Error,
     },
-    /// The content of the file is at fault.
+    /// The content of the file is invalid.
     #[error("{}: expected {expected}, found {found}; write the file again", path.display())]
     Content {
         /// The file.
         path: PathBuf,
-        /// What it should be.
+        /// What was expected.
         expected: &'static str,
-        /// What is wrong.
+        /// What was found.
         found: String,
     },
     /// A channel of another size.
@@ -178,7 +179,7 @@ pub enum PictureError {
         expected: (usize, usize),
         /// Size of the channel.
         found: (usize, usize),
-        /// Values it came with.
+        /// Number of values in `data`.
         values: usize,
     },
 }
@@ -186,7 +187,7 @@ pub enum PictureError {
 /// Reads an EXR (first layer, all channels), a PNG or a Radiance HDR, recognised by content.
 ///
 /// # Errors
-/// Says what was expected, and what was found.
+/// The error says what was expected and what was found.
 pub fn read(path: &Path) -> Result<Layers, PictureError> {
     let io = |reason| PictureError::Io { path: path.to_path_buf(), reason };
     let bytes = std::fs::read(path).map_err(io)?;
@@ -209,7 +210,7 @@ pub fn read(path: &Path) -> Result<Layers, PictureError> {
 /// Writes all channels and attributes as one OpenEXR layer: 32-bit float, ZIP.
 ///
 /// # Errors
-/// What the writer says.
+/// Errors of the writer.
 pub fn write_exr(layers: &Layers, to: impl Write + Seek) -> std::io::Result<()> {
     exr::write(layers, to)
 }
@@ -218,7 +219,7 @@ pub fn write_exr(layers: &Layers, to: impl Write + Seek) -> std::io::Result<()> 
 /// step against banding (the same in every run). A picture without colour is an error.
 ///
 /// # Errors
-/// What the writer says.
+/// Errors of the writer.
 pub fn write_png(layers: &Layers, exposure: f32, to: impl Write) -> std::io::Result<()> {
     write_png_as(layers, &Display { exposure, ..Display::default() }, to)
 }
@@ -226,7 +227,7 @@ pub fn write_png(layers: &Layers, exposure: f32, to: impl Write) -> std::io::Res
 /// Writes the colour as a PNG with another tone map.
 ///
 /// # Errors
-/// As of [`write_png`].
+/// Those of [`write_png`].
 pub fn write_png_as(layers: &Layers, display: &Display, to: impl Write) -> std::io::Result<()> {
     png::write(layers, display, to)
 }
@@ -235,7 +236,7 @@ pub fn write_png_as(layers: &Layers, display: &Display, to: impl Write) -> std::
 /// or `R G B A`. Values are linear, undithered and clamped.
 ///
 /// # Errors
-/// What the writer says; a picture without those channels.
+/// Errors of the writer, and a picture without those channels.
 pub fn write_png_values(layers: &Layers, to: impl Write) -> std::io::Result<()> {
     png::write_values(layers, to)
 }
@@ -303,7 +304,7 @@ mod tests {
         }
     }
 
-    /// Half of a pixel is grey: the colour of that half, and its share.
+    /// A pixel half covered by grey keeps that colour and an opacity of a half.
     #[test]
     fn a_png_keeps_the_share_that_is_covered() {
         let mut layers = Layers::new(2, 1);

@@ -41,7 +41,7 @@ pub fn normals(depth: &[f32], width: usize, height: usize, slope: [f32; 4]) -> [
                 along(y.checked_sub(1).map(|y| (x, y)), (y + 1 < height).then_some((x, y + 1)));
             let n = match (dx, dy) {
                 (Some(dx), Some(dy)) => cross(dx, dy),
-                // A lone texel faces the eye.
+                // A lone texel faces the camera.
                 _ => here.map(|v| -v),
             };
             let length = dot(n, n).sqrt();

@@ -1,4 +1,4 @@
-//! PNG out and in, Radiance HDR in.
+//! Reads and writes PNG, reads Radiance HDR.
 
 use std::io::{self, Cursor, Read as _, Write};
 
@@ -18,7 +18,7 @@ pub fn write(layers: &Layers, display: &Display, to: impl Write) -> io::Result<(
         for (c, value) in pixel.iter().enumerate() {
             bytes.push((value * 255.0 + dither(x, y, c)) as u8);
         }
-        // No dither: none stays none, all all.
+        // Alpha is not dithered, so that 0 and 1 stay exact.
         bytes.extend(alpha.as_ref().map(|alpha| (alpha[i] * 255.0 + 0.5) as u8));
     }
     let kind = if alpha.is_some() { ExtendedColorType::Rgba8 } else { ExtendedColorType::Rgb8 };
@@ -51,7 +51,7 @@ pub fn write_values(layers: &Layers, to: impl Write) -> io::Result<()> {
     let mut bytes = Vec::with_capacity(2 * channels.len() * layers.width * layers.height);
     for i in 0..layers.width * layers.height {
         for channel in &channels {
-            // NaN to 0.
+            // NaN becomes 0.
             let step = (channel[i] * 65535.0).round() as u16;
             bytes.extend(step.to_ne_bytes());
         }
@@ -85,7 +85,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Layers, String> {
     Ok(layers)
 }
 
-/// Both signatures of a Radiance HDR; the decoder knows the first alone.
+/// Both signatures of a Radiance HDR; the decoder accepts only the first.
 const SIGNATURES: [&[u8]; 2] = [b"#?RADIANCE", b"#?RGBE"];
 
 pub fn read_hdr(bytes: &[u8]) -> Result<Layers, String> {
@@ -112,7 +112,7 @@ mod tests {
 
     use super::*;
 
-    /// A PNG of a size that it says, and no more than a beginning of its pixels.
+    /// A PNG that declares a size, with only the beginning of its pixels.
     fn png(width: u32, height: u32) -> Vec<u8> {
         let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
         let mut header = [width.to_be_bytes(), height.to_be_bytes()].concat();
@@ -137,12 +137,12 @@ mod tests {
         assert!(!why.contains("200x100"), "{why}");
     }
 
-    /// Two pixels by either signature that Radiance pictures have.
+    /// Two pixels, with each of the two signatures of Radiance pictures.
     #[test]
     fn both_signatures_of_radiance_are_read() {
         let read = |signature: &str| {
             let header = format!("{signature}\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n");
-            // A part of 128 is a half, times 2 to the exponent over 128.
+            // A mantissa of 128 is a half, times 2 to the exponent minus 128.
             let pixels = [128, 64, 32, 129, 64, 128, 0, 130];
             read_hdr(&[header.as_bytes(), &pixels].concat())
         };

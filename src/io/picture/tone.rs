@@ -1,6 +1,6 @@
 //! Tone maps: from scene-referred light to a screen.
 
-/// Where the shoulder begins.
+/// Value at which the shoulder begins.
 const START: f32 = 0.72;
 
 /// The shoulder of Khronos' PBR Neutral tone map: colours below 0.72 are unchanged, brighter ones are
@@ -27,7 +27,7 @@ pub fn neutral(c: [f32; 3]) -> [f32; 3] {
 /// Tone map from scene-referred light to displayed light, both linear Rec. 709.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tone {
-    /// None: a screen clips each channel at 1.
+    /// No tone map: the screen clips each channel at 1.
     Linear,
     /// [`neutral`]: colours below 0.72 are unchanged.
     #[default]
@@ -50,13 +50,13 @@ impl Tone {
     }
 }
 
-/// A channel that can be reckoned with.
+/// Clamps a channel to finite, non-negative values.
 fn light(v: f32) -> f32 {
-    // NaN goes to 0.
+    // NaN becomes 0.
     if v > 0.0 { v.min(1.0e9) } else { 0.0 }
 }
 
-/// A matrix by its rows.
+/// Product of a matrix, given by rows, and a colour.
 fn times(rows: [[f32; 3]; 3], c: [f32; 3]) -> [f32; 3] {
     rows.map(|row| row[0] * c[0] + row[1] * c[1] + row[2] * c[2])
 }
@@ -104,7 +104,7 @@ pub fn agx(c: [f32; 3]) -> [f32; 3] {
     let curve = |v: f32| {
         let stops = v.max(1.0e-10).log2().clamp(STOPS[0], STOPS[1]);
         let x = (stops - STOPS[0]) / (STOPS[1] - STOPS[0]);
-        // Highest power first.
+        // Coefficients, from the highest power to the lowest.
         let terms = [15.5, -40.14, 31.96, -6.868, 0.429_8, 0.119_1, -0.002_32];
         terms.into_iter().fold(0.0, |sum, term| sum * x + term).max(0.0).powf(POWER)
     };
@@ -112,7 +112,7 @@ pub fn agx(c: [f32; 3]) -> [f32; 3] {
     times(OUT, c).map(|v| v.clamp(0.0, 1.0).powf(2.2))
 }
 
-/// Linear to sRGB's curve; clamped to 0 to 1.
+/// Encodes linear light with sRGB's curve; input is clamped to 0 to 1.
 pub fn srgb_encode(v: f32) -> f32 {
     if v <= 0.003_130_8 {
         12.92 * v.max(0.0)
@@ -121,7 +121,7 @@ pub fn srgb_encode(v: f32) -> f32 {
     }
 }
 
-/// sRGB's curve to linear.
+/// Decodes sRGB's curve to linear light.
 pub fn srgb_decode(v: f32) -> f32 {
     if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
 }
@@ -145,8 +145,8 @@ mod tests {
         assert!(neutral([f32::INFINITY; 3]).iter().all(|v| *v > 0.99 && *v <= 1.0));
     }
 
-    /// Film curves rise, stay in the range, keep grey grey and mid grey and white about where they are; a bright colour
-    /// ends pale, not gaudy.
+    /// Film curves are monotonic and stay within the range. Grey stays grey; mid grey and white stay about as bright. A
+    /// bright colour becomes pale instead of saturated.
     #[test]
     fn film_curves_rise_to_white() {
         for (tone, mid, white) in [(Tone::Aces, 0.2..0.26, 0.7), (Tone::Agx, 0.17..0.3, 0.55)] {
@@ -172,7 +172,7 @@ mod tests {
             assert_eq!(of([f32::NAN, -1.0, 0.0]), of([0.0; 3]));
             assert!(of([f32::INFINITY; 3]).iter().all(|v| *v > 0.95 && *v <= 1.0));
         }
-        // The cyan of light that water gathers.
+        // Cyan, as of light that passed through much water.
         let least = |tone: Tone| tone.map([1.0, 6.0, 6.0])[0];
         assert!(least(Tone::Agx) > 0.6, "{}", least(Tone::Agx));
         assert_eq!(Tone::Linear.map([0.5, 7.0, f32::NAN]), [0.5, 7.0, 0.0]);
