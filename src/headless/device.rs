@@ -1,4 +1,4 @@
-//! An own instance and device for tools and tests, with validation as an option.
+//! An instance and a device for tools and tests, with optional validation.
 
 use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex};
@@ -13,18 +13,18 @@ use crate::gpu::requirements::DeviceSupport;
 /// Options for creating a [`Device`].
 #[derive(Clone, Debug, Default)]
 pub struct DeviceOptions {
-    /// A part of the adapter's name, any case. `None`: a GPU if there is one.
+    /// A part of the adapter's name; case is ignored. `None` selects a GPU if there is one.
     pub name: Option<String>,
     /// Whether core and synchronization validation are on. It is an error if the layer is not installed.
     /// Default false.
     pub validation: bool,
     /// Whether to enable no optional feature, as on a device without any. Default false.
     pub bare: bool,
-    /// Create instance and device for Vulkan 1.2 and without synchronization2, as with old drivers.
+    /// Whether to create instance and device for Vulkan 1.2 and without synchronization2, as with old drivers.
     pub vulkan_1_2: bool,
 }
 
-/// An own device with one queue.
+/// A device with one queue.
 pub struct Device {
     /// Instance functions; keeps the loader alive.
     pub instance: ash::Instance,
@@ -32,13 +32,13 @@ pub struct Device {
     pub physical: vk::PhysicalDevice,
     /// Device functions.
     pub device: ash::Device,
-    /// A family with graphics and compute.
+    /// Index of a queue family with graphics and compute.
     pub queue_family: u32,
-    /// Its first queue.
+    /// The first queue of that family.
     pub queue: vk::Queue,
-    /// The allocator the renderer shares.
+    /// The allocator that the renderer shares.
     pub allocator: Arc<Mutex<Allocator>>,
-    /// EnabledFeatures optional features.
+    /// Optional features that are enabled.
     pub enabled: EnabledFeatures,
     /// Name of the adapter.
     pub adapter: String,
@@ -61,7 +61,7 @@ impl Device {
     /// Creates the instance and the device.
     ///
     /// # Errors
-    /// No Vulkan loader, no fitting device, no validation layer: each says what to install.
+    /// No Vulkan loader, no suitable device, or no validation layer; the error says what to install.
     pub fn new(options: &DeviceOptions) -> Result<Self, Error> {
         // SAFETY: loading the system's Vulkan loader runs its initialisers only.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::Missing {
@@ -153,8 +153,8 @@ impl Device {
 
 impl Drop for Device {
     fn drop(&mut self) {
-        // A renderer that was dropped without `destroy` still holds the allocator: then everything
-        // is left to the end of the process.
+        // A renderer that was dropped without `destroy` still holds the allocator; the objects are then freed at the
+        // end of the process.
         let Some(allocator) = Arc::get_mut(&mut self.allocator) else { return };
         let empty = Allocator::new(&AllocatorCreateDesc {
             instance: self.instance.clone(),
@@ -164,10 +164,10 @@ impl Drop for Device {
             buffer_device_address: false,
             allocation_sizes: Default::default(),
         });
-        // The allocator's memory must go before its device: an empty one takes its place.
+        // The allocator's memory has to be freed before its device, so an empty allocator replaces it.
         let Ok(empty) = empty else { return };
         *allocator.get_mut().unwrap_or_else(std::sync::PoisonError::into_inner) = empty;
-        // SAFETY: nothing made from the device is left but what its user leaked.
+        // SAFETY: all objects of the device are destroyed, except those that the user leaked.
         unsafe {
             let _ = self.device.device_wait_idle();
             self.device.destroy_device(None);
@@ -251,7 +251,7 @@ fn make_instance(
     Ok((instance, debug_utils))
 }
 
-/// The named device, else the best kind there is, with a graphics and compute family.
+/// The device with that name, otherwise one of the preferred type, with a graphics and compute family.
 fn choose(
     instance: &ash::Instance,
     options: &DeviceOptions,
@@ -317,7 +317,7 @@ fn make_device(
     let has = |name: &CStr| extensions.iter().any(|e| e.extension_name_as_c_str() == Ok(name));
     let mut enabled = offer.optional;
     if options.bare {
-        // What is no path of its own stays.
+        // Features that do not select a path of their own stay enabled.
         enabled = EnabledFeatures {
             synchronization2: enabled.synchronization2,
             storage_image_write_without_format: (options.vulkan_1_2

@@ -1,4 +1,4 @@
-//! A frame: the background, then the water over it, submitted and waited for.
+//! Draws a frame: the background, then the water over it, submitted and waited for.
 
 use ash::vk;
 
@@ -18,11 +18,11 @@ use crate::gpu::graveyard::Destroy;
 use crate::gpu::image::{Image, aspect_of};
 use crate::water::settings::Shadows;
 
-/// Background of the water.
+/// The background behind the water.
 pub enum Background<'a> {
-    /// One colour, nothing in front of the far plane.
+    /// One colour, with the depth of the far plane.
     Color([f32; 3]),
-    /// The scene handed to [`Headless::scene`].
+    /// The scene that was set with [`Headless::scene`].
     Scene,
     /// Images from the CPU, row by row: linear RGBA and device depth.
     Images {
@@ -49,7 +49,7 @@ impl Headless {
     /// Draws one frame and waits for it.
     ///
     /// # Errors
-    /// As [`Renderer::record`](crate::Renderer::record).
+    /// Those of [`Renderer::record`](crate::Renderer::record).
     pub fn render(
         &mut self,
         camera: &Camera,
@@ -59,12 +59,12 @@ impl Headless {
         self.render_frame(camera, settings, background, false)
     }
 
-    /// As [`render`](Self::render), but the host ends the smoothing: it submits block by block and reads each
-    /// query back, as the thesis does. For comparison only; needs
+    /// Like [`render`](Self::render), but the host ends the smoothing: it submits iterations block by block and reads
+    /// each occlusion query back, as in the thesis. For comparison only; needs
     /// [`Smoothing::Query`](crate::water::Smoothing::Query).
     ///
     /// # Errors
-    /// As [`Renderer::record`](crate::Renderer::record).
+    /// Those of [`Renderer::record`](crate::Renderer::record).
     pub fn render_with_read_back(
         &mut self,
         camera: &Camera,
@@ -108,7 +108,7 @@ impl Headless {
         result
     }
 
-    /// Pictures from the CPU on their way to the device: colour and depth.
+    /// Staging buffers with colour and depth of a background from the CPU.
     fn staged(&self, background: &Background<'_>) -> Result<Option<[Buffer; 2]>, Error> {
         let Background::Images { color, depth } = background else { return Ok(None) };
         let half: Vec<[u16; 4]> =
@@ -117,8 +117,8 @@ impl Headless {
         Ok(Some([color, staging(&self.gpu, bytemuck::cast_slice(depth))?]))
     }
 
-    /// Records the water over what is in the images; hands back the command buffer it ended with, and
-    /// keeps what the frame left behind for the read-back.
+    /// Records the water over the contents of the images. Returns the command buffer that it ended with; data for the
+    /// read-back of the frame is kept.
     fn record_water(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -181,7 +181,7 @@ impl Headless {
         Ok(last)
     }
 
-    /// One colour, and nothing in front of the far plane.
+    /// Clears to one colour, and the depth to the far plane.
     fn clear(&self, cmd: vk::CommandBuffer, color: [f32; 3], camera: &Camera) {
         let far = Lens::new(camera).map_or(1.0, |lens| lens.nothing());
         let [r, g, b] = color;
@@ -215,7 +215,7 @@ impl Headless {
     }
 }
 
-/// All of an image of ours as a host hands it in.
+/// An image of this module, in the form that a host passes.
 pub(super) fn host_image(image: &Image, rest: Access) -> HostImage {
     HostImage {
         image: image.handle,

@@ -14,7 +14,7 @@ use crate::gpu::image::{Image, ImageDesc};
 
 const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
-/// A picture as a host hands it over.
+/// A picture in the form that a host passes.
 fn host(image: &Image) -> HostImage {
     HostImage {
         image: image.handle,
@@ -28,7 +28,7 @@ fn host(image: &Image) -> HostImage {
     }
 }
 
-/// Sets of descriptors that making an environment takes at most.
+/// Max number of descriptor sets for creating an environment.
 const SETS: u32 = 2;
 
 impl Headless {
@@ -49,7 +49,7 @@ impl Headless {
     /// Sets an equirectangular image as environment: linear RGBA, row 0 up.
     ///
     /// # Errors
-    /// A picture larger than the device's images may be, no memory; Vulkan errors.
+    /// A picture above the device's image size limit, no memory; Vulkan errors.
     pub fn equirectangular(
         &mut self,
         extent: vk::Extent2D,
@@ -64,7 +64,7 @@ impl Headless {
     /// same image without it. Water and sky show the first; diffuse light comes from the second.
     ///
     /// # Errors
-    /// As [`equirectangular`](Self::equirectangular); pictures of different sizes.
+    /// Those of [`equirectangular`](Self::equirectangular), and pictures of different sizes.
     pub fn equirectangular_with_sun(
         &mut self,
         extent: vk::Extent2D,
@@ -103,7 +103,7 @@ impl Headless {
         let up = [0.0, 1.0, 0.0];
         let of = |image| Equirectangular { image, without_sun: None, scale, turn, up };
         let made = self.of_pictures(of, &shown, lights.as_ref());
-        // The device is done with them, or lost.
+        // The device has finished with them, or is lost.
         drop((shown, lights));
         self.gpu.bury();
         made

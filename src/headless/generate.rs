@@ -10,13 +10,13 @@ use crate::whitewater::{Generator, GeneratorConfig, GeneratorSettings};
 pub(super) struct Generating {
     pub generator: Generator,
     max_particles: u32,
-    /// It is what the next frame shows.
+    /// Whether the next frame shows the emitted particles.
     pub shown: bool,
-    /// Particles of the last step's fluid.
+    /// Number of fluid particles in the last step.
     count: u32,
 }
 
-/// Whitewater particles on the CPU, the live ones.
+/// The live whitewater particles, on the CPU.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Generated {
     /// World-space centres.
@@ -27,7 +27,7 @@ pub struct Generated {
     pub kinds: Vec<u32>,
     /// Relative ages, 0 to 1.
     pub ages: Vec<f32>,
-    /// Numbers that stay with their particle from frame to frame.
+    /// Numbers that identify a particle from frame to frame.
     pub ids: Vec<u32>,
     /// Number of particles not emitted for lack of slots, since the start.
     pub lost: u32,
@@ -35,13 +35,12 @@ pub struct Generated {
 
 impl Headless {
     /// Emits whitewater from the particles uploaded last and their [`motion`](Self::motion): one step of a
-    /// [`Generator`]. The next frame shows it if [`Config::whitewater`](crate::Config::whitewater) has the same
-    /// number of particles and strides of 16. `dt`: seconds since the previous step; `number`: the step's
-    /// number in the sequence; `max_particles`: maximum number alive (a different value restarts the
-    /// generator).
+    /// [`Generator`]. The next frame shows it if [`Config::whitewater`](crate::Config::whitewater) has the same number
+    /// of particles and strides of 16. `dt` is the time since the previous step in seconds, `number` the step's number
+    /// in the sequence, `max_particles` the max number alive (a different value restarts the generator).
     ///
     /// # Errors
-    /// No motion, no memory, and as [`Generator::record_step`].
+    /// No motion, no memory, and those of [`Generator::record_step`].
     pub fn generate(
         &mut self,
         dt: f32,
@@ -52,10 +51,10 @@ impl Headless {
         self.generate_any(Some(dt), number, settings, max_particles)
     }
 
-    /// As [`generate`](Self::generate), from the current frame alone: a [snapshot](Generator::record_snapshot).
+    /// Like [`generate`](Self::generate), but from the current frame alone: a [snapshot](Generator::record_snapshot).
     ///
     /// # Errors
-    /// As [`generate`](Self::generate).
+    /// Those of [`generate`](Self::generate).
     pub fn generate_snapshot(
         &mut self,
         number: u32,
@@ -65,7 +64,7 @@ impl Headless {
         self.generate_any(None, number, settings, max_particles)
     }
 
-    /// `dt`: of a step, else a snapshot.
+    /// `dt` is that of a step, `None` for a snapshot.
     fn generate_any(
         &mut self,
         dt: Option<f32>,
@@ -86,7 +85,7 @@ impl Headless {
             // SAFETY: every run waits for its end.
             unsafe { old.generator.destroy() };
         }
-        // The last that can fail before the generator is put back: dropped, it would leak.
+        // The last operation that can fail before the generator is stored again; if it were dropped, it would leak.
         let mut generating = match self.generating.take() {
             Some(old) => old,
             None => {
@@ -131,9 +130,9 @@ impl Headless {
         }
     }
 
-    /// Potentials of each fluid particle of the last [`generate`](Self::generate): trapped air, wave crest and
-    /// energy, in the units of [`GeneratorSettings`], and the number of neighbours; zeros for particles that
-    /// take no part.
+    /// Potentials of each fluid particle in the last [`generate`](Self::generate): trapped air, wave crest and energy,
+    /// in the units of [`GeneratorSettings`], then the number of neighbours. Particles with a
+    /// non-finite or huge position or velocity have zeros.
     ///
     /// # Errors
     /// No memory; Vulkan errors.

@@ -10,12 +10,12 @@ use crate::contract::{Slot, Stream};
 use crate::error::Error;
 
 impl Headless {
-    /// Hands blobs to a [`BlobSimulation`], at rest. The next frames show them as [`heap_step`](Self::heap_step) moves
-    /// them. [`Config::bubbles`](crate::Config::bubbles) needs room for their number times 2^`max_splits`, where
-    /// `max_splits` is how often a blob may split.
+    /// Starts a [`BlobSimulation`] with blobs at rest. The frames that follow show the blobs as
+    /// [`heap_step`](Self::heap_step) moves them. [`Config::bubbles`](crate::Config::bubbles) needs room for their
+    /// number times 2^`max_splits`, where `max_splits` is how often a blob may split.
     ///
     /// # Errors
-    /// As [`BlobSimulation::new`] and [`BlobSimulation::record_set`]; then there is no heap.
+    /// Those of [`BlobSimulation::new`] and [`BlobSimulation::record_set`]. After an error there is no simulation.
     pub fn heap(
         &mut self,
         blobs: &[Bubble],
@@ -53,7 +53,7 @@ impl Headless {
     /// Simulates one step and waits for it.
     ///
     /// # Errors
-    /// No heap, and as [`BlobSimulation::record_step`].
+    /// No simulation, and those of [`BlobSimulation::record_step`].
     pub fn heap_step(
         &mut self,
         dt: f32,
@@ -76,8 +76,8 @@ impl Headless {
         heap.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
     }
 
-    /// The heap's blobs after the last step, in the order in which they were handed over, followed by the slots
-    /// of split ones. Unused slots are zeros. Empty without a heap.
+    /// The simulated blobs after the last step, in the order of [`heap`](Self::heap), followed by the slots of split
+    /// ones. Unused slots are zeros. Empty without a simulation.
     ///
     /// # Errors
     /// No memory; Vulkan errors.

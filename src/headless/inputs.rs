@@ -1,4 +1,4 @@
-//! Particles of a frame, and the foam step on their motion.
+//! Particles of a frame, and steps of surface foam from their motion.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use crate::water::settings::WeberSettings;
 /// State of surface foam.
 pub(super) struct Foaming {
     pub state: SurfaceFoamState,
-    /// By the particles that are here now.
+    /// Whether a step was made with the current particles.
     stepped: bool,
 }
 
@@ -38,7 +38,7 @@ pub struct Whitewater<'a> {
     pub radii: Option<&'a [f32]>,
     /// Relative ages, 0 to 1.
     pub ages: Option<&'a [f32]>,
-    /// Numbers that stay with their particle from frame to frame.
+    /// Numbers that identify a particle from frame to frame.
     pub ids: Option<&'a [u32]>,
 }
 
@@ -54,12 +54,12 @@ pub(super) struct WhitewaterBuffers {
 }
 
 impl Whitewater<'_> {
-    /// Which there are beside positions.
+    /// Which attributes exist besides positions.
     fn attributes(&self) -> [bool; 4] {
         self.words().map(|words| words.is_some())
     }
 
-    /// The attributes of a word each: kinds, radii, ages, ids.
+    /// Attributes of one word each: kinds, radii, ages, ids.
     fn words(&self) -> [Option<&[u8]>; 4] {
         [
             self.kinds.map(bytemuck::cast_slice),
@@ -109,7 +109,7 @@ impl WhitewaterBuffers {
         }
     }
 
-    /// Bytes of its buffers.
+    /// Size of its buffers in bytes.
     fn size(&self) -> u64 {
         let words = [&self.kinds, &self.radii, &self.ages, &self.ids, &self.packets];
         let words = words.into_iter().flatten().map(|buffer| buffer.size).sum::<u64>();
@@ -117,12 +117,13 @@ impl WhitewaterBuffers {
     }
 }
 
-/// Particles of a packet: a few groups, and no more packets than there may be.
+/// Number of particles per packet: a few work groups, and at least so many that the number of packets stays within its
+/// limit.
 fn packet_size(count: u32) -> u32 {
     count.div_ceil(65_535).next_multiple_of(64).max(256)
 }
 
-/// A box, empty at first.
+/// A bounding box, initially empty.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Packet {
@@ -132,7 +133,7 @@ struct Packet {
     high: [f32; 3],
 }
 
-/// The packets of particles that come a part after the other.
+/// Builds packets of particles that arrive in parts.
 struct Packing {
     size: u32,
     all: Vec<Packet>,
@@ -148,7 +149,7 @@ impl Packing {
             first += 1;
             let Some(packet) = self.all.last_mut() else { continue };
             let radius = part.radii.map_or(0.0, |radii| radii[i].max(0.0));
-            // What is not finite is not drawn, and min and max pass NaN over.
+            // Non-finite particles are not drawn, and min and max would ignore NaN.
             if position.iter().all(|v| v.is_finite()) {
                 for (k, v) in position.iter().enumerate() {
                     packet.low[k] = packet.low[k].min(v - radius);
@@ -159,26 +160,26 @@ impl Packing {
     }
 }
 
-/// Bytes that are on their way to the device at a time.
+/// Size of the staging buffer in bytes.
 const STAGING: usize = 4 << 20;
 
 /// An upload of whitewater particles in parts, from [`Headless::whitewater_parts`]. If it is dropped before
-/// [`finish`](Self::finish) there are none.
+/// [`finish`](Self::finish), there are no whitewater particles.
 pub struct WhitewaterParts<'a> {
     headless: &'a mut Headless,
     count: u32,
     written: u32,
-    /// From the first part on, which says what attributes there are.
+    /// Set by the first part, which determines the attributes.
     made: Option<(WhitewaterBuffers, Buffer)>,
     packing: Option<Packing>,
 }
 
 impl WhitewaterParts<'_> {
-    /// Uploads the next particles. The borrowed slices are free afterwards.
+    /// Uploads the next particles. The slices need not outlive the call.
     ///
     /// # Errors
-    /// Attributes of different lengths, other attributes than in the previous part, more particles than
-    /// announced, no memory. The part is then ignored.
+    /// Attributes of different lengths, other attributes than in the previous part, more particles than announced, or
+    /// no memory. After an error the part is ignored.
     pub fn push(&mut self, part: &Whitewater<'_>) -> Result<(), Error> {
         let length = part.positions.len();
         if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {
@@ -194,7 +195,7 @@ impl WhitewaterParts<'_> {
             made => {
                 let gpu = &self.headless.gpu;
                 let new = WhitewaterBuffers::new(gpu, self.count, part.attributes())?;
-                // No more than all there is, which often is little.
+                // No larger than all the data, which is often small.
                 let size = (12 * u64::from(self.count)).clamp(16, STAGING as u64);
                 let usage = vk::BufferUsageFlags::TRANSFER_SRC;
                 let location = MemoryLocation::CpuToGpu;
@@ -225,7 +226,7 @@ impl WhitewaterParts<'_> {
     /// Ends the upload. The following frames show these whitewater particles.
     ///
     /// # Errors
-    /// Fewer particles than announced, no memory. Then there are none.
+    /// Fewer particles than announced, or no memory. After an error there are no whitewater particles.
     pub fn finish(mut self) -> Result<(), Error> {
         if self.written < self.count {
             let why = format!("{} particles expected, found {}", self.count, self.written);
@@ -259,7 +260,7 @@ pub struct Bubble {
     pub ball: [f32; 4],
     /// Orientation: a quaternion, the real part last.
     pub turn: [f32; 4],
-    /// A number that stays with the blob from frame to frame.
+    /// A number that identifies the blob from frame to frame.
     pub id: u32,
 }
 
@@ -289,14 +290,14 @@ impl Foamed {
     }
 }
 
-/// Written by the CPU before the submit.
+/// Writes of the CPU before the submission.
 pub(super) const HOST_WRITE: Access = Access::new(
     vk::PipelineStageFlags2::HOST,
     vk::AccessFlags2::HOST_WRITE,
     vk::ImageLayout::GENERAL,
 );
 
-/// A buffer for shaders to read, with its contents.
+/// A storage buffer with contents.
 pub(super) fn input(gpu: &Arc<Gpu>, name: &str, bytes: &[u8]) -> Result<Buffer, Error> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let size = bytes.len().max(16) as u64;
@@ -355,12 +356,11 @@ impl Headless {
         }
     }
 
-    /// Uploads the motion of the particles uploaded last: velocities, for foam, spray and motion vectors, and
-    /// `ids` that stay with their particle from frame to frame, which keep the noise in foam and the droplets
-    /// attached to it.
+    /// Uploads the motion of the particles uploaded last: velocities, for foam, spray and motion vectors, and `ids`
+    /// that identify particles from frame to frame, so that noise in foam and droplets stay attached to their particle.
     ///
     /// # Errors
-    /// Not as many as positions, no memory.
+    /// Numbers that differ from that of positions, no memory.
     pub fn motion(&mut self, velocities: &[[f32; 3]], ids: Option<&[u32]>) -> Result<(), Error> {
         let all = |length: usize| length == self.count as usize;
         if !all(velocities.len()) || ids.is_some_and(|ids| !all(ids.len())) {
@@ -380,7 +380,8 @@ impl Headless {
     /// Uploads the blobs of bubble foam of a frame, with [`Config::bubbles`](crate::Config::bubbles).
     ///
     /// # Errors
-    /// More than [`BubbleConfig::max_blobs`](crate::bubbles::BubbleConfig::max_blobs), no memory; then there are none.
+    /// More than [`BubbleConfig::max_blobs`](crate::bubbles::BubbleConfig::max_blobs), no memory. After an error there
+    /// are no blobs.
     pub fn bubbles(&mut self, blobs: &[Bubble]) -> Result<(), Error> {
         self.bubbles = None;
         self.drop_heap();
@@ -394,11 +395,12 @@ impl Headless {
         Ok(())
     }
 
-    /// Uploads the whitewater particles of a frame, with [`Config::whitewater`](crate::Config::whitewater). `None`:
-    /// there are none.
+    /// Uploads the whitewater particles of a frame, with [`Config::whitewater`](crate::Config::whitewater). `None`
+    /// removes them.
     ///
     /// # Errors
-    /// As [`whitewater_parts`](Self::whitewater_parts) and [`WhitewaterParts::push`]; then there are none.
+    /// Those of [`whitewater_parts`](Self::whitewater_parts) and [`WhitewaterParts::push`]. After an error there are no
+    /// whitewater particles.
     pub fn whitewater(&mut self, whitewater: Option<&Whitewater<'_>>) -> Result<(), Error> {
         let mut parts = self.whitewater_parts(whitewater.map_or(0, |all| all.positions.len()))?;
         match whitewater {
@@ -410,8 +412,8 @@ impl Headless {
         }
     }
 
-    /// Uploads the whitewater particles of a frame in parts, so that only one part is in the host's memory at a
-    /// time, for example from a file that is being read. `count`: total number. There are none until
+    /// Uploads the whitewater particles of a frame in parts, so that only one part is in the host's memory at a time,
+    /// for example from a file that is being read. `count` is the total number. There are none until
     /// [`WhitewaterParts::finish`].
     ///
     /// # Errors
@@ -431,12 +433,12 @@ impl Headless {
         Ok(WhitewaterParts { headless: self, count, written: 0, made: None, packing })
     }
 
-    /// Bytes of the buffers of uploaded whitewater particles.
+    /// Size in bytes of the buffers of uploaded whitewater particles.
     pub fn whitewater_memory(&self) -> u64 {
         self.whitewater.as_ref().map_or(0, WhitewaterBuffers::size)
     }
 
-    /// Copies bytes to a place in a buffer, as many at a time as the staging buffer holds.
+    /// Copies bytes to an offset in a buffer, in pieces of the staging buffer's size.
     fn copy(
         &mut self,
         staging: &mut Buffer,
@@ -461,18 +463,18 @@ impl Headless {
         Ok(())
     }
 
-    /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a [`SurfaceFoamState`] from the
-    /// particles' [`motion`](Self::motion). `dt`: seconds since the previous step. Without it, or without ids,
-    /// each frame is independent.
+    /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a
+    /// [`SurfaceFoamState`] from the particles' [`motion`](Self::motion). `dt` is the time since the previous step in
+    /// seconds. Without it, or without ids, each frame is independent.
     ///
     /// # Errors
-    /// No motion, no memory, and as [`SurfaceFoamState::record_step`].
+    /// No motion, no memory, and those of [`SurfaceFoamState::record_step`].
     pub fn step(&mut self, dt: Option<f32>, settings: &WeberSettings) -> Result<(), Error> {
         let Some(velocities) = &self.velocities else {
             return Err(Error::bad("velocities", "none uploaded"));
         };
         let velocities = stream(velocities, 12);
-        // The last that can fail before the state is put back: dropped, it would leak.
+        // The last operation that can fail before the state is stored again; if it were dropped, it would leak.
         let mut state = match self.foam.take() {
             Some(old) => old.state,
             None => {
@@ -500,18 +502,18 @@ impl Headless {
         result
     }
 
-    /// Draws only some of the uploaded particles, by index; `None`: all. Whitewater is emitted by those alone; steps of foam
-    /// take all of them.
+    /// Draws only a range of the uploaded particles, by index; `None` draws all. Only those emit whitewater; steps of
+    /// foam use all particles.
     pub fn show(&mut self, some: Option<Range<u32>>) {
         self.shown = some;
     }
 
-    /// Draws whitewater, as at first, or leaves it out of the frames from now on. It stays uploaded.
+    /// Shows or hides whitewater in the frames that follow; initially it is shown. It stays uploaded.
     pub fn show_whitewater(&mut self, shown: bool) {
         self.whitewater_shown = shown;
     }
 
-    /// The particles as a frame takes them.
+    /// The particles in the form of a frame's input.
     pub(super) fn streams(&self) -> Result<Particles, Error> {
         let Some(positions) = &self.positions else {
             return Err(Error::bad("particles", "none uploaded"));

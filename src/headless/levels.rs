@@ -4,7 +4,7 @@ use super::Picture;
 use crate::diagnostics::{SmoothingLevel, SmoothingLevels};
 use crate::frame::EMPTY;
 
-/// A layer of water among the levels.
+/// A layer of water in the smoothing levels.
 #[derive(Clone, Copy)]
 pub struct Sheet {
     first: usize,
@@ -56,7 +56,7 @@ fn at_texel<T: Copy>(image: &Picture<T>, level: &SmoothingLevel, [x, y]: [usize;
     image.data[(first_y + y.min(height - 1)) * image.width + first_x + x.min(width - 1)]
 }
 
-/// The smoothed depth. `image`: all levels.
+/// The smoothed depth. `image` holds all levels.
 pub fn surface(levels: &SmoothingLevels, image: &Picture<f32>, sheet: Sheet) -> Picture<f32> {
     each(levels, image, sheet, EMPTY, |at, z, shown, fade| {
         let of = |level: usize| smoothed(levels, image, sheet, level, at, z);
@@ -89,7 +89,7 @@ fn smoothed(
     if weights > 0.0 { z + sum / weights } else { z }
 }
 
-/// Iteration counts of the level that dominates each texel. `plan`: all levels.
+/// Iteration counts of the level that dominates each texel. `plan` holds all levels.
 pub fn iterations(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,

@@ -1,10 +1,10 @@
-//! The library without a host: an own device, a stand-in scene, submits and read-back. For the tool, tests and
-//! examples; an engine that embeds the library does not compile it.
+//! The library without a host: a device of its own, a stand-in scene, submission and read-back. It serves the tool,
+//! tests and examples; an engine that embeds the library does not compile it.
 //!
-//! One frame at a time: [`Headless::new`]; the inputs of a frame by [`Headless::particles`] and
-//! [`Headless::motion`], [`Headless::whitewater`] or in parts [`Headless::whitewater_parts`], [`Headless::sky`] or
-//! [`Headless::equirectangular`], [`Headless::scene`]; then [`Headless::render`], and the picture and its
-//! layers are read back. Recorded commands are submitted and waited for at once.
+//! It draws one frame at a time. After [`Headless::new`], the inputs of a frame are set with [`Headless::particles`]
+//! and [`Headless::motion`], [`Headless::whitewater`] or in parts [`Headless::whitewater_parts`], [`Headless::sky`] or
+//! [`Headless::equirectangular`], [`Headless::scene`]; [`Headless::render`] then draws, and the picture and its layers
+//! can be read back. Every call submits its commands and waits for them.
 
 mod device;
 mod draw;
@@ -65,9 +65,9 @@ const DEPTH_REST: Access = access::DEPTH_ATTACHMENT;
 /// Particle statistics of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Particles on the screen.
+    /// Particles in the view.
     pub visible: u32,
-    /// Those of them that can be visible.
+    /// Particles of these that may be visible.
     pub front: u32,
     /// Particles dropped for NaN, infinite or huge positions.
     pub dropped: u32,
@@ -75,7 +75,7 @@ pub struct Counts {
     pub spray: u32,
 }
 
-/// What runs once per simulation step, before the frames that show it.
+/// Simulations with one step before the frames that show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
     /// Surface foam ([`Headless::step`]).
@@ -84,18 +84,18 @@ pub enum Stepped {
     Generate,
     /// Blob dynamics ([`Headless::heap_step`]).
     BlobSimulation,
-    /// The distance to the shore ([`Headless::shore_map_step`]).
+    /// The map of distances to the shore ([`Headless::shore_map_step`]).
     ShoreMap,
 }
 
-/// A renderer with everything a host would have, one frame at a time.
+/// A renderer with everything that a host provides, one frame at a time.
 pub struct Headless {
     gpu: Arc<Gpu>,
     renderer: Renderer,
     color: Image,
     depth: Image,
     commands: Commands,
-    /// Command buffers for the parts of a frame that the host reads back in between.
+    /// Command buffers for the parts of a frame between which the host reads data back.
     parts: Vec<vk::CommandBuffer>,
     positions: Option<Buffer>,
     densities: Option<Buffer>,
@@ -110,7 +110,7 @@ pub struct Headless {
     region: Option<LightVolume>,
     previous: Option<Previous>,
     count: u32,
-    /// The particles that are drawn, by index; `None`: all.
+    /// Index range of the drawn particles; `None` draws all.
     shown: Option<Range<u32>>,
     /// Whether whitewater is drawn.
     whitewater_shown: bool,
@@ -120,17 +120,17 @@ pub struct Headless {
     active_samples: Option<(vk::Buffer, u32)>,
     bubble_words: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
-    /// The environment without the sun, if the picture contains it; it lights the scene.
+    /// The environment without the sun, which lights the scene, if the picture contains the sun.
     without_sun: Option<Environment>,
     context: Context,
     device: Device,
 }
 
 impl Headless {
-    /// Makes the renderer. The output format and `in_place` of the configuration are replaced.
+    /// Creates the renderer. It replaces the output format and `in_place` of the configuration.
     ///
     /// # Errors
-    /// As [`Renderer::new`].
+    /// Those of [`Renderer::new`].
     pub fn new(device: Device, config: &Config) -> Result<Self, Error> {
         let config =
             Config { output_format: COLOR_FORMAT, in_place: true, keep_layers: true, ..*config };
@@ -211,7 +211,7 @@ impl Headless {
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
         let mut color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        // Only if needed: some devices do not compress images that can be stored to.
+        // Only if needed, because some devices do not compress storage images.
         if way(config) == Shading::Compute {
             color |= vk::ImageUsageFlags::STORAGE;
         }
@@ -233,8 +233,7 @@ impl Headless {
         &self.renderer
     }
 
-    /// Fills a fresh command buffer, submits it and waits. `record` returns the command buffer that it ended
-    /// with.
+    /// Fills a command buffer, submits it and waits. `record` returns the command buffer that it ended with.
     fn run_parts(
         &mut self,
         record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<vk::CommandBuffer, Error>,
@@ -277,7 +276,7 @@ impl Headless {
         self.renderer.timings(Slot(0)).to_vec()
     }
 
-    /// Frees everything and gives the device back.
+    /// Frees everything and returns the device.
     ///
     /// # Errors
     /// Device loss.

@@ -119,7 +119,7 @@ impl Headless {
     /// earlier strip or map. [`shore_map_step`](Self::shore_map_step) fills it.
     ///
     /// # Errors
-    /// As [`ShoreMap::new`].
+    /// Those of [`ShoreMap::new`].
     pub fn shore_map(&mut self, size: u32, meshes: &[ShoreMesh<'_>]) -> Result<(), Error> {
         self.drop_shores();
         let own = meshes.iter().map(|mesh| Meshed::new(&self.gpu, mesh));
@@ -130,11 +130,11 @@ impl Headless {
         Ok(())
     }
 
-    /// Updates the map after the land has changed, with the transform of each mesh. `changed`: as
+    /// Updates the map after the land has changed, with the transform of each mesh. `changed` has the meaning of
     /// [`ShoreMapStep::changed`].
     ///
     /// # Errors
-    /// No map, other numbers of meshes, and as [`ShoreMap::record_step`].
+    /// No map, another number of meshes, and those of [`ShoreMap::record_step`].
     pub fn shore_map_step(
         &mut self,
         area: &Area,
@@ -172,8 +172,8 @@ impl Headless {
         map.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
     }
 
-    /// Sets the foam texture of the next frames, instead of the built-in one: 1 where foam appears first, 0
-    /// where it appears last. `size`: texels along each axis.
+    /// Sets the foam texture of the next frames, instead of the built-in one: 1 where foam appears first, 0 where it
+    /// appears last. `size` is the number of texels along each axis.
     ///
     /// # Errors
     /// The number of texels differs from `size`; no [`Config::shore`](crate::Config::shore); no memory; Vulkan
@@ -191,7 +191,7 @@ impl Headless {
     }
 
     /// Sets the mask of the next frames' contact foam over the view, replacing an earlier one: 0 suppresses it
-    /// completely, 1 not at all. `size`: texels along each axis.
+    /// completely, 1 not at all. `size` is the number of texels along each axis.
     ///
     /// # Errors
     /// The number of texels differs from `size`; no memory; Vulkan errors.

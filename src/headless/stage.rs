@@ -1,4 +1,4 @@
-//! The stand-in scene: set-up, and drawing into the images that the water is drawn over.
+//! Sets up the stand-in scene and draws it into the images that the water is drawn over.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub(super) struct Stage {
     descriptors: Descriptors,
     /// Frame of the scene that was drawn last, and whether edges were smoothed.
     drawn: (u64, bool),
-    /// The last picture of the scene, reused while the camera rests.
+    /// The last picture of the scene, reused while the camera is at rest.
     kept: Option<Kept>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Stage {
 struct Kept {
     color: Image,
     depth: Image,
-    /// `None`: nothing is kept yet, or a frame failed.
+    /// `None` if nothing is kept yet, or a frame failed.
     camera: Option<Camera>,
 }
 
@@ -52,8 +52,8 @@ impl Kept {
 }
 
 impl Headless {
-    /// Sets the scene behind the water, drawn by [`Background::Scene`](super::Background::Scene). `antialias`:
-    /// four samples per pixel in its colour. Its light is baked, so a new sun needs a new scene.
+    /// Sets the scene behind the water, drawn by [`Background::Scene`](super::Background::Scene). `antialias` draws its
+    /// colour with four samples per pixel. Its light is baked, so a new sun needs a new scene.
     ///
     /// # Errors
     /// Invalid parameters of sun or sea, no memory, Vulkan errors.
@@ -66,7 +66,7 @@ impl Headless {
     /// only the sea moves this costs nothing.
     ///
     /// # Errors
-    /// As [`scene`](Self::scene).
+    /// Those of [`scene`](Self::scene).
     pub fn scene_frame(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
         if let Some(stage) = &mut self.scene {
             let (frame, smoothed) = stage.drawn;

@@ -1,4 +1,4 @@
-//! Data to the device and back: each call waits for its end.
+//! Transfers data to the device and back; each call waits for its end.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -21,7 +21,7 @@ const HOST_READ: Access = Access::new(
     vk::ImageLayout::GENERAL,
 );
 
-/// A mapped buffer to copy the bytes from.
+/// A mapped staging buffer with these bytes.
 pub fn staging(gpu: &Gpu, bytes: &[u8]) -> Result<Buffer, Error> {
     let usage = vk::BufferUsageFlags::TRANSFER_SRC;
     let size = bytes.len() as u64;
@@ -30,7 +30,7 @@ pub fn staging(gpu: &Gpu, bytes: &[u8]) -> Result<Buffer, Error> {
     Ok(buffer)
 }
 
-/// Copies an image over another of the same size and format; each is left as it was found.
+/// Copies an image to another of the same size and format. Both return to their previous layout.
 pub fn copy(gpu: &Gpu, cmd: vk::CommandBuffer, from: (&Image, Access), to: (&Image, Access)) {
     let ((from, from_rest), (to, to_rest)) = (from, to);
     let before = [
@@ -184,7 +184,7 @@ impl Headless {
         self.levels
     }
 
-    /// A layer of the last frame by its name; `None` if there is none of that name.
+    /// A layer of the last frame by its name; `None` if no layer has that name.
     ///
     /// - Smoothing layers have its configured resolution; each texel is taken from the level that is shown
     ///   there. `water.back` is the smoothed back layer.
@@ -192,7 +192,7 @@ impl Headless {
     ///   frontmost foam (T_wf and T_wb of the thesis; without foam everything is in front).
     /// - `water.sheet.front` and `.back` are the water of each of two layers, channels of
     ///   `water.thickness.sheets`.
-    /// - `surface_foam.front` is the foam right behind the frontmost, a channel of `surface_foam.thickness`.
+    /// - `surface_foam.front` is the thickness of the front foam layer, a channel of `surface_foam.thickness`.
     /// - `motion.X` and `motion.Y` are channels of `motion`.
     /// - Whitewater has `whitewater` (depth), `whitewater.intensity`, `whitewater.thickness`, `whitewater.submerged` (the part of the
     ///   thickness behind the water's surface), `whitewater.normal.X`, `.Y`, `.Z`, `whitewater.radius` (search radius),
@@ -246,7 +246,7 @@ impl Headless {
         };
         if layer.format == vk::Format::R8G8B8A8_UNORM {
             let all: Picture<[u8; 4]> = self.read(layer.image, layer.format, area, layer.access)?;
-            // On the host's surface, or on the particles' water before it.
+            // Contact foam on the host's surface, or on the particles' water in front of it.
             let contact = name == "contact.amount";
             let part = |all: &[u8; 4]| if contact { all[1].max(all[3]) } else { all[0] };
             return Ok(Some(all.map(|all| f32::from(part(all)) / 255.0)));
@@ -266,7 +266,7 @@ impl Headless {
                 self.read(layer.image, layer.format, area, layer.access)?;
             return Ok(Some(both.map(|both| both[channel])));
         }
-        // Of spray, on devices that blend no other.
+        // The spray layer, on devices that cannot blend other formats.
         if layer.format == vk::Format::R16G16_SFLOAT {
             let half: Picture<[u16; 2]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
@@ -275,7 +275,7 @@ impl Headless {
         self.read(layer.image, layer.format, area, layer.access).map(Some)
     }
 
-    /// Water before the frontmost foam, or behind it.
+    /// Thickness of the water in front of the frontmost foam, or behind it.
     fn about_foam(&mut self, front: bool) -> Result<Option<Picture<f32>>, Error> {
         let Some(all) = self.layer("water.thickness")? else { return Ok(None) };
         let image = self.layers.iter().find(|layer| layer.name == "water.thickness").copied();
@@ -285,18 +285,18 @@ impl Headless {
         };
         let area = vk::Rect2D::from(layer.extent);
         let both: Picture<[f32; 2]> = self.read(layer.image, layer.format, area, layer.access)?;
-        // Both are sums of single precision: the part may be an ulp more than the whole.
+        // Both are sums in single precision, so the part may exceed the whole by an ulp.
         let part = |both: &[f32; 2]| if front { both[1] } else { (both[0] - both[1]).max(0.0) };
         Ok(Some(both.map(part)))
     }
 
-    /// How many blobs a pixel shows.
+    /// Number of blobs that each pixel shows.
     fn bubble_layers(&mut self) -> Result<Option<Picture<f32>>, Error> {
         let Some((buffer, words)) = self.bubble_words else { return Ok(None) };
         let vk::Extent2D { width, height } = self.color.extent;
         let size = 4 * u64::from(width) * u64::from(height) * u64::from(words);
         let all = self.read_buffer(buffer, size)?;
-        // After the layers the most opacity.
+        // After the layers comes the max opacity.
         let drawn = |pixel: &[u32]| {
             let layers = &pixel[..pixel.len() - 1];
             layers.iter().filter(|layer| **layer != u32::MAX).count() as f32
@@ -305,7 +305,7 @@ impl Headless {
         Ok(Some(Picture { width: width as usize, height: height as usize, data }))
     }
 
-    /// A layer of the smoothing, of all its levels.
+    /// A smoothing layer, from all its levels.
     fn smoothing(&mut self, name: &str, layer: Layer) -> Result<Option<Picture<f32>>, Error> {
         let Some(levels) = self.levels else { return Ok(None) };
         let sheet = if name == "water.back" { BACK } else { FRONT };
@@ -323,7 +323,7 @@ impl Headless {
         Ok(Some(levels::iterations(&levels, &depth, &plan)))
     }
 
-    /// Copies a part of an image to the CPU; it is back in its state afterwards.
+    /// Copies a part of an image to the CPU; the image returns to its layout afterwards.
     fn read<T: bytemuck::AnyBitPattern>(
         &mut self,
         image: vk::Image,

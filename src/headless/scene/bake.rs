@@ -55,9 +55,9 @@ pub struct Baked {
     pub batches: Vec<Batch>,
 }
 
-/// Longest edge of a lit triangle: the scene's diagonal divided by this.
+/// Max edge of a lit triangle: the scene's diagonal divided by this.
 const EDGES: f32 = 45.0;
-/// Largest number of vertices that subdivision may make in one mesh.
+/// Max number of vertices that subdivision may create in one mesh.
 const MOST: usize = 400_000;
 
 /// Bakes the light of the scene at rest. Moving meshes keep their baked light; only the shadow map follows
@@ -187,7 +187,7 @@ fn split(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, longest: f32) {
                 }))
             };
             let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
-            // Rotated so that the split edges are one of: none, the first, the first two, all.
+            // Rotated so that the split edges are none, the first, the first two, or all.
             match (ab, bc, ca) {
                 (None, None, None) => out.extend([a, b, c]),
                 (Some(x), Some(y), Some(z)) => out.extend([a, x, z, x, b, y, z, y, c, x, y, z]),

@@ -17,11 +17,11 @@ use crate::environment::Sky;
 pub struct SceneError {
     /// The file.
     pub path: PathBuf,
-    /// What was expected, what was found.
+    /// What was expected and what was found.
     pub why: String,
 }
 
-/// Largest number of vertices, and of triangles, in a file.
+/// Max number of vertices, and of triangles, in a file.
 pub(super) const MOST: usize = 20_000_000;
 
 impl Scene {
@@ -57,7 +57,7 @@ impl Scene {
     /// Reads a glTF scene from memory, without other files.
     ///
     /// # Errors
-    /// As [`load_glb`](Self::load_glb), and where it names other files.
+    /// Those of [`load_glb`](Self::load_glb), and references to other files.
     pub fn parse_glb(bytes: &[u8]) -> Result<Self, String> {
         super::gltf::parse(bytes, None)
     }
@@ -75,7 +75,7 @@ impl Scene {
     /// Reads a Wavefront file from memory.
     ///
     /// # Errors
-    /// What was expected, what was found, and in which line.
+    /// The error says what was expected, what was found, and in which line.
     pub fn parse_obj(bytes: &[u8]) -> Result<Self, String> {
         super::obj::parse(bytes)
     }
@@ -197,7 +197,7 @@ impl Scene {
     /// The same as [`from_json`](Self::from_json) from memory.
     ///
     /// # Errors
-    /// What was expected and what was found.
+    /// The error says what was expected and what was found.
     pub fn parse_json(bytes: &[u8]) -> Result<Self, String> {
         let file: File = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
         let material = |name: &str, of: &str| {
@@ -414,7 +414,7 @@ mod tests {
         let near = |a: [Vec3; 2], b: [[f32; 3]; 2]| {
             assert!(a.iter().zip(b).all(|(a, b)| a.distance(b.into()) < 1e-5), "{a:?} {b:?}");
         };
-        // Before the first pose and after the last these hold on.
+        // Before the first and after the last pose these stay constant.
         near(middle(0), [[2.0, 0.0, 0.0], [0.0; 3]]);
         near(middle(5), [[2.0, 0.0, 0.0], [0.0; 3]]);
         near(middle(6), [[1.0, 4.0, 0.0], [0.0; 3]]);

@@ -1,5 +1,5 @@
-//! The scene of the headless renderer: opaque meshes and a ground under a sky with a sun. Water needs them to
-//! run over, to refract and to be hidden by. An engine that embeds the library draws its own scene.
+//! The scene of the headless renderer: opaque meshes and a ground under a sky with a sun. Water runs over them,
+//! refracts them and is hidden by them. An engine that embeds the library draws its own scene.
 
 pub(in crate::headless) mod bake;
 mod gltf;
@@ -31,9 +31,9 @@ pub struct Scene {
     pub ground: Option<Ground>,
     /// The camera that the scene file suggests.
     pub camera: Option<Viewpoint>,
-    /// Motion of meshes from frame to frame. Meshes in none are static.
+    /// Motion of meshes from frame to frame. Meshes in no motion are static.
     pub motions: Vec<Motion>,
-    /// The frame that is drawn. [`Headless::scene_frame`](super::Headless::scene_frame) draws another.
+    /// The frame that is drawn; [`Headless::scene_frame`](super::Headless::scene_frame) changes it.
     pub frame: u64,
     /// Water or lava that meshes and ground stand in.
     pub sea: Option<Sea>,
@@ -48,8 +48,9 @@ pub struct Scene {
     /// [`backdrop`](Self::backdrop) to 1/e, towards the environment's colour at the horizon. World units, (0,
     /// ∞). `None`, the default: clear air. Meshes are always in clear air.
     pub haze: Option<f32>,
-    /// Thin high clouds in the sky that is seen, a bright band of haze over the horizon and bluer air above it: their share, [0, 1]. Default 0:
-    /// none. The [`sea`](Self::sea) mirrors the band; the water and what is lit know of neither.
+    /// Share of thin high clouds, of a bright band of haze over the horizon and of bluer air above it, in the visible
+    /// sky: [0, 1], default 0. The [`sea`](Self::sea) reflects the band. Reflections in the particles' water and the
+    /// lighting ignore all of them.
     pub clouds: f32,
     /// World units per metre for procedural surfaces, whose grain is metric, (0, ∞). `None`, the default: 1.
     pub metre: Option<f32>,
@@ -84,7 +85,7 @@ pub struct Viewpoint {
     pub eye: [f32; 3],
     /// Point that it looks at.
     pub target: [f32; 3],
-    /// The direction that is up in the picture.
+    /// Up direction in the picture.
     pub up: [f32; 3],
     /// Vertical field of view in degrees.
     pub fov_y_degrees: f32,
@@ -100,7 +101,7 @@ pub struct SunLight {
 }
 
 impl SunLight {
-    /// The sun of the built-in sky, dimmed and reddened by the same air.
+    /// The sun of the built-in sky, attenuated and reddened by its air.
     pub fn of(sky: &Sky) -> Self {
         let direction = Vec3::from(sky.sun).normalize_or(Vec3::Y);
         Self { direction: direction.to_array(), color: sky.sun_irradiance() }
@@ -172,7 +173,7 @@ pub struct Texture {
 /// A procedural surface; lengths in world units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Pattern {
-    /// The base colour alone.
+    /// Only the base colour.
     #[default]
     Plain,
     /// Glazed square tiles with grout.
@@ -201,15 +202,15 @@ pub enum Pattern {
     },
     /// Sand.
     Sand,
-    /// Stone slabs.
+    /// Stone slabs, one and a half times as long as wide
     Paving {
-        /// Width of a slab; it is half as long again.
+        /// Width of a slab
         size: f32,
     },
     /// Sand around the height of the [`Sea`] (0 without one), grass above, rock where it is steep, some weed
     /// under water.
     Island {
-        /// How high over the sea sand reaches.
+        /// Height above the sea up to which there is sand
         beach: f32,
     },
     /// Natural rock; dark where the [`Sea`] wets it.
@@ -225,7 +226,7 @@ pub enum Pattern {
     },
     /// Sand with ripples, as the sea leaves it, and pebbles.
     Ripples {
-        /// From crest to crest.
+        /// Distance from crest to crest
         length: f32,
     },
 }

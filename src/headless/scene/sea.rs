@@ -48,7 +48,7 @@ pub struct Sea {
 /// Liquid of a [`Sea`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Liquid {
-    /// Transparent, by its absorption and scattering.
+    /// Transparent, with the sea's absorption and scattering.
     #[default]
     Water,
     /// Opaque: a dark crust with glowing cracks. It casts no light, except for an estimate of its glow on
@@ -77,7 +77,7 @@ impl Default for Sea {
 }
 
 impl Liquid {
-    /// Slow lava with its brightness in daylight.
+    /// Slow lava with a brightness for daylight.
     pub const LAVA: Self = Self::Lava { radiance: [6.0, 3.2, 0.2], speed: 0.5 };
 }
 

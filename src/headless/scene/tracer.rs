@@ -39,7 +39,7 @@ struct Hit {
     distance: f32,
     normal: Vec3,
     albedo: Vec3,
-    /// The ray hit a back face: it began inside a solid.
+    /// Whether the ray hit a back face, so that it began inside a solid.
     inside: bool,
 }
 
@@ -59,8 +59,8 @@ impl Tracer {
         Self::of(&scene.meshes, |_, _| true, scene, diagonal)
     }
 
-    /// Traces `meshes` on the scene's ground. `counts` gets a corner and the length of a triangle, and leaves
-    /// out distant ones.
+    /// Traces `meshes` on the scene's ground. `counts` receives a corner and the size of a triangle and returns whether
+    /// the triangle is used; it rejects distant ones.
     fn of<'a>(
         meshes: impl IntoIterator<Item = &'a Mesh>,
         counts: impl Fn(Vec3, f32) -> bool,
@@ -136,7 +136,7 @@ impl Tracer {
         self.trace_to(f32::INFINITY, from, along, any)
     }
 
-    /// The same with hits nearer than `reach` only.
+    /// The same, for hits nearer than `reach`.
     fn trace_to(&self, reach: f32, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
         let inverse = along.recip();
         let mut best: Option<(f32, usize)> = None;
@@ -287,7 +287,7 @@ fn directions(count: usize) -> Vec<Vec3> {
         .collect()
 }
 
-/// Bakes the light of the backdrop: with as many rays as the meshes near them, with few rays elsewhere.
+/// Bakes the light of the backdrop: with as many rays as for meshes near them, with few rays elsewhere.
 pub struct Around {
     all: Tracer,
     /// Finds whether the backdrop hides the sun; the meshes' own shadow is in the shadow map.
@@ -324,7 +324,7 @@ impl Around {
         }
     }
 
-    /// Bakes the light of the vertices. What lies inside a solid stays dark, like leaves between two bushes.
+    /// Bakes the light of the vertices. Vertices inside a solid stay dark, like leaves between two bushes.
     pub fn light(&self, vertices: &mut [Vertex]) {
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
         let size = vertices.len().div_ceil(threads).max(1);

@@ -26,7 +26,7 @@ pub struct Color {
     /// Samples per pixel.
     pub samples: vk::SampleCountFlags,
     pass: vk::RenderPass,
-    /// Draws the depth of the samples before their colour.
+    /// Draws the depth of the samples before their colour, if there are several.
     first: Option<DepthOnly>,
     /// The opaque meshes and the ground.
     pub meshes: Meshes,
@@ -55,7 +55,7 @@ impl Color {
         Ok(Self { samples, pass, first, meshes, sky })
     }
 
-    /// `samples`: the multisampled images, if there are any.
+    /// `samples` are the multisampled images, if there are any.
     pub fn framebuffer(
         &self,
         gpu: &Gpu,
@@ -69,7 +69,7 @@ impl Color {
         gpu.framebuffer_of("scene/color", self.pass, &views, frame.color.extent)
     }
 
-    /// `depth`: depth of the frame, drawn before.
+    /// `depth` is the depth of the frame, drawn before.
     pub fn record(&self, r: &Recording<'_>, targets: &Targets, depth: &Image) -> Result<(), Error> {
         match &targets.samples {
             // Cleared each time: contents of the slot's previous frame are not needed.

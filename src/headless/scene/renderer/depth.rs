@@ -1,6 +1,5 @@
-//! Draws the depth that the water is tested against: one sample at each pixel's centre, however many samples
-//! the colour has.
-//! Reads: vertices. Writes: scene depth, all of it.
+//! Draws the depth that the water is tested against: one sample at each pixel's centre, however many samples the colour
+//! has. Reads: vertices. Writes: the whole scene depth.
 
 use ash::vk;
 

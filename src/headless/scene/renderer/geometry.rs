@@ -17,13 +17,13 @@ const fn attribute(location: u32, format: vk::Format, offset: usize) -> Attribut
     Attribute { location, binding: 0, format, offset: offset as u32 }
 }
 
-/// One vertex after the other.
+/// Vertices are contiguous.
 pub const BINDINGS: [vk::VertexInputBindingDescription; 1] = [vk::VertexInputBindingDescription {
     binding: 0,
     stride: size_of::<Vertex>() as u32,
     input_rate: vk::VertexInputRate::VERTEX,
 }];
-/// The inputs of `scene.vert`; `around` has `bulge` behind it.
+/// The inputs of `scene.vert`; `around` is followed by `bulge`.
 pub const VERTICES: [Attribute; 5] = [
     attribute(0, vk::Format::R32G32B32_SFLOAT, std::mem::offset_of!(Vertex, position)),
     attribute(1, vk::Format::R32G32B32_SFLOAT, std::mem::offset_of!(Vertex, normal)),
@@ -37,9 +37,9 @@ pub const POSITIONS: [Attribute; 1] = [VERTICES[0]];
 pub struct Geometry {
     vertices: Data,
     indices: Data,
-    /// Indices of it all.
+    /// Number of all indices.
     pub count: u32,
-    /// Indices of what casts a shadow: the meshes, which come first.
+    /// Number of indices of the meshes that cast shadows; they come first.
     pub casters: u32,
 }
 
@@ -68,7 +68,7 @@ impl Geometry {
         gpu.barriers(cmd, &[], &[uploaded(&self.vertices), uploaded(&self.indices)]);
     }
 
-    /// Drops what only the upload needed.
+    /// Drops the staging buffers.
     pub fn uploaded(&mut self) {
         (self.vertices.staging, self.indices.staging) = (None, None);
     }
@@ -83,7 +83,7 @@ impl Geometry {
     }
 }
 
-/// A buffer on the device, and the mapped one it is filled from; none where there is no content.
+/// A device buffer and the mapped buffer that it is filled from; `None` if there is no content.
 struct Data {
     buffer: Buffer,
     staging: Option<Buffer>,

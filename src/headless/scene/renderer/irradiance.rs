@@ -1,4 +1,4 @@
-//! The environment's irradiance as spherical harmonics, each frame: the environment may be new.
+//! Projects the environment's irradiance to spherical harmonics, in each frame because the environment may change.
 //! Reads: environment, uniforms. Writes: nine coefficients.
 
 use crate::gpu::memory::MemoryLocation;

@@ -100,7 +100,7 @@ impl Meshes {
         Ok(Self { pipelines, draws })
     }
 
-    /// Number of descriptor sets for a record: one per pair of pipeline and texture.
+    /// Number of descriptor sets for a record: one for each pair of pipeline and texture.
     pub fn sets(&self) -> u32 {
         let draws = self.draws.iter().map(|draw| (draw.kind, draw.texture));
         draws.collect::<BTreeSet<_>>().len() as u32
@@ -167,7 +167,7 @@ impl Draw {
         if rotation.is_finite() && !rotation.is_near_identity() {
             (turn, origin) = (rotation.normalize(), translation);
         }
-        // The numbers used in `scene.frag`.
+        // The same numbers as in `scene.frag`.
         let (pattern, size, band) = match material.pattern {
             Pattern::Plain => (0, 1.0, None),
             Pattern::Tiles { size, band } => (1, size, band),

@@ -1,11 +1,10 @@
 //! Pass `scene`: opaque meshes, ground and sky under a sun with a shadow map.
 //!
-//! Once: [`geometry`] and [`textures`] are uploaded, [`shadow`] draws the shadow map. Each frame:
-//! [`irradiance`] of the environment; [`depth`], which the water is tested against, with one
-//! sample a pixel; [`color`], of [`meshes`] and [`sky`], with four where that is asked for and the
-//! device has them. [`targets`] are the images and framebuffers they draw to, [`uniforms`] what
-//! their shaders know of the view, [`sea`] what of the sea, and [`opaque`] the pipeline state they share.
-//! Reads: vertices, shadow map, environment. Writes: scene colour and depth, all of both.
+//! Set-up: [`geometry`] and [`textures`] are uploaded, and [`shadow`] draws the shadow map. Each frame: [`irradiance`]
+//! of the environment; [`depth`], which the water is tested against, with one sample per pixel; [`color`] of [`meshes`]
+//! and [`sky`], with four samples if requested and supported. [`targets`] are the images and framebuffers that they
+//! draw to, [`uniforms`] and [`sea`] the view and the sea for their shaders, and [`opaque`] the pipeline state that
+//! they share. Reads: vertices, shadow map, environment. Writes: the whole scene colour and depth.
 
 mod color;
 mod depth;
@@ -44,32 +43,32 @@ use targets::Targets;
 use textures::Textures;
 use uniforms::{Surroundings, Uniforms};
 
-/// What one record needs.
+/// Inputs of one record.
 #[derive(Clone, Copy)]
 pub struct SceneFrame<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// The slot's descriptor sets: room for [`SceneRenderer::sets`].
+    /// The slot's descriptor sets, with room for [`SceneRenderer::sets`].
     pub descriptors: &'a Descriptors,
-    /// The view.
+    /// The camera.
     pub camera: &'a Camera,
     /// Colour target in COLOR_ATTACHMENT_OPTIMAL, before and after.
     pub color: &'a Image,
     /// Depth target in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, before and after.
     pub depth: &'a Image,
-    /// Cube of the environment with its mips, in SHADER_READ_ONLY_OPTIMAL; its last barrier makes
-    /// it visible to compute and fragment shaders. It is shown.
+    /// Cube map of the visible environment with mips, in SHADER_READ_ONLY_OPTIMAL; its last barrier makes it visible to
+    /// compute and fragment shaders.
     pub environment: vk::ImageView,
-    /// The same without the sun, which lights the scene for itself; `None`: it is without.
+    /// The same cube map without the sun, for lighting the scene; `None` if `environment` contains no sun.
     pub without_sun: Option<vk::ImageView>,
-    /// Linear in the texels and between the mips.
+    /// A sampler that is linear between texels and between mips.
     pub sampler: vk::Sampler,
 }
 
-/// The pass.
+/// Draws the scene.
 pub struct SceneRenderer {
     surroundings: Surroundings,
-    /// The light, for the same scene in another frame.
+    /// The baked light, shared by renderers of the same scene in other frames.
     pub(in crate::headless) baked: Arc<Baked>,
     geometry: Geometry,
     textures: Textures,
@@ -80,10 +79,10 @@ pub struct SceneRenderer {
     slots: Vec<SlotState>,
 }
 
-/// What frames in flight must not share.
+/// State that frames in flight do not share.
 struct SlotState {
     uniforms: Buffer,
-    /// Of the record last made.
+    /// Targets of the last record.
     targets: Option<Targets>,
 }
 
@@ -94,7 +93,7 @@ struct Formats {
     depth: vk::Format,
 }
 
-/// What the passes of one record share.
+/// Arguments that the passes of one record share.
 struct Recording<'a> {
     gpu: &'a Gpu,
     cmd: vk::CommandBuffer,
@@ -102,9 +101,9 @@ struct Recording<'a> {
     geometry: &'a Geometry,
     textures: &'a Textures,
     view: View,
-    /// All of the frame.
+    /// The whole frame.
     area: vk::Rect2D,
-    /// All but the texture.
+    /// All resources but the texture.
     resources: [(u32, Resource); 5],
 }
 
@@ -117,13 +116,12 @@ impl Recording<'_> {
 }
 
 impl SceneRenderer {
-    /// Bakes the scene's light, makes pipelines, images and buffers. The depth convention is not
-    /// fixed here: each record takes it from its camera. `antialias` smooths the edges; it costs
-    /// little on a GPU, and on a software device several times the pass. What a failure leaves is
-    /// freed by the next `Gpu::bury`.
+    /// Bakes the scene's light and creates pipelines, images and buffers. Each record takes the depth convention from
+    /// its camera. `antialias` smooths edges; it costs little on a GPU, but several times the pass on a software
+    /// device. After an error the next `Gpu::bury` frees the objects.
     ///
     /// # Errors
-    /// A sun without direction, a sea that is none; no memory; Vulkan errors.
+    /// A sun without direction, an invalid sea, no memory; Vulkan errors.
     pub fn new(
         gpu: &Gpu,
         scene: &Scene,
@@ -135,10 +133,10 @@ impl SceneRenderer {
         Self::with_light(gpu, scene, &baked, color_format, depth_format, antialias)
     }
 
-    /// The same with the light of a renderer of the same scene, in whatever frame.
+    /// The same, with the baked light of a renderer of the same scene in any frame.
     ///
     /// # Errors
-    /// As [`SceneRenderer::new`].
+    /// Those of [`SceneRenderer::new`].
     pub(in crate::headless) fn with_light(
         gpu: &Gpu,
         scene: &Scene,
@@ -170,20 +168,20 @@ impl SceneRenderer {
         })
     }
 
-    /// The same scene at another time, in which nothing but the sea has moved.
+    /// Sets the time of the scene, if only the sea has moved.
     ///
     /// # Errors
-    /// No such time.
+    /// An invalid time.
     pub(in crate::headless) fn sea_at(&mut self, scene: &Scene) -> Result<(), Error> {
         self.surroundings.move_sea(scene)
     }
 
-    /// The sun's shadow map as a host hands it over; `bias` in metres beside a texel of the map.
+    /// The sun's shadow map in the form that a host passes. `bias` is in metres and is added to that of a texel.
     pub fn shadow(&self, bias: f32) -> crate::contract::Shadow {
         self.shadow.handed_over(bias)
     }
 
-    /// How many descriptor sets a record takes.
+    /// Number of descriptor sets for a record.
     pub fn sets(&self) -> u32 {
         // Irradiance, sky, meshes.
         2 + self.color.meshes.sets()
@@ -198,15 +196,15 @@ impl SceneRenderer {
         gpu.end_label(cmd);
     }
 
-    /// Frees what only `record_setup` needed. The GPU must be done with it.
+    /// Frees the objects that only `record_setup` needed. The GPU must have finished with them.
     pub fn finish_setup(&mut self, gpu: &Gpu) {
         self.geometry.uploaded();
         self.textures.uploaded();
         gpu.bury();
     }
 
-    /// Draws the scene: clears colour and depth and fills both. Drops what the slot's earlier
-    /// record drew to, for the next `Gpu::bury`.
+    /// Draws the scene: clears colour and depth and fills both. The targets of the slot's previous record go to the
+    /// deletion queue, for the next `Gpu::bury`.
     ///
     /// # Errors
     /// A camera that cannot be drawn, no memory; Vulkan errors.
@@ -268,7 +266,7 @@ impl SceneRenderer {
         drawn
     }
 
-    /// Frees everything. The GPU must be done with it.
+    /// Frees everything. The GPU must have finished with it.
     pub fn destroy(self, gpu: &Gpu) {
         drop(self);
         gpu.bury();

@@ -13,7 +13,7 @@ use crate::gpu::shader::{self, Shader};
 /// The differences between the pipelines of the scene.
 pub struct Opaque<'a> {
     pub vertex: Shader,
-    /// `None`: depth only.
+    /// `None` draws only depth.
     pub fragment: Option<Shader>,
     /// Vertex attributes; may be empty.
     pub attributes: &'a [vk::VertexInputAttributeDescription],
@@ -80,7 +80,7 @@ impl Opaque<'_> {
     }
 }
 
-/// Sets the direction of the depth test. `far`: cleared value of the device depth.
+/// Sets the direction of the depth test. `far` is the cleared value of the device depth.
 pub fn set_depth_test(gpu: &Gpu, cmd: vk::CommandBuffer, far: f32) {
     let nearer =
         if far == 0.0 { vk::CompareOp::GREATER_OR_EQUAL } else { vk::CompareOp::LESS_OR_EQUAL };

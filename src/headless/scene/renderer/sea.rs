@@ -20,7 +20,7 @@ pub fn kind(scene: &Scene) -> u32 {
     }
 }
 
-/// Its part of the uniform block `Scene`; the comments in `glsl/headless/scene.glsl` describe each member.
+/// The sea's part of the uniform block `Scene`; the comments in `glsl/headless/scene.glsl` describe each member.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct Sea {
@@ -48,7 +48,7 @@ const _: () = assert!(
 );
 
 impl Sea {
-    /// `to_sun`: unit vector.
+    /// `to_sun` is the unit vector to the sun.
     ///
     /// # Errors
     /// An invalid sea or time.

@@ -20,7 +20,7 @@ use crate::gpu::pass::{Attachment, Attachments, clear_depth};
 /// Edge of the map in texels.
 pub const SIZE: u32 = 2048;
 const FORMAT: vk::Format = vk::Format::D32_SFLOAT;
-/// Keeps lit slopes out of their own shadow, in slopes of a texel.
+/// Slope factor of the depth bias in texels, against self-shadowing of lit slopes.
 const BIAS: f32 = 1.5;
 
 pub struct Shadow {
@@ -29,12 +29,12 @@ pub struct Shadow {
     pass: vk::RenderPass,
     framebuffer: Owned<vk::Framebuffer>,
     pipeline: DepthOnly,
-    /// What the map shows.
+    /// The view of the map.
     pub sun: SunView,
 }
 
 impl Shadow {
-    /// `direction`: to the sun, unit length.
+    /// `direction` is the unit vector to the sun.
     pub fn new(gpu: &Gpu, scene: &Scene, direction: Vec3) -> Result<Self, Error> {
         let map = Image::new(
             gpu,
@@ -45,7 +45,7 @@ impl Shadow {
                 vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             ),
         )?;
-        // Compares; lit outside.
+        // The sampler compares depths; outside of the map everything is lit.
         let border = vk::SamplerAddressMode::CLAMP_TO_BORDER;
         let info = vk::SamplerCreateInfo::default()
             .mag_filter(vk::Filter::LINEAR)
@@ -74,7 +74,7 @@ impl Shadow {
         })
     }
 
-    /// Draws the map. The geometry is uploaded.
+    /// Draws the map. The geometry must be uploaded.
     pub fn record(&self, gpu: &Gpu, cmd: vk::CommandBuffer, geometry: &Geometry) {
         let area = self.map.extent.into();
         let view = View { clip: self.sun.clip, far: 1.0 };
@@ -86,7 +86,7 @@ impl Shadow {
         gpu.barriers(cmd, &[access::image(&self.map, DEPTH_ATTACHMENT, FRAGMENT_SAMPLED)], &[]);
     }
 
-    /// As a host hands it over.
+    /// The map in the form that a host passes.
     pub fn handed_over(&self, bias: f32) -> crate::contract::Shadow {
         let Image { handle, view, format, extent, .. } = self.map;
         let image = HostImage {
@@ -122,7 +122,7 @@ impl SunView {
         let up = if direction.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
         let view = Mat4::look_to_rh(Vec3::ZERO, -direction, up);
         let (low, high) = scene.bounds_in(view).unwrap_or((Vec3::splat(-1.0), Vec3::ONE));
-        // Square texels, and room for the filter at the border, which is lit.
+        // Texels are square, with a margin at the border for the filter; the border is lit.
         let size = (high - low).truncate().max_element().max(1e-4);
         let half = Vec2::splat(0.5 * size * (1.0 + 16.0 / SIZE as f32));
         let centre = (0.5 * (low + high)).truncate();

@@ -13,11 +13,11 @@ use crate::error::Error;
 use crate::frame::Lens;
 use crate::gpu::shader;
 
-/// Radiance of the sun's disc over its irradiance: one over its solid angle, less where a half
-/// float would overflow.
+/// Radiance of the sun's disc over its irradiance: 1 over its solid angle, reduced so that a half float does not
+/// overflow.
 const DISC: f32 = 1.0 / 6.8e-5;
 const DISC_MOST: f32 = 3.0e4;
-/// Height of a ground that is not there: nothing stands near it.
+/// Height of a missing ground, far from all objects.
 const NO_GROUND: f32 = -1e9;
 
 /// The block `Scene` of `glsl/headless/scene.glsl`; its comments say what each member holds.
@@ -57,23 +57,23 @@ shader::assert_layout!(
     }
 );
 
-/// What the block says of the scene, the same in every frame.
+/// The part of the block that is the same in every frame.
 pub struct Surroundings {
-    /// To the sun, unit length.
+    /// Unit vector to the sun.
     pub to_sun: Vec3,
     sun_color: Vec3,
     ground: Option<f32>,
-    /// There is a backdrop: no sky below the horizon.
+    /// Whether there is a backdrop; below the horizon it replaces the sky.
     backdrop: bool,
     air: [f32; 4],
-    /// Centre x and z; where the ground begins and ends to fade.
+    /// Centre x and z of the ground, and the distances at which it begins and ends to fade.
     fade: [f32; 4],
     sea: Sea,
 }
 
 impl Surroundings {
     /// # Errors
-    /// A sun without direction, or of no colour; haze or a metre of no length; a sea that is none.
+    /// A sun with an invalid direction or colour, haze or a metre of 0 or less, an invalid sea.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let SunLight { direction, color } = scene.sun;
         let Some(to_sun) = Vec3::from(direction).try_normalize() else {
@@ -108,7 +108,7 @@ impl Surroundings {
     /// The sea at the scene's time.
     ///
     /// # Errors
-    /// No such time, or a sea that is none.
+    /// An invalid time or sea.
     pub fn move_sea(&mut self, scene: &Scene) -> Result<(), Error> {
         self.sea = Sea::new(scene, self.to_sun)?;
         Ok(())
@@ -116,7 +116,7 @@ impl Surroundings {
 }
 
 impl Uniforms {
-    /// `far`: device depth of nothing; `extent`: of the picture.
+    /// `far` is the device depth of the far plane, `extent` that of the picture.
     pub fn new(
         surroundings: &Surroundings,
         sun: &SunView,
@@ -151,7 +151,7 @@ impl Uniforms {
         }
     }
 
-    /// No disc and no glow: the environment shows them.
+    /// Hides disc and glow of the sun, because the environment contains them.
     pub fn hide_sun(&mut self) {
         self.sun_color[3] = 0.0;
     }
