@@ -1,11 +1,10 @@
 //! Pass `back`: the surface of the back layer where the front layer covers it.
 //!
-//! Not in the thesis. It is one level coarser than the front layer's smoothing, with one sample per texel,
-//! because it is only seen through water. It joins the levels in the smoothing images, so every form of the
-//! smoothing processes it. Only tiles near a boundary that `thickness` has left are computed. The nearest depth
-//! of each block of texels is found first, so that most spheres skip the texels.
-//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its levels both smoothing
-//! images, plan, each tile's work.
+//! Not in the thesis. It is one level coarser than the front layer's smoothing, with one sample per texel, because it
+//! is only seen through water. It joins the levels in the smoothing images, so every form of the smoothing processes
+//! it. Only tiles near a boundary that `thickness` has kept are computed. The nearest depth of each block of texels is
+//! found first, so that most spheres skip the texels. Reads: the list of `cull`, boundaries, depth. Writes: blocks,
+//! depth of the back layer; for its levels both smoothing images, plan, each tile's work.
 
 use ash::vk;
 
@@ -38,7 +37,7 @@ pub struct Back {
     plan: Pipeline,
     /// Eye depth of the back layer, unsmoothed.
     image: Image,
-    /// Its first level, and its number of levels.
+    /// First smoothing level of the layer, and number of its levels.
     level: u32,
     levels: u32,
     /// Nearest boundary of each block of 16×16 pixels.
@@ -184,7 +183,7 @@ impl Back {
         Ok(())
     }
 
-    /// Bytes of its image and of its buffer.
+    /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
         (self.image.size, self.blocks.size)
     }

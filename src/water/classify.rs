@@ -1,10 +1,10 @@
 //! Pass `classify`: surface foam by Weber number, once per simulation step (thesis Sec. 3.2; Listing A.14 culls
 //! hard where Sec. 3.2.1 lets a particle be both water and foam: here it is both).
 //!
-//! State is stored by particle id in a hash table. Each step writes a new table from the previous one:
-//! particles may be reordered, appear and vanish, and no step depends on their order. A table larger than one
-//! binding is split into parts, each its own hash table; each step processes them one after the other.
-//! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
+//! State is stored by particle id in a hash table. Each step writes a new table from the previous one, so particles may
+//! be reordered, appear and vanish, and the result does not depend on their order. A table larger than one binding is
+//! split into parts, each its own hash table; each step processes them one after the other. Reads: velocities,
+//! densities, ids, the old table. Writes: the new table, foam.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -38,7 +38,7 @@ const CHUNK_UNIT: u32 = 32;
 /// Bytes of a particle's foam and age.
 const FOAM: u64 = 8;
 
-/// How foam is read by the passes that draw it, and copied.
+/// Access by the passes that draw foam, and by copies.
 const FOAM_USE: Access = COMPUTE_READ.and(VERTEX_READ).and(COPY_READ);
 
 #[repr(C)]
@@ -96,7 +96,7 @@ shader::assert_layout!(
     }
 );
 
-/// Division of the tables into parts.
+/// Division of the hash tables into parts that can be bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Parts {
     /// Rows per part.
@@ -107,13 +107,13 @@ struct Parts {
 impl Parts {
     /// The division for a number of particles and a maximum binding size.
     fn new(max_particles: u32, range: u32) -> Option<Self> {
-        // Two of three taken keep the searches short.
+        // A load factor of two thirds keeps the searches short.
         let rows = u64::from(max_particles) * 3 / 2 + 1;
         let whole = u64::from(range).min(MOST_PART) / ROW;
         let (rows, count) = if rows <= whole {
             (rows, 1)
         } else {
-            // Ids are spread evenly: of millions a part gets its share within a thousandth.
+            // Ids are hashed evenly: with millions of them each part gets its share to within a thousandth.
             let fits = (whole - whole % PART_UNIT).max(PART_UNIT);
             let count = rows.div_ceil(fits);
             (rows.div_ceil(count).next_multiple_of(PART_UNIT), count)
@@ -188,7 +188,7 @@ impl Classify {
         gpu.barriers(cmd, &[], &[buffer(table, CLEAR, COMPUTE_READ_WRITE)]);
     }
 
-    /// Copies the state out, or in.
+    /// Copies the state to or from a host buffer.
     pub fn record_copy(
         &self,
         gpu: &Gpu,
@@ -222,7 +222,7 @@ impl Classify {
         let scope = timer.begin(gpu, cmd, c"classify");
         let (old, new) = (self.table(odd), self.table(!odd));
         let streams = [Some(&step.velocities), step.densities.as_ref(), step.ids.as_ref()];
-        // With the bytes of their values.
+        // Each stream with the size of its values in bytes.
         let streams = || streams.into_iter().zip([12, 4, 4]).filter_map(|(s, n)| Some((s?, n)));
         let host = each_once(streams(), step.count, None);
         let mut buffers: Vec<_> =
@@ -246,7 +246,7 @@ impl Classify {
             Count::Cpu(count) => (count.min(most), None),
             Count::Gpu { buffer, offset } => (most, Some(Resource::Buffer(buffer, offset, 4))),
         };
-        // Without ids there is nothing to look up, and no part but the first one bound.
+        // Without ids there is no look-up, and only the first part is bound.
         let parts = if step.ids.is_some() { self.parts.count } else { 1 };
         let mut written = false;
         for part in 0..parts {
@@ -255,7 +255,7 @@ impl Classify {
                 // A stream that ends before the chunk has no particles in it: the count was clamped.
                 let Some((velocities, [densities, ids])) = bound else { break };
                 if std::mem::replace(&mut written, true) {
-                    // The others' foam and rows lie in what this one writes beside.
+                    // Other parts' rows, and the foam of their particles, are in the same buffers.
                     let ours = [new.handle, self.foam.handle]
                         .map(|own| buffer(own, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE));
                     gpu.barriers(cmd, &[], &ours);

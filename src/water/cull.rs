@@ -109,14 +109,14 @@ struct EndPush {
     most_groups: u32,
 }
 
-/// Chunks hold a multiple of this number of particles: 16 spheres are 256 bytes, as are 64 of the shares that
-/// accompany foam.
+/// Number of particles of which a chunk holds a multiple: 16 spheres are 256 bytes, and so are 64 water shares, which
+/// exist with foam.
 pub fn chunk_unit(config: &Config) -> u32 {
     if config.surface_foam { 64 } else { 16 }
 }
 
-/// Number of particles per chunk, and of chunks: one chunk of every stream fits in a binding, and the chunks'
-/// parts of the list begin at offsets that every device can bind.
+/// Number of particles per chunk, and number of chunks. One chunk of each particle attribute fits in a storage-buffer
+/// binding, and each chunk's part of the sphere list begins at an offset that every device can bind.
 pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) {
     let range = u64::from(limits.max_storage_buffer_range).saturating_sub(256);
     let own = match (config.surface_foam, config.spray) {
@@ -128,7 +128,7 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
     let own = own.max(entry_bytes(config)).max(shaped);
     let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
     let unit = chunk_unit(config);
-    // More than fit is not asked for, nor rounded up beyond what is a number.
+    // The request is clamped to the number that fits, which also keeps the rounding within the integer's range.
     let wanted = config.max_particles.clamp(1, fits.max(1)).next_multiple_of(unit);
     let size = wanted.min(fits - fits % unit).max(unit);
     (size, config.max_particles.max(1).div_ceil(size))
@@ -148,15 +148,15 @@ fn goes_over_particles(config: &Config) -> bool {
         || config.light_map_size.is_some()
 }
 
-/// Bytes of a chunk's members: whole words, at offsets that every device can bind.
+/// Bytes of a chunk's packet members: whole words, at offsets that every device can bind.
 fn member_bytes(chunk_size: u32) -> u64 {
     u64::from(chunk_size.div_ceil(8)).next_multiple_of(256)
 }
 
-/// How lists are read by the passes that draw or dispatch them.
+/// Access by the passes that draw or dispatch the lists.
 pub const LIST_USE: Access = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
 
-/// How the host's streams are read: pass `light` does so in its vertex shader.
+/// Access to the host's streams; pass `light` reads them in its vertex shader.
 pub const STREAM_USE: Access = COMPUTE_READ.and(VERTEX_READ);
 
 /// Spheres in eye space with the counts that draw them, chunk by chunk.
@@ -168,7 +168,7 @@ pub struct SphereList {
     pub spheres: Buffer,
     /// The water share of each particle, if others are foam.
     pub shares: Option<Buffer>,
-    /// One bit per host particle: whether a packet holds it. For passes that read them again.
+    /// One bit per host particle: whether it belongs to a packet. Used by passes that read the host's particles again.
     pub members: Option<Buffer>,
     pub chunk_size: u32,
     pub chunks: u32,
@@ -185,7 +185,7 @@ pub struct Chunk {
     pub spheres: Resource,
     /// The chunk's shares, or a stand-in if all are 1.
     pub shares: Resource,
-    /// Members of its packets, or a stand-in without packets.
+    /// Packet members, or a stand-in without packets.
     pub members: Resource,
     /// Byte offset of `Counts` in its buffer.
     pub arguments: u64,
@@ -314,7 +314,7 @@ impl Cull {
         })
     }
 
-    /// Clears a list: its counts become those of no particles, or of `count`.
+    /// Clears a list: sets its counts to 0, or to those of `count`.
     fn record_begin(
         &self,
         r: &Recording<'_>,
@@ -359,7 +359,7 @@ impl Cull {
         Ok(())
     }
 
-    /// Clears another list, until [`end_list`](Self::end_list) completes it.
+    /// Clears another list; [`end_list`](Self::end_list) completes it.
     pub fn begin_list(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
         let unread = Resource::buffer(&self.list.counts);
         self.record_begin(r, list, unread, 0, false, 0)
@@ -370,8 +370,8 @@ impl Cull {
         self.record_end(r, list)
     }
 
-    /// `small_limit`: largest small sprite in pixels; `inside`: small ones must have their centre
-    /// on the screen.
+    /// `small_limit` is the max size of small sprites in pixels. With `inside`, small ones need their centre on the
+    /// screen.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -382,7 +382,7 @@ impl Cull {
         let scope = r.begin(c"cull");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let list = &self.list;
-        // In: the host's buffers, and ours from the frame before.
+        // Acquires the host's buffers, and ours from the previous frame.
         let mut host: Vec<_> = buffers_of(particles)
             .into_iter()
             .map(|handle| buffer(handle, particles.before, STREAM_USE))
@@ -451,7 +451,7 @@ impl Cull {
         else {
             return Ok(());
         };
-        // Of no packets there is nothing to bind.
+        // Without packets there is nothing to bind.
         if particles.packets.is_some_and(|packets| packets.count == 0) {
             return Ok(());
         }
@@ -521,7 +521,7 @@ pub fn buffers_of(particles: &Particles) -> Vec<vk::Buffer> {
     each_once(streams(particles), particles.count, particles.packets.map(|p| p.buffer))
 }
 
-/// Those of streams (with the bytes of their values), of a count and another.
+/// The buffers of streams (each with the size of its values in bytes), of a count and of another buffer, each once.
 pub fn each_once<'a>(
     streams: impl Iterator<Item = (&'a Stream, u64)>,
     count: Count,
@@ -538,7 +538,7 @@ pub fn each_once<'a>(
     all
 }
 
-/// The streams that there are, with the bytes of a value.
+/// The present streams, with the size of a value in bytes.
 fn streams(particles: &Particles) -> impl Iterator<Item = (&Stream, u64)> {
     let all = [
         (Some(&particles.positions), 12),
@@ -550,11 +550,11 @@ fn streams(particles: &Particles) -> impl Iterator<Item = (&Stream, u64)> {
     all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
 }
 
-/// The part of a stream from a particle on that can be bound.
+/// The bindable part of a stream from a particle on.
 #[derive(Clone, Copy)]
 pub struct Window {
     pub resource: Resource,
-    /// At which that particle lies in it.
+    /// Word offset of that particle in the binding.
     pub word: u32,
     /// Stride in words; 0 for an absent stream.
     pub stride: u32,
@@ -599,7 +599,7 @@ impl Window {
 mod tests {
     use super::*;
 
-    /// Chunks of whole units that hold all particles there may be, as few as the device binds.
+    /// Chunks are multiples of the unit and hold all particles; there are as few as the device can bind.
     #[test]
     fn any_number_of_particles_has_its_chunks() {
         let range = 1 << 27;

@@ -1,9 +1,9 @@
 //! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
 //!
-//! The exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a billboard by
-//! N_z·r, which is wrong off the axis and near the camera. Two paths with the same picture: sprites with MIN
-//! blending, and a compute shader with integer atomics on the same image.
-//! Reads: the list of `front`. Writes: depth, R32F, EMPTY where there is no water.
+//! It computes the exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a billboard by
+//! N_z·r, which is wrong off the axis and near the camera. Two paths give the same picture: sprites with MIN blending,
+//! and a compute shader with integer atomics on the same image. Reads: the list of `front`. Writes: depth, R32F, EMPTY
+//! where there is no water.
 
 use ash::vk;
 
@@ -47,7 +47,7 @@ pub struct Depth {
     pub image: Image,
 }
 
-/// Draw of points or quads of a splat pass.
+/// Draws points or quads of a splat pass.
 pub fn sprites(
     gpu: &Gpu,
     vertex: shader::Shader,
@@ -134,10 +134,10 @@ impl Depth {
         matches!(self.path, Path::Raster { .. })
     }
 
-    /// Size limit of small sprites in pixels: the largest point, or what one invocation should process.
+    /// Max size of small sprites in pixels: that of a point, or the largest that one invocation should process.
     pub fn point_limit(&self, gpu: &Gpu) -> f32 {
         match self.path {
-            // The footprint's margin, and the snapping, on top.
+            // The max point size, less the footprint's margin and the snapping.
             Path::Raster { .. } if gpu.enabled.large_points => gpu.limits.point_size_range[1] - 1.0,
             Path::Raster { .. } => 0.0,
             Path::Compute { .. } => 64.0,
@@ -187,7 +187,7 @@ impl Depth {
     }
 }
 
-/// Faster than sprites on lavapipe at every size, and on an H200 (docs/performance.md).
+/// Faster than sprites, on lavapipe at every size and on an H200 (docs/performance.md).
 pub const DEFAULT_SPLAT: Splat = Splat::Compute;
 
 /// Draws the sprites of all chunks inside a render pass: points, then quads.

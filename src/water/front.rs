@@ -1,10 +1,10 @@
-//! Pass `front`: the spheres that can be visible, for the depth pass.
+//! Pass `front`: selects the spheres that can be visible, for the depth pass.
 //!
-//! Not in the thesis, which draws every particle. First the nearest depth at which one sphere covers a whole
-//! cell of 4×4 pixels is found for each cell. A sphere that lies behind that depth in every cell it touches is
-//! removed. This is exact: the depth image is the same to the bit. In a splashing pool nine layers deep it
-//! removes six of ten spheres; in deeper water the depth pass costs what its surface costs.
-//! Reads: the list of `cull`. Writes: cells, the front list.
+//! Not in the thesis, which draws every particle. Each cell of 4×4 pixels first finds the nearest depth at which one
+//! sphere covers it completely. Then every sphere is removed that lies behind that depth in all cells that it touches.
+//! The result is exact: the depth image is the same to the bit. In a splashing pool nine layers deep this removes six
+//! of ten spheres; in deeper water the depth pass costs only what the surface costs. Reads: the list of `cull`. Writes:
+//! cells, the front list.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

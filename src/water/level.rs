@@ -1,12 +1,11 @@
 //! Pass `level`: the reduction repeated at coarser resolutions, for water so near that its iterations would
 //! exceed the cap. Each pixel shows the level that its distance selects, and blends between two.
 //!
-//! Not in the thesis, whose cap leaves near water rough. One level coarser needs a quarter of the iterations
-//! for the same width. The levels share the smoothing images, also with those of the back layer (pass `back`).
-//! The tile list holds the tiles of all levels, so every form of the smoothing processes all of them in one
-//! dispatch or draw.
-//! Reads: depth, each tile's work. Writes: marks and list of the tiles that are needed, the coarsest level
-//! needed; for those tiles both smoothing images, plan, each tile's work.
+//! Not in the thesis, whose cap leaves near water rough. The next coarser level needs a quarter of the iterations for
+//! the same width. The levels share the smoothing images, also with those of the back layer (pass `back`). The tile
+//! list holds the tiles of all levels, so every form of the smoothing processes all of them in one dispatch or draw.
+//! Reads: depth, each tile's work. Writes: marks and list of the required tiles, the coarsest required level; for those
+//! tiles both smoothing images, plan, each tile's work.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -47,13 +46,13 @@ pub fn coarsening(config: &Config) -> u32 {
     if config.rule == Rule::ConstantWidth { config.coarsening } else { 0 }
 }
 
-/// The levels of a configuration in placement order: index in [`SmoothingLevels`], and number of max_splits from
-/// the first.
+/// The levels of a configuration in placement order: index in [`SmoothingLevels`], and number of halvings from the
+/// first level.
 fn levels(config: &Config) -> impl Iterator<Item = (usize, u32)> {
     let (coarsening, two) = (coarsening(config), config.sheets > 1);
     (0..=MOST_COARSENING).flat_map(move |coarser| {
         let front = (coarser <= coarsening).then_some((coarser as usize, coarser));
-        // The back sheet's first is the second, whether the front one has it or not.
+        // The first level of the back layer is the second one, even if the front layer does not have it.
         let wanted = two && coarser > 0 && coarser <= coarsening.max(1);
         let back = wanted.then(|| (BACK + coarser as usize - 1, coarser));
         front.into_iter().chain(back)
@@ -120,8 +119,9 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// In rows: the first level in one, the others beside each other up to its width. If that is too high for
-    /// the device's images, wherever they fit; if they do not fit at all, larger than that.
+    /// The layout in rows: the first level in one row, the others beside each other up to its width. If that is too
+    /// high for the device's images, levels are placed wherever they fit; if they do not fit at all, the layout exceeds
+    /// the limit.
     pub fn new(config: &Config, most: u32) -> Self {
         let first = reduced(config.extent, config.smoothing_level);
         let sizes: Vec<_> = levels(config)
@@ -238,7 +238,7 @@ impl Level {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let work = buffer(tiles.work.handle, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE);
         if let Some(Parts { mark, .. }) = &self.parts {
-            // In the place of the list that `tiles` writes.
+            // This list replaces that of `tiles`.
             let list = buffer(tiles.list.handle, COMPUTE_READ.and(VERTEX_READ), COMPUTE_WRITE);
             gpu.barriers(cmd, &[], &[work, list]);
             r.descriptors.bind(
@@ -259,7 +259,7 @@ impl Level {
         let marked = buffer(self.marked.handle, COMPUTE_READ_WRITE, COMPUTE_READ.and(INDIRECT));
         gpu.barriers(cmd, &[], &[marked]);
         if let Some(Parts { reduce: pipeline, .. }) = &self.parts {
-            // What `reduce` wrote is beside what is written here.
+            // `reduce` wrote other parts of the same images.
             let beside = |image| access::image(image, COMPUTE_WRITE, COMPUTE_WRITE);
             gpu.barriers(
                 cmd,
@@ -315,7 +315,8 @@ impl Level {
 mod tests {
     use super::*;
 
-    /// Apart by whole tiles, the first at the corner, none over the edge of what the device has.
+    /// Checks that levels are separate by whole tiles, that the first is at the corner, and that none exceeds the
+    /// device's limit.
     fn assert_placed(config: &Config, most: u32) {
         let atlas = Atlas::new(config, most);
         let name = format!("{:?} of {most}: {atlas:?}", config.extent);
@@ -355,7 +356,7 @@ mod tests {
                     coarsening,
                     ..Config::new(extent, vk::Format::R16G16B16A16_SFLOAT, 1)
                 };
-                // Tiles that are begun may take one more in each row and column.
+                // Partial tiles may add one in each row and column.
                 let most = 4096;
                 for level in [1, 2] {
                     assert_placed(&of(level), most);
@@ -369,7 +370,7 @@ mod tests {
         }
     }
 
-    /// Where the rows fit nothing is moved.
+    /// If the levels fit in rows, they are placed in rows.
     #[test]
     fn levels_lie_in_rows_where_these_fit() {
         let extent = vk::Extent2D { width: 1920, height: 1080 };

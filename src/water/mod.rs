@@ -88,7 +88,7 @@ pub(crate) struct Recording<'a> {
     /// Whether whitewater uses the paper's falloff behind the water's surface, or shapes, lives or sizes other
     /// than the paper's.
     pub shaped: bool,
-    /// Distances at which blobs replace whitewater sprites, if they do.
+    /// Distances of the cross-fade from whitewater sprites to blobs; `None` without it.
     pub crossfade: Option<Resource>,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
@@ -126,16 +126,16 @@ impl Recording<'_> {
 /// Other techniques whose passes are interleaved with the water's.
 #[derive(Clone, Copy)]
 pub(crate) struct Beside<'a> {
-    /// Its maps use the counts of `cull`.
+    /// The light's maps, which use the counts of `cull`.
     pub light: Option<&'a Light>,
-    /// Foam and blobs have to be drawn before tile classification, which also lists their tiles.
+    /// Whitewater. Foam and blobs have to be drawn before tile classification, which also lists their tiles.
     pub whitewater: Option<(&'a Whitewater, Option<&'a WhitewaterParticles>)>,
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
     /// [`SpraySettings::strand_ratio`].
     pub strand_ratio: f32,
 }
 
-/// The images that `composite` reads, with the tiles that it draws.
+/// The images that `composite` reads, and the tiles that it draws.
 pub(crate) struct WaterLayers<'a> {
     pub smoothed: &'a Image,
     pub depth: &'a Image,
@@ -146,7 +146,7 @@ pub(crate) struct WaterLayers<'a> {
     pub boundaries: Option<&'a Buffer>,
     /// Depth and thickness of the foam, if enabled.
     pub foam: Option<[&'a Image; 2]>,
-    /// Its velocity grid: read by compute and fragment shaders.
+    /// The foam's velocity grid, read by compute and fragment shaders.
     pub drift: Option<&'a Buffer>,
     /// Spray, if enabled.
     pub spray: Option<&'a Image>,
@@ -283,7 +283,7 @@ impl Water {
             spray.record(r, particles, &shapes, &self.cull.list, &self.depth.image)?;
         }
         if let Some((foam, mut particles)) = whitewater {
-            // The light's maps have taken their buffers over.
+            // The light's maps have already acquired their buffers.
             if let (Some(particles), Some(_)) = (&mut particles, light) {
                 particles.before = COMPUTE_READ;
             }
@@ -374,7 +374,7 @@ impl Water {
         self.shape.as_ref().map(|own| own.shaped.handle)
     }
 
-    /// Work of the smoothing: its tiles.
+    /// Tiles on which the smoothing works.
     pub fn tiles(&self) -> vk::Buffer {
         self.tiles.arguments.handle
     }
@@ -384,12 +384,12 @@ impl Water {
         self.smooth.query_results()
     }
 
-    /// Motion vectors of a frame of a size.
+    /// Motion vectors of a frame of this size.
     pub fn motion(&self, frame: vk::Extent2D) -> Option<Layer> {
         self.motion.as_ref().map(|motion| motion.layer(frame))
     }
 
-    /// The layers of a frame of a size for the host, in the state `composite` left them in.
+    /// Layers of a frame of this size for the host, in the state in which `composite` left them.
     pub fn kept(&self, frame: vk::Extent2D, access: Access) -> Vec<Layer> {
         let layer = |name, image: &Image, level, access| Layer {
             name,

@@ -1,20 +1,18 @@
 //! Pass `motion`: motion vectors, for motion blur, denoising and temporal anti-aliasing.
 //!
-//! Not in the sources. A vector is, in pixels of the frame (row 0 on top), the position of the visible point in
-//! this frame minus its position in the previous frame. For water and foam it has the surface's own motion and
-//! the camera's. For the scene it has the camera's alone, at the scene's depth or, for the background, at
-//! infinity (rotation alone). The surface's motion is the thickness-weighted mean velocity of the particles
-//! near it, fully within one radius behind the frontmost and fading out at three. It is not the motion of what
-//! is visible through the water. Sums are integers at the resolution of the thickness, for the nearest and the
-//! farthest surface in each texel, so that both sides of an outline keep their motion; a pixel takes the one of
-//! its own surface. Spray has no motion of its own: a pixel below droplets has the motion of what is behind
-//! them.
+//! Not in the sources. A motion vector is the position of the visible point in this frame minus its position in the
+//! previous frame, in pixels of the frame (row 0 on top). For water and foam it contains the surface's own motion and
+//! the camera's. For the scene it contains only the camera's motion, at the scene's depth or, for the background, at
+//! infinity (only rotation). The surface's motion is the thickness-weighted mean velocity of the particles near it,
+//! fully within one radius behind the frontmost and fading out at three. It is not the motion of what is visible
+//! through the water. Sums are integers at the resolution of the thickness, for the nearest and the farthest surface in
+//! each texel, so that both sides of an outline keep their motion; a pixel takes the one of its own surface. Spray has
+//! no motion of its own: a pixel with droplets has the motion of the surface behind them.
 //!
-//! The format is RG32F: half floats would be wrong by a thirty-second of a pixel at a hundred pixels and by
-//! half a pixel at a thousand. Foam counts where it hides half of what is behind it.
-//! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene
-//! depth.
-//! Writes: motion, RG32F, all of it.
+//! The format is RG32F: half floats would be wrong by a thirty-second of a pixel at a hundred pixels and by half a
+//! pixel at a thousand. A pixel has the motion of foam if the foam's opacity is at least a half. Reads: the counts of
+//! `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene depth. Writes: motion, RG32F,
+//! every pixel.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -72,10 +70,10 @@ shader::assert_layout!(
     }
 );
 
-/// Inputs, sampled by fragment shaders before and after.
+/// Inputs, which fragment shaders sample before and after the pass.
 pub struct Surfaces<'a> {
     pub depth: &'a Image,
-    /// Its depth and its thickness.
+    /// Depth and thickness of the foam.
     pub foam: Option<[&'a Image; 2]>,
     pub smoothed: &'a Image,
 }
@@ -91,7 +89,7 @@ pub struct Motion {
     level: u32,
 }
 
-/// Surfaces distinguished per texel: one if a texel is a pixel.
+/// Number of surfaces distinguished per texel: one if a texel is a pixel.
 fn surfaces(level: u32) -> u32 {
     if level == 0 { 1 } else { 2 }
 }
@@ -106,7 +104,8 @@ fn sum_bytes(config: &Config, level: u32) -> u64 {
     32 * u64::from(surfaces(level)) * texels(config, level)
 }
 
-/// Number of max_splits: as the thickness, or the first further one at which the sums fit in one binding.
+/// Number of halvings of the resolution: that of the thickness, or the next larger one at which the sums fit in one
+/// binding.
 fn level(gpu: &Gpu, config: &Config) -> u32 {
     let range = u64::from(gpu.limits.max_storage_buffer_range);
     (config.thickness_level..32).find(|level| sum_bytes(config, *level) <= range).unwrap_or(32)
@@ -160,7 +159,7 @@ impl Motion {
         Ok(())
     }
 
-    /// `list`: the one of `cull`, for its counts.
+    /// `list` is the one of `cull`, read for its counts.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -178,7 +177,7 @@ impl Motion {
         let hand = |from, to| -> Vec<_> {
             images.iter().map(|image| access::image(image, from, to)).collect()
         };
-        // In: what is read, and ours from the frame before.
+        // Acquires the inputs, and our images from the previous frame.
         let mut first = hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED);
         first.push(access::image(&self.image, AFTER.and(COPY_READ).discarded(), COMPUTE_WRITE));
         let before = [
@@ -187,7 +186,7 @@ impl Motion {
         ];
         gpu.barriers(cmd, &first, &before);
         let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
-        // Where there is none it is not read.
+        // If there is no foam, the stand-in is not read.
         let [foam, foam_thickness] = from.foam.unwrap_or([from.depth; 2]).map(sampled);
         let ours = [
             (0, r.uniforms),

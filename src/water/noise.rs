@@ -70,12 +70,12 @@ pub struct Noise {
     sprites: Sprites,
     draw: Pipeline,
     target: Target,
-    /// Number of max_splits of its resolution.
+    /// Number of halvings of its resolution.
     pub level: u32,
 }
 
 impl Noise {
-    /// `level`: as [`Config::noise`].
+    /// `level` has the meaning of [`Config::noise`].
     pub fn new(gpu: &Gpu, config: &Config, level: u32) -> Result<Self, Error> {
         let target = Target::new(gpu, &desc(config, level), vk::AttachmentLoadOp::CLEAR)?;
         let draw = Pipeline::graphics(
@@ -119,7 +119,7 @@ impl Noise {
         &self.target.image
     }
 
-    /// `list`: the one of `cull`, for its counts. `depth`: of the water, sampled by fragment shaders.
+    /// `list` is the one of `cull`, read for its counts. `depth` is the water's depth, sampled by fragment shaders.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -32,7 +32,7 @@ pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 /// Depths that are reduced.
 pub struct Depths<'a> {
     pub water: &'a Image,
-    /// Foam and spray depth: tiles with either are drawn too.
+    /// Depth of foam and spray; tiles with either are drawn too.
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
     /// Whitewater depth.

@@ -225,7 +225,7 @@ impl WaterSettings {
         Self {
             spacing,
             amplitude: Amplitude::Source,
-            // Of a thickness that is so many times the volume's.
+            // The thickness of the thesis is this many times the volume's, so the falloff is divided by it.
             medium: Medium::Source { base, falloff: falloff.map(|k| k / SOURCE_VOLUMES) },
             fresnel: Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 },
             compositing: Compositing::Source,
@@ -241,8 +241,8 @@ impl WaterSettings {
     }
 }
 
-/// Particle volumes that a thickness sprite of [`Amplitude::Source`] holds: `0.8·2a·π·J·a²` over spacing³, of a half-axis
-/// a of twice the drawn radius and the kernel's integral J = 0.34.
+/// Number of particle volumes that a thickness sprite of [`Amplitude::Source`] holds: `0.8·2a·π·J·a²` over spacing³,
+/// with a half-axis a of twice the drawn radius and the kernel's integral J = 0.34.
 const SOURCE_VOLUMES: f32 = 3.86;
 
 /// How reflection and the sun's highlight combine with the light from behind.
@@ -318,9 +318,9 @@ pub struct Ellipsoids {
     /// Radius of a particle with at most one neighbour, as a factor, [0.25, 1], default 1. It is whole from a sum of
     /// weights of 2.5 on. (The paper: 0.5, up to 25 neighbours.)
     pub lone: f32,
-    /// How far a particle moves towards the weighted centre of its neighbourhood, [0, 1], default 0.9 as in the
-    /// paper; sheets and rims become smooth. The neighbours' average displacement is subtracted, or water would
-    /// shrink away from its walls as in the paper. 0 saves half the time of the pass.
+    /// How far a particle moves towards the weighted centre of its neighbourhood, [0, 1], default 0.9 as in the paper;
+    /// sheets and rims become smooth. The neighbours' average displacement is subtracted, because otherwise water would
+    /// shrink away from its walls, as in the paper. 0 saves half the time of the pass.
     pub centred: f32,
 }
 
@@ -410,10 +410,10 @@ impl Medium {
     /// A lake, green: 3 mg/m³ of chlorophyll as in [`OCEAN`](Self::OCEAN), and dissolved organic matter of 0.4 per metre at
     /// 443 nm, falling by 0.0176 per nm (Babin et al., J. Geophys. Res. 108(C7), 2003).
     pub const LAKE: Self = Self::turbid([0.322, 0.165, 0.408], [0.0205, 0.0232, 0.0287]);
-    /// Clear ocean, Jerlov's type IB: 0.1 mg/m³ of chlorophyll (Mobley, Light and Water, 1994), absorption by Prieur and
-    /// Sathyendranath (Limnol. Oceanogr. 26, 1981) as Mobley has it (Eq. 3.27, Table 3.7), scattering by Gordon and Morel
-    /// (1983), of which 0.0183 is backwards (Petzold's particles), and that of sea water (Morel 1974). Its whitewater
-    /// attenuation agrees with Jerlov's table (Marine Optics, 1976, Table XXVII) to a fifth.
+    /// Clear ocean, Jerlov's type IB: 0.1 mg/m³ of chlorophyll (Mobley, Light and Water, 1994), absorption by Prieur
+    /// and Sathyendranath (Limnol. Oceanogr. 26, 1981) as Mobley has it (Eq. 3.27, Table 3.7), scattering by Gordon and
+    /// Morel (1983), of which 0.0183 is backwards (Petzold's particles), and that of sea water (Morel 1974). Its
+    /// diffuse attenuation agrees with Jerlov's table (Marine Optics, 1976, Table XXVII) to a fifth.
     pub const OCEAN: Self = Self::turbid([0.273, 0.0639, 0.0252], [0.0036, 0.004_55, 0.007_07]);
     /// A river, tan: 100 g/m³ of silt, which scatters 0.51 m²/g (Babin et al., Limnol. Oceanogr. 48, 2003), 0.0183 of it
     /// backwards, and absorbs 0.031 m²/g at 443 nm, falling by 0.0123 per nm; dissolved organic matter of 1 per metre there
@@ -521,8 +521,7 @@ pub struct WeberSettings {
     pub foam_lifetime: f32,
     /// World velocity of the air, scene units per second, finite, default 0.
     pub air: [f32; 3],
-    /// Density where no stream gives one, or where it is 0 (a particle that was just emitted), (0, ∞), default
-    /// 1000.
+    /// Density of particles without a density stream, or with a density of 0 (just emitted), (0, ∞), default 1000.
     pub rest_density: f32,
     /// Seed of the random times, any value, default 0.
     pub seed: u32,
@@ -588,8 +587,9 @@ pub struct SurfaceFoamSettings {
     /// How fast the colour approaches [`front_color`](Self::front_color) with the thickness of the front layer,
     /// per scene unit, [0, ∞), default 0.15 / spacing.
     pub front_extinction: f32,
-    /// Exponent p of the thesis' alternative rule, [0, 64]: the share of the front colour is (front-layer
-    /// thickness / layer depth)^p. With 0, the default, `front_extinction` applies.
+    /// Exponent p of an alternative rule for the front colour (thesis Sec. 3.2), [0, 64]: the weight of
+    /// [`front_color`](Self::front_color) is (thickness of the front layer / depth extent of the layer)^p. With 0, the
+    /// default, the rule is off and `front_extinction` applies.
     pub front_power: f32,
     /// Depth of the front layer, scene units, [0, ∞), default 60 spacings, with a soft end of one spacing. (The
     /// thesis' 7 spacings show drops in front of foam as discs, because the layer begins anew behind each.)
@@ -756,8 +756,8 @@ pub struct SpraySettings {
     /// Fraction of the rest density from which its water has the full radius and its foam is complete, at least
     /// `all_spray_density`, default 0.7.
     pub full_water_density: f32,
-    /// Fraction of the rest density from which a particle is no spray, at least `all_spray_density`, default
-    /// 0.85: single sheets (0.70) hardly are. These fractions replace [`WaterSettings::density_threshold`] and
+    /// Fraction of the rest density from which a particle is not spray, at least `all_spray_density`, default 0.85:
+    /// single sheets (0.70) hardly are. These fractions replace [`WaterSettings::density_threshold`] and
     /// [`density_full`](WaterSettings::density_full).
     pub no_spray_density: f32,
     /// Maximum distance of droplets from the particle's centre, spacings, [0, 8], default 1.5; 0 as in the
@@ -766,8 +766,8 @@ pub struct SpraySettings {
     /// Droplets are also spread along the particle's velocity, by its motion in up to this time, forwards and
     /// backwards. Seconds, [0, 1], default 0. Torn water then flies in strands.
     pub stretch: f32,
-    /// Opacity at the centre of a particle's mist, [0, 1), default 0.05. Where a particle has several droplets,
-    /// mist replaces the first.
+    /// Opacity at the centre of a particle's mist, [0, 1), default 0.05. If a particle has several droplets, mist
+    /// replaces the first.
     pub mist: f32,
     /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
@@ -786,10 +786,11 @@ pub struct SpraySettings {
     pub exposure: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
-    /// Extinction of a particle's spray for sunlight over that of as much foam, [0, 64], default 0.5. With several
-    /// [`droplets`](Self::droplets) it is multiplied by the square of the fraction that is drawn, an 11th for a
-    /// particle that is only spray; the half-axis of such a shadow is at least 0.6 [`scatter_radius`](Self::scatter_radius).
-    /// No effect without a map of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
+    /// Extinction of sunlight by a particle's spray, relative to that by an equal amount of foam, [0, 64], default 0.5.
+    /// With several [`droplets`](Self::droplets) it is multiplied by the square of the fraction that is drawn, an 11th
+    /// for a particle that is only spray; the half-axis of such a shadow is at least 0.6
+    /// [`scatter_radius`](Self::scatter_radius). No effect without a map of the sunlight in the water
+    /// ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
     /// Weight of multiple scattering in the shadows on spray, [0, 1], default 0. The transmittance T of sunlight
     /// becomes `(1 − s)·T + s·T^¼` (an octave of Wrenninge, Kulla, Lundqvist 2013), because light that droplets
@@ -799,8 +800,8 @@ pub struct SpraySettings {
     /// the sun, up to a 22nd of the picture's height away, and brighter where thinner spray does. It shows shadows
     /// that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
     pub relief: f32,
-    /// Whether its light is added to the light from behind (the thesis) instead of composited over it (default
-    /// false).
+    /// Whether spray's light is added to the light from behind (the thesis) instead of composited over it. Default
+    /// false.
     pub additive: bool,
 }
 
@@ -896,9 +897,9 @@ pub struct SurfaceNoiseSettings {
     pub size: f32,
     /// Noise cells per drawn radius, (0, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
-    /// Foam light added per noise value of 1, clamped to all of it, [0, 64], default 0: no such foam.
+    /// Foam light added per noise value of 1, clamped to the full foam light, [0, 64], default 0: no such foam.
     pub foam: f32,
-    /// Its albedo, linear RGB, 0 to 1, default grey 0.5.
+    /// Albedo of that foam, linear RGB, 0 to 1, default grey 0.5.
     pub color: [f32; 3],
 }
 
@@ -956,7 +957,7 @@ impl Default for SurfaceFoamSettings {
 mod tests {
     use super::*;
 
-    /// The kernel `√(1 − ρ²)·exp(−2ρ²)` over a disc, by midpoints of u = ρ².
+    /// Integrates the kernel `√(1 − ρ²)·exp(−2ρ²)` over a disc by the midpoint rule in u = ρ².
     #[test]
     fn a_sprite_of_the_source_holds_as_many_volumes() {
         let steps = 10_000_u32;
@@ -968,18 +969,18 @@ mod tests {
         let half_axis = 2.0 * f64::from(RADIUS_PER_SPACING);
         let height = 0.8 * 2.0 * half_axis;
         let volumes = height * std::f64::consts::PI * mean * half_axis * half_axis;
-        // Three digits are said.
+        // The constant is rounded to three digits.
         assert!((volumes - f64::from(SOURCE_VOLUMES)).abs() < 5.0e-3, "{volumes}");
     }
 
     /// Red, green and blue of the presets, nm.
     const WAVES: [f64; 3] = [610.0, 550.0, 465.0];
-    /// Absorption of pure water there, per metre (Pope and Fry 1997, Table 3).
+    /// Absorption of pure water at these wavelengths, per metre (Pope and Fry 1997, Table 3).
     const WATER: [f64; 3] = [0.2644, 0.0565, 0.0101];
-    /// Absorption of chlorophyll there over that at 440 nm (Mobley 1994, Table 3.7).
+    /// Absorption of chlorophyll at these wavelengths over that at 440 nm (Mobley 1994, Table 3.7).
     const CHLOROPHYLL: [f64; 3] = [0.252, 0.357, 0.8935];
 
-    /// Scattering of water (Morel 1974), from what it is at 400 nm.
+    /// Scattering of water (Morel 1974), from its value at 400 nm.
     fn molecules(at_400: f64) -> [f64; 3] {
         WAVES.map(|wave| at_400 * (400.0 / wave).powf(4.32))
     }
@@ -987,8 +988,8 @@ mod tests {
     const FRESH: f64 = 0.00583;
     const SEA: f64 = 0.00758;
 
-    /// Water of so much chlorophyll, mg/m³, and dissolved matter, per metre at 443 nm: absorption, and twice what is
-    /// scattered backwards.
+    /// Absorption, and twice the backscattering, of water with this much chlorophyll (mg/m³) and dissolved matter (per
+    /// metre at 443 nm).
     fn alive(chlorophyll: f64, dissolved: f64, water: f64) -> [[f64; 3]; 2] {
         let molecules = molecules(water);
         let absorption = [0, 1, 2].map(|i| {
@@ -1003,7 +1004,7 @@ mod tests {
         [absorption, scattering]
     }
 
-    /// The same of so many g/m³ of flour that absorbs and scatters so much, m²/g.
+    /// The same for water with this many g/m³ of silt or flour, which absorbs and scatters this many m²/g.
     fn silted(grams: f64, [absorbs, scatters]: [f64; 2], dissolved: f64) -> [[f64; 3]; 2] {
         let molecules = molecules(FRESH);
         let absorption = [0, 1, 2].map(|i| {
@@ -1026,14 +1027,14 @@ mod tests {
     #[test]
     fn presets_are_what_their_sources_say() {
         let per_millimetre = |k: [f64; 3]| k.map(|k| 1000.0 * k);
-        // Of Narasimhan's table, per centimetre hundredth, at the dilution.
+        // From Narasimhan's table (per centimetre, times 100), scaled by the dilution.
         let diluted = |k: [f64; 3]| per_millimetre(k.map(|k| 0.01 * k * 23.0 / 2.9));
         let absorbed = diluted([0.1449, 0.3141, 0.7286]);
         let honey = WAVES.map(|wave| {
             let tenfold = std::f64::consts::LN_10;
             100.0 * tenfold * 0.5 * (1.4 / 0.5) * (-(wave - 450.0) / 82.0).exp()
         });
-        // Molar extinction per centimetre, grams per mole.
+        // Molar extinction per centimetre, times grams per mole.
         let blood = [1506.0, 43_016.0, 38_500.0]
             .map(|molar| 100.0 * std::f64::consts::LN_10 * molar * 150.0 / 64_500.0);
         let cells = WAVES.map(|wave| 2200.0 * (wave / 500.0_f64).powf(-0.66));
@@ -1054,11 +1055,11 @@ mod tests {
         ] {
             let found = coefficients(preset);
             for (k, expected) in found.iter().flatten().zip([absorption, scattering].concat()) {
-                // Three digits are said.
+                // The presets are rounded to three digits.
                 assert!((k - expected).abs() <= 0.01 * expected, "{name}: {k} is not {expected}");
             }
         }
-        // Planck's law, of one luminance; Rec. 709 weighs the three.
+        // Planck's law at one luminance, with Rec. 709 weights.
         let Medium::Turbid { emission, .. } = Medium::LAVA else { panic!() };
         let second = 1.438_8e7; // nm K
         let planck = WAVES.map(|wave| (-second / (wave * 1490.0)).exp() / (wave / 610.0).powi(5));
@@ -1072,8 +1073,8 @@ mod tests {
         assert!((luminance * paper / 6770.0 - 1.0).abs() < 0.01, "{luminance}");
     }
 
-    /// Jerlov's own table says how the sun's light fails with depth: what is absorbed or thrown back, over the mean cosine of
-    /// a high sun under water (Gordon 1989).
+    /// Jerlov's table gives the attenuation of sunlight with depth: absorption plus backscattering, over the mean
+    /// cosine of a high sun under water (Gordon 1989).
     #[test]
     fn the_ocean_is_jerlovs() {
         let table = [

@@ -34,7 +34,7 @@ use crate::gpu::shader;
 const MOST_GROUPS: u32 = 4096;
 /// Bytes of a particle with its shapes (glsl/include/shaped.glsl).
 pub const SHAPED: u32 = 40;
-/// Where in it the shape of its spray begins.
+/// Byte offset of the spray's shape in it.
 const SPRAY_SHAPE: u64 = 24;
 /// State of the result until the next frame.
 const AFTER: Access = COMPUTE_READ.and(COPY_READ);
@@ -95,7 +95,8 @@ shader::assert_layout!(
     CentrePush { cells, buckets, centred }
 );
 
-/// The specialisation constant of shaders that read lists of spheres or of ellipsoids (glsl/include/ellipsoid.glsl).
+/// Specialization constant that selects whether a shader reads lists of spheres (0) or of ellipsoids (1); see
+/// glsl/include/ellipsoid.glsl.
 pub fn constant(config: &Config) -> (u32, u32) {
     (15, u32::from(is_on(config)))
 }
@@ -133,14 +134,14 @@ pub struct Shape {
     shape: Pipeline,
     centre: Pipeline,
     scan: Scan,
-    /// Counts of the buckets, then their begins, then their ends.
+    /// Number of particles in each bucket, then its begin, then its end.
     buckets: Buffer,
     /// Particles sorted by bucket, and their number.
     places: Buffer,
     counts: Buffer,
-    /// In their order: offset of each from the centre of its neighbours.
+    /// Offset of each particle from the centre of its neighbours, in the order of `places`.
     shifts: Buffer,
-    /// In the host's order: position and shape.
+    /// Position and shape of each particle, in the host's order.
     pub shaped: Buffer,
     many: u32,
     chunk_size: u32,
@@ -216,7 +217,7 @@ impl Shape {
                 buffer(buckets.handle, both, COMPUTE_READ),
                 buffer(places.handle, COMPUTE_WRITE, COMPUTE_READ),
                 buffer(self.counts.handle, both, COMPUTE_READ),
-                // Of those without a cell.
+                // Written for particles without a cell.
                 buffer(self.shaped.handle, COMPUTE_WRITE, COMPUTE_WRITE),
             ],
         );
@@ -251,7 +252,7 @@ impl Shape {
         Ok(Particles { positions, before: COMPUTE_READ, ..*particles })
     }
 
-    /// The shapes of the spray of `shaped`, which [`record`](Self::record) returned.
+    /// Stream of the spray's shapes in `shaped`, the particles that [`record`](Self::record) returned.
     pub fn of_spray(shaped: &Particles) -> Stream {
         Stream { offset: shaped.positions.offset + SPRAY_SHAPE, ..shaped.positions }
     }
@@ -266,7 +267,7 @@ impl Shape {
         (most, cells): (u32, f32),
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        // Where the host knows the count any buffer will do.
+        // If the host knows the count, any buffer can be bound.
         let (count, from_gpu, host_count) = match particles.count {
             Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),
             Count::Gpu { buffer, offset } => (most, 1, Resource::Buffer(buffer, offset, 4)),

@@ -1,9 +1,9 @@
 //! Pass `smooth`: adaptive curvature flow (thesis Sec. 3.1 and 4.7; van der Laan et al. 2009).
 //!
-//! Two images are swapped with each iteration. All forms do the same arithmetic on the same plan and give the
-//! same surface, in image `a`: one dispatch per iteration over the tiles with work left, several iterations per
-//! dispatch in shared memory, or the thesis' raster passes that an occlusion query ends (in `smooth_query`).
-//! The GPU decides what the thesis decides on the CPU.
+//! Two images are swapped with each iteration. Three forms do the same arithmetic on the same plan and give the same
+//! surface, in image `a`: one dispatch per iteration over the tiles with work left, several iterations per dispatch in
+//! shared memory, or the thesis' raster passes, ended by an occlusion query (in `smooth_query`). The GPU makes the
+//! decisions that the thesis makes on the CPU.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
@@ -33,7 +33,7 @@ pub const BEFORE: Access =
 /// Iterations of one dispatch of the fused form.
 const FUSED_STEPS: u32 = 8;
 
-/// Sampled by compute shaders, in the layout of a storage image.
+/// State of an image that compute shaders sample in the GENERAL layout.
 const COMPUTE_SAMPLED_GENERAL: Access = Access::new(
     vk::PipelineStageFlags2::COMPUTE_SHADER,
     vk::AccessFlags2::SHADER_SAMPLED_READ,
@@ -72,7 +72,7 @@ enum Form {
 pub struct Smooth {
     form: Form,
     iterations: u32,
-    /// The reduced depth before, the smoothed surface after.
+    /// The reduced depth before the pass, the smoothed surface after it.
     pub a: Image,
     /// The second image of the ping-pong.
     pub b: Image,
@@ -88,7 +88,7 @@ impl Smooth {
         };
         let form = match config.smoothing.unwrap_or_else(|| default_form(gpu)) {
             Smoothing::Tiles => {
-                // Few threads do better with long columns.
+                // With few threads, long columns are faster.
                 let rows = if gpu.is_cpu() { 16 } else { 2 };
                 let constants = [rule, (2, 16 / rows), (3, rows)];
                 Form::Tiles(Pipeline::compute(gpu, shader::WATER_SMOOTH_COMP, &constants)?)
@@ -149,16 +149,16 @@ impl Smooth {
         Ok(())
     }
 
-    /// One dispatch per iteration over the tiles with work left. A tile runs one iteration more than it needs,
-    /// which copies its pixels: its result is then in both images, whatever their roles in its neighbours'
-    /// later iterations.
+    /// One dispatch per iteration over the tiles with work left. A tile runs one iteration more than it needs, which
+    /// copies its pixels. Its result is then in both images, so neighbours can read either one in later iterations.
     fn record_tiles(
         &self,
         r: &mut Recording<'_>,
         pipeline: &Pipeline,
         work: &Work<'_>,
     ) -> Result<(), Error> {
-        // One more than the most, for the copies; made even, so that the roles end as they began.
+        // One more than the max number of iterations, for the copies; even, so that the images end in their initial
+        // roles.
         let dispatches = (self.iterations + 1).next_multiple_of(2).min(256);
         self.record_dispatches(r, pipeline, work, dispatches, |r, index| {
             let push = TilesPush { iteration: index + 1, columns: work.tiles.atlas.columns };
@@ -167,7 +167,7 @@ impl Smooth {
         })
     }
 
-    /// Several iterations per dispatch, and one dispatch more that copies.
+    /// Several iterations per dispatch, and one more dispatch, which copies.
     fn record_fused(
         &self,
         r: &mut Recording<'_>,
@@ -236,7 +236,7 @@ impl Smooth {
                     16 * u64::from(arguments),
                 );
             }
-            // What was written is read next, what was read is written next.
+            // The image that was written is read next, and the other way round.
             gpu.barriers(
                 cmd,
                 &[
@@ -246,7 +246,7 @@ impl Smooth {
                 &[],
             );
         }
-        // Written or read last, as the number of dispatches has it.
+        // The last access depends on the parity of the number of dispatches.
         let last = COMPUTE_SAMPLED_GENERAL.and(COMPUTE_WRITE);
         gpu.barriers(cmd, &[access::image(&self.a, last, FRAGMENT_SAMPLED)], &[]);
         Ok(())
@@ -268,7 +268,7 @@ impl Smooth {
     }
 }
 
-/// Tiles is the fastest on lavapipe by far; on an H200 fused takes half its time (docs/performance.md).
+/// `Tiles` is by far the fastest on lavapipe; on an H200 `Fused` takes half its time (docs/performance.md).
 fn default_form(gpu: &Gpu) -> Smoothing {
     if gpu.is_cpu() { Smoothing::Tiles } else { Smoothing::Fused }
 }

@@ -1,11 +1,11 @@
 //! Pass `smooth`, form Query: the thesis' raster passes, ended by an occlusion query every fifth iteration
 //! (Sec. 4.7, Listing A.11), decided on the GPU alone.
 //!
-//! A block is five iterations and a copy back, so that the result is always in the same image. Its fifth
-//! iteration counts the pixels that are still active, with a draw of its own without colour writes. One
-//! invocation turns the count into the predicate of the next block. What that predicate gates depends on the
-//! gate; a skipped block costs only its empty render passes.
-//! Reads: smoothing images, plan, tile list. Writes: smoothing images, query results, predicates.
+//! A block is five iterations and a copy back, so that the result is always in the same image. Its fifth iteration
+//! counts the pixels that are still active, with a separate draw without colour writes. One invocation converts the
+//! count to the predicate of the next block. How the predicate skips the block depends on the gate; a skipped block
+//! costs only its empty render passes. Reads: smoothing images, plan, tile list. Writes: smoothing images, query
+//! results, predicates.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -32,7 +32,7 @@ use crate::water::settings::{Gate, Rule};
 
 /// Iterations per block: the thesis' query interval.
 pub const BLOCK: u32 = 5;
-/// Bytes per predicate: each is bound, counted and predicated by itself.
+/// Bytes per predicate, so that each can be bound, or used as a count or predicate, separately.
 const PREDICATE_STRIDE: u64 = 256;
 
 #[repr(C)]
@@ -43,7 +43,7 @@ struct Push {
     block: u32,
 }
 
-/// The form's state.
+/// State of this form.
 pub struct Query {
     gate: Gate,
     pass: vk::RenderPass,
@@ -175,7 +175,7 @@ impl Query {
         Ok(())
     }
 
-    /// How the predicates are used.
+    /// Access to the predicates.
     fn gate_use(&self) -> Access {
         match self.gate {
             Gate::DrawCount => INDIRECT,
@@ -194,8 +194,8 @@ impl Query {
         let Work { plan, tiles } = work;
         let (gpu, cmd) = (r.gpu, r.cmd);
         let by_host = r.read_back.is_some();
-        // Bindings of all three pipelines are the same; so are their push constants.
-        // Only that gate reads predicates in the shader; the others must not seem to.
+        // All three pipelines have the same bindings and push constants. Only the gate in the vertex shader reads
+        // predicates in a shader; for the others the barrier must not include it.
         let shader_predicates = match self.gate {
             Gate::VertexCull => Resource::buffer(&self.predicates),
             Gate::DrawCount | Gate::Predicate => Resource::buffer(&tiles.list),
@@ -236,7 +236,7 @@ impl Query {
                 buffer(self.results.handle, COMPUTE_READ.and(COPY_READ), COPY_WRITE),
             ],
         );
-        // SAFETY: outside a render pass; the frame before is done with both (barriers above).
+        // SAFETY: outside a render pass; the previous frame has finished with both (barriers above).
         unsafe {
             // Word 0: the first predicate. Words 4 to 7: the arguments of an empty draw.
             let first: [u32; 8] = [1, 0, 0, 0, 0, 0, 0, 0];
@@ -246,7 +246,7 @@ impl Query {
         }
         gpu.barriers(cmd, &[], &[buffer(self.predicates.handle, CLEAR, self.gate_use())]);
 
-        // The host needs no gate: it stops recording. The first predicate is always set.
+        // If the host stops recording, no gate is needed, and the first predicate, which is always set, is used.
         let gate_of = |block| if by_host { 0 } else { block };
         for block in 0..self.blocks {
             for k in 0..BLOCK {
@@ -291,9 +291,9 @@ impl Query {
         Ok(())
     }
 
-    /// lavapipe up to 22.3 applies the count buffer of the last counted draw to every later
-    /// indirect draw of the command buffer: an empty draw with a count of one makes that harmless
-    /// (but for a host's own draws of more than one).
+    /// lavapipe up to 22.3 applies the count buffer of the last counted draw to every later indirect draw of the
+    /// command buffer. An empty draw with a count of one limits the damage: only a host's own multi-draws are then
+    /// wrong.
     fn forget_draw_count(&self, r: &Recording<'_>, image: &Image) {
         self.begin(r, image, 0);
         // SAFETY: inside a render pass; the copy's pipeline, set and constants are still bound;
@@ -305,7 +305,7 @@ impl Query {
         self.end(r, image);
     }
 
-    /// Begins a pass on an image that was sampled before.
+    /// Begins a render pass on an image that was sampled before.
     fn begin(&self, r: &Recording<'_>, image: &Image, index: usize) {
         let barrier = access::image(image, FRAGMENT_SAMPLED, COLOR_ATTACHMENT);
         r.gpu.barriers(r.cmd, &[barrier], &[]);
@@ -313,7 +313,7 @@ impl Query {
         r.gpu.begin_pass(r.cmd, self.pass, self.framebuffers[index].handle, area, [0.0; 4]);
     }
 
-    /// Ends it; the image is sampled next.
+    /// Ends the render pass; the image is sampled next.
     fn end(&self, r: &Recording<'_>, image: &Image) {
         r.gpu.end_pass(r.cmd);
         let barrier = access::image(image, COLOR_ATTACHMENT, FRAGMENT_SAMPLED);
@@ -351,7 +351,7 @@ impl Query {
                     let info = vk::ConditionalRenderingBeginInfoEXT::default()
                         .buffer(self.predicates.handle)
                         .offset(predicate);
-                    // Round the draw alone: a clear or a copy would not be predicated.
+                    // Only the draw is inside: a clear or a copy would not be predicated.
                     (conditional.fp().cmd_begin_conditional_rendering_ext)(cmd, &info);
                     gpu.device.cmd_draw_indirect(cmd, arguments, 0, 1, 16);
                     (conditional.fp().cmd_end_conditional_rendering_ext)(cmd);

@@ -1,10 +1,9 @@
 //! Pass `split`: sorts the tiles with water by whether they hold two layers, foam, and coarser smoothing
 //! levels.
 //!
-//! Not in the thesis. Shading two layers costs twice as much as shading one, and foam half as much again. In a
-//! single shader a CPU, and partly a GPU, would pay for it everywhere.
-//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the
-//! arguments of `composite`.
+//! Not in the thesis. Shading two layers costs twice as much as shading one, and foam adds half. With a single shader a
+//! CPU, and partly a GPU, would pay that cost in every tile. Reads: the list of `tiles`, their work, boundaries, foam
+//! depth and thickness. Writes: eight lists, the arguments of `composite`.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -105,7 +104,7 @@ impl Split {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let lengths = self.lengths.handle;
         let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
-        // Fragments too: `composite` binds it in place of boundaries where there are none.
+        // Fragment shaders as well: `composite` binds it in place of missing boundaries.
         let readers = COMPUTE_READ.and(VERTEX_READ).and(FRAGMENT_READ);
         gpu.barriers(cmd, &[], &[buffer(lengths, COMPUTE_READ, COPY_WRITE)]);
         // SAFETY: outside a render pass; the frame before has read it (barrier).
@@ -131,7 +130,7 @@ impl Split {
                 (4, Resource::buffer(&self.lengths)),
                 (7, r.levels),
                 (8, Resource::buffer(&tiles.work)),
-                // Without it is not read: any buffer will do, and any image.
+                // Missing inputs are not read, so any buffer or image can be bound.
                 (11, Resource::buffer(gaps.map_or(&tiles.list, |gaps| &gaps.boundaries))),
                 (5, foam.map_or(r.scene_depth, |foam| sampled(foam.depth()))),
                 (6, foam.map_or(r.scene_depth, |foam| sampled(foam.thickness()))),

@@ -1,15 +1,13 @@
 //! Pass `spray`: droplets of low-density particles, which are too few together to form a body of water (thesis
 //! Sec. 4.3 and 4.9.5).
 //!
-//! The part of a particle that its density classifies as spray is drawn as droplets around it, each a sprite
-//! that faces the camera and streaks along its motion; `composite` lays them over everything else. The thesis
-//! adds one sprite per particle to the picture, which shows as a disc near the camera. Sums of optical depth
-//! need no order: each droplet adds fixed-point steps. The steps are so fine that distant droplets, which are
-//! thinned to be a pixel wide, still add several; fractions of a step are rounded stochastically
-//! (glsl/include/whole_steps.glsl).
-//! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (RG16F,
-//! with coarser steps, where a device does not blend that): optical depth of the droplets in front of scene and
-//! water, and its sunlit part.
+//! The part of a particle that its density classifies as spray is drawn as droplets around it, each a sprite that faces
+//! the camera and streaks along its motion; `composite` lays them over everything else. The thesis adds one sprite per
+//! particle to the picture, which shows as a disc near the camera. Optical depths are summed in any order: each droplet
+//! adds fixed-point steps. The steps are so fine that distant droplets, which are thinned to be a pixel wide, still add
+//! several; fractions of a step are rounded stochastically (glsl/include/whole_steps.glsl). Reads: the counts of
+//! `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (RG16F, with coarser steps, where a
+//! device does not blend that): optical depth of the droplets in front of scene and water, and its sunlit part.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -36,7 +34,7 @@ pub const SPRITE: u64 = 48;
 
 /// Read by compute (`reduce`) and by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-/// Last uses in a frame: those, or the host's copy of the layer.
+/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 #[repr(C)]
@@ -127,8 +125,9 @@ impl Spray {
         &self.target.image
     }
 
-    /// `shapes`: of the particles' spray, from pass `shape`; none: balls. `list`: the one of `cull`, for its counts.
-    /// `depth`: of the water, in the state in which pass `depth` leaves it, before and after.
+    /// `shapes` are those of the particles' spray, from pass `shape`; `None` gives balls. `list` is the one of `cull`,
+    /// read for its counts. `depth` is the water's depth, before and after in the state in which pass `depth` leaves
+    /// it.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -196,7 +195,7 @@ fn desc(gpu: &Gpu, config: &Config) -> ImageDesc<'static> {
     let usage = vk::ImageUsageFlags::SAMPLED
         | vk::ImageUsageFlags::COLOR_ATTACHMENT
         | vk::ImageUsageFlags::TRANSFER_SRC;
-    // Every device blends half floats.
+    // Every device can blend half floats.
     let (single, half) = (vk::Format::R32G32_SFLOAT, vk::Format::R16G16_SFLOAT);
     let format = if gpu.blends_pairs { single } else { half };
     ImageDesc::new("water/spray", config.extent, format, usage)

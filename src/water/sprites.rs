@@ -1,5 +1,5 @@
-//! Shared by passes over the host's particles: the binding of the streams that they read, chunk by chunk, and
-//! for `surface_foam`, `spray` and `noise` the list of sprites that a draw or a dispatch reads.
+//! Shared by passes over the host's particles. It binds the streams that they read, chunk by chunk. For `surface_foam`,
+//! `spray` and `noise` it also builds the list of sprites for a draw or a dispatch.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -17,11 +17,11 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader::Shader;
 
 /// Maximum number of workgroups per chunk; if there are more particles an invocation processes several. With 64
-/// invocations each they fill the largest device. The CPU need not know the count, and groups beyond it would
-/// be started for nothing.
+/// invocations each they fill the largest device. The CPU may not know the count, and more groups might be started for
+/// nothing.
 const MOST_GROUPS: u32 = 4096;
 
-/// A dispatch over the particles, one invocation each.
+/// A dispatch over the particles, with one invocation each.
 pub struct Over<'a, const N: usize> {
     pub particles: &'a Particles,
     /// Streams besides the positions; the window of an absent one has stride 0.
@@ -36,7 +36,7 @@ impl<const N: usize> Over<'_, N> {
         self.binding + 1 + N as u32
     }
 
-    /// Records one chunk of `list`. `own`: the pass' other resources. `push`: builds its constants from the
+    /// Records one chunk of `list`. `own` are the other resources of the pass. `push` builds its constants from the
     /// chunk's first particle, the positions and the streams.
     pub fn record<P: NoUninit>(
         &self,
@@ -70,14 +70,14 @@ pub struct Sprites {
     buffer: Buffer,
     /// Bytes of a sprite.
     size: u64,
-    /// State in which they are read.
+    /// State of the sprites while they are read.
     read: Access,
 }
 
 impl Sprites {
-    /// `shader`, specialised by `constants`, lists them. Its bindings are the frame's uniforms, positions,
-    /// streams, `Counts`, sprites, members, and the pass' own. `read`: by a draw's vertex shader, or by
-    /// compute.
+    /// `shader`, specialized by `constants`, lists the sprites. Its bindings are the frame's uniforms, positions,
+    /// streams, `Counts`, sprites, members, and those of the pass. `read` is the access of the reader: a draw's vertex
+    /// shader, or compute.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -97,8 +97,8 @@ impl Sprites {
         })
     }
 
-    /// Lists them. `list`: the one of `cull`, for its counts, in the state [`LIST_USE`] before and after.
-    /// `own`, `push`: as [`Over::record`].
+    /// Lists the sprites. `list` is the one of `cull`, read for its counts, in the state [`LIST_USE`] before and after.
+    /// `own` and `push` have the meaning of [`Over::record`].
     pub fn record<P: NoUninit, const N: usize>(
         &self,
         r: &Recording<'_>,
@@ -129,7 +129,7 @@ impl Sprites {
         Ok(())
     }
 
-    /// Draws them inside a render pass; they are binding 1. `arguments`: offset of the draw's arguments in
+    /// Draws the sprites inside a render pass; they are binding 1. `arguments` is the offset of the draw's arguments in
     /// `Counts`.
     pub fn draw(
         &self,
@@ -151,9 +151,9 @@ impl Sprites {
         Ok(())
     }
 
-    /// Processes them by a dispatch outside a render pass; `Counts` are binding 4. It has exactly as many
-    /// groups as there are sprites for: a CPU distributes groups to threads in advance, and empty groups at the
-    /// end would leave all work to one.
+    /// Processes the sprites by a dispatch outside a render pass; `Counts` are binding 4. The number of groups is
+    /// exactly that of the sprites, because a CPU distributes groups to threads in advance: with empty groups at the
+    /// end, one thread would get all the work.
     pub fn splat(
         &self,
         r: &Recording<'_>,

@@ -13,16 +13,16 @@
 //! visible quantity, and a finer depth only has more fragments, most of which lose. Outlines are those of the
 //! thickness, which ends softly; those of the scene are resolved per pixel (glsl/include/surface_foam_texels.glsl).
 //!
-//! Two paths, as for the water's thickness: blended quads, and invocations with integer atomics. Sprites cover
-//! few texels, so a triangle's set-up costs as much as its fragments; a depth that loses is rejected by one
-//! read; what is behind the front layer, usually nothing, is counted separately. Both paths sum fixed-point
-//! steps, in any order. The foam's velocity is summed coarsely on the screen, for the lace that it advects.
+//! Two paths, as for the water's thickness: blended quads, and invocations with integer atomics. Sprites cover few
+//! texels, so a triangle's set-up costs as much as its fragments; a fragment behind the nearest depth is rejected by
+//! one read; foam behind the front layer, of which there usually is none, is summed separately. Both paths sum
+//! fixed-point steps, in any order. The foam's velocity is summed coarsely on the screen, for the lace that it advects.
 //!
-//! Spray is no foam: as the density falls `spray` takes over.
-//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there
-//! is none; foam thickness, RGBA32F: metres in total, of the layer right behind the frontmost, of the sunlit
-//! part of that layer (by sprite; a mask applies per pixel), and the total times `d / (d + s)`, d the distance
-//! from a spacing s behind the frontmost on.
+//! Spray is not foam: with falling density pass `spray` replaces it. Reads: the counts of `cull`, the host's particles,
+//! scene depth. Writes: foam depth, R32F, EMPTY where there is none; foam thickness, RGBA32F, in metres: the total, the
+//! front layer (right behind the frontmost foam), the sunlit part of that layer (per sprite; a mask applies per pixel),
+//! and the total weighted by `d / (d + s)`, with s one spacing and d the distance behind the point one spacing behind
+//! the frontmost foam.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -56,7 +56,7 @@ pub const SPRITE: u64 = 64;
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Shading passes read the foam's velocity.
 const DRIFT_READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
-/// Last uses in a frame: those, or the host's copy of the layer.
+/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 #[repr(C)]
@@ -113,7 +113,7 @@ fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
     ImageDesc::new(name, reduced(config.extent, config.thickness_level), format, usage)
 }
 
-/// An image that sprites are blended into.
+/// An image and the pipeline that blends sprites into it.
 struct Blended {
     target: Target,
     pipeline: Pipeline,
@@ -168,13 +168,13 @@ impl Blended {
     }
 }
 
-/// Whether sprites have shadows; a mask applies per pixel instead.
+/// Whether sprites store their shadow; a screen-space mask is applied per pixel instead.
 fn lit(config: &Config) -> bool {
     config.light_map_size.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
 }
 
-/// Words per texel of the compute path. The first two are depth bits: of the frontmost foam, or of the scene if
-/// there is none in front of it; and of the scene.
+/// Words per texel of the compute path. The first two are depths as bits: that of the frontmost foam, or of the scene
+/// if no foam is in front of it; and that of the scene.
 pub fn words_of(config: &Config) -> u32 {
     if lit(config) { 6 } else { 5 }
 }
@@ -301,7 +301,7 @@ pub struct Foam {
     drifting: Pipeline,
     drift: Buffer,
     path: Path,
-    /// Number of max_splits of both images.
+    /// Number of halvings of the resolution of both images.
     pub level: u32,
 }
 
@@ -375,7 +375,7 @@ impl Foam {
         }
     }
 
-    /// `list`: the one of `cull`, for its counts.
+    /// `list` is the one of `cull`, read for its counts.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

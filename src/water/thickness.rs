@@ -1,12 +1,13 @@
-//! Pass `thickness`: metres of water along z per pixel (thesis Sec. 3.2.2, Eq. 3.4 as in Listing A.15).
+//! Pass `thickness`: thickness of the water along z in metres, per pixel (thesis Sec. 3.2.2, Eq. 3.4 as in Listing
+//! A.15).
 //!
 //! The amplitude is such that a sprite's integral over its plane is the particle's volume (the thesis' unit is
-//! arbitrary). Absorption is then per metre, and the look does not depend on how many particles resolve the
-//! same water. A quarter of the resolution by default, upsampled by `composite` with the weights of the
-//! surface. Two paths: additive sprites, and fixed-point atomic sums, which are independent of the order.
+//! arbitrary). Absorption is then per metre, and the look does not depend on how many particles resolve the same water.
+//! The resolution is a quarter by default; `composite` upsamples with the weights of the surface. There are two paths:
+//! additive sprites, and fixed-point atomic sums, which are independent of the order.
 //!
-//! Where `gaps` has found two layers a second image holds the thickness of each, and of a window of one spacing
-//! around the boundary: water in that window means that the layers are one.
+//! Where `gaps` has found two layers, a second image holds the thickness of each, and that of a window of one spacing
+//! around the boundary: water in the window means that the layers are connected.
 //!
 //! With foam there is a second channel, the water in front of the frontmost foam (the thesis decides this per
 //! particle, Listing A.14; here it is per fragment).
@@ -79,7 +80,7 @@ pub struct Thickness {
     pub image: Image,
     /// Thickness of each of two layers.
     pub sheets: Option<Image>,
-    /// Number of max_splits.
+    /// Number of halvings of its resolution.
     pub level: u32,
 }
 
@@ -239,10 +240,10 @@ impl Thickness {
         let hand = |from, to| -> Vec<_> {
             images.iter().map(|image| access::image(image, from, to)).collect()
         };
-        // Where there are none they are not read: any buffer will do. The same of the image.
+        // Without boundaries or foam these are not read, so any buffer or image can be bound.
         let boundaries =
             gaps.map_or(Resource::buffer(&list.counts), |gaps| Resource::buffer(&gaps.boundaries));
-        // Both splat alike, so that where this is the compute path there are words.
+        // Both passes use the same path, so on the compute path there are words.
         let words = foam.and_then(Foam::words);
         let words = words.map_or(Resource::buffer(&list.counts), Resource::buffer);
         let foam = foam.map_or(r.scene_depth, |foam| {
@@ -277,7 +278,7 @@ impl Thickness {
                 dispatch_sprites(r, list, small, large, &bound)?;
                 if let Some(apart) = apart {
                     let Apart { small, large, .. } = &**apart;
-                    // Sums of their own: nothing to wait for.
+                    // Sums of their own, so no barrier is needed.
                     dispatch_sprites(r, list, small, large, &bound)?;
                 }
                 gpu.barriers(cmd, &[], &[buffer(sums.handle, COMPUTE_READ_WRITE, COMPUTE_READ)]);

@@ -1,8 +1,8 @@
 //! Pass `tiles`: the list of 16×16 tiles (of smoothing texels, all levels) that hold water, sorted by their
 //! iteration counts, and the arguments of every draw and dispatch over them.
 //!
-//! Not in the thesis, which draws full-screen quads. Iteration counts are known in advance, so the tiles that
-//! are still active in iteration i are a prefix of the list, and one counting sort writes all gates.
+//! Not in the thesis, which draws full-screen quads. Iteration counts are known in advance, so the tiles that are still
+//! active in iteration i are a prefix of the sorted list, and one counting sort gives the arguments of all iterations.
 //! Reads: each tile's work, levels. Writes: list, arguments.
 
 use crate::gpu::memory::MemoryLocation;
@@ -27,7 +27,7 @@ pub const TILE: u32 = 16;
 pub const MOST_GROUPS: u32 = 65_535;
 /// Arguments of 16 bytes: the draw of all tiles, 257 dispatches, the dispatch of all tiles.
 const ARGUMENTS: u64 = 16 * 259;
-/// Byte offset of the last.
+/// Byte offset of the last arguments.
 pub const ALL_TILES: u64 = 16 * 258;
 
 #[repr(C)]

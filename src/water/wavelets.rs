@@ -8,8 +8,8 @@ use glam::Vec3;
 use super::settings::range;
 use crate::error::Error;
 
-/// Waves that particles do not resolve. They turn the normals of level water, and focus its caustics; they do not
-/// move it.
+/// Waves that particles do not resolve. They tilt the normals of level water and focus its caustics, but do not
+/// displace it.
 ///
 /// 15 sines in three octaves of length, each octave with the same slope, in all directions. An octave fades out in the
 /// picture where its waves are smaller than a few pixels. All fade out between slopes of 45 and 78 degrees, and between
@@ -22,7 +22,7 @@ pub struct Wavelets {
     pub slope: f32,
     /// Length of the longest waves, scene units, [1e-6, ∞), default 0.2. The shortest are a seventh of it.
     pub length: f32,
-    /// Seconds, which move the waves at the speed of gravity waves. Default 0.
+    /// Time in seconds, which moves the waves at the speed of gravity waves. Default 0.
     pub time: f64,
     /// Gravity, scene units per second squared, [0, ∞), default 9.81.
     pub gravity: f32,
@@ -61,7 +61,7 @@ impl Wavelets {
         let along = across.cross(up);
         std::array::from_fn(|i| {
             let length = self.length * (-3.0 * i as f32 / WAVELETS as f32).exp2();
-            // The golden angle, by which no directions repeat.
+            // The golden angle, so that no direction repeats.
             let around = 2.399_963_2 * i as f32;
             let cycles = (around.cos() * across + around.sin() * along) / length;
             let rate = (f64::from(self.gravity) / (TAU * f64::from(length))).sqrt();

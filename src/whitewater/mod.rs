@@ -59,7 +59,7 @@ impl Whitewater {
         self.sprites.record(r, particles, water)
     }
 
-    /// Passes `radiance` and `blur`. `water`: its layers, if there may be water.
+    /// Passes `radiance` and `blur`. `water` are its layers, if there may be water.
     pub fn record_radiance(
         &self,
         r: &mut Recording<'_>,
@@ -71,7 +71,7 @@ impl Whitewater {
         self.radiance.record(r, &self.sprites, environment, surface)
     }
 
-    /// How the host's streams are read.
+    /// Access to the host's streams.
     pub fn reading(&self) -> Access {
         self.sprites.reading()
     }
@@ -81,7 +81,7 @@ impl Whitewater {
         [self.sprites.occluders(), self.sprites.thickness(), self.radiance.image()]
     }
 
-    /// The layers of a frame of a size for the host.
+    /// Layers of a frame of this size for the host.
     pub fn kept(&self, extent: ash::vk::Extent2D) -> Vec<Layer> {
         let layer = |name, image: &Image| Layer {
             name,

@@ -1,14 +1,13 @@
 //! Passes `radiance` and `blur`: ambient occlusion and light of whitewater (Akinci et al. 2013, Sec. 2.4 and
 //! 2.5; passes 6 and 7).
 //!
-//! In the reference mode the samples are the paper's: points of a Halton sequence in spheres of growing radius,
-//! the same for every pixel. In the fast mode each pixel evaluates a sixteenth of the points, which the blur
-//! recombines. Foam without neighbours has only its own samples. They come in opposite pairs, of which a plane
-//! through the centre occludes one, and their density follows the paper's weights, so that each counts fully.
-//! The direction in which samples find open space is the normal of particles smaller than a pixel; the paper
-//! does not have that.
-//! Reads: what `splat` has left, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes: foam
-//! normal, foam radiance.
+//! In the reference mode the samples are the paper's: points of a Halton sequence in spheres of growing radius, the
+//! same for every pixel. In the fast mode each pixel evaluates a sixteenth of the points, which the blur recombines.
+//! Foam without neighbours has only its own samples. They come in opposite pairs, of which a plane through the centre
+//! occludes exactly one. Their density follows the paper's weights, so that all have weight 1. Particles smaller than a
+//! pixel take the mean direction of unoccluded samples as their normal, which is not in the paper. Reads: the images of
+//! `splat`, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes: foam normal, foam
+//! radiance.
 
 use std::f64::consts::TAU;
 
@@ -178,7 +177,7 @@ impl Radiance {
         let taken =
             [access::image(sprites.normal(), AFTER, both), access::image(image, before, CLEAR)];
         gpu.barriers(cmd, &taken, &[]);
-        // Where there is no foam.
+        // Without foam the result is 0.
         gpu.clear_color(cmd, image, [0.0; 4]);
         gpu.barriers(cmd, &[access::image(image, CLEAR, COMPUTE_WRITE)], &[]);
         if let Some(water) = water {
@@ -208,7 +207,7 @@ impl Radiance {
         r.end(scope);
 
         let scope = r.begin(c"blur");
-        // What has no foam is neither written nor, in the one half blurred, read.
+        // Tiles without foam are not written and, in the half-blurred image, not read.
         let ways = [
             (image, (half, COMPUTE_SAMPLED.discarded()), [1, 0]),
             (half, (image, COMPUTE_SAMPLED), [0, 1]),

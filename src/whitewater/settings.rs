@@ -5,7 +5,7 @@ use crate::water::settings::range;
 
 crate::contract::with!(WhitewaterConfig, WhitewaterSettings);
 
-/// Configuration of whitewater: what costs memory or pipelines.
+/// Configuration of whitewater, which determines memory and pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WhitewaterConfig {
@@ -15,8 +15,9 @@ pub struct WhitewaterConfig {
     pub max_stride: u32,
     /// Whether frames may have [`WhitewaterParticles::packets`](crate::WhitewaterParticles::packets). Default false.
     pub packets: bool,
-    /// How they are rasterized. `None`: the fastest as measured on lavapipe, [`WhitewaterSplat::Compute64`] where its
-    /// feature is enabled, otherwise [`WhitewaterSplat::Compute`]. Not yet measured on GPUs.
+    /// How they are rasterized. `None` selects the path that was the fastest on lavapipe:
+    /// [`WhitewaterSplat::Compute64`] if its feature is enabled, otherwise [`WhitewaterSplat::Compute`]. Not yet
+    /// measured on GPUs.
     #[cfg(feature = "diagnostics")]
     pub splat: Option<WhitewaterSplat>,
     #[cfg(not(feature = "diagnostics"))]
@@ -66,10 +67,10 @@ impl WhitewaterConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum WhitewaterSplat {
-    /// One quad per particle with depth test and blending. 12 bytes per pixel more.
+    /// One quad per particle with depth test and blending. Takes 12 more bytes per pixel.
     Raster,
-    /// One invocation per particle with 32-bit atomics, in two passes. The second writes the attributes of the
-    /// frontmost.
+    /// One invocation per particle with 32-bit atomics, in two passes; the second writes the attributes of the
+    /// frontmost particle.
     Compute,
     /// One invocation per particle with 64-bit atomics, in one pass. Needs
     /// [`buffer_int64_atomics`](crate::EnabledFeatures::buffer_int64_atomics).
@@ -92,8 +93,8 @@ pub enum Occlusion {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Irradiance {
-    /// One look-up per pixel in an irradiance map that is filtered once per environment, which the paper names
-    /// as the faster way. Default.
+    /// One look-up per pixel in an irradiance map that is filtered once per environment; the paper calls this the
+    /// faster way. Default.
     Prefiltered,
     /// Look-ups in the directions of the first occlusion pass' samples (Sec. 2.4.2), also if `passes` is 0.
     Sampled,
@@ -102,7 +103,7 @@ pub enum Irradiance {
 /// How particles behind the water's surface are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Submerged {
-    /// The water in front of them attenuates them, as it does everything in it. Default.
+    /// The water in front of them attenuates them, like everything in it. Default.
     Water,
     /// The paper's falloff, `f(distance behind, depth, n, m)` (Eq. 1 and Sec. 2.2), which reaches zero at `depth`. The
     /// particles are then composited in front of the water.
@@ -140,9 +141,9 @@ pub enum ShadowMixing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WhitewaterSettings {
-    /// Radius of a particle without one of its own, scene units, (0, ∞), default 0.15 spacings (0.0075 for a
-    /// spacing of 0.05). It is divided by 1 to [`sizes`](Self::sizes), chosen per particle; a bubble's is
-    /// scaled by [`bubble_size`](Self::bubble_size).
+    /// Radius of particles without a radius stream, scene units, (0, ∞), default 0.15 spacings (0.0075 for a spacing of
+    /// 0.05). It is divided by 1 to [`sizes`](Self::sizes), chosen per particle; a bubble's is scaled by
+    /// [`bubble_size`](Self::bubble_size).
     pub radius: f32,
     /// How particles behind the water's surface are drawn.
     pub submerged: Submerged,
@@ -155,13 +156,12 @@ pub struct WhitewaterSettings {
     pub passes: u32,
     /// Radius of the first of those spheres in particle radii, [0, 100], default 1 (AO_InitSRFac).
     pub search_radius: f32,
-    /// By how much the sphere of each further pass is larger, in particle radii, [0, 100], default 7
-    /// (AO_SRIncFac).
+    /// Increase of the sphere's radius from pass to pass, in particle radii, [0, 100], default 7 (AO_SRIncFac).
     pub search_radius_step: f32,
-    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). For the paper's way (`Occlusion::Reference`);
-    /// the default way uses a fixed share of the samples at any size.
+    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). Used by `Occlusion::Reference`; the default mode uses
+    /// a fixed share of the samples at any size.
     pub sample_density: f32,
-    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. For the paper's way only.
+    /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. Used by `Occlusion::Reference` only.
     pub min_samples: u32,
     /// Maximum number of samples per sphere, `min_samples` to 512, default 512.
     pub max_samples: u32,
@@ -248,8 +248,8 @@ impl WhitewaterSettings {
         }
     }
 
-    /// Whether particles differ from the paper's, or fade behind the water's surface as in the paper. Shaders have a
-    /// variant for this.
+    /// Whether particles have shapes other than the paper's, or fade behind the water's surface as in the paper.
+    /// Shaders have a variant for either.
     pub(crate) fn shaped(&self) -> bool {
         let sources = Self::default();
         let numbers = |look: &Self| {

@@ -1,12 +1,12 @@
 //! Pass `splat`: depth and normal of the frontmost whitewater particle, and the thickness of all (Akinci et al.
 //! 2013, Sec. 2.1 to 2.3; passes 3 to 5).
 //!
-//! One invocation per particle with integer atomics: depths compared by their bits, sums of fixed-point steps,
-//! so the order of the particles does not matter. Depth and thickness are written in one pass, so that a
-//! particle is read once for both. The attributes of the frontmost lie below its depth in a 64-bit word, or
-//! take a second pass. There is no intermediate sprite list: for millions of particles it would dominate the
-//! memory. `quads` is the alternative path.
-//! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
+//! One invocation per particle uses integer atomics: depths are compared as bits and sums use fixed-point steps, so the
+//! order of the particles does not matter. Depth and thickness are written in one pass, so that a particle is read once
+//! for both. The attributes of the frontmost particle are the low bits of a 64-bit word whose high bits are its depth,
+//! or they take a second pass. There is no intermediate sprite list: for millions of particles it would dominate the
+//! memory. `quads` is the alternative path. Reads: the host's streams, depths of water and scene. Writes: three images
+//! of the frame's size.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -39,7 +39,7 @@ pub fn word_bytes(extent: vk::Extent2D) -> u64 {
     WORDS * u64::from(extent.width) * u64::from(extent.height)
 }
 
-/// The images between frames, and after the pass.
+/// State of the images between frames, and after the pass.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 #[repr(C)]
@@ -193,16 +193,16 @@ impl Sprites {
         &self.targets.normal
     }
 
-    /// How the host's streams are read.
+    /// Access to the host's streams.
     pub fn reading(&self) -> Access {
         match self.way {
             Way::Compute(_) => COMPUTE_READ,
-            // The count by compute.
+            // Compute shaders read the count.
             Way::Quads(_) => COMPUTE_READ.and(VERTEX_READ),
         }
     }
 
-    /// `water`: depth of its frontmost spheres, in the state in which pass `depth` leaves it, before and after.
+    /// `water` is the depth of its frontmost spheres, before and after in the state in which pass `depth` leaves it.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -212,7 +212,7 @@ impl Sprites {
         let scope = r.begin(c"splat");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let (words, arguments) = (self.targets.words.handle, self.arguments.handle);
-        // Of compute the groups are what it dispatches and how many particles there are.
+        // Compute shaders use the buffer as dispatch arguments and for the number of particles.
         let (words_used, arguments_used) = match self.way {
             Way::Compute(_) => (COMPUTE_READ_WRITE, INDIRECT.and(COMPUTE_READ)),
             Way::Quads(_) => (FRAGMENT_READ.and(COMPUTE_READ), INDIRECT),
@@ -361,7 +361,7 @@ impl Sprites {
             (3, Resource::Sampled(water.view, gpu.samplers.nearest)),
             (4, host_count),
             (5, Resource::buffer(&self.arguments)),
-            // Where there is none it is not read.
+            // Without water this is not read.
             (
                 6,
                 fluid.map_or(r.scene_depth, |image| {
@@ -372,7 +372,7 @@ impl Sprites {
         ];
         r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
         self.begin.push(gpu, cmd, &BeginPush { fluid_at, fluid_end, counting });
-        // At least an invocation a chunk.
+        // At least one invocation per chunk.
         let extent = vk::Extent2D { width: r.extent.width.max(self.chunks.count), ..r.extent };
         r.dispatch_over(extent, self.begin.local_size);
         Ok(())

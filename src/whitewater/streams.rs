@@ -1,4 +1,4 @@
-//! The host's streams of whitewater particles, as every pass over them takes them: in chunks that the device can bind, of
+//! Binds the host's streams of whitewater particles for all passes over them: in chunks that the device can bind, with
 //! a count that the host or the GPU knows.
 
 use crate::gpu::memory::MemoryLocation;
@@ -105,8 +105,8 @@ impl Chunks {
         16 * u64::from(self.count)
     }
 
-    /// Counts for groups of a size (0: quads), and the buffer with the GPU's count; without one `unread`, any
-    /// buffer, is bound.
+    /// Counts for groups of a size (0 for quads), and the buffer with the GPU's count; without one, `unread` (any
+    /// buffer) is bound.
     pub fn counting(
         &self,
         particles: Option<&WhitewaterParticles>,
@@ -147,7 +147,7 @@ impl Chunks {
                 (3, radii.resource),
                 (4, ages.resource),
                 (5, ids.resource),
-                // Not read where there is none.
+                // Not read without a cross-fade.
                 (11, r.crossfade.unwrap_or(positions.resource)),
             ];
             r.descriptors.bind(r.gpu, r.cmd, pipeline, &[&streams[..], own].concat())?;
@@ -172,8 +172,8 @@ impl Chunks {
     }
 }
 
-/// Capacity of a chunk's list of large particles (glsl/include/whitewater_cover.glsl); further ones are done by
-/// one invocation each.
+/// Capacity of a chunk's list of large particles (glsl/include/whitewater_cover.glsl); one invocation each processes
+/// the particles beyond it.
 const ROOM: u64 = 16_384;
 /// Bytes of a chunk's list: dispatch arguments and the number of large particles, then their indices.
 const LIST: u64 = 4 * (4 + ROOM);
@@ -181,8 +181,7 @@ const LIST: u64 = 4 * (4 + ROOM);
 /// A shader over the pixels of each particle (glsl/include/whitewater_cover.glsl): one invocation per particle, or
 /// a group per host packet; then a group per large particle.
 pub struct Covering {
-    /// Pipelines for default particle shapes; and for others, or the paper's falloff behind the water's
-    /// surface.
+    /// Pipelines for default particle shapes, and for other shapes or the paper's falloff behind the water's surface.
     ways: [Ways; 2],
     list: Buffer,
 }
@@ -195,7 +194,7 @@ struct Ways {
 }
 
 impl Covering {
-    /// `name`: of its list. `constants`: the shader's own, other than ids 1 to 3.
+    /// `name` is that of its list. `constants` are the shader's own, with ids other than 1 to 3.
     pub fn new(
         gpu: &Gpu,
         name: &str,
@@ -234,7 +233,7 @@ impl Covering {
         self.list.size
     }
 
-    /// Records all chunks. `arguments`: of their dispatches, already visible. Results are accumulated by
+    /// Records all chunks. `arguments` are those of their dispatches, already visible. Results are accumulated by
     /// atomics in any order, so no barrier is needed in between.
     pub fn record<P: NoUninit>(
         &self,
@@ -253,15 +252,15 @@ impl Covering {
         gpu.barriers(r.cmd, &[], &[buffer(list, used, COPY_WRITE)]);
         for chunk in 0..chunks.count {
             let empty = bytemuck::bytes_of(&[0_u32, 1, 1, 0]);
-            // SAFETY: outside a render pass; who read it last is done (barrier).
+            // SAFETY: outside a render pass; the previous reader has finished (barrier).
             unsafe { device.cmd_update_buffer(r.cmd, list, LIST * u64::from(chunk), empty) };
         }
         gpu.barriers(r.cmd, &[], &[buffer(list, COPY_WRITE, COMPUTE_READ_WRITE)]);
 
         let bound = |packets| [own, &[(9, packets), (10, Resource::buffer(&self.list))]].concat();
-        // Not read.
+        // Bound but not read.
         let unread = Resource::Buffer(arguments, 0, 16);
-        // That the configuration has them was checked with the frame.
+        // The frame's check has ensured that the configuration has them.
         let ways = &self.ways[usize::from(r.shaped)];
         match (particles.packets, &ways.packets) {
             (Some(Packets { buffer, offset, count }), Some(pipeline)) => {
@@ -284,7 +283,7 @@ impl Covering {
     }
 }
 
-/// The present streams, with the bytes of a value.
+/// The present streams, with the size of a value in bytes.
 fn streams(particles: &WhitewaterParticles) -> impl Iterator<Item = (&Stream, u64)> {
     let all = [
         (Some(&particles.positions), 12),

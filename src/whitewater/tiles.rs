@@ -17,9 +17,9 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Number of max_splits from pixels to tiles: tiles are 8×8 (glsl/include/whitewater_tiles.glsl).
+/// Number of halvings from pixels to tiles: tiles are 8×8 (glsl/include/whitewater_tiles.glsl).
 const LEVEL: u32 = 3;
-/// Arguments of an empty dispatch, and the tile count (likewise).
+/// Arguments of an empty dispatch, followed by the tile count (same file).
 const NONE: [u32; 4] = [0, 0, 1, 0];
 /// State after the list is complete.
 const READ: Access = COMPUTE_READ.and(INDIRECT);
@@ -55,7 +55,7 @@ impl Tiles {
         Ok(())
     }
 
-    /// Lists the tiles. `occluders`: the foam's depth among others, sampled by compute.
+    /// Lists the tiles. `occluders` contains the foam's depth; compute shaders sample it.
     pub fn record(&self, r: &Recording<'_>, occluders: &Image) -> Result<(), Error> {
         let (gpu, cmd, list) = (r.gpu, r.cmd, self.list.handle);
         gpu.barriers(cmd, &[], &[buffer(list, READ, COPY_WRITE)]);

@@ -2,14 +2,14 @@
 //! waves break and where it is fast (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for
 //! particle-based fluids, 2012).
 //!
-//! A step finds the fluid's neighbours with a hashed grid, advances the whitewater particles, and emits new
-//! ones. Emission is summed in fixed-point steps, slots come from prefix sums, and random numbers depend on
-//! ids. A sequence therefore gives the same particles in every run, however it is cut into jobs
-//! ([`Generator::record_save`]). The exception: if more than 256 fluid particles share a grid bucket, thirty
-//! times what water holds in a cell, the device decides which of them are visited. For a single frame a
-//! snapshot ([`Generator::record_snapshot`]) gives what a steady flow would have left, by tracing each fluid
-//! particle back along the flow.
-//! Reads: the fluid's positions, velocities and ids. Writes: whitewater particles, potentials.
+//! A step finds the fluid's neighbours with a hashed grid, advances the whitewater particles, and emits new ones.
+//! Emission is summed in fixed-point steps, slots come from a prefix sum, and random numbers depend on ids. A sequence
+//! therefore gives the same particles in every run, however it is cut into jobs ([`Generator::record_save`]). There is
+//! one exception: if more than 256 fluid particles share a grid bucket, thirty times as many as water has in a cell,
+//! the order on the device decides which of them are visited. For a single frame a snapshot
+//! ([`Generator::record_snapshot`]) gives the whitewater that a steady flow would have left, by tracing each fluid
+//! particle back along the flow. Reads: the fluid's positions, velocities and ids. Writes: whitewater particles,
+//! potentials.
 
 mod passes;
 pub mod settings;
@@ -35,20 +35,20 @@ struct GeneratorSlot {
     timer: Timer,
 }
 
-/// Whitewater of one body of water, emitted from its particles step by step. Views share it.
+/// Emits the whitewater of one body of water from its particles, step by step. Views share it.
 pub struct Generator {
     gpu: Arc<Gpu>,
     config: GeneratorConfig,
     passes: Passes,
     slots: Vec<GeneratorSlot>,
-    /// Nothing was recorded yet: the buffers hold anything.
+    /// Whether nothing was recorded yet, so that the buffers are uninitialized.
     fresh: bool,
     /// The last step, until it is abandoned: its slot, and whether it was the first.
     last: Option<(Slot, bool)>,
 }
 
 impl Generator {
-    /// Makes pipelines and memory: 76 to 80 bytes per fluid particle, 44 per whitewater particle.
+    /// Creates pipelines and allocates memory: 76 to 80 bytes per fluid particle, 44 per whitewater particle.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -68,14 +68,14 @@ impl Generator {
                 Ok(Self { gpu, config: *config, passes, slots, fresh: true, last: None })
             }
             Err(error) => {
-                // Nothing was submitted with what was made before the failure.
+                // Nothing was submitted with the objects created before the failure.
                 gpu.destroy();
                 Err(error)
             }
         }
     }
 
-    /// Records one step: whitewater particles advance, and the fluid emits new ones. Never submits, waits or
+    /// Records one step: whitewater particles advance, and the fluid emits new ones. It never submits, waits or
     /// allocates device memory.
     ///
     /// # Errors
@@ -83,8 +83,8 @@ impl Generator {
     /// command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
-    /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
-    /// recorded, before the frames that show them.
+    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
+    /// before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -93,13 +93,13 @@ impl Generator {
         self.record_any(cmd, step, false)
     }
 
-    /// Records a snapshot instead of a step: the whitewater that there would be if the fluid had always moved
-    /// as it does now, whatever was before. The fluid is traced back along the flow to 15 moments of the
-    /// longest lifetime; what was emitted then is aged accordingly. [`GeneratorStep::dt`] has no effect. Steps
-    /// may follow.
+    /// Records a snapshot instead of a step: the whitewater in a steady state, as if the fluid had always moved as it
+    /// does now; previous steps do not count. The fluid is traced back along the flow to 15 times within the longest
+    /// lifetime, and whitewater emitted then is aged accordingly. [`GeneratorStep::dt`] has no effect. Steps may
+    /// follow.
     ///
     /// # Errors
-    /// As [`record_step`](Self::record_step).
+    /// Those of [`record_step`](Self::record_step).
     ///
     /// # Safety
     /// As [`record_step`](Self::record_step).
@@ -117,7 +117,7 @@ impl Generator {
         step: &GeneratorStep<'_>,
         snapshot: bool,
     ) -> Result<(), Error> {
-        // A step that fails below leaves nothing to take back.
+        // If a step fails below, `abandon` has nothing to revert.
         self.last = None;
         self.check(step)?;
         self.last = Some((step.slot, self.fresh));
@@ -137,7 +137,7 @@ impl Generator {
     /// Records a reset to no whitewater particles.
     ///
     /// # Safety
-    /// As [`record_step`](Self::record_step).
+    /// Those of [`record_step`](Self::record_step).
     pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
         self.fresh = false;
         self.passes.record_clear(&self.gpu, cmd);
@@ -165,7 +165,7 @@ impl Generator {
         }
     }
 
-    /// Their velocities (3×f32, scene units per second), in the same order.
+    /// Velocities of these particles (3×f32, scene units per second), in the same order.
     pub fn velocities(&self) -> Stream {
         self.stream(&self.passes.buffers.drifts, DRIFT)
     }
@@ -175,17 +175,18 @@ impl Generator {
         Stream { buffer: own.handle, size, offset: 0, stride: stride as u32 }
     }
 
-    /// Potentials of each fluid particle of the last step, in its order, four `f32`: trapped air, wave crest,
-    /// energy, number of neighbours, in the units of [`GeneratorSettings`]; zeros for particles that take no
-    /// part. Transfer source.
+    /// Potentials of each fluid particle of the last step, in its order, as four `f32`: trapped air, wave crest, energy
+    /// (in the units of [`GeneratorSettings`]) and number of neighbours. Particles with a non-finite or huge position
+    /// or velocity have zeros. The buffer has transfer-source usage.
     pub fn potentials(&self) -> vk::Buffer {
         self.passes.buffers.potentials.handle
     }
 
-    /// Six `u32`: slots in the streams of [`particles`](Self::particles) that were ever used; fluid particles
-    /// of the last step; those of them that took part; free slots before the step's emission; emitted
-    /// particles, including those lost for lack of slots; all particles ever emitted. Transfer source; like the
-    /// potentials last written by a compute shader, then free to be read.
+    /// Six `u32`: slots in the streams of [`particles`](Self::particles) that were ever used; fluid particles of the
+    /// last step; those of them with valid position and velocity; free slots before the step's emission; emitted
+    /// particles, including those lost for lack of slots; all particles ever emitted. The buffer has transfer-source
+    /// usage. Like the potentials, it is last written by a compute shader, after which compute shaders and copies may
+    /// read it.
     pub fn counts(&self) -> vk::Buffer {
         self.passes.buffers.counts.handle
     }
@@ -200,8 +201,8 @@ impl Generator {
     /// configuration, and the sequence continues as if it had not been interrupted.
     ///
     /// # Safety
-    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of
-    /// 4) on, and is ready; else as [`record_step`](Self::record_step).
+    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on, and
+    /// no pending access. In addition those of [`record_step`](Self::record_step).
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         if std::mem::take(&mut self.fresh) {
             self.passes.record_clear(&self.gpu, cmd);
@@ -212,13 +213,13 @@ impl Generator {
     /// Records a copy of a saved state back.
     ///
     /// # Safety
-    /// As [`record_save`](Self::record_save), with transfer-source usage.
+    /// Those of [`record_save`](Self::record_save), with transfer-source usage.
     pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
         self.fresh = false;
         self.passes.record_copy(&self.gpu, cmd, (from, offset), false);
     }
 
-    /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
+    /// Times of the slot's last finished step, in the form of [`Renderer::timings`](crate::Renderer::timings).
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(own) => own.timer.timings(&self.gpu),
@@ -252,7 +253,7 @@ impl Generator {
         gpu.destroy();
     }
 
-    /// Everything that can be wrong with a step.
+    /// Checks the values of a step.
     fn check(&self, step: &GeneratorStep<'_>) -> Result<(), Error> {
         check::step(
             ["GeneratorStep.slot", "GeneratorStep.dt"],

@@ -1,4 +1,4 @@
-//! Passes of a step: `grid`, `potentials`, `crest`, `advance`, `emit`; of a snapshot `trace` in place of `advance`.
+//! Passes of a step: `grid`, `potentials`, `crest`, `advance`, `emit`. A snapshot has `trace` in place of `advance`.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -21,7 +21,7 @@ use crate::water::{Window, capacity, each_once};
 
 /// Maximum number of groups per dispatch; their invocations loop over the remaining items.
 pub const MOST_GROUPS: u32 = 4096;
-/// Maximum number of particles per chunk, as many as fit in one binding of a stride.
+/// Max number of particles per chunk; a binding limits it further, depending on the stride.
 const MOST_CHUNK: u32 = 1 << 24;
 
 /// Words of the counts (glsl/include/generate_types.glsl).
@@ -41,7 +41,7 @@ pub const PARTICLE: u64 = 16;
 pub const DRIFT: u64 = 16;
 pub const KIND: u64 = 4;
 
-/// How whitewater particles and potentials are used after a step.
+/// Access to whitewater particles and potentials after a step.
 pub const AFTER: Access = COMPUTE_READ.and(COPY_READ);
 
 #[repr(C)]
@@ -208,7 +208,7 @@ pub struct Buffers {
     buckets: Buffer,
     places: Buffer,
     motions: Buffer,
-    /// Surface normals; in a snapshot its stages, after the normals have been used.
+    /// Surface normals; in a snapshot also its stages, once the normals have been used.
     normals: Buffer,
     /// Emission rate of each particle, relative to the maximum.
     rates: Buffer,
@@ -297,7 +297,7 @@ struct Recorder<'a> {
 }
 
 impl Recorder<'_> {
-    /// Barrier: compute writes become visible to what follows.
+    /// Barrier: makes compute writes visible to the commands that follow.
     fn wait(&self) {
         let both = COMPUTE_READ_WRITE;
         let barrier = [vk::MemoryBarrier2::default()
@@ -384,7 +384,7 @@ impl Passes {
         self.buffers.state(self.config.max_particles).iter().map(|(_, size)| size).sum()
     }
 
-    /// Copies the state out, or in.
+    /// Copies the state to or from a host buffer.
     pub fn record_copy(
         &self,
         gpu: &Gpu,
@@ -502,7 +502,7 @@ impl Passes {
         unsafe { gpu.device.cmd_fill_buffer(cmd, b.buckets.handle, 0, vk::WHOLE_SIZE, 0) };
         gpu.barriers(cmd, &[], &[buffer(b.buckets.handle, CLEAR, COMPUTE_READ_WRITE)]);
         let counts = Resource::buffer(&b.counts);
-        // Where the host knows the count any buffer will do.
+        // If the host knows the count, any buffer can be bound.
         let (begin, count) = match step.count {
             Count::Cpu(_) => (0, counts),
             Count::Gpu { buffer, offset } => (1, Resource::Buffer(buffer, offset, 4)),

@@ -5,7 +5,7 @@ use crate::water::settings::{GREATEST, range};
 
 crate::contract::with!(GeneratorConfig, GeneratorSettings);
 
-/// Configuration of a [`Generator`](super::Generator): what fixes its memory.
+/// Configuration of a [`Generator`](super::Generator), which determines its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct GeneratorConfig {
@@ -60,14 +60,13 @@ pub struct GeneratorSettings {
     /// Spacing of the fluid's particles, scene units, (0, ∞). Particles nearer than two spacings are
     /// neighbours.
     pub spacing: f32,
-    /// Limits of the trapped-air potential: the weighted sum of the speeds at which neighbours approach (Sec.
-    /// 3.1.1), scene units per second.
+    /// Limits of the trapped-air potential (Ihmsen et al. 2012, Sec. 3.1.1): the kernel-weighted sum of the speeds at
+    /// which neighbours approach, scene units per second.
     pub trapped_air: PotentialRange,
-    /// Limits of the wave-crest potential: the curvature of a surface that moves outwards (Sec. 3.1.2), no
-    /// unit.
+    /// Limits of the wave-crest potential (Sec. 3.1.2): the curvature of a surface that moves outwards, without a unit.
     pub wave_crest: PotentialRange,
-    /// Limits of the kinetic energy per mass, half the squared speed (Sec. 3.1.3), squared scene units per
-    /// second.
+    /// Limits of the energy potential (Sec. 3.1.3): kinetic energy per mass, half the squared speed, in squared scene
+    /// units per second.
     pub energy: PotentialRange,
     /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. The total of a
     /// fluid particle is limited to 64 per step.
@@ -92,7 +91,7 @@ pub struct GeneratorSettings {
 }
 
 impl GeneratorSettings {
-    /// Replaces gravity by the earth's, for a number of scene units per metre and an up direction of unit length.
+    /// Sets gravity to the earth's, for a number of scene units per metre and an up direction of unit length.
     #[must_use]
     pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
         Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
