@@ -1,4 +1,4 @@
-//! Everything that can be wrong with what a host hands in, found before the first command.
+//! Validates everything that a host passes, before the first command is recorded.
 
 use ash::vk;
 
@@ -250,7 +250,7 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     let fields = ["Frame.bubbles.count", "Frame.bubbles.count.offset"];
     let most = ("Config.bubbles.max_blobs", config.max_blobs);
     let count = count(fields, blobs.count, most, limits)?;
-    // All are bound at once.
+    // All blobs are bound at once.
     let stride = (limits.max_storage_buffer_range / config.max_blobs) & !3;
     let most = ("what the device binds of Config.bubbles.max_blobs", stride);
     blobs.spheres.check("Frame.bubbles.spheres", 16, count, most)?;
@@ -260,8 +260,8 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     blobs.ids.map_or(Ok(()), |ids| ids.check("Frame.bubbles.ids", 4, count, most))
 }
 
-/// Validates a count and returns it, or 0 if only the GPU knows it. The fields are those of the count and its
-/// offset; `most`: the configured maximum and its name.
+/// Validates a count and returns it, or 0 if only the GPU knows it. The fields are those of the count and its offset;
+/// `most` is the configured maximum and its name.
 pub fn count(
     [field, offset_field]: [&'static str; 2],
     count: Count,

@@ -1,8 +1,9 @@
-//! Pass `composite`: writes the output, as only `lit` does otherwise; combines the layers of all techniques.
+//! Pass `composite`: combines the layers of all techniques and writes the output. (The only other pass that writes it
+//! is `lit`.)
 //!
-//! It covers only the tiles that hold water: pixels outside the fluid are not touched. Two paths with the same
-//! shading: one instance per tile in a render pass, and a compute shader that stores to the output. Thesis Sec.
-//! 3.2.3 and 4.9; glsl/include/shade.glsl has the differences.
+//! It covers only the tiles that hold water; pixels outside the fluid are not touched. Two paths have the same shading:
+//! one instance per tile in a render pass, and a compute shader that stores to the output. Thesis Sec. 3.2.3 and 4.9;
+//! glsl/include/shade.glsl has the differences.
 
 use ash::vk;
 
@@ -33,7 +34,7 @@ pub fn way(config: &Config) -> Shading {
     config.composite.unwrap_or(DEFAULT_SHADING)
 }
 
-/// Formats that every device can blend with. Others are read and blended in the shader.
+/// Formats that every device can blend. For others the shader reads the output and blends.
 fn blends(output: vk::Format) -> bool {
     use vk::Format as F;
     matches!(
@@ -65,7 +66,7 @@ pub struct Surroundings {
     pub output: vk::ImageView,
     /// Its framebuffer, or null.
     pub target: vk::Framebuffer,
-    /// The part of it that is the view.
+    /// The area of the view within it.
     pub area: vk::Rect2D,
     /// The scene behind the water, sampled linearly.
     pub scene_color: Resource,
@@ -167,7 +168,7 @@ impl Composite {
         Ok(Self { path })
     }
 
-    /// How the output is written.
+    /// Access to the output.
     pub fn output_use(&self) -> Access {
         match self.path {
             Path::Raster { .. } => COLOR_ATTACHMENT,
@@ -175,7 +176,7 @@ impl Composite {
         }
     }
 
-    /// How the scene's colour is read.
+    /// Access to the scene's colour.
     pub fn scene_use(&self) -> Access {
         match self.path {
             Path::Raster { .. } => FRAGMENT_SAMPLED,
@@ -198,8 +199,8 @@ impl Composite {
         }
     }
 
-    /// All layers are sampled by fragment shaders before and after, those of `whitewater` and `bubbles` by compute
-    /// too.
+    /// Fragment shaders sample all layers before and after; compute shaders also sample those of `whitewater` and
+    /// `bubbles`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -212,7 +213,7 @@ impl Composite {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let nearest = gpu.samplers.nearest;
-        // Where there are none they are not read: any buffer will do.
+        // With one layer of water they are not read, so any buffer can be bound.
         let boundaries = Resource::buffer(layers.boundaries.unwrap_or(&layers.split.lists));
         let foam = layers.foam.unwrap_or([layers.thickness; 2]);
         let whitewater = whitewater.map_or([layers.thickness; 3], Whitewater::layers);

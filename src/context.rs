@@ -18,12 +18,13 @@ use crate::gpu::pass::Attachments;
 use crate::gpu::pipeline::{self, Made};
 use crate::gpu::requirements::DeviceSupport;
 
-/// What all objects of one device share: [`Renderer`](crate::Renderer)s, a [`SurfaceFoamState`](crate::SurfaceFoamState) and so on
-/// are made from a context. A pipeline is created once for all of them and kept for the next that needs it, for
-/// example when [`reconfigure`](crate::Renderer::reconfigure) switches back and forth.
+/// State shared by all objects of one device: [`Renderer`](crate::Renderer)s, a
+/// [`SurfaceFoamState`](crate::SurfaceFoamState) and so on are created from a context. A pipeline is created once for
+/// all of them and kept for later use, for example when [`reconfigure`](crate::Renderer::reconfigure) switches back and
+/// forth.
 ///
-/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and everything made
-/// from it is destroyed, whichever is later. This has to happen before the host destroys its device.
+/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and everything created from
+/// it is destroyed, whichever is later. This has to happen before the host destroys its device.
 #[derive(Clone)]
 pub struct Context {
     pub(crate) shared: Arc<Shared>,
@@ -31,15 +32,15 @@ pub struct Context {
 }
 
 impl Context {
-    /// Makes a context from the host's objects. Creates three samplers and nothing else.
+    /// Creates a context from the host's objects. It creates three samplers and nothing else.
     ///
     /// # Errors
     /// [`Error::BadInput`] for a queue family without graphics and compute, or a number of frames in flight
     /// outside 1 to 8; [`Error::Missing`] for a function that the instance or the device lacks; Vulkan errors.
     ///
     /// # Safety
-    /// The host's handles are alive, belong together, and outlive the context and everything made from it. What
-    /// [`EnabledFeatures`] claims and [`requirements`](crate::requirements) demands is enabled.
+    /// The host's handles are alive, belong together, and outlive the context and everything created from it. All
+    /// features that [`EnabledFeatures`] lists and [`requirements`](crate::requirements) demands are enabled.
     pub unsafe fn new(host: &Host<'_>) -> Result<Self, Error> {
         check_slots(host.frames_in_flight)?;
         let shared = Arc::new(Shared::new(host)?);
@@ -55,7 +56,7 @@ impl Context {
         Ok(Self { shared: self.shared.clone(), slots: frames_in_flight })
     }
 
-    /// Frames in flight: slots are 0 .. frames_in_flight.
+    /// Number of frames in flight: slots are 0 .. frames_in_flight.
     pub fn frames_in_flight(&self) -> u32 {
         self.slots
     }
@@ -86,14 +87,14 @@ fn check_slots(slots: u32) -> Result<(), Error> {
     Err(Error::bad("Host.frames_in_flight", format!("expected 1 to 8, found {slots}")))
 }
 
-/// The samplers there are; they clamp to the edge unless said.
+/// The samplers; they clamp to the edge unless stated otherwise.
 #[derive(Default)]
 pub struct Samplers {
     /// Nearest texel, first mip.
     pub nearest: vk::Sampler,
     /// Trilinear.
     pub linear: vk::Sampler,
-    /// Trilinear, repeating from left to right: for maps of all directions.
+    /// Trilinear, repeating from left to right, for maps over all directions.
     pub around: vk::Sampler,
 }
 
@@ -101,31 +102,31 @@ pub struct Samplers {
 pub struct Shared {
     /// Device functions.
     pub device: ash::Device,
-    /// What the host enabled.
+    /// Optional features that the host enabled.
     pub enabled: EnabledFeatures,
     /// Limits of the physical device.
     pub limits: vk::PhysicalDeviceLimits,
     /// Maximum size of a buffer, bytes.
     pub max_buffer_size: u64,
-    /// What kind of device it is: the defaults of the paths depend on it.
+    /// Type of the device, on which the default paths depend.
     pub kind: vk::PhysicalDeviceType,
-    /// Timestamps that the queue family writes; 0 for none.
+    /// Valid bits of the queue family's timestamps; 0 if it has none.
     pub timestamp_bits: u32,
-    /// R32G32_SFLOAT can be a blended colour attachment: most devices can, none has to.
+    /// Whether R32G32_SFLOAT can be a blended colour attachment. Most devices support it; Vulkan does not require it.
     pub blends_pairs: bool,
     /// How barriers and timestamps are recorded.
     pub synchronization: Synchronization,
-    /// Conditional rendering, when enabled.
+    /// Conditional rendering, if enabled.
     pub conditional: Option<ash::ext::conditional_rendering::Device>,
-    /// Names and labels, when enabled.
+    /// Names and labels, if enabled.
     pub debug: Option<ash::ext::debug_utils::Device>,
     /// Samplers of all passes.
     pub samplers: Samplers,
-    /// The host's, or null.
+    /// The host's pipeline cache, or null.
     pub pipeline_cache: vk::PipelineCache,
-    /// Pipelines that were made.
+    /// Pipelines created so far.
     pub pipelines: Store<pipeline::Key, Arc<Made>>,
-    /// Render passes that were made, by name and attachments.
+    /// Render passes created so far, by name and attachments.
     pub passes: Store<(String, Attachments), vk::RenderPass>,
     instance: ash::Instance,
     physical_device: vk::PhysicalDevice,
@@ -146,7 +147,8 @@ impl Shared {
             )
         };
         let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
-        // The fourth is of Vulkan 1.3; older devices say how much memory one allocation has, and a buffer is one.
+        // The fourth is part of Vulkan 1.3; older devices report the max size of an allocation, which also limits a
+        // buffer.
         let newer = loaded::is_1_3(host.device);
         let mut third = vk::PhysicalDeviceMaintenance3Properties::default();
         let mut fourth = vk::PhysicalDeviceMaintenance4Properties::default();
@@ -203,7 +205,7 @@ impl Shared {
             physical_device: host.physical_device,
             allocator,
         };
-        // What was made before a failure goes with `shared`.
+        // Objects that were created before a failure are freed with `shared`.
         shared.make_samplers()?;
         Ok(shared)
     }
@@ -235,7 +237,7 @@ impl Shared {
         Ok(())
     }
 
-    /// What the device supports for an output format, as the host created it.
+    /// Support of the device for an output format, with the host's enabled features.
     pub fn offer(&self, output: vk::Format) -> DeviceSupport {
         let offer = DeviceSupport::of(&self.instance, self.physical_device, output);
         match loaded::is_1_3(&self.device) {
@@ -261,8 +263,8 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        // SAFETY: whatever used these is destroyed, so the GPU is done with them (what is dropped without that keeps
-        // its context for good); the device is alive, as `Context::new` asks. Null handles are allowed.
+        // SAFETY: all users of these objects are destroyed, so the GPU has finished with them (an object that is only
+        // dropped keeps its context alive); the device is alive, as `Context::new` requires. Null handles are allowed.
         unsafe {
             for made in self.pipelines.take() {
                 self.device.destroy_pipeline(made.handle, None);
@@ -289,8 +291,7 @@ impl<K, V> Default for Store<K, V> {
 }
 
 impl<K: Eq + Hash, V: Clone> Store<K, V> {
-    /// The key's value; where there is none yet, a new one. Who makes it keeps others from making any: two of one
-    /// key never are.
+    /// The key's value, created if there is none yet. The lock is held meanwhile, so that no key gets two values.
     ///
     /// # Errors
     /// Those of `make`.

@@ -1,9 +1,9 @@
-//! Every type that crosses the border between host and library, in the order of use: what fixes a renderer
-//! ([`Host`], [`EnabledFeatures`], [`Config`]); what a frame takes ([`Frame`] and everything in it: [`HostImage`],
-//! [`Particles`], [`Camera`], [`Previous`], [`Settings`]), and a step of the foam ([`SurfaceFoamStep`]); what a
-//! record leaves ([`Recorded`], [`Layer`], [`MemoryUse`]).
+//! All types of the interface between host and library, in the order of use: configuration of a renderer ([`Host`],
+//! [`EnabledFeatures`], [`Config`]); inputs of a frame ([`Frame`] and its parts [`HostImage`], [`Particles`],
+//! [`Camera`], [`Previous`], [`Settings`]) and of a foam step ([`SurfaceFoamStep`]); results of a record ([`Recorded`],
+//! [`Layer`], [`MemoryUse`]).
 //!
-//! `check` validates a frame, `frame` derives numbers from it.
+//! `check` validates a frame, and `frame` derives uniform values from it.
 
 use std::sync::Arc;
 
@@ -57,8 +57,8 @@ with!(
     Light,
 );
 
-/// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All have to outlive the context and
-/// everything that is made from it. The library owns none of them.
+/// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All have to outlive the context and everything
+/// created from it. The library owns none of them.
 #[non_exhaustive]
 pub struct Host<'a> {
     /// The instance.
@@ -68,16 +68,16 @@ pub struct Host<'a> {
     /// A device of Vulkan 1.2 or newer that meets [`requirements`](crate::requirements); its instance was created for
     /// that version too.
     pub device: &'a ash::Device,
-    /// Source of memory; called only in construction, `reconfigure`, `resize`, `collect` and `destroy`. `Host` and
-    /// the context hold references to it: an allocator that must be dropped before the device can be dropped
-    /// after these, once everything made from the context is destroyed. `None`: the context creates an
-    /// allocator of its own and drops it with itself.
+    /// Source of memory; called only in construction, `reconfigure`, `resize`, `collect` and `destroy`. `Host` and the
+    /// context hold references to it: an allocator that must be dropped before the device can be dropped after these,
+    /// once everything made from the context is destroyed. With `None` the context creates an allocator of its own and
+    /// drops it with itself.
     pub allocator: Option<Arc<dyn Allocate>>,
     /// A queue family with graphics and compute. Every command buffer handed in belongs to it.
     pub queue_family: u32,
     /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
     pub frames_in_flight: u32,
-    /// What the host actually enabled on the device.
+    /// Optional features that the host enabled on the device.
     pub enabled: EnabledFeatures,
     /// A pipeline cache, or null.
     pub pipeline_cache: vk::PipelineCache,
@@ -125,8 +125,8 @@ impl<'a> Host<'a> {
     }
 }
 
-/// Optional features and extensions that the host enabled; by default none. Without one a path is unavailable; the picture stays
-/// correct.
+/// Optional features and extensions that the host enabled; by default none. Without a feature, a path is unavailable;
+/// the picture stays correct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct EnabledFeatures {
@@ -153,24 +153,24 @@ pub struct EnabledFeatures {
     pub buffer_int64_atomics: bool,
 }
 
-/// Configuration of a renderer: what fixes memory and pipelines. [`reconfigure`](crate::Renderer::reconfigure)
+/// Configuration of a renderer, which determines memory and pipelines. [`reconfigure`](crate::Renderer::reconfigure)
 /// changes it between records.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Config {
-    /// Maximum size of the output's part in pixels, 1 to the device's limit for 2D images, framebuffers and
-    /// viewports. Images are made for it; a frame may be smaller ([`HostImage::rect`]).
+    /// Max size of the output's `rect` in pixels, from 1 to the device's limit for 2D images, framebuffers and
+    /// viewports. Images are allocated for it; a frame may be smaller ([`HostImage::rect`]).
     ///
-    /// Some sizes exceed a device's other limits, which [`DeviceSupport::check`](crate::DeviceSupport::check) reports. At a
-    /// [`smoothing_level`](Self::smoothing_level) of 0 all smoothing levels have to fit in one image, beside or
-    /// below each other (for a square up to two thirds of the limit, for a narrow one any length). Buffers that
-    /// are bound at once have to fit in the storage-buffer range: 32 bytes per pixel with
-    /// [`whitewater`](Self::whitewater); 4 bytes per pixel and layer, plus 4, with [`bubbles`](Self::bubbles); 8
-    /// bytes per texel of thickness, 16 with [`surface_foam`](Self::surface_foam), and 16 more with two
-    /// [`sheets`](Self::sheets).
+    /// Some sizes exceed other limits of a device; [`DeviceSupport::check`](crate::DeviceSupport::check) reports them.
+    /// If [`smoothing_level`](Self::smoothing_level) is 0, one image has to hold all smoothing levels, placed beside or
+    /// below each other: a square frame can be up to two thirds of the image limit wide, a narrow one up to the whole
+    /// limit long. Each of these buffers is bound as a whole and has to fit in the storage-buffer range: 32 bytes per
+    /// pixel with [`whitewater`](Self::whitewater); 4 bytes per pixel and layer, plus 4 per pixel, with
+    /// [`bubbles`](Self::bubbles); for thickness 8 bytes per texel, plus 8 with [`surface_foam`](Self::surface_foam),
+    /// plus 16 with two [`sheets`](Self::sheets).
     pub extent: vk::Extent2D,
-    /// Format of the output: of a colour attachment or a storage image, as [`composite`](Self::composite)
-    /// requires.
+    /// Format of the output, which is a colour attachment or a storage image, depending on
+    /// [`composite`](Self::composite).
     pub output_format: vk::Format,
     /// Maximum number of particles per frame, at least 1.
     pub max_particles: u32,
@@ -188,7 +188,7 @@ pub struct Config {
     pub depth_splat: Option<Splat>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) depth_splat: Option<Splat>,
-    /// Path of the splats of thickness and surface foam. `None`: as `depth_splat`.
+    /// Path of the splats of thickness and surface foam. `None` takes that of `depth_splat`.
     #[cfg(feature = "diagnostics")]
     pub thickness_splat: Option<Splat>,
     #[cfg(not(feature = "diagnostics"))]
@@ -199,25 +199,24 @@ pub struct Config {
     pub smoothing: Option<Smoothing>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) smoothing: Option<Smoothing>,
-    /// How water is shaded. `None`: [`Shading::Raster`] on every device. GPUs built for computing rasterize
-    /// slowly; there [`Shading::Compute`] is faster (14 times on an H200). It writes the output as a storage
-    /// image, whose usage has to allow that and whose format has to support storing without a format qualifier.
-    /// R16G16B16A16_SFLOAT nearly always does, sRGB formats do not. [`DeviceSupport`](crate::DeviceSupport) knows.
+    /// How water is shaded. `None`: [`Shading::Raster`] on every device. GPUs built for computing rasterize slowly;
+    /// there [`Shading::Compute`] is faster (14 times on an H200). It writes the output as a storage image, so the
+    /// image needs storage usage and a format that supports storing without a format qualifier. R16G16B16A16_SFLOAT
+    /// nearly always does, sRGB formats do not; [`DeviceSupport`](crate::DeviceSupport) reports it.
     pub composite: Option<Shading>,
-    /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first is a 128th of
-    /// the picture's height long, and lengths grow geometrically (by 2.2 on a wide picture), so that the last
-    /// ends at the picture's edge. A ray that hits nothing on the screen shows the environment. With 0, as in
-    /// the thesis, and with `Compositing::Source`, only the environment is
-    /// reflected.
+    /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first step is a 128th of the
+    /// picture's height long. Lengths grow geometrically (by 2.2 on a wide picture), so that the last step ends at the
+    /// picture's edge. A ray that hits nothing on the screen shows the environment. With 0, as in the thesis, and with
+    /// `Compositing::Source`, only the environment is reflected.
     pub mirror_steps: u32,
     /// What is visible through water with air behind it. Default [`Exit::TwoInterfaces`]. With
     /// [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in a pool).
     pub exit: Exit,
-    /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`] merge thin
-    /// water into one body, by the pass `shape`: 108 to 112 bytes per particle more, of which the device has to
-    /// bind 40 at once. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
-    /// 140 000 (lavapipe), or 1.0 and 1.2 times with an [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2
-    /// and `centred` of 0.
+    /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`] merge thin water
+    /// into one body, by the pass `shape`. It takes 108 to 112 more bytes per particle, 40 of which have to fit in one
+    /// binding for all particles. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
+    /// 140 000 (lavapipe), or 1.0 and 1.2 times with an [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2 and
+    /// `centred` of 0.
     pub kernels: Kernels,
     /// Iteration rule of the smoothing.
     #[cfg(feature = "diagnostics")]
@@ -226,50 +225,51 @@ pub struct Config {
     pub(crate) rule: Rule,
     /// Maximum number of smoothing iterations, 1 to 256 (default 256, as in the thesis).
     pub max_iterations: u32,
-    /// Number of levels coarser than [`smoothing_level`](Self::smoothing_level) at which near water, which
-    /// would exceed the maximum number of iterations, is smoothed: 0 to 3 (default 3: water stays smooth down
-    /// to an eighth of the distance). Each pixel chooses its level by its distance, and blends between two. For
-    /// the rule of constant width (default) only. 0 saves up to a third of the smoothing's memory.
+    /// Number of levels coarser than [`smoothing_level`](Self::smoothing_level) at which near water, which would exceed
+    /// the maximum number of iterations, is smoothed: 0 to 3 (default 3: water stays smooth down to an eighth of the
+    /// distance). Each pixel chooses its level by its distance, and blends between two. It applies only to the rule of
+    /// constant width (the default). 0 saves up to a third of the smoothing's memory.
     pub coarsening: u32,
-    /// Number of water layers that are separated where one stands in front of another with air between, such as
-    /// a drop in front of a pool: 1 as in the thesis, or 2 (default). Each has its own thickness, and the
-    /// farther one its own surface where the nearer covers it. 1 saves the passes `gaps` and `back`.
+    /// Number of water layers that are separated where one stands in front of another with air between, such as a drop
+    /// in front of a pool: 1 as in the thesis, or 2 (default). Each layer has its own thickness, and the back layer has
+    /// its own surface where the front layer covers it. With 1 there are no passes `gaps` and `back`.
     pub sheets: u32,
     /// Whether surface foam is drawn (default false): the pass `surface_foam`. The foam part of a particle is
-    /// subtracted from its water. 68 bytes per particle more.
+    /// subtracted from its water. It takes 68 more bytes per particle.
     pub surface_foam: bool,
-    /// Whether spray is drawn (default false): the pass `spray`, for particles selected by
-    /// [`SpraySettings::all_spray_density`] and the like, which then also apply to water and foam. 48 bytes per particle more.
+    /// Whether spray is drawn (default false): the pass `spray`, for particles below the limits
+    /// [`SpraySettings::all_spray_density`] to [`no_spray_density`](SpraySettings::no_spray_density), which then also
+    /// apply to water and foam. It takes 48 more bytes per particle.
     pub spray: bool,
-    /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own,
-    /// [`Frame::whitewater`]): the passes `splat`, `radiance`, `blur`. `None` (default): it is not. 88 bytes per
-    /// pixel more.
+    /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own, [`Frame::whitewater`]):
+    /// the passes `splat`, `radiance`, `blur`. With `None`, the default, it is not. It takes 88 more bytes per pixel.
     pub whitewater: Option<WhitewaterConfig>,
-    /// Whether blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`, and
-    /// `near` if they come from whitewater foam ([`BubbleConfig::crossfade`]). `None` (default): they are not.
-    /// 14½ bytes per pixel more, 4 per pixel and layer plus 4, and 64 per blob.
+    /// Whether blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`, and `near` if
+    /// they come from whitewater foam ([`BubbleConfig::crossfade`]). With `None`, the default, they are not. They take
+    /// 14½ more bytes per pixel, 4 per pixel and layer plus 4 per pixel, and 64 per blob.
     pub bubbles: Option<BubbleConfig>,
-    /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`.
-    /// `None` (default): they are not. 4 bytes per pixel more, and 8.7 MiB for the textures.
+    /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`. With
+    /// `None`, the default, they are not. They take 4 more bytes per pixel, and 8.7 MiB for the textures.
     pub shore: Option<ShoreConfig>,
-    /// Resolution of the baseline's surface noise, for comparison: 0 full, 1 half, 2 quarter, 3 eighth; adds
-    /// the pass `noise`. `None` (default): it is not drawn. 16 bytes per particle more, and 4 per texel.
+    /// Resolution of the baseline's surface noise, for comparison: 0 full, 1 half, 2 quarter, 3 eighth; adds the pass
+    /// `noise`. With `None`, the default, it is not drawn. It takes 16 more bytes per particle, and 4 per texel.
     #[cfg(feature = "diagnostics")]
     pub noise: Option<u32>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) noise: Option<u32>,
-    /// Whether the host hands in a shadow map or mask ([`Frame::shadow`]), and how the map is filtered. `None`
-    /// (default): the sun reaches everything.
+    /// Whether the host hands in a shadow map or mask ([`Frame::shadow`]), and how the map is filtered. With `None`,
+    /// the default, the sun reaches everything.
     pub shadow: Option<Shadows>,
     /// Whether water and foam cast shadows and caustics on the scene, and foam on itself: the passes `light`,
     /// `caustics` and `lit`. The value is the side length of the light maps over [`Frame::light_volume`] in texels, a
-    /// multiple of 16 from 16 to 4096. 36 bytes per texel, and a lit copy of the scene. With
-    /// [`whitewater`](Self::whitewater) whitewater also casts shadows on the scene, the water, foam and itself: the
-    /// pass `whitewater_light`, 24 bytes per texel more. `None` (default): nothing casts.
+    /// multiple of 16 from 16 to 4096. The maps take 36 bytes per texel, in addition to a lit copy of the scene. With
+    /// [`whitewater`](Self::whitewater) whitewater also casts shadows on the scene, the water, foam and itself, in the
+    /// pass `whitewater_light`, which takes 24 more bytes per texel. With `None`, the default, there are no shadows or
+    /// caustics.
     pub light_map_size: Option<u32>,
-    /// Whether motion vectors are made (default false): the pass `motion` and the layer `motion`, from
-    /// [`Frame::previous`] and the particles' velocities. 12.5 bytes per pixel more (48, 26, 12.5 or 9.1 for a
-    /// [`thickness_level`](Self::thickness_level) of 0 to 3).
+    /// Whether motion vectors are rendered (default false): the pass `motion` and the layer `motion`, from
+    /// [`Frame::previous`] and the particles' velocities. They take 12.5 more bytes per pixel (48, 26, 12.5 or 9.1 for
+    /// a [`thickness_level`](Self::thickness_level) of 0 to 3).
     pub motion: bool,
     /// Side length of a face of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
@@ -317,20 +317,19 @@ impl Config {
     }
 }
 
-/// A frame in flight: an index below `frames_in_flight`. Handing in a slot promises that all GPU work recorded
-/// with it before is complete.
+/// A frame in flight: an index below `frames_in_flight`. By passing a slot, the host promises that all GPU work
+/// recorded with it before is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot(pub u32);
 
-/// An image of the host, with its state when `record` takes it over and when it hands it back.
+/// An image of the host, with its state when `record` acquires it and when it returns it.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct HostImage {
-    /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage
-    /// (its read-only layout asks for it), an output as [`Config::in_place`] and
-    /// [`Config::composite`] say.
+    /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage (required by its
+    /// read-only layout), an output with the usage that [`Config::in_place`] and [`Config::composite`] demand.
     pub image: vk::Image,
-    /// A 2D view of its first mip and layer; of depth-stencil images of the depth aspect alone.
+    /// A 2D view of its first mip and layer; for depth-stencil images a view of only the depth aspect.
     pub view: vk::ImageView,
     /// Format of the view.
     pub format: vk::Format,
@@ -338,7 +337,7 @@ pub struct HostImage {
     pub aspect: vk::ImageAspectFlags,
     /// Size in texels.
     pub extent: vk::Extent2D,
-    /// The part of the image that is used: all of it, a window for one of several views, or a size that changes
+    /// The part of the image that is used: the whole image, a window for one of several views, or a size that changes
     /// from frame to frame. Barriers cover the whole image.
     pub rect: vk::Rect2D,
     /// Last use before `record`: the stages and accesses to wait for, and the current layout.
@@ -348,7 +347,7 @@ pub struct HostImage {
 }
 
 impl HostImage {
-    /// A whole image that is returned in the state in which it comes. The aspects follow from the format.
+    /// A whole image that is returned in the state in which it was passed. The aspects follow from the format.
     pub fn new(
         image: vk::Image,
         view: vk::ImageView,
@@ -395,7 +394,7 @@ fn aspects_of(format: vk::Format) -> vk::ImageAspectFlags {
 pub struct Stream {
     /// A buffer with storage usage.
     pub buffer: vk::Buffer,
-    /// Its whole size in bytes.
+    /// Size of the whole buffer in bytes.
     pub size: u64,
     /// Byte offset of the first particle's value, a multiple of 4.
     pub offset: u64,
@@ -426,7 +425,7 @@ impl Stream {
                 format!("stride {stride} is more than {most}, {max_stride}"),
             ));
         }
-        // Of the last particle only the value itself has to be there.
+        // The last particle needs only its value, not a full stride.
         let used = match u64::from(count) {
             0 => 0,
             count => (count - 1) * u64::from(stride) + bytes,
@@ -469,42 +468,42 @@ pub struct Packets {
     pub count: u32,
 }
 
-/// The particles of one frame. Only read.
+/// The particles of one frame. The library only reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Particles {
     /// World-space centres (3×f32, scene units). NaN and infinite ones are dropped
     /// and counted.
     pub positions: Stream,
-    /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a
-    /// particle that was just emitted: it gets the rest density and is therefore full water or foam and no
-    /// spray. `None`: this applies to all particles.
+    /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a particle
+    /// that was just emitted: it gets the rest density and is therefore full water or foam, and not spray. With `None`
+    /// this applies to all particles.
     pub densities: Option<Stream>,
-    /// World velocities (3×f32, scene units per second), along which foam and spray are stretched, and for
-    /// motion vectors. Read with [`Config::surface_foam`], [`Config::spray`] or [`Config::motion`] only. `None`: at
-    /// rest.
+    /// World velocities (3×f32, scene units per second), along which foam and spray are stretched, and for motion
+    /// vectors. Read only with [`Config::surface_foam`], [`Config::spray`] or [`Config::motion`]. With `None` the
+    /// particles are at rest.
     pub velocities: Option<Stream>,
-    /// Numbers that stay with their particle from frame to frame (u32), for the noise in foam and the droplets
-    /// of spray. Read as the velocities, and with `Config.noise` for the surface noise. `None`: the index is
-    /// used.
+    /// Ids that identify particles from frame to frame (u32), for the noise in foam and the droplets of spray. Read
+    /// under the same conditions as the velocities, and with `Config.noise` for the surface noise. With `None` the
+    /// index is used.
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
-    /// Groups to cull, instead of each particle.
+    /// Groups that are culled as a whole; with `None` each particle is culled.
     pub packets: Option<Packets>,
     /// Foam amount (0 water to 1 foam; NaN: water) and age (seconds) of each particle, 2×f32: the content of
-    /// [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam), at a stride of 8. With [`Config::surface_foam`]. `None`: there is no foam.
+    /// [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam), at a stride of 8. Needs [`Config::surface_foam`].
+    /// With `None` there is no foam.
     pub surface_foam: Option<Stream>,
-    /// Last use of all these buffers before `record`; the layout is ignored. For buffers that the
-    /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
+    /// Last use of all these buffers before `record`; the layout is ignored. Use
+    /// [`access::NOTHING`](crate::access::NOTHING) for buffers that the CPU wrote before the submission.
     pub before: Access,
-    /// First use of them after `record` (layout ignored).
+    /// First use of these buffers after `record` (layout ignored).
     pub after: Access,
 }
 
 impl Particles {
-    /// Positions alone, in buffers that the CPU wrote before the submit and only shaders read
-    /// otherwise.
+    /// Only positions, in buffers that the CPU wrote before the submission and otherwise only shaders read.
     pub fn new(positions: Stream, count: Count) -> Self {
         Self {
             positions,
@@ -556,8 +555,8 @@ impl Particles {
     }
 }
 
-/// The whitewater particles of one frame: spray, foam on the surface and bubbles below it (Ihmsen et al. 2012).
-/// Only read.
+/// The whitewater particles of one frame: spray, foam on the surface and bubbles below it (Ihmsen et al. 2012). The
+/// library only reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct WhitewaterParticles {
@@ -569,8 +568,8 @@ pub struct WhitewaterParticles {
     pub radii: Option<Stream>,
     /// Relative age (f32), 0 new to 1 gone. Particles of 1 or more are not drawn. `None`: all are new.
     pub ages: Option<Stream>,
-    /// Numbers that stay with their particle from frame to frame (u32), for the variation of sizes. `None`: the
-    /// index is used.
+    /// Ids that identify particles from frame to frame (u32), for the variation of sizes. With `None` the index is
+    /// used.
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
@@ -587,12 +586,12 @@ pub struct WhitewaterParticles {
     pub fluid_depth: Option<HostImage>,
     /// Last use of all these buffers before `record` (layout ignored).
     pub before: Access,
-    /// First use of them after `record` (layout ignored).
+    /// First use of these buffers after `record` (layout ignored).
     pub after: Access,
 }
 
 impl WhitewaterParticles {
-    /// Foam at positions alone, in buffers that the CPU wrote before the submit.
+    /// Foam particles with only positions, in buffers that the CPU wrote before the submission.
     pub fn new(positions: Stream, count: Count) -> Self {
         Self {
             positions,
@@ -639,8 +638,8 @@ impl WhitewaterParticles {
     }
 }
 
-/// The blobs of bubble foam of one frame: balls of soap bubbles around a white core (Huszár, Szécsi). Only
-/// read.
+/// The blobs of bubble foam of one frame: balls of soap bubbles around a white core (Huszár, Szécsi). The library only
+/// reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Blobs {
@@ -650,19 +649,19 @@ pub struct Blobs {
     /// Orientation of each blob, from its own space to the world: quaternions (4×f32, the real part last) of
     /// any length; zero means identity. `None`: all are the identity.
     pub rotations: Option<Stream>,
-    /// Numbers that stay with their blob from frame to frame (u32). They choose its variant and films. `None`:
-    /// the index is used.
+    /// Ids that identify blobs from frame to frame (u32). They choose its variant and films. With `None` the index is
+    /// used.
     pub ids: Option<Stream>,
     /// Number of blobs.
     pub count: Count,
     /// Last use of all these buffers before `record` (layout ignored).
     pub before: Access,
-    /// First use of them after `record` (layout ignored).
+    /// First use of these buffers after `record` (layout ignored).
     pub after: Access,
 }
 
 impl Blobs {
-    /// Spheres alone, in buffers that the CPU wrote before the submit.
+    /// Only spheres, in buffers that the CPU wrote before the submission.
     pub fn new(spheres: Stream, count: Count) -> Self {
         Self {
             spheres,
@@ -693,7 +692,7 @@ impl Blobs {
     }
 }
 
-/// Shoreline and contact foam of one frame, an overlay on water. Only read.
+/// Shoreline and contact foam of one frame, an overlay on water. The library only reads it.
 ///
 /// The scene's depth is that of everything in and below the water. If it contains the water's surface too, set
 /// [`bias`](Self::bias).
@@ -715,7 +714,7 @@ pub struct Shore {
 }
 
 impl Shore {
-    /// Contact foam on a level surface of the host's.
+    /// Contact foam on a level water surface of the host.
     pub fn new(level: f32) -> Self {
         Self { surface: Some(Surface::Level(level)), shoreline: None, mask: None, bias: 0.0 }
     }
@@ -761,7 +760,7 @@ pub struct Triangles {
 }
 
 impl Triangles {
-    /// Corners that are drawn.
+    /// Number of corners that are drawn.
     pub(crate) fn drawn(&self) -> u32 {
         self.indices.map_or(self.vertices, |(_, count)| count)
     }
@@ -772,7 +771,7 @@ impl Triangles {
         [positions, indices, count]: [&'static str; 3],
         limits: &vk::PhysicalDeviceLimits,
     ) -> Result<(), Error> {
-        // Bound in one piece.
+        // Bound as a whole.
         let most =
             |count: u32| ("what the device binds", limits.max_storage_buffer_range / count.max(1));
         self.positions.check(positions, 12, self.vertices, most(self.vertices))?;
@@ -796,7 +795,7 @@ pub struct Strip {
     pub coordinates: Stream,
     /// Last use of these buffers before `record` (layout ignored).
     pub before: Access,
-    /// First use of them after it (layout ignored).
+    /// First use of these buffers after `record` (layout ignored).
     pub after: Access,
 }
 
@@ -804,14 +803,14 @@ pub struct Strip {
 #[derive(Clone, Copy, Debug)]
 pub struct ShoreDistances {
     pub(crate) view: vk::ImageView,
-    /// Corner, edge in metres, texels each way.
+    /// Minimum corner, side length in metres, and number of texels along each axis.
     pub(crate) corner: [f32; 2],
     pub(crate) edge: f32,
     pub(crate) size: u32,
 }
 
-/// One simulation step, for [`SurfaceFoamState::record_step`](crate::SurfaceFoamState::record_step): the particles after it, in any
-/// order. Only read.
+/// One simulation step, for [`SurfaceFoamState::record_step`](crate::SurfaceFoamState::record_step): the particles
+/// after it, in any order. The library only reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct SurfaceFoamStep<'a> {
@@ -819,8 +818,8 @@ pub struct SurfaceFoamStep<'a> {
     pub slot: Slot,
     /// World-space velocities (3×f32, scene units per second).
     pub velocities: Stream,
-    /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a
-    /// particle that was just emitted: [`WeberSettings::rest_density`] is used. `None`: for all particles.
+    /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a particle
+    /// that was just emitted: [`WeberSettings::rest_density`] is used. With `None` this applies to all particles.
     pub densities: Option<Stream>,
     /// Ids (u32), unique within a step and constant from step to step; they need not be dense. If two particles
     /// share an id, only one (unspecified) keeps its state. 0xffff_ffff is never foam. `None`: no state is
@@ -834,12 +833,12 @@ pub struct SurfaceFoamStep<'a> {
     pub settings: &'a WeberSettings,
     /// Last use of all these buffers before the step (layout ignored).
     pub before: Access,
-    /// First use of them after it (layout ignored).
+    /// First use of these buffers after the step (layout ignored).
     pub after: Access,
 }
 
 impl<'a> SurfaceFoamStep<'a> {
-    /// A step with velocities only, in buffers that the CPU wrote before the submit.
+    /// A step with only velocities, in buffers that the CPU wrote before the submission.
     pub fn new(
         slot: Slot,
         velocities: Stream,
@@ -871,7 +870,7 @@ impl<'a> SurfaceFoamStep<'a> {
 }
 
 /// One fluid step, for [`Generator::record_step`](crate::whitewater::Generator::record_step): the fluid's particles
-/// after it, in any order. Only read.
+/// after it, in any order. The library only reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct GeneratorStep<'a> {
@@ -887,18 +886,18 @@ pub struct GeneratorStep<'a> {
     pub count: Count,
     /// Seconds since the previous step, [0, ∞).
     pub dt: f32,
-    /// Number of the step in the sequence, any value, for the random numbers; another one in each step.
+    /// Number of the step in the sequence, for the random numbers: any value, different in each step.
     pub number: u32,
     /// Uniform settings.
     pub settings: &'a GeneratorSettings,
     /// Last use of all these buffers before the step (layout ignored).
     pub before: Access,
-    /// First use of them after it (layout ignored).
+    /// First use of these buffers after the step (layout ignored).
     pub after: Access,
 }
 
 impl<'a> GeneratorStep<'a> {
-    /// The first step, for particles without ids, in buffers that the CPU wrote before the submit.
+    /// The first step, for particles without ids, in buffers that the CPU wrote before the submission.
     pub fn new(
         slot: Slot,
         [positions, velocities]: [Stream; 2],
@@ -940,8 +939,8 @@ impl<'a> GeneratorStep<'a> {
     }
 }
 
-/// The view. The projection is the host's own, as used with a viewport of positive height whose row 0 is the
-/// top of the image. A host that flips with a negative viewport height negates row 1 of its projection first.
+/// The camera. The projection is the host's own, as used with a viewport of positive height whose row 0 is the top of
+/// the image. A host that flips with a negative viewport height negates row 1 of its projection first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// World to eye space, four columns.
@@ -967,10 +966,10 @@ impl Camera {
     }
 }
 
-/// For tools that use the same version of glam.
+/// Functions for tools that use the same version of glam.
 #[cfg(feature = "headless")]
 impl Camera {
-    /// As [`new`](Self::new).
+    /// Like [`new`](Self::new).
     pub fn of(view: Mat4, projection: Mat4) -> Self {
         Self::new(view.to_cols_array_2d(), projection.to_cols_array_2d())
     }
@@ -997,20 +996,20 @@ impl Camera {
 /// one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Previous {
-    /// Its camera. It may have another projection, near plane or depth convention.
+    /// The camera of the previous frame. It may have another projection, near plane or depth convention.
     pub camera: Camera,
     /// Seconds from the previous frame to this one, [0, ∞). Motion is limited to a thousand spacings in that
     /// time along each axis of eye space.
     pub dt: f32,
 }
 
-/// The host's shadow map or mask, only sampled.
+/// The host's shadow map or mask, which is only sampled.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Shadow {
-    /// With [`Shadows::Map`] and [`Shadows::Convolution`]: the scene's depth from the light, any size. With
-    /// [`Shadows::Mask`]: one channel over the view, 1 where the sun shines on the fluid, 0 where not. `rect`
-    /// is the part that is used.
+    /// The image. With [`Shadows::Map`] and [`Shadows::Convolution`] it is the scene's depth from the light, of any
+    /// size. With [`Shadows::Mask`] it has one channel over the view, 1 where the sun shines on the fluid and 0 where
+    /// it does not. `rect` is the part that is used.
     pub image: HostImage,
     /// World to clip space of the map, four columns, standard or reversed depth. Not read for a mask.
     pub view_projection: [[f32; 4]; 4],
@@ -1029,7 +1028,7 @@ impl Shadow {
         Mat4::from_cols_array_2d(&self.view_projection)
     }
 
-    /// 1 where depth grows away from the light, -1 where it falls.
+    /// 1 if depth grows away from the light, -1 if it falls.
     pub(crate) fn nearer(&self, light: &Light) -> f32 {
         let clip = self.clip();
         let inverse = clip.inverse();
@@ -1040,7 +1039,7 @@ impl Shadow {
     }
 }
 
-/// A sphere in the world. The light's maps are fitted to it; outside of it nothing is cast.
+/// A sphere in the world. The light's maps are fitted to it; objects outside of it cast no shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightVolume {
     /// Centre, world space, finite.
@@ -1050,7 +1049,7 @@ pub struct LightVolume {
 }
 
 impl LightVolume {
-    /// World to the light's maps: place 0 to 1, metres along the light.
+    /// World space to the light's maps: position from 0 to 1, and distance in metres along the light.
     pub(crate) fn to_map(self, light: &Light, up: Vec3) -> Mat4 {
         let sun = light.toward();
         let aside = if sun.dot(up).abs() > 0.99 { level_axes(up)[0] } else { up };
@@ -1070,8 +1069,8 @@ impl LightVolume {
 pub struct Frame<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// Written where there is water, unchanged elsewhere. Linear, scene-referred. Its `rect` is the frame's
-    /// size, at most [`Config::extent`].
+    /// The output. It is written where there is water and unchanged elsewhere. Linear, scene-referred. Its `rect` is
+    /// the frame's size, at most [`Config::extent`].
     pub output: HostImage,
     /// The scene behind the water, linear, only sampled. It may be the image of `output`: then the `rect` of
     /// `output` is copied first, and the image needs transfer-source usage. Otherwise its size may differ.
@@ -1087,22 +1086,22 @@ pub struct Frame<'a> {
     pub bubbles: Option<Blobs>,
     /// Shoreline and contact foam, with [`Config::shore`]; `None`: there is none.
     pub shore: Option<Shore>,
-    /// The view.
+    /// The camera.
     pub camera: Camera,
-    /// The scene's shadow on the fluid, with [`Config::shadow`]. `None` (default): there is none.
+    /// The scene's shadow on the fluid, with [`Config::shadow`]. With `None`, the default, there is none.
     pub shadow: Option<Shadow>,
-    /// The sphere that contains the fluid that casts and the scene that receives, with
-    /// [`Config::light_map_size`]. `None` (default): there is none.
+    /// The sphere that contains the fluid that casts shadows and the scene that receives them, with
+    /// [`Config::light_map_size`]. With `None`, the default, there are no shadows.
     pub light_volume: Option<LightVolume>,
-    /// The previous frame, with [`Config::motion`]. `None`, as for the first frame: nothing moved.
+    /// The previous frame, with [`Config::motion`]. With `None`, as for the first frame, nothing has moved.
     pub previous: Option<Previous>,
     /// Settings that are uniforms.
     pub settings: &'a Settings,
 }
 
 impl<'a> Frame<'a> {
-    /// A frame without anything optional: water over the scene in `output`. This needs [`Config::in_place`];
-    /// otherwise add [`with_scene_color`](Self::with_scene_color).
+    /// A frame without optional inputs: water over the scene in `output`. This needs [`Config::in_place`]; otherwise
+    /// add [`with_scene_color`](Self::with_scene_color).
     pub fn new(
         slot: Slot,
         output: HostImage,
@@ -1170,14 +1169,14 @@ impl<'a> Frame<'a> {
         Self { previous: Some(previous), ..self }
     }
 
-    /// The output is its own scene.
+    /// Whether the output is its own scene.
     pub(crate) fn in_place(&self) -> bool {
         self.scene_color.image == self.output.image
     }
 }
 
-/// All settings that cost nothing to change from frame to frame. Where a range has no end (∞) the limit is
-/// 1e12, so that products of a few stay finite.
+/// All settings that may change from frame to frame at no cost. Where a range has no end (∞) the limit is 1e12, so that
+/// products of a few stay finite.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
@@ -1239,8 +1238,9 @@ impl Settings {
     /// up. All lengths, speeds and optical densities of all looks follow from these two numbers. For another sky see
     /// [`with_light`](Self::with_light).
     ///
-    /// The host sets what belongs to a frame or step: radii of whitewater particles, [`Shore::bias`], gravity of
-    /// [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and [`GeneratorSettings`], and [`WeberSettings::weber_in`].
+    /// The host sets values that belong to a frame or step: radii of whitewater particles, [`Shore::bias`], gravity of
+    /// [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and [`GeneratorSettings`], and
+    /// [`WeberSettings::weber_in`].
     pub fn new(spacing: f32, units_per_metre: f32) -> Self {
         let mut settings = Self::default();
         settings.water.spacing = spacing;
@@ -1253,22 +1253,22 @@ impl Settings {
         settings
     }
 
-    /// Replaces the light: by [`Light::of`] the sky, or by the host's own.
+    /// Replaces the light, by that of a sky ([`Light::of`]) or by the host's own.
     #[must_use]
     pub fn with_light(self, light: Light) -> Self {
         Self { light, ..self }
     }
 
-    /// Replaces the up direction, of any length but 0. The environment has to have the same.
+    /// Replaces the up direction, of any length except 0. The environment has to have the same.
     #[must_use]
     pub fn with_up(self, up: [f32; 3]) -> Self {
         Self { up, ..self }
     }
 
-    /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of
-    /// thickness, foam, spray and light on foam. It belongs with `Rule::Source` as
-    /// `Config.rule`, [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of
-    /// [`Exit::Straight`], [`Config::kernels`] of [`Kernels::Spheres`], [`Config::light_map_size`] of `None` and
+    /// The look of the thesis' demo (Bagar 2010) for a particle spacing: its composite, colours, unit of thickness,
+    /// foam, spray and light on foam. It is meant for a configuration with `Rule::Source` as `Config.rule`,
+    /// [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`],
+    /// [`Config::kernels`] of [`Kernels::Spheres`], [`Config::light_map_size`] of `None` and
     /// [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {
         Self {
@@ -1324,7 +1324,7 @@ impl Default for Light {
 }
 
 impl Light {
-    /// The direction to the sun, of unit length: also of one whose square is beyond single precision.
+    /// Unit vector to the sun, even if its squared length overflows single precision.
     pub(crate) fn toward(&self) -> Vec3 {
         Vec3::from(self.direction).as_dvec3().normalize_or(DVec3::Y).as_vec3()
     }
@@ -1354,11 +1354,11 @@ pub struct Layer {
     pub access: Access,
 }
 
-/// What a record leaves.
+/// Results of a record.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Recorded {
-    /// The kept layers: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
+    /// The layers that were kept: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
     pub layers: Vec<Layer>,
     #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // then nobody reads it
     pub(crate) diagnostics: Diagnostics,
@@ -1366,7 +1366,7 @@ pub struct Recorded {
 
 #[cfg(feature = "diagnostics")]
 impl Recorded {
-    /// The renderer's own buffers, for tests and tools: their layout goes with the shaders and may change in any version.
+    /// The renderer's own buffers, for tests and tools. Their layout follows the shaders and may change in any version.
     pub fn diagnostics(&self) -> &Diagnostics {
         &self.diagnostics
     }

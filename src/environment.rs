@@ -55,24 +55,25 @@ impl Default for Sky {
     }
 }
 
-/// An equirectangular image. Row 0 is up. For +y up its middle column lies along world −z, its right quarter
-/// along +x; left and right edge meet along +z. For another up direction the image turns with it: for z up the
-/// middle column lies along +y and x stays; for x up the right quarter lies along +y and the middle column
-/// along +z.
+/// An equirectangular image. Row 0 is up. For +y up its middle column looks along world −z and the column at three
+/// quarters of the width along +x; left and right edge meet along +z. For another up direction the image rotates with
+/// it: for z up the middle column looks along +y and x stays; for x up the column at three quarters looks along +y and
+/// the middle column along +z.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Equirectangular {
     /// Linear radiance. The format has to support linear filtering.
     pub image: HostImage,
-    /// The same picture without the sun, if `image` contains the sun that [`Light`](crate::Light) describes.
-    /// Default `None`: it does not. Diffuse light is gathered from this one, so that the sun, which is added
-    /// with its shadows, is not counted twice. Reflections show `image`.
+    /// The same picture without the sun, if `image` contains the sun that [`Light`](crate::Light) describes. The
+    /// default `None` means that it does not. Diffuse light is gathered from this picture, so that the sun, which is
+    /// added with its shadows, is not counted twice. Reflections show `image`.
     pub without_sun: Option<HostImage>,
     /// Factor on the radiance, [0, ∞), default 1. The product is clamped to 65 000.
     pub scale: f32,
-    /// Right-handed rotation of the image around up, radians, finite, default 0: for +y up, what was along −z moves towards −x.
+    /// Right-handed rotation of the image around up, radians, finite, default 0. For +y up, content along −z moves
+    /// towards −x.
     pub turn: f32,
-    /// World up direction, any length except 0, as [`Settings::up`](crate::Settings::up).
+    /// World up direction, any length except 0, with the meaning of [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
 }
 
@@ -152,22 +153,23 @@ const IRRADIANCE: u32 = 32;
 /// Maximum side length of the faces that irradiance is gathered from.
 const COARSE: u32 = 16;
 
-/// The cube between its passes: read by any shader.
+/// State of the cube between its passes: any shader may read it.
 const SAMPLED: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 
-/// The cube and its passes.
+/// The cube map and its passes.
 pub struct Environment {
     sky: Pipeline,
     equirect: Pipeline,
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
-    /// The cube without the sun and its faces, for [`Irradiance::Sampled`]. Its first level is sampled;
-    /// SwiftShader fills the seams of a cube when it blits mips, not when compute writes it.
+    /// The cube without the sun, and a view of its faces, for [`Irradiance::Sampled`]. Its first level is sampled. It
+    /// has mips because SwiftShader fills the seams of a cube map when mips are blitted, but not when a compute shader
+    /// writes it.
     sunless: Option<(Image, Owned<vk::ImageView>)>,
-    /// Whether the sun is in the cube recorded last, and not in the one without the sun.
+    /// Whether the last recorded cube contains the sun and there is one without it.
     apart: bool,
-    /// View for explicit levels: without the last one, whose seams SwiftShader never writes but filters across.
+    /// View for explicit mip levels, without the last one: SwiftShader never writes its seams but filters across them.
     pub levels: Owned<vk::ImageView>,
     mips: u32,
     gather: Pipeline,
@@ -225,7 +227,7 @@ impl Environment {
         })
     }
 
-    /// Whether foam samples it in the directions of its occlusion samples.
+    /// Whether foam samples the environment in the directions of its occlusion samples.
     pub fn is_sampled(config: &Config) -> bool {
         config.whitewater.is_some_and(|foam| foam.irradiance == Irradiance::Sampled)
     }

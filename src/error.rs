@@ -36,9 +36,9 @@ pub enum Error {
     },
     /// An input field is out of its range.
     BadInput {
-        /// The field, as in `Frame.camera.projection`.
+        /// Name of the field, such as `Frame.camera.projection`.
         field: &'static str,
-        /// What was expected, what was found.
+        /// What was expected and what was found.
         why: String,
     },
 }
@@ -48,7 +48,7 @@ impl Error {
         Self::BadInput { field, why: why.into() }
     }
 
-    /// Whether the device is lost. Then everything has to be dropped.
+    /// Whether the device is lost. In that case drop all objects.
     pub fn is_device_lost(&self) -> bool {
         matches!(self, Self::Vulkan { result, .. } if *result == vk::Result::ERROR_DEVICE_LOST)
     }
@@ -78,9 +78,9 @@ impl std::error::Error for Error {
     }
 }
 
-/// `result.context("vkCreateImage water/depth")`.
+/// Adds context to a result: `result.context("vkCreateImage water/depth")`.
 pub(crate) trait VkContext<T> {
-    /// Names the call that failed.
+    /// Names the failed call.
     fn context(self, call: impl FnOnce() -> String) -> Result<T, Error>;
 }
 

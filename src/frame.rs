@@ -15,10 +15,10 @@ use crate::water::settings::{
 use crate::water::wavelets::WAVELETS;
 use crate::whitewater::settings::{OcclusionReach, ShadowMixing, Submerged};
 
-/// Empty depth: farther than any surface (a MIN blend wants positive depth).
+/// Depth of an empty pixel: farther than any surface (a MIN blend needs a positive value).
 pub const EMPTY: f32 = 1.0e10;
 
-/// The block `Frame` of `glsl/include/frame.glsl`; its comments say what each member holds.
+/// The block `Frame` of `glsl/include/frame.glsl`, whose comments describe each member.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[allow(missing_docs)] // documented once, in the shader
@@ -182,7 +182,7 @@ pub const KERNEL_INTEGRAL: f32 = 0.340_003;
 /// Half-axis of a thickness sprite in drawn radii.
 pub const THICKNESS_SCALE: f32 = 2.0;
 
-/// Size of an image that is `level` times halved (rounded up).
+/// Size of an image that is halved `level` times (rounded up).
 pub fn reduced(extent: vk::Extent2D, level: u32) -> vk::Extent2D {
     let round = (1 << level) - 1;
     vk::Extent2D {
@@ -202,7 +202,7 @@ pub struct Lens {
     pub linear: (f32, f32),
     /// Eye depth of the near plane.
     pub near: f32,
-    /// Eye depth of the far plane; infinite where there is none.
+    /// Eye depth of the far plane; infinite if there is none.
     pub far: f32,
 }
 
@@ -257,9 +257,9 @@ impl Lens {
         [of(full.width, self.p.x), of(full.height, self.p.y)]
     }
 
-    /// Device depth of the far end.
+    /// Device depth of the far plane.
     pub fn nothing(&self) -> f32 {
-        // Eye depth of device depth 1: the near plane's where depth is reversed.
+        // Eye depth of device depth 1; with reversed depth that is the near plane.
         let eye = self.linear.0 / (1.0 + self.linear.1);
         if eye > 0.0 && eye < 1.001 * self.near { 0.0 } else { 1.0 }
     }
@@ -309,8 +309,7 @@ impl FrameUniforms {
             let (x, y) = (part.extent.width as f32, part.extent.height as f32);
             [x / full.width as f32, y / full.height as f32, x, y]
         };
-        // The copy that stands in for an output that is its own scene begins with the view, as does the
-        // lit scene.
+        // If the output is its own scene, its copy begins with the view, and so does the lit scene.
         let own = frame.in_place() || config.light_map_size.is_some();
         let scene_color = if own { full.into() } else { frame.scene_color.rect };
         let to_world = lens.view.inverse();
@@ -530,7 +529,7 @@ impl Since {
     fn new(lens: &Lens, frame: &Frame<'_>) -> Self {
         let before = frame.previous.and_then(|p| Some((Lens::new(&p.camera).ok()?, p.dt)));
         let (then, dt) = before.unwrap_or((*lens, 0.0));
-        // The same view has to give nothing, not what rounding leaves.
+        // With an unchanged view the difference is exactly 0, without rounding errors.
         let eye = if then.view == lens.view {
             Mat4::ZERO
         } else {
@@ -605,7 +604,8 @@ fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
 
 fn spray_shape(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
     let optical_depth = -(1.0 - spray.opacity).ln();
-    // Droplets together cover what one would: of their squares 0.513 is the mean, and 0.6 of them are drawn (spray.vert).
+    // The droplets together cover as much as one sprite: the mean of their squared sizes is 0.513, and 0.6 of them are
+    // drawn (spray.vert).
     let many = if spray.droplets > 1 { 0.513 * 0.6 * spray.droplets as f32 } else { 1.0 };
     let half_axis = spray.size * water.radius() / many.sqrt();
     [optical_depth, half_axis, spray.scatter_radius * water.spacing, spray.exposure]
@@ -645,7 +645,7 @@ fn pattern_phases(look: &SurfaceFoamSettings) -> ([f32; 2], [f32; 2], [f32; 2]) 
     let [one, other] = [0.0, 0.5].map(|late| {
         let at = cycles + late;
         let carried = 2.0 * (at - at.floor()) - 1.0;
-        // Far from each other in the noise, those of one phase after the other and those of both.
+        // Origins far apart in the noise, for successive periods of one phase and for both phases.
         let began = 2.0 * at.floor() + if late > 0.0 { 1.0 } else { 0.0 };
         (1.0 - carried.abs(), carried, (17.0 * began).rem_euclid(256.0))
     });
@@ -705,7 +705,7 @@ fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let n = index(water);
     let comes_in = comes_in(water);
     let leaves = leaves(water);
-    // 2 n^2 (1 - sqrt(1 - 1/n^2)), which does not cancel so: the mean of 1/cos inside, over sin^2 outside.
+    // 2 n^2 (1 - sqrt(1 - 1/n^2)) in a form without cancellation: the mean of 1/cos inside, over sin^2 outside.
     let sky = 2.0 / (1.0 + (1.0 - 1.0 / (n * n)).max(0.0).sqrt());
     let cosine = light.toward().dot(up).clamp(0.0, 1.0);
     let inside = (1.0 - (1.0 - cosine * cosine) / (n * n)).max(1.0e-6).sqrt();
@@ -810,7 +810,7 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
 mod tests {
     use super::*;
 
-    /// Against closed forms: `(2/n) B(2/n, m + 1)` of n = 2 is 1/(m + 1), of n = 1 it is 2/((m + 1)(m + 2)).
+    /// Against closed forms: `(2/n) B(2/n, m + 1)` is 1/(m + 1) for n = 2 and 2/((m + 1)(m + 2)) for n = 1.
     #[test]
     fn the_mean_of_a_falloff_is_its_integral() {
         for m in [0.1_f32, 0.4, 1.0, 2.5, 16.0] {
@@ -829,7 +829,7 @@ mod tests {
         Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d())
     }
 
-    /// Every convention must give back the depth and the slope of a point it projected.
+    /// Every convention must return the depth and the slope of a point that it projected.
     #[test]
     fn lens_inverts_every_projection() {
         let mut off_axis = Mat4::perspective_rh(0.8, 1.5, 0.1, 50.0);

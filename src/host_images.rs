@@ -1,4 +1,4 @@
-//! The host's images: how they are used here, and the one barrier of each on its way in and out.
+//! The host's images: their uses here, and one barrier each for acquiring and releasing them.
 
 use ash::vk;
 
@@ -18,26 +18,26 @@ pub fn depth_layout(image: &HostImage) -> vk::ImageLayout {
     }
 }
 
-/// How the passes use the scene's depth.
+/// Access of the passes to the scene's depth.
 pub fn depth_use(layout: vk::ImageLayout, spray: bool) -> Access {
     let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
-    // Bound to its vertices too, in place of what tells where the sun does not come.
+    // The vertex shader binds it as well, as a stand-in for the shadow resources.
     let sampled = if spray { sampled.and(access::VERTEX_SAMPLED) } else { sampled };
     Access { layout, ..sampled }
 }
 
-/// How the passes use the host's images.
+/// Access of the passes to the host's images.
 pub struct Uses {
-    /// The output is the scene's colour too.
+    /// Whether the output is also the scene's colour.
     pub in_place: bool,
     pub depth: Access,
-    /// By `composite`.
+    /// Access of `composite` to the output.
     pub output: Access,
-    /// The scene's colour, or its copy, by `composite`.
+    /// Access of `composite` to the scene's colour or its copy.
     pub scene: Access,
-    /// The scene is read by `lit` first.
+    /// Whether `lit` reads the scene first.
     pub lit: bool,
-    /// The shadow map is read by `convolution` alone.
+    /// Whether only `convolution` reads the shadow map.
     pub convolved: bool,
 }
 
@@ -57,7 +57,7 @@ impl Uses {
     }
 }
 
-/// How the passes use a shadow map or mask.
+/// Access of the passes to a shadow map or mask.
 fn shadow_use(image: &HostImage, convolved: bool) -> Access {
     let shading = FRAGMENT_SAMPLED.and(access::VERTEX_SAMPLED);
     let sampled = access::COMPUTE_SAMPLED;
@@ -86,7 +86,7 @@ pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
     Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
 }
 
-/// Shadow resources of the sun; scene depth and frame uniforms stand in for unused ones.
+/// Shadow resources of the sun; scene depth and frame uniforms are bound in place of unused ones.
 pub fn sunlight(
     frame: &Frame<'_>,
     (light, convolving, bubbles): (Option<&Light>, Option<&Convolving>, Option<&Bubbles>),
@@ -103,7 +103,7 @@ pub fn sunlight(
     }
 }
 
-/// The one barrier of each host image on its way in.
+/// The acquire barriers, one for each host image.
 pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
     let barrier =
         |image: &HostImage, to| access::raw_image(image.image, image.aspect, image.before, to);
@@ -120,7 +120,7 @@ pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     all
 }
 
-/// The one barrier of each host image on its way out.
+/// The release barriers, one for each host image.
 pub fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
     let barrier =
         |image: &HostImage, from| access::raw_image(image.image, image.aspect, from, image.after);

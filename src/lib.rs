@@ -1,22 +1,22 @@
-//! Draws water, foam, spray and bubbles that are given as particles into the frame of your own Vulkan engine.
+//! Draws particle water, foam, spray and bubbles into the frame of your own Vulkan engine.
 //!
-//! The library records into a command buffer that you hand in. It owns no device, queue, window or swapchain. Every barrier
-//! is written where it is needed, the GPU decides counts, culling and when the smoothing ends, and nothing waits for the
-//! host. Each pass is checked against a CPU twin on a software device.
+//! The library records into your command buffer. It owns no device, queue, window or swapchain. Barriers are explicit;
+//! counts, culling and the end of the smoothing are decided on the GPU, so nothing waits for the host. Each pass is
+//! checked against a CPU twin on a software device.
 //!
 //! # Embedding
 //!
 //! 1. Before you create the device (Vulkan 1.2 or newer; no feature is required), ask [`requirements`] and
-//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what
-//!    the device supports, [`EnabledFeatures::device_features`] makes the structures for `vkCreateDevice`,
-//!    [`DeviceSupport::with_enabled`] says what a selection of them leaves. Report truthfully in [`EnabledFeatures`]
-//!    what you enabled. On a Vulkan 1.2 device surface foam, motion vectors and [`Shading::Compute`](water::Shading)
-//!    need [`EnabledFeatures::storage_image_write_without_format`].
+//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what the
+//!    device supports, [`EnabledFeatures::device_features`] builds the structures for `vkCreateDevice`, and
+//!    [`DeviceSupport::with_enabled`] returns the support with only some of them. Report truthfully in
+//!    [`EnabledFeatures`] what you enabled. On a Vulkan 1.2 device surface foam, motion vectors and
+//!    [`Shading::Compute`](water::Shading) need [`EnabledFeatures::storage_image_write_without_format`].
 //! 2. Create one [`Context`] per device from a [`Host`], then a [`Renderer`] from the context and a [`Config`]. This
 //!    allocates all memory, and creates all pipelines that the context does not have yet.
-//! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Earlier frames
-//!    are refused. [`Settings::new`] derives all looks from the spacing and the scale of your scene, [`Light::of`] the light
-//!    from a sky.
+//! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Frames before
+//!    that are refused. [`Settings::new`] derives all looks from the spacing and the scale of your scene, [`Light::of`]
+//!    the light from a sky.
 //! 4. Each frame, after the slot's fence, call [`Renderer::collect`] and then [`Renderer::record`] with a [`Frame`].
 //!    [`Renderer::timings`] returns the time of each pass.
 //! 5. Call [`Renderer::resize`] or [`Renderer::reconfigure`] at any time between records, and [`Renderer::destroy`] when the
@@ -76,14 +76,15 @@
 //! # Promises
 //!
 //! - `record` only records: it never submits, waits, creates pipelines or allocates device memory.
-//! - Each host image gets one acquire and one release barrier. The output gets more in between if it is copied first, or if
-//!   the lit scene is drawn. Core and synchronization validation report nothing.
+//! - Each host image gets one acquire and one release barrier. The output gets more in between if it is copied first,
+//!   or if the lit scene is drawn to it. Core and synchronization validation report nothing.
 //! - Pixels outside the fluid are unchanged, and zero particles change nothing. With `Config.light_map_size` the whole view is
 //!   written: the scene with shadows and caustics.
 //! - Every [`Error::BadInput`] is found before the first command. After any other error discard the command buffer and call
 //!   [`Renderer::abandon`].
-//! - `resize` and `reconfigure` are legal with frames in flight. `collect` frees what they replaced as soon as every slot
-//!   that used it has come back. Only construction, `resize`, `reconfigure`, `collect` and `destroy` call the allocator.
+//! - `resize` and `reconfigure` are legal with frames in flight. `collect` frees the objects that they replaced as soon
+//!   as every slot that used them has finished. Only construction, `resize`, `reconfigure`, `collect` and `destroy`
+//!   call the allocator.
 //! - Equal inputs give equal pictures on one device, in any order of the particles. Sums are of integers, or of steps that
 //!   floats represent exactly. There are three exceptions: the additive blending of splats by raster; light
 //!   maps some hundred spacings from the centre of their region, which are nearly exact; and whitewater by raster, which
@@ -154,7 +155,7 @@
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-/// The code of the README compiles.
+/// The code of the README, compiled as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

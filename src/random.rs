@@ -1,4 +1,4 @@
-//! Random numbers that a seed fixes on every machine.
+//! Random numbers that are the same for a seed on every machine.
 
 /// The hash of `glsl/include/random.glsl` (PCG, O'Neill 2014).
 pub fn pcg(value: u32) -> u32 {

@@ -44,9 +44,9 @@ struct SlotState {
     descriptors: Descriptors,
     timer: Timer,
     uniforms: Buffer,
-    /// Framebuffer of the output of the last recorded frame.
+    /// Framebuffer of the last recorded frame's output.
     framebuffer: Option<Owned<vk::Framebuffer>>,
-    /// Whether the environment was recorded with the slot since it came back: then its sets have to stay.
+    /// Whether an environment was recorded with the slot since it was collected; its descriptor sets then have to stay.
     has_environment: bool,
 }
 
@@ -56,11 +56,11 @@ pub struct Renderer {
     config: Config,
     slots: Vec<SlotState>,
     retired: RetireList,
-    /// False after a resize has failed half-way.
+    /// False after a resize failed half-way.
     whole: bool,
-    /// What is read before it is written was recorded.
+    /// Whether the set-up was recorded: contents that are read before they are written.
     set_up: bool,
-    /// An environment was recorded since.
+    /// Whether an environment was recorded after it.
     surrounded: bool,
     water: Water,
     composite: Composite,
@@ -75,7 +75,7 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Makes all memory for a configuration, and the pipelines that the context does not have yet.
+    /// Allocates all memory for a configuration, and creates the pipelines that the context does not have yet.
     ///
     /// # Errors
     /// Bad configuration, missing features, no memory; Vulkan errors.
@@ -91,7 +91,7 @@ impl Renderer {
         let (parts, environment, slots) = match made {
             Ok(made) => made,
             Err(error) => {
-                // Nothing was submitted with what was made before the failure.
+                // Nothing was submitted with the objects created before the failure.
                 gpu.destroy();
                 return Err(error);
             }
@@ -116,14 +116,14 @@ impl Renderer {
         })
     }
 
-    /// Records the initial contents of resources that are read before they are written, and the precomputed
-    /// data of bubble foam. Once, before the first `record`; again if `reconfigure` returns true. It leaves no environment:
-    /// call [`record_environment`](Self::record_environment) after it.
+    /// Records the initial contents of resources that are read before they are written, and the precomputed data of
+    /// bubble foam. Call it once before the first `record`, and again if `reconfigure` returns true. It leaves no
+    /// environment: call [`record_environment`](Self::record_environment) after it.
     ///
     /// # Safety
-    /// `cmd` is recording outside a render pass and is submitted before any `record`. It belongs to no slot:
-    /// before `resize` and `reconfigure` its work has to be complete, which a frame recorded after it and come
-    /// back proves.
+    /// `cmd` is recording outside a render pass and is submitted before any `record`. It belongs to no slot: its work
+    /// has to be complete before `resize` and `reconfigure`, which is certain once a frame that was recorded after it
+    /// has finished.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         (self.set_up, self.surrounded) = (true, false);
         self.environment.record_setup(&self.gpu, cmd);
@@ -145,7 +145,7 @@ impl Renderer {
     /// No [`Config::shore`], a bad image or slot; Vulkan errors.
     ///
     /// # Safety
-    /// As [`record_environment`](Self::record_environment), among whose four it counts.
+    /// Those of [`record_environment`](Self::record_environment); it counts as one of the four.
     pub unsafe fn record_foam_texture(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -163,15 +163,15 @@ impl Renderer {
     }
 
     /// Records the environment that the water reflects, once per environment, after
-    /// [`record_setup`](Self::record_setup). Without one [`record`](Self::record) refuses frames:
-    /// [`EnvironmentSource::Black`] is none.
+    /// [`record_setup`](Self::record_setup). Without one [`record`](Self::record) refuses frames; use
+    /// [`EnvironmentSource::Black`] for no reflection.
     ///
     /// # Errors
-    /// [`Error::NotRecorded`] before the set-up; a bad slot, or no up direction; Vulkan errors.
+    /// [`Error::NotRecorded`] before the set-up; a bad slot or up direction; Vulkan errors.
     ///
     /// # Safety
-    /// As [`record`](Self::record), with which it may share a slot and a command buffer if it
-    /// comes before it there; at most four before the slot is collected.
+    /// Those of [`record`](Self::record), which may follow it in the same slot and command buffer. At most four are
+    /// recorded before the slot is collected.
     pub unsafe fn record_environment(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -192,8 +192,8 @@ impl Renderer {
 
     /// Records one frame: water over the scene, into the output.
     ///
-    /// Never submits, waits, creates pipelines or allocates device memory. One acquire and one
-    /// release barrier per host image. Every [`Error::BadInput`] is found before the first command.
+    /// It never submits, waits, creates pipelines or allocates device memory. It records one acquire and one release
+    /// barrier per host image. Every [`Error::BadInput`] is found before the first command.
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, and [`Error::NotRecorded`] before the set-up or an environment, before any
@@ -209,12 +209,12 @@ impl Renderer {
         cmd: vk::CommandBuffer,
         frame: &Frame<'_>,
     ) -> Result<Recorded, Error> {
-        // SAFETY: the caller's promises, passed on.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.record_frame(cmd, frame, None) }.map(|(recorded, _)| recorded)
     }
 
-    /// As [`record`](Self::record), optionally with the smoothing ended by the host, which reads the queries
-    /// back. Also returns the command buffer that was recorded last.
+    /// Like [`record`](Self::record), optionally with the smoothing ended by the host, which reads the queries back.
+    /// Also returns the command buffer that was recorded last.
     pub(crate) unsafe fn record_frame<'a>(
         &'a mut self,
         cmd: vk::CommandBuffer,
@@ -406,9 +406,9 @@ impl Renderer {
         Ok((recorded, cmd))
     }
 
-    /// Times of the slot's last finished frame, pass by pass; empty before the first. Never waits: while a
-    /// frame is still running, these are the times of the one before. Best read after the slot's fence and
-    /// before its next record.
+    /// Times of the slot's last finished frame, pass by pass; empty before the first. It never waits: while a frame is
+    /// still running, it returns the times of the previous one. Best read after the slot's fence and before its next
+    /// record.
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
@@ -416,12 +416,12 @@ impl Renderer {
         }
     }
 
-    /// Reports that the slot has come back. Frees what `resize` and `reconfigure` replaced and no frame in
-    /// flight uses any more. Call it after the wait for the slot with which every frame begins.
+    /// Reports that the slot's GPU work has finished. Frees objects that `resize` and `reconfigure` replaced, if no
+    /// frame in flight uses them any more. Call it after waiting for the slot at the beginning of a frame.
     ///
-    /// This is a promise and takes no fence or timeline value. The library sees no submission, so it could not
-    /// tell what a fence or a value belongs to, and engines that count frames have neither at hand. A slot that
-    /// never comes back only costs memory. Work in flight with other slots is not affected.
+    /// This is a promise and takes no fence or timeline value: the library sees no submission, so it could not
+    /// associate a fence or a value with one, and engines that count frames have neither at hand. A slot that never
+    /// finishes only costs memory. Work in flight with other slots is not affected.
     ///
     /// # Safety
     /// All GPU work that was recorded with the slot is complete, or will never be submitted.
@@ -436,13 +436,13 @@ impl Renderer {
     /// Reports that the command buffer recorded last with this slot was discarded.
     ///
     /// # Safety
-    /// As [`collect`](Self::collect): that command buffer will never be submitted, and what was recorded with the slot
-    /// before it is complete.
+    /// Those of [`collect`](Self::collect): that command buffer will never be submitted, and earlier work of the slot
+    /// is complete.
     pub unsafe fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();
         }
-        // SAFETY: the caller's promises, passed on.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.collect(slot) };
     }
 
@@ -487,13 +487,13 @@ impl Renderer {
         self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
-    /// Changes the configuration: creates what it needs and retires what it replaces. Legal with frames in
-    /// flight. Returns true if the environment or the precomputed data of bubble foam was recreated. Then
+    /// Changes the configuration: creates the new objects and retires the old ones. Legal with frames in flight.
+    /// Returns true if the environment or the precomputed data of bubble foam was recreated. Then
     /// [`record_setup`](Self::record_setup) and, because the environment is empty,
     /// [`record_environment`](Self::record_environment) are due before the next record.
     ///
     /// # Errors
-    /// As [`Renderer::new`]; the renderer then keeps its old configuration.
+    /// Those of [`Renderer::new`]; the renderer then keeps its old configuration.
     pub fn reconfigure(&mut self, config: &Config) -> Result<bool, Error> {
         self.check_config(config)?;
         let new = self.make_parts(config);
@@ -544,7 +544,7 @@ impl Renderer {
         Ok((parts, environment, descriptors.collect::<Result<_, _>>()?))
     }
 
-    /// The configuration in force.
+    /// The current configuration.
     pub fn config(&self) -> &Config {
         &self.config
     }
@@ -632,7 +632,7 @@ struct Parts {
 }
 
 impl Parts {
-    /// `before`: the previous parts, of which those that still fit are kept.
+    /// `before` are the previous parts; those that still fit are kept.
     fn new(
         gpu: &Gpu,
         config: &Config,
@@ -664,7 +664,7 @@ impl Parts {
     }
 
     fn scene_copy(gpu: &Gpu, config: &Config) -> Result<Option<Image>, Error> {
-        // A lit one takes its place.
+        // The lit scene replaces the copy.
         if !config.in_place || config.light_map_size.is_some() {
             return Ok(None);
         }
@@ -708,7 +708,8 @@ impl SlotState {
     /// Begins a frame. The slot's earlier work is complete, so its sets and framebuffer are freed.
     fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
         self.framebuffer = None;
-        // Framebuffers alone: what holds memory is dropped by `collect`, which buries it.
+        // This list only holds framebuffers: objects with memory are dropped by `collect`, which empties the deletion
+        // queue.
         gpu.bury();
         if std::mem::take(&mut self.has_environment) {
             return Ok(());

@@ -25,7 +25,7 @@ const DIRECTIONS: (usize, usize) = (64, 32);
 const HIGHLIGHT: Vec3 = Vec3::new(4.0, 3.8, 3.4);
 
 impl Sky {
-    /// A sky with the sun in this direction (any length but 0).
+    /// A sky with the sun in this direction (any length except 0).
     pub fn toward(sun: [f32; 3]) -> Self {
         let sun = Vec3::from(sun).normalize_or(Vec3::Y).to_array();
         Self { sun, ..Self::default() }
@@ -34,7 +34,7 @@ impl Sky {
     /// Irradiance of the sun on a surface that faces it, linear RGB, in the unit of the output: dimmed and
     /// reddened by the atmosphere, 0 below the horizon.
     pub fn sun_irradiance(&self) -> [f32; 3] {
-        // Optical depth to the zenith: the coefficients by their scale heights; air mass after Kasten and Young 1989.
+        // Optical depth of the zenith: coefficients times scale heights; air mass after Kasten and Young 1989.
         const RAYLEIGH: Vec3 = Vec3::new(7.14e-3 * 8.0, 13.21e-3 * 8.0, 32.08e-3 * 8.0);
         const MIE: Vec3 = Vec3::new(67.7e-3 * 1.332, 82.7e-3 * 1.332, 110.4e-3 * 1.332);
         let sine = Vec3::from(self.sun).normalize_or(Vec3::Y).dot(axes(self.up)[1]);
@@ -84,20 +84,20 @@ impl Sky {
 }
 
 impl Light {
-    /// The light of the built-in sky for water, foam and spray. It belongs with an environment of the same
-    /// [`Sky`]. It takes some milliseconds, once per sky. With the default sky, white foam in the
-    /// sun has a radiance of about 5: expose by about 0.2, or lower [`Sky::intensity`].
+    /// The light of the built-in sky for water, foam and spray. Use it together with an environment of the same
+    /// [`Sky`]. It takes some milliseconds, once per sky. With the default sky, white foam in the sun has a radiance of
+    /// about 5: expose by about 0.2, or lower [`Sky::intensity`].
     pub fn of(sky: &Sky) -> Self {
         let (sun, above) = (Vec3::from(sky.sun_irradiance()), Vec3::from(sky.sky_irradiance()));
         let height = sky.local_sun().y.max(0.0);
         let reference = Sky::default().intensity;
-        // Without the sun: of the sky, of what sunlit ground throws back, and of what the foam round it scatters, which has
-        // lost its colour.
+        // Irradiance in the shade: light of the sky, light that sunlit ground reflects, and light that the surrounding
+        // foam scatters, which has lost its colour.
         let grey = 0.5 * (above + above.dot(LUMINANCE));
         Self {
             direction: sky.sun,
             color: (HIGHLIGHT * sun.max_element() / reference).to_array(),
-            // The mean over all directions, half of the sun's taken off by the water above.
+            // Mean radiance over all directions; the water above absorbs half of the sun's part.
             ambient: ((above + 0.5 * sun) / (4.0 * PI)).to_array(),
             irradiance: (above + sun * height).to_array(),
             shade: (grey + 0.15 * sun * height).to_array(),
@@ -129,7 +129,7 @@ fn transmittance(depth: Vec2) -> Vec3 {
     (-(RAYLEIGH * depth.x + MIE_LOSS * MIE * depth.y)).exp()
 }
 
-/// Radiance from a direction for a sun direction, both in axes east, up, north.
+/// Radiance from a direction, for a direction to the sun; both in axes east, up, north.
 fn radiance(direction: Vec3, sun: Vec3) -> Vec3 {
     let eye = EARTH + 0.05;
     let d = Vec3::new(direction.x, direction.y.max(0.003), direction.z).normalize();
@@ -177,13 +177,13 @@ mod tests {
             (upright.irradiance, tilted.irradiance),
             (upright.shade, tilted.shade),
         ] {
-            // The azimuth is another one against the directions of the sum: 64 columns of them.
+            // The azimuth differs relative to the sampled directions, of which there are 64 columns.
             let apart = (Vec3::from(a) - Vec3::from(b)).abs().max_element();
             assert!(apart < 0.02 * Vec3::from(a).max_element(), "{a:?} {b:?}");
         }
     }
 
-    /// The defaults belong together: to 24 bits less those of a sum of 2048.
+    /// The default light equals that of the default sky, to 24 bits minus those lost in a sum of 2048.
     #[test]
     fn the_default_light_is_that_of_the_default_sky() {
         let (own, of) = (Light::default(), Light::of(&Sky::default()));
@@ -200,7 +200,7 @@ mod tests {
         }
     }
 
-    /// No sun under the horizon, less light the lower it stands.
+    /// Below the horizon the sun gives no light, and a lower sun gives less.
     #[test]
     fn a_low_sun_gives_less() {
         let of = |sine: f32| {

@@ -15,7 +15,7 @@ use crate::water::Classify;
 
 crate::contract::with!(SurfaceFoamStateConfig);
 
-/// Configuration of a [`SurfaceFoamState`]: what fixes its memory.
+/// Configuration of a [`SurfaceFoamState`], which determines its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SurfaceFoamStateConfig {
@@ -46,14 +46,14 @@ pub struct SurfaceFoamState {
     slots: Vec<StateSlot>,
     /// Whether the odd table holds the state.
     odd: bool,
-    /// Whether nothing was recorded yet, so the tables are undefined.
+    /// Whether nothing was recorded yet, so that the tables are undefined.
     fresh: bool,
     /// The last step, until it is abandoned: its slot, and whether it was the first.
     last: Option<(Slot, bool)>,
 }
 
 impl SurfaceFoamState {
-    /// Makes pipelines and memory: 60 bytes per particle, and 8 for its foam.
+    /// Creates pipelines and allocates memory: 60 bytes per particle, and 8 for its foam.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -88,28 +88,28 @@ impl SurfaceFoamState {
                 last: None,
             }),
             Err(error) => {
-                // Nothing was submitted with what was made before the failure.
+                // Nothing was submitted with the objects created before the failure.
                 gpu.destroy();
                 Err(error)
             }
         }
     }
 
-    /// Records one step of the simulation. Never submits, waits or allocates device memory.
+    /// Records one step of the simulation. It never submits, waits or allocates device memory.
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command; after any other error discard
     /// the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
-    /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
-    /// recorded, before the frames that show them.
+    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
+    /// before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
         step: &SurfaceFoamStep<'_>,
     ) -> Result<(), Error> {
-        // A step that fails below leaves nothing to take back.
+        // If a step fails below, `abandon` has nothing to revert.
         self.last = None;
         self.check(step)?;
         let slot = &mut self.slots[step.slot.0 as usize];
@@ -130,7 +130,7 @@ impl SurfaceFoamState {
     /// Records a reset: all particles are water again. Earlier steps can no longer be reverted.
     ///
     /// # Safety
-    /// As [`record_step`](Self::record_step).
+    /// Those of [`record_step`](Self::record_step).
     pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
         (self.fresh, self.last) = (false, None);
         self.classify.record_clear(&self.gpu, cmd, self.odd);
@@ -146,8 +146,8 @@ impl SurfaceFoamState {
     /// configuration, and the sequence continues as if it had not been interrupted.
     ///
     /// # Safety
-    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a
-    /// multiple of 4) on, and is ready; else as [`record_step`](Self::record_step).
+    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on, and
+    /// no pending access. In addition those of [`record_step`](Self::record_step).
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         if std::mem::take(&mut self.fresh) {
             self.classify.record_clear(&self.gpu, cmd, self.odd);
@@ -158,7 +158,7 @@ impl SurfaceFoamState {
     /// Records the restoration of a saved state. Earlier steps can no longer be reverted.
     ///
     /// # Safety
-    /// As [`record_save`](Self::record_save), with transfer-source usage.
+    /// Those of [`record_save`](Self::record_save), with transfer-source usage.
     pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
         (self.fresh, self.last) = (false, None);
         self.classify.record_copy(&self.gpu, cmd, self.odd, (from, offset), false);
@@ -166,14 +166,14 @@ impl SurfaceFoamState {
 
     /// Foam amount (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its order: for
     /// [`Particles::surface_foam`](crate::Particles::surface_foam). The step leaves it ready to be read by shaders and
-    /// copies; the next step waits for frames recorded in between. Nothing has to be said of it in
-    /// [`Particles::before`](crate::Particles::before) and `after`. The buffer stays the same as long as the state.
+    /// copies; the next step waits for frames recorded in between. [`Particles::before`](crate::Particles::before) and
+    /// `after` need not mention it. The buffer stays the same during the life of the state.
     pub fn foam(&self) -> Stream {
         let buffer = &self.classify.foam;
         Stream { buffer: buffer.handle, size: buffer.size, offset: 0, stride: 8 }
     }
 
-    /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
+    /// Times of the slot's last finished step, in the form of [`Renderer::timings`](crate::Renderer::timings).
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),

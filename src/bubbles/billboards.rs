@@ -1,5 +1,5 @@
-//! Pass `peel` by billboards (Huszár, Szécsi, Sec. 5): depth peeling, all blobs once per layer, behind what the
-//! previous layer found (Everitt 2001), and once more for the maximum opacity.
+//! Pass `peel` by billboards (Huszár, Szécsi, Sec. 5): depth peeling (Everitt 2001). All blobs are drawn once per
+//! layer, keeping only fragments behind the previous layer, and once more for the maximum opacity.
 //!
 //! Reads: blobs, scene depth, impostors. Writes: layers, bubble depth.
 
@@ -28,7 +28,7 @@ const LAYER: vk::Format = vk::Format::R32G32_UINT;
 const OPACITY: vk::Format = vk::Format::R16_SFLOAT;
 const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
 
-/// How a drawn layer is read: by the next layer, and to store it.
+/// Access to a drawn layer: by the next layer, and to store it.
 const READ: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 /// Size-dependent state.
@@ -147,8 +147,8 @@ impl Billboards {
         Ok(())
     }
 
-    /// `count`: number of blobs. `bound`: what the pass reads and writes. `kept`: layers and depth, which are
-    /// in the compute-write state before and after.
+    /// `count` is the number of blobs, `bound` the resources of the pass. `kept` are layers and depth, which are in the
+    /// compute-write state before and after.
     pub fn record(
         &self,
         r: &Recording<'_>,
@@ -164,7 +164,7 @@ impl Billboards {
             vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 1.0, stencil: 0 } },
         ];
         let none = [vk::ClearValue::default()];
-        // Bound before anything was drawn to them, and not asked for.
+        // These are bound before anything was drawn to them, but not read.
         let unread = [&layers[1], opacity].map(|i| access::image(i, READ.discarded(), READ));
         gpu.barriers(cmd, &unread, &[]);
         for number in 0..=self.layers {
@@ -193,7 +193,7 @@ impl Billboards {
             unsafe { gpu.device.cmd_draw(cmd, 4, count, 0, 0) };
             gpu.end_pass(cmd);
             gpu.barriers(cmd, &[access::image(drawn, COLOR_ATTACHMENT, READ)], &[]);
-            // All may write the same for all that a validation layer knows.
+            // A validation layer assumes that all dispatches may write the same texels.
             let (written, front) = kept;
             gpu.barriers(
                 cmd,

@@ -13,7 +13,7 @@ use crate::random::Random;
 /// Minimum and maximum number of bubbles of a blob: the impostor's maps have eight bits for an index.
 pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
 
-/// Candidates for a bubble's initial position; the one farthest from all others is taken.
+/// Number of candidates for a bubble's initial position; the one farthest from all other bubbles is taken.
 const CANDIDATES: u32 = 8;
 /// Iterations of the repulsion between bubbles.
 const ROUNDS: u32 = 40;
@@ -52,10 +52,10 @@ impl Blob {
     pub fn new(seed: u32, count: u32) -> Self {
         let count = count.clamp(*BUBBLES.start(), *BUBBLES.end());
         let mut random = Random::new(seed);
-        // Two draws: more of middling size than of the largest and smallest.
+        // The sum of two random numbers, so that middle sizes are more frequent.
         let radii: Vec<f64> =
             (0..count).map(|_| 1.0 + SPREAD * (random.next() + random.next() - 1.0)).collect();
-        // A hexagon of spacing s covers sqrt(3)/2 s^2, and s is r where all are alike.
+        // A hexagon of spacing s covers sqrt(3)/2 s^2; s equals r if all radii are equal.
         let area: f64 = radii.iter().map(|r| 0.75_f64.sqrt() * r * r).sum();
         let shell = (area / (4.0 * std::f64::consts::PI)).sqrt();
         let mut places: Vec<DVec3> = Vec::with_capacity(radii.len());
@@ -122,7 +122,7 @@ impl Blob {
 mod tests {
     use super::*;
 
-    /// Pairs whose middle between them no third one is nearer to: what stands side by side.
+    /// Pairs of adjacent bubbles: no third bubble is nearer to the midpoint between them.
     fn neighbours(blob: &Blob) -> Vec<(usize, usize)> {
         let at = |i: usize| DVec3::from([0, 1, 2].map(|k| f64::from(blob.bubbles[i][k])));
         let n = blob.bubbles.len();
@@ -142,7 +142,7 @@ mod tests {
     fn a_seed_gives_one_blob_and_another_another() {
         assert_eq!(Blob::new(7, 227), Blob::new(7, 227));
         assert_ne!(Blob::new(7, 227), Blob::new(8, 227));
-        // To the last digit on every machine.
+        // Equal to the last bit on every machine.
         let first = Blob::new(1, 64).bubbles[0].map(f32::to_bits);
         assert_eq!(first, FIRST);
     }
@@ -164,7 +164,7 @@ mod tests {
                 let cosine = (a[3] * a[3] + b[3] * b[3] - square) / (2.0 * a[3] * b[3]);
                 cosine.clamp(-1.0, 1.0).acos().to_degrees()
             };
-            // Between the radii: 60 where the films meet at 120.
+            // Angle between the radii: it is 60° where the films meet at 120°.
             let angles: Vec<f64> = pairs.iter().map(angle).collect();
             let mean = angles.iter().sum::<f64>() / angles.len() as f64;
             let spread = (angles.iter().map(|a| (a - mean).powi(2)).sum::<f64>()

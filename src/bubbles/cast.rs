@@ -1,8 +1,7 @@
-//! Pass `light_map_size`: the blobs' shadow map, so that they shadow each other, the scene and the water (not in the
-//! paper).
+//! Pass `cast`: the blobs' shadow map, so that blobs shadow each other, the scene and the water (not in the paper).
 //!
-//! Reads: blobs. Writes: metres along the light to the first of them, from the near side of the light's region
-//! on.
+//! Reads: blobs. Writes: distance in metres along the light to the first blob, from the near side of the light's
+//! region.
 
 use ash::vk;
 
@@ -20,7 +19,7 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// How the map is read: by every pass that needs sunlight.
+/// Access to the map: by every pass that needs sunlight.
 const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED).and(VERTEX_SAMPLED);
 
 /// The pass.
@@ -36,7 +35,7 @@ impl Cast {
         let usage = vk::ImageUsageFlags::STORAGE
             | vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_DST;
-        // Half the light's other maps: shadows of blobs are soft.
+        // Half the size of the light's other maps, because shadows of blobs are soft.
         let extent = vk::Extent2D { width: edge / 2, height: edge / 2 };
         let desc = ImageDesc::new("bubbles/cast", extent, vk::Format::R32_SFLOAT, usage);
         let alias = Some(vk::Format::R32_UINT);
@@ -46,7 +45,7 @@ impl Cast {
         }))
     }
 
-    /// As glsl/include/sunlight.glsl reads it.
+    /// The map for glsl/include/sunlight.glsl.
     pub fn resource(&self, gpu: &Gpu) -> Resource {
         Resource::Sampled(self.front.view, gpu.samplers.nearest)
     }

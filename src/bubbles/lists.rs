@@ -1,9 +1,8 @@
-//! Pass `blobs`: the blobs on the screen, and for each tile its blobs front to back.
+//! Pass `blobs`: lists the blobs on the screen, and for each tile its blobs from front to back.
 //!
-//! The paper draws a billboard per blob, and all of them once per layer. Here a pixel walks the list of its
-//! tile. The lists share one buffer, placed by prefix sums, depth slice by depth slice, so that the farthest
-//! blobs are dropped when it is full.
-//! Reads: the host's streams. Writes: blobs, range, cells, spans, list.
+//! The paper draws a billboard per blob, and all billboards once per layer. Here each pixel iterates over the list of
+//! its tile. The lists share one buffer, with offsets from a prefix sum over depth slices, so that the farthest blobs
+//! are dropped when it is full. Reads: the host's streams. Writes: blobs, range, cells, spans, list.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -29,9 +28,9 @@ use crate::water::{Recording, Window, capacity, each_once};
 pub const TILE: u32 = 16;
 /// Slices of depth.
 pub const SLICES: u32 = 32;
-/// List entries per tile, on average: more blobs than usually lie behind each other.
+/// Average number of list entries per tile; usually fewer blobs lie behind each other.
 const PLACES: u32 = 128;
-/// Bytes of a blob, and of the statistics of all.
+/// Bytes of a blob, and of the statistics of all blobs.
 const BLOB: u64 = 48;
 const RANGE: u64 = 20;
 /// Word of the range with the number of used entries.
@@ -68,7 +67,7 @@ struct Push {
 }
 shader::assert_layout!(shader::BUBBLES_BLOBS_COMP, "Push", Push { most, from_gpu });
 
-/// Tiles of an extent.
+/// Number of tiles of an extent, along x and y.
 pub fn tiles(extent: vk::Extent2D) -> [u32; 2] {
     [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)]
 }
@@ -79,7 +78,7 @@ pub fn room(extent: vk::Extent2D, config: &BubbleConfig) -> u32 {
     PLACES * x * y + 4 * config.max_blobs
 }
 
-/// The present streams, with the bytes of a value.
+/// The present streams, with the size of a value in bytes.
 fn streams(blobs: &Blobs) -> impl Iterator<Item = (&Stream, u64)> {
     let all = [(Some(&blobs.spheres), 16), (blobs.rotations.as_ref(), 16), (blobs.ids.as_ref(), 4)];
     all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
@@ -137,7 +136,7 @@ impl Cells {
 /// The pass.
 pub struct Lists {
     begin: Pipeline,
-    /// Three dispatches: to eye space, counts, entries.
+    /// Pipelines of three dispatches: transform to eye space, counts, entries.
     goes: [Pipeline; 3],
     config: BubbleConfig,
     blobs: Buffer,
@@ -182,7 +181,7 @@ impl Lists {
         [&self.blobs, &self.range, cells, list, spans]
     }
 
-    /// How the blobs are read after the pass; everything else is read by compute.
+    /// Access to the blobs after the pass; compute shaders read everything else.
     fn read(&self) -> Access {
         match self.config.sort {
             BubbleSort::Tiles => COMPUTE_READ,
@@ -190,7 +189,7 @@ impl Lists {
         }
     }
 
-    /// The dispatches that are needed: the tile lists are built only if the sort uses them.
+    /// The pipelines of the dispatches that are needed: tile lists are built only if the sort uses them.
     fn goes(&self) -> &[Pipeline] {
         match self.config.sort {
             BubbleSort::Tiles => &self.goes,

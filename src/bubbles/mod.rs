@@ -42,10 +42,10 @@ pub use settings::{BubbleConfig, BubbleSettings, Crossfade};
 pub use settings::{BubbleSort, Film, FilmFresnel, Impostor, Spectrum};
 use templates::Templates;
 
-/// How the host's streams are read.
+/// Access to the host's streams.
 pub(crate) const READING: Access = COMPUTE_READ;
 
-/// The block `BubbleFrame` of `glsl/include/bubbles.glsl`; its comments say what each member holds.
+/// The block `BubbleFrame` of `glsl/include/bubbles.glsl`, whose comments describe each member.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(crate) struct BubbleUniforms {
@@ -90,14 +90,14 @@ impl BubbleUniforms {
     }
 }
 
-/// Bytes of the largest buffer that is bound as a whole: layers of pixels, or lists of tiles.
+/// Sizes in bytes of the largest buffers that are bound as a whole: layers of all pixels, and lists of all tiles.
 pub(crate) fn bytes_bound(extent: vk::Extent2D, bubbles: &BubbleConfig) -> (u64, u64) {
     (peel::layer_bytes(extent, bubbles), 4 * u64::from(lists::room(extent, bubbles)))
 }
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Bubbles {
-    /// Those of the renderer before a `reconfigure`, if they still fit.
+    /// Precomputed data; shared with the renderer before a `reconfigure` if it still fits.
     templates: Arc<Templates>,
     near: Option<near::Near>,
     lists: lists::Lists,
@@ -107,7 +107,7 @@ pub(crate) struct Bubbles {
 }
 
 impl Bubbles {
-    /// `before`: the previous state.
+    /// `before` is the previous state.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -154,8 +154,8 @@ impl Bubbles {
         self.templates.record_setup(gpu, cmd);
     }
 
-    /// Pass `near`, if it is enabled. Returns whether it has taken over the particles' buffers, which are then
-    /// in the compute-read state.
+    /// Pass `near`, if it is enabled. Returns whether it has acquired the particles' buffers, which are then in the
+    /// compute-read state.
     pub fn record_near(
         &self,
         r: &mut Recording<'_>,
@@ -172,7 +172,7 @@ impl Bubbles {
         self.near.as_ref().map(|near| (near.blobs(), near.over()))
     }
 
-    /// Passes `blobs` and `light_map_size`, before any pass that needs sunlight.
+    /// Passes `blobs` and `cast`, before any pass that needs sunlight.
     pub fn record_lists(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"blobs");
         self.lists.record(r, blobs)?;
@@ -190,7 +190,7 @@ impl Bubbles {
         self.cast.as_ref().map(|cast| cast.resource(gpu))
     }
 
-    /// Pass `peel`, before tile classification, which needs the blobs' depth.
+    /// Pass `peel`. It runs before tile classification, which needs the blobs' depth.
     pub fn record_peel(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"peel");
         self.peel.record(r, (&self.lists, blobs), &self.templates)?;

@@ -1,9 +1,9 @@
 //! Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs, where Akinci et al. 2013 draw no
 //! foam.
 //!
-//! A histogram of the particles' distances determines how far there are enough slots for blobs. Up to that
-//! distance each particle is a blob. Which slot it gets is arbitrary and not visible.
-//! Reads: the host's whitewater particles. Writes: hand-over; balls, turns, ids and count of blobs.
+//! A histogram of the particles' distances gives the distance up to which there are enough slots for blobs. Up to that
+//! distance each particle becomes a blob; which slot it gets is arbitrary and not visible. Reads: the host's whitewater
+//! particles. Writes: distances of the cross-fade; spheres, orientations, ids and count of the blobs.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -30,7 +30,7 @@ const RINGS: u64 = 1024;
 /// Bytes of the cross-fade distances.
 const OVER: u64 = 16;
 
-/// How the sprite passes read them.
+/// Access to these distances by the sprite passes.
 const OVER_READ: Access = COMPUTE_READ.and(VERTEX_READ);
 
 #[repr(C)]
@@ -118,8 +118,7 @@ impl Near {
         }
     }
 
-    /// Runs before any other pass takes over the particles' buffers, which are in the compute-read state
-    /// afterwards.
+    /// Runs before any other pass acquires the particles' buffers, which are in the compute-read state afterwards.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -141,7 +140,7 @@ impl Near {
         }
         gpu.barriers(cmd, &[], &before);
         for own in [&self.numbers, &self.count] {
-            // SAFETY: outside a render pass; the frame before is done with it (barrier).
+            // SAFETY: outside a render pass; the previous frame has finished with it (barrier).
             unsafe { gpu.device.cmd_fill_buffer(cmd, own.handle, 0, vk::WHOLE_SIZE, 0) };
         }
         let (counting, host_count) =
@@ -163,8 +162,8 @@ impl Near {
             ],
         );
         self.record_go(r, 0, particles)?;
-        // The first go is bound to all that the second writes and reads; `over` was last read by the sprites of the frame
-        // before.
+        // The first dispatch also binds everything that the second writes and reads; `over` was last read by the
+        // sprites of the previous frame.
         let mut between = made.map(|own| buffer(own, COMPUTE_WRITE, COMPUTE_WRITE)).to_vec();
         between.push(buffer(self.over.handle, OVER_READ, COMPUTE_WRITE));
         between.push(buffer(self.numbers.handle, both, COMPUTE_READ));

@@ -1,4 +1,4 @@
-//! Pass `peel`: the nearest blobs of each pixel, front to back, and the combined opacity of all (Huszár,
+//! Pass `peel`: finds the nearest blobs of each pixel, from front to back, and the combined opacity of all (Huszár,
 //! Szécsi, Sec. 5).
 //!
 //! Reads: blobs and lists, scene depth, impostors. Writes: layers, bubble depth.
@@ -24,7 +24,7 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// How the depth is read.
+/// Access to the depth.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 /// Bytes of all pixels' layers and opacities.

@@ -11,11 +11,11 @@ pub const MOST_LAYERS: u32 = 8;
 /// Maximum thickness of a film, nanometres.
 pub const MOST_FILM: f32 = 2000.0;
 
-/// Configuration of bubble foam: what costs memory or pipelines.
+/// Configuration of bubble foam, which determines memory and pipelines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BubbleConfig {
-    /// Maximum number of blobs per frame, 1 to 2^20. 64 bytes each.
+    /// Maximum number of blobs per frame, 1 to 2^20. Each takes 64 bytes.
     pub max_blobs: u32,
     /// Number of precomputed blob variants, 1 to 32, default 8. Each blob uses one, chosen by its id.
     pub variants: u32,
@@ -28,13 +28,13 @@ pub struct BubbleConfig {
     pub impostor: Impostor,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) impostor: Impostor,
-    /// Side length of a face of the impostor's cube map in texels, a multiple of 4 from 8 to 512. Default: the
-    /// impostor's.
+    /// Side length of a face of the impostor's cube map in texels, a multiple of 4 from 8 to 512. Default: that of the
+    /// impostor.
     #[cfg(feature = "diagnostics")]
     pub map_size: u32,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) map_size: u32,
-    /// Maximum steps of the search along a ray, 1 to 64. Default: the impostor's.
+    /// Maximum steps of the search along a ray, 1 to 64. Default: that of the impostor.
     #[cfg(feature = "diagnostics")]
     pub steps: u32,
     #[cfg(not(feature = "diagnostics"))]
@@ -52,9 +52,9 @@ pub struct BubbleConfig {
     pub film: Film,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) film: Film,
-    /// Draws whitewater foam near the camera as blobs, at most `max_blobs` of them
-    /// ([`BubbleSettings::crossfade`] sets the distances). A frame then has no other blobs. Default false. Needs
-    /// [`Config::whitewater`](crate::Config::whitewater). 36 bytes per blob more; adds the pass `near`.
+    /// Draws whitewater foam near the camera as blobs, at most `max_blobs` of them ([`BubbleSettings::crossfade`] sets
+    /// the distances). A frame then has no other blobs. Default false. Needs
+    /// [`Config::whitewater`](crate::Config::whitewater). It takes 36 more bytes per blob and adds the pass `near`.
     pub crossfade: bool,
 }
 
@@ -135,8 +135,8 @@ pub enum BubbleSort {
     /// have room for 128 blobs per 16×16 tile on average, plus four tiles per blob; when full, they drop the
     /// farthest blobs.
     Tiles,
-    /// Depth peeling, as in the paper (Sec. 5; Everitt 2001): all blobs are drawn once per layer, behind what
-    /// the previous layer found, and once more for the combined opacity. 22 bytes per pixel more.
+    /// Depth peeling, as in the paper (Sec. 5; Everitt 2001): all blobs are drawn once per layer, keeping only
+    /// fragments behind the previous layer, and once more for the combined opacity. Takes 22 more bytes per pixel.
     Peel,
 }
 
@@ -166,8 +166,8 @@ pub enum FilmFresnel {
     Exact,
     /// Schlick's approximation, with Airy's sum.
     Schlick,
-    /// As printed: 1 − cosine, and four times that times the squared sine, clamped to 1. The phase is half the
-    /// printed one, and of the refracted ray.
+    /// As printed in the paper: 1 − cosine, and four times that times the squared sine, clamped to 1. The phase is half
+    /// the printed one, and that of the refracted ray.
     Source,
 }
 
@@ -175,9 +175,9 @@ pub enum FilmFresnel {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Spectrum {
-    /// One each for red, green and blue, as in the paper.
+    /// One wavelength each for red, green and blue, as in the paper.
     Three,
-    /// 81, from 380 to 780 nm. Default. It costs the same: one table look-up.
+    /// 81 wavelengths from 380 to 780 nm. Default. The cost is the same: one table look-up.
     Whole,
 }
 
@@ -230,8 +230,8 @@ pub struct BubbleSettings {
 pub struct Crossfade {
     /// Distance from the camera up to which foam consists of blobs only, scene units, [0, ∞), default 2.
     pub near: f32,
-    /// Distance from which foam consists of sprites only, more than `near`, default 4. In between blobs grow as
-    /// sprites shrink. If more particles are nearer than `max_blobs` allows, both distances shrink.
+    /// Distance from which foam consists of sprites only, more than `near`, default 4. In between, blobs grow as
+    /// sprites shrink. If more particles are near than `max_blobs` allows, both distances shrink.
     pub far: f32,
     /// Radius of a blob relative to its particle, (0, 100], default 1.
     pub size: f32,

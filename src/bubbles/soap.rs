@@ -62,7 +62,7 @@ impl Soap {
         &self.image
     }
 
-    /// `water`: its depth and thickness, sampled by fragment shaders before and after.
+    /// `water` are its depth and thickness, which fragment shaders sample before and after.
     pub fn record(
         &self,
         r: &Recording<'_>,

@@ -1,5 +1,5 @@
-//! Passes `film`, `impostor` and `core`: precomputed data, made once per renderer (Huszár, Szécsi, Sec. 3.1,
-//! 4.2 to 4.4).
+//! Passes `film`, `impostor` and `core`: data that is precomputed once per renderer (Huszár, Szécsi, Sec. 3.1, 4.2 to
+//! 4.4).
 //!
 //! Reads: bubbles of the blobs. Writes: the film's table, the impostors' maps, the core's picture.
 
@@ -28,9 +28,9 @@ const FILM: vk::Extent2D = vk::Extent2D { width: 64, height: 256 };
 const CORE: u32 = 256;
 /// Side length of the impostor map that is not used.
 const UNUSED: u32 = 8;
-/// How the ids are read.
+/// Access to the ids.
 const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
-/// How everything else is read.
+/// Access to everything else.
 const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 #[repr(C)]
@@ -99,7 +99,7 @@ impl Templates {
         let [distances, ids] = Self::edges(config);
         let bytes = 6 * u64::from(config.variants) * u64::from(ids).pow(2);
         let extent = vk::Extent2D { width: distances, height: distances };
-        // Six layers alone would be a cube.
+        // An image with exactly six layers would be a cube map.
         let layers = 6 * config.variants.max(2);
         let name = "bubbles/distances";
         let map = ImageDesc::new(name, extent, vk::Format::R32_SFLOAT, usage);
@@ -168,7 +168,7 @@ impl Templates {
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         gpu.begin_label(cmd, c"bubbles");
         let images = [&self.table, &self.distances, &self.picture];
-        // Whatever read them in a frame before this, where they are made again.
+        // If the data is computed again, earlier frames may have read it in these ways.
         let first = images.map(|image| access::image(image, AFTER.discarded(), COMPUTE_WRITE));
         gpu.barriers(cmd, &first, &[buffer(self.ids.handle, READ, COMPUTE_WRITE)]);
         let begin = |pipeline: &Pipeline, set: usize| {
@@ -188,7 +188,7 @@ impl Templates {
         let edges = Self::edges(&self.config);
         for (i, (pipeline, size)) in self.impostors.iter().zip(edges).enumerate() {
             if i > 0 {
-                // Each writes one of the two and is bound to both.
+                // Each dispatch writes one of the two and binds both.
                 let maps = access::image(&self.distances, COMPUTE_WRITE, COMPUTE_WRITE);
                 let ids = buffer(self.ids.handle, COMPUTE_WRITE, COMPUTE_WRITE);
                 gpu.barriers(cmd, &[maps], &[ids]);
@@ -205,7 +205,7 @@ impl Templates {
         gpu.end_label(cmd);
     }
 
-    /// What glsl/include/blob.glsl reads, and its constants.
+    /// Resources and constants of glsl/include/blob.glsl.
     pub fn resources(&self, gpu: &Gpu) -> [(u32, Resource); 4] {
         let distances = Resource::Sampled(self.distances.view, gpu.samplers.nearest);
         let [bubbles, ids, neighbours] =

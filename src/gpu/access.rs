@@ -120,10 +120,10 @@ pub const COPY_READ: Access =
     Access::new(Stage::ALL_TRANSFER, Mask::TRANSFER_READ, Layout::TRANSFER_SRC_OPTIMAL);
 /// Destination of a copy or blit.
 pub const COPY_WRITE: Access = CLEAR;
-/// Nothing before: the contents are undefined and nobody uses them.
+/// No previous use: the contents are undefined.
 pub const NOTHING: Access = Access::new(Stage::NONE, Mask::NONE, Layout::UNDEFINED);
 
-/// A barrier over the whole of an own image.
+/// A barrier over the whole of one of our images.
 pub fn image(image: &Image, before: Access, after: Access) -> vk::ImageMemoryBarrier2<'static> {
     raw_image(image.handle, aspect_of(image.format), before, after)
 }
@@ -177,7 +177,7 @@ pub fn buffer(
 }
 
 impl Gpu {
-    /// Records one dependency of the barriers given.
+    /// Records one dependency with these barriers.
     pub fn barriers(
         &self,
         cmd: vk::CommandBuffer,
@@ -190,7 +190,7 @@ impl Gpu {
         self.dependency(cmd, &info);
     }
 
-    /// Records one dependency, with the functions that there are.
+    /// Records one dependency, with the functions that the device has.
     pub fn dependency(&self, cmd: vk::CommandBuffer, info: &vk::DependencyInfo<'_>) {
         match self.synchronization {
             // SAFETY: cmd is recording outside a render pass (contract); the handles live in their owners, which outlive
@@ -201,13 +201,13 @@ impl Gpu {
         }
     }
 
-    /// The same by Vulkan 1.0, which has one pair of stages for all barriers of a call: each waits for what the others
-    /// name too, never for less.
+    /// The same with Vulkan 1.0, which has one pair of stage masks for all barriers of a call: each barrier also waits
+    /// for the stages of the others, never for fewer.
     ///
     /// # Safety
-    /// As `vkCmdPipelineBarrier2`.
+    /// Those of `vkCmdPipelineBarrier2`.
     unsafe fn first_dependency(&self, cmd: vk::CommandBuffer, info: &vk::DependencyInfo<'_>) {
-        // SAFETY: pointers and counts belong together, as ash's builders put them in; no pointer where there is none.
+        // SAFETY: pointers and counts belong together, as set by ash's builders; without elements the pointer is null.
         let (all, buffers, images) = unsafe {
             (
                 slice(info.p_memory_barriers, info.memory_barrier_count),
@@ -252,7 +252,7 @@ impl Gpu {
                     .dst_queue_family_index(b.dst_queue_family_index)
             })
             .collect();
-        // SAFETY: the caller's promises, passed on.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             self.device.cmd_pipeline_barrier(
                 cmd,
@@ -267,7 +267,7 @@ impl Gpu {
     }
 }
 
-/// How a device takes barriers and timestamps.
+/// Functions for barriers and timestamps.
 #[derive(Clone, Copy)]
 pub enum Synchronization {
     /// `synchronization2`, of Vulkan 1.3 or of the extension.
@@ -277,21 +277,21 @@ pub enum Synchronization {
         /// `vkCmdWriteTimestamp2`.
         timestamp: vk::PFN_vkCmdWriteTimestamp2,
     },
-    /// That of Vulkan 1.0.
+    /// The functions of Vulkan 1.0.
     First,
 }
 
 /// # Safety
-/// So many at the pointer, or none.
+/// `pointer` points to `count` elements; it may be null if `count` is 0.
 unsafe fn slice<'a, T>(pointer: *const T, count: u32) -> &'a [T] {
     match count {
         0 => &[],
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         count => unsafe { std::slice::from_raw_parts(pointer, count as usize) },
     }
 }
 
-/// Stages as Vulkan 1.0 has them: the low half is the same, of the high half each is a part of an older one.
+/// Stage flags of Vulkan 1.0: the low half is the same, and each flag of the high half is a part of an older one.
 fn first_stage(stage: Stage, nothing: vk::PipelineStageFlags) -> vk::PipelineStageFlags {
     type First = vk::PipelineStageFlags;
     let mut first = First::from_raw(stage.as_raw() as u32);
@@ -302,7 +302,7 @@ fn first_stage(stage: Stage, nothing: vk::PipelineStageFlags) -> vk::PipelineSta
         (transfer, First::TRANSFER),
         (input, First::VERTEX_INPUT),
         (Stage::PRE_RASTERIZATION_SHADERS, First::ALL_GRAPHICS),
-        // What a host may name that is newer than this.
+        // Newer flags that a host may use.
         (rest & !(transfer | input | Stage::PRE_RASTERIZATION_SHADERS), First::ALL_COMMANDS),
     ] {
         if rest.intersects(parts) {
@@ -313,7 +313,7 @@ fn first_stage(stage: Stage, nothing: vk::PipelineStageFlags) -> vk::PipelineSta
     if first.is_empty() { nothing } else { first }
 }
 
-/// The same for accesses.
+/// The same for access flags.
 fn first_access(access: Mask) -> vk::AccessFlags {
     type First = vk::AccessFlags;
     let mut first = First::from_raw(access.as_raw() as u32);
@@ -336,7 +336,7 @@ fn first_access(access: Mask) -> vk::AccessFlags {
 mod tests {
     use super::*;
 
-    /// Each use of the table has stages that its accesses go with in Vulkan 1.0, and nothing of it is lost.
+    /// Each use of the table has stages that fit its accesses in Vulkan 1.0, and no access is lost.
     #[test]
     fn vulkan_1_0_has_every_use() {
         use vk::{AccessFlags as A, PipelineStageFlags as S};

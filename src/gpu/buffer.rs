@@ -1,4 +1,4 @@
-//! An own buffer.
+//! A buffer and its memory.
 
 use ash::vk;
 
@@ -11,15 +11,15 @@ use crate::error::{Error, VkContext};
 pub struct Buffer {
     /// The buffer.
     pub handle: vk::Buffer,
-    /// Bytes asked for.
+    /// Requested size in bytes.
     pub size: u64,
-    /// There until drop.
+    /// `Some` until drop.
     memory: Option<Memory>,
     yard: Graveyard,
 }
 
 impl Buffer {
-    /// Makes a buffer. `CpuToGpu` and `GpuToCpu` are mapped for good, and coherent.
+    /// Creates a buffer. `CpuToGpu` and `GpuToCpu` are persistently mapped and coherent.
     pub fn new(
         gpu: &Gpu,
         name: &str,
@@ -40,7 +40,7 @@ impl Buffer {
         // SAFETY: valid create info.
         let handle = unsafe { gpu.device.create_buffer(&info, None) }
             .context(|| format!("vkCreateBuffer {name}"))?;
-        // SAFETY: handle was just made.
+        // SAFETY: the handle was just created.
         let requirements = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
         let request = MemoryRequest { name, requirements, location, linear: true };
         let memory = match memory::allocate(gpu.allocator(), &request) {
@@ -65,7 +65,7 @@ impl Buffer {
     #[cfg(feature = "headless")]
     pub fn mapped(&self) -> &[u8] {
         match self.memory.as_ref().and_then(Memory::mapped) {
-            // SAFETY: so many bytes are mapped, and are this buffer's.
+            // SAFETY: this number of bytes is mapped and belongs to this buffer.
             Some(from) => unsafe { std::slice::from_raw_parts(from.as_ptr(), self.size as usize) },
             None => &[],
         }
@@ -74,7 +74,7 @@ impl Buffer {
     /// Writable bytes of a mapped buffer; empty for one that is not mapped.
     pub fn mapped_mut(&mut self) -> &mut [u8] {
         match self.memory.as_ref().and_then(Memory::mapped) {
-            // SAFETY: so many bytes are mapped, and are this buffer's.
+            // SAFETY: this number of bytes is mapped and belongs to this buffer.
             Some(to) => unsafe { std::slice::from_raw_parts_mut(to.as_ptr(), self.size as usize) },
             None => &mut [],
         }

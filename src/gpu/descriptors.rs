@@ -1,6 +1,5 @@
-//! Descriptor sets, per slot: each slot has a pool that is reset when its next frame begins.
-//! Ordinary sets, not push descriptors: these are not everywhere, and GPU-assisted validation
-//! reports falsely on them.
+//! Descriptor sets, per slot: each slot has a pool that is reset when its next frame begins. They are ordinary sets and
+//! not push descriptors, because not every device has those, and GPU-assisted validation reports false errors on them.
 
 use ash::vk;
 
@@ -13,7 +12,7 @@ use crate::error::{Error, VkContext};
 /// Resource of one binding.
 #[derive(Clone, Copy)]
 pub enum Resource {
-    /// Uniform or storage buffer, as the shader says: (buffer, offset, range).
+    /// Uniform or storage buffer, depending on the shader: (buffer, offset, range).
     Buffer(vk::Buffer, u64, u64),
     /// Storage image in GENERAL.
     Storage(vk::ImageView),
@@ -29,7 +28,7 @@ impl Resource {
         Self::Buffer(buffer.handle, 0, vk::WHOLE_SIZE)
     }
 
-    /// An own image as a storage image.
+    /// One of our images as a storage image.
     pub fn storage(image: &Image) -> Self {
         Self::Storage(image.view)
     }
@@ -46,8 +45,8 @@ const EACH: [(vk::DescriptorType, u32); 4] = [
 /// One slot's pool.
 pub struct Descriptors {
     pool: Owned<vk::DescriptorPool>,
-    /// Capacity, and use of sets and of each type: drivers may allocate beyond it, and layers do not report
-    /// that.
+    /// Capacity, and the use so far of sets and of each type. Drivers may allocate beyond the capacity, and validation
+    /// layers do not report that.
     #[cfg(debug_assertions)]
     taken: (u32, [std::sync::atomic::AtomicU32; 1 + EACH.len()]),
 }
@@ -96,7 +95,7 @@ impl Descriptors {
         .context(|| "vkResetDescriptorPool".into())
     }
 
-    /// Makes a set for a pipeline.
+    /// Creates a set for a pipeline.
     pub fn set(
         &self,
         gpu: &Gpu,
@@ -115,11 +114,11 @@ impl Descriptors {
         let info = vk::DescriptorSetAllocateInfo::default()
             .descriptor_pool(self.pool.handle)
             .set_layouts(&layouts);
-        // SAFETY: the pool is used by this slot alone.
+        // SAFETY: only this slot uses the pool.
         let set = unsafe { gpu.device.allocate_descriptor_sets(&info) }
             .context(|| format!("vkAllocateDescriptorSets {}", pipeline.name))?[0];
         for &(binding, resource) in resources {
-            // A pass may hand one list to several pipelines that use parts of it.
+            // A pass may use one list for several pipelines that each use a part of it.
             let Some(&kind) = pipeline.bindings.get(&binding) else { continue };
             let (mut buffers, mut images) =
                 ([vk::DescriptorBufferInfo::default()], [vk::DescriptorImageInfo::default()]);
@@ -174,7 +173,7 @@ impl Descriptors {
     }
 }
 
-/// Binds a set made earlier in the frame.
+/// Binds a set that was created earlier in the frame.
 pub fn bind_set(gpu: &Gpu, cmd: vk::CommandBuffer, pipeline: &Pipeline, set: vk::DescriptorSet) {
     // SAFETY: cmd is recording; the set was made for this pipeline's layout.
     unsafe {

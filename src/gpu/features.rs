@@ -14,17 +14,17 @@ pub struct DeviceFeatures {
     conditional_rendering: vk::PhysicalDeviceConditionalRenderingFeaturesEXT<'static>,
 }
 
-// SAFETY: nothing is chained before `chain`, which borrows them for good: no pointer is in any of them that another thread
-// could see.
+// SAFETY: before `chain`, which borrows the structures permanently, nothing is chained, so they contain no pointers
+// that another thread could see.
 unsafe impl Send for DeviceFeatures {}
 // SAFETY: as above.
 unsafe impl Sync for DeviceFeatures {}
 
 impl DeviceFeatures {
     /// Adds everything that is enabled to the create info: `pEnabledFeatures`, and in the `pNext` chain
-    /// VkPhysicalDeviceVulkan12Features and the structures of extensions. A host that has one of these structures
+    /// VkPhysicalDeviceVulkan12Features and the structures of extensions. A host that chains one of these structures
     /// itself, or single ones instead of VkPhysicalDeviceVulkan12Features, fills its own with
-    /// [`EnabledFeatures::set_core`] and the functions beside it.
+    /// [`EnabledFeatures::set_core`] and the similar functions.
     pub fn chain<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
         let mut info = info.enabled_features(&self.core).push_next(&mut self.vulkan12);
         if self.synchronization2.synchronization2 == vk::TRUE {
@@ -64,7 +64,7 @@ impl EnabledFeatures {
         features
     }
 
-    /// Device extensions that are needed with it, on a device of this Vulkan version.
+    /// Device extensions that these features need, on a device of this Vulkan version.
     pub fn device_extensions(&self, api_version: u32) -> Vec<&'static CStr> {
         let mut names = Vec::new();
         if self.conditional_rendering {
@@ -76,7 +76,7 @@ impl EnabledFeatures {
         names
     }
 
-    /// Turns on the needed features in the host's own structure. It turns nothing off.
+    /// Enables the needed features in the host's own structure. It disables none.
     pub fn set_core(&self, features: &mut vk::PhysicalDeviceFeatures) {
         for (wanted, feature) in [
             (self.large_points, &mut features.large_points),
@@ -91,18 +91,18 @@ impl EnabledFeatures {
         }
     }
 
-    /// The same.
+    /// The same for `VkPhysicalDeviceVulkan12Features`.
     pub fn set_vulkan12(&self, features: &mut vk::PhysicalDeviceVulkan12Features<'_>) {
         turn_on(self.draw_indirect_count, &mut features.draw_indirect_count);
         turn_on(self.buffer_int64_atomics, &mut features.shader_buffer_int64_atomics);
     }
 
-    /// The same, for hosts that have VkPhysicalDeviceVulkan13Features in the place of single structures.
+    /// The same for hosts that use VkPhysicalDeviceVulkan13Features instead of single structures.
     pub fn set_vulkan13(&self, features: &mut vk::PhysicalDeviceVulkan13Features<'_>) {
         turn_on(self.synchronization2, &mut features.synchronization2);
     }
 
-    /// The same.
+    /// The same for the structure of synchronization2.
     pub fn set_synchronization2(
         &self,
         features: &mut vk::PhysicalDeviceSynchronization2Features<'_>,
@@ -110,7 +110,7 @@ impl EnabledFeatures {
         turn_on(self.synchronization2, &mut features.synchronization2);
     }
 
-    /// The same.
+    /// The same for the structure of conditional rendering.
     pub fn set_conditional_rendering(
         &self,
         features: &mut vk::PhysicalDeviceConditionalRenderingFeaturesEXT<'_>,

@@ -16,11 +16,11 @@ pub enum Grave {
     Image(vk::Image, [vk::ImageView; 2], Option<Memory>),
     /// A buffer with its memory.
     Buffer(vk::Buffer, Option<Memory>),
-    /// A pipeline with its layouts, that is not the context's.
+    /// A pipeline with its layouts, if the context does not own it.
     Pipeline(vk::Pipeline, vk::PipelineLayout, vk::DescriptorSetLayout),
     /// A framebuffer.
     Framebuffer(vk::Framebuffer),
-    /// A view of an image that lives elsewhere.
+    /// A view of an image that is owned elsewhere.
     View(vk::ImageView),
     /// A query pool.
     QueryPool(vk::QueryPool),
@@ -75,7 +75,7 @@ impl<T: Copy> Drop for Owned<T> {
 /// Frees an object and everything queued, at once.
 #[cfg(feature = "headless")]
 pub trait Destroy: Sized {
-    /// The GPU must be done with it.
+    /// Drops the object and empties the deletion queue. The GPU must have finished with both.
     fn destroy(self, gpu: &Gpu) {
         drop(self);
         gpu.bury();
@@ -93,7 +93,7 @@ impl Gpu {
         Owned::new(handle, grave, &self.graveyard)
     }
 
-    /// Frees everything in the queue. The GPU has to be done with it.
+    /// Frees everything in the queue. The GPU must have finished with it.
     pub fn bury(&self) {
         let graves = self.graveyard.take();
         if graves.is_empty() {

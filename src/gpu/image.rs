@@ -1,4 +1,4 @@
-//! An own image: handle, memory and one or two views.
+//! An image: handle, memory and one or two views.
 
 use ash::vk;
 
@@ -45,9 +45,9 @@ impl<'a> ImageDesc<'a> {
 pub struct Image {
     /// The image.
     pub handle: vk::Image,
-    /// View of all of it in its own format (a cube view for six layers).
+    /// View of the whole image in its own format (a cube view for six layers).
     pub view: vk::ImageView,
-    /// View in the alias format, else null.
+    /// View in the alias format, otherwise null.
     pub alias_view: vk::ImageView,
     /// Size in texels.
     pub extent: vk::Extent2D,
@@ -55,13 +55,13 @@ pub struct Image {
     pub format: vk::Format,
     /// Bytes of device memory.
     pub size: u64,
-    /// There until drop.
+    /// `Some` until drop.
     memory: Option<Memory>,
     yard: Graveyard,
 }
 
 impl Image {
-    /// Makes the image, its memory and its views.
+    /// Creates the image, its memory and its views.
     pub fn new(gpu: &Gpu, desc: &ImageDesc<'_>) -> Result<Self, Error> {
         let name = desc.name;
         let mut flags = vk::ImageCreateFlags::empty();
@@ -85,7 +85,7 @@ impl Image {
         // SAFETY: valid create info; extents are checked by the caller against the limits.
         let handle = unsafe { gpu.device.create_image(&info, None) }
             .context(|| format!("vkCreateImage {name}"))?;
-        // SAFETY: handle was just made.
+        // SAFETY: the handle was just created.
         let requirements = unsafe { gpu.device.get_image_memory_requirements(handle) };
         let request =
             MemoryRequest { name, requirements, location: MemoryLocation::GpuOnly, linear: false };
@@ -144,7 +144,7 @@ impl Drop for Image {
     }
 }
 
-/// The aspect of a format (no stencil formats are made here).
+/// The aspect of a format (no stencil formats are used here).
 pub fn aspect_of(format: vk::Format) -> vk::ImageAspectFlags {
     match format {
         vk::Format::D32_SFLOAT | vk::Format::D16_UNORM => vk::ImageAspectFlags::DEPTH,
@@ -174,7 +174,7 @@ impl Gpu {
                 base_array_layer: 0,
                 layer_count: layers,
             });
-        // SAFETY: the image is alive and was made with these formats and layers.
+        // SAFETY: the image is alive and was created with these formats and layers.
         let view = unsafe { self.device.create_image_view(&info, None) }
             .context(|| format!("vkCreateImageView {name}"))?;
         self.name(view, name);

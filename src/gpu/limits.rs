@@ -16,15 +16,15 @@ use crate::whitewater::WhitewaterSplat;
 pub struct Limit {
     /// Its name in `VkPhysicalDeviceLimits`.
     pub name: &'static str,
-    /// The smallest that will do.
+    /// Min value that suffices.
     pub needed: u32,
-    /// The first shader that needs so much, its file under `glsl/`.
+    /// The first shader that needs this value: its file under `glsl/`.
     pub shader: &'static str,
     offered: fn(&vk::PhysicalDeviceLimits) -> u32,
 }
 
 impl Limit {
-    /// What a device has of it.
+    /// The device's value of the limit.
     pub fn of(&self, limits: &vk::PhysicalDeviceLimits) -> u32 {
         (self.offered)(limits)
     }
@@ -43,8 +43,8 @@ impl Limit {
     }
 }
 
-/// What one shader needs of each limit. The pipelines here have one set, and no two shaders of a pipeline together come
-/// near the limits of a whole set.
+/// The limits that one shader needs. Pipelines here have one set, and no two shaders of a pipeline together come near
+/// the limits for a whole set.
 fn needs(shader: &Shader) -> [Limit; 14] {
     let count = |kind| shader.bindings.iter().filter(|(_, own)| *own == kind).count() as u32;
     let (samplers, buffers) = (count(Kind::COMBINED_IMAGE_SAMPLER), count(Kind::STORAGE_BUFFER));
@@ -92,7 +92,7 @@ pub fn check(shader: &Shader, limits: &vk::PhysicalDeviceLimits) -> Result<(), E
     needs(shader).iter().try_for_each(|limit| limit.check(limits))
 }
 
-/// That a device can make those of a configuration.
+/// Checks that a device can create the pipelines of a configuration.
 pub fn check_config(
     config: &Config,
     int64_atomics: bool,
@@ -101,7 +101,7 @@ pub fn check_config(
     of(config, int64_atomics).iter().try_for_each(|limit| limit.check(limits))
 }
 
-/// What a configuration needs of each limit.
+/// The limits that a configuration needs.
 pub fn of(config: &Config, int64_atomics: bool) -> Vec<Limit> {
     let mut most: Vec<Limit> = Vec::new();
     for shader in ALL.iter().filter(|shader| uses(config, int64_atomics, shader.name)) {
@@ -119,7 +119,7 @@ pub fn of(config: &Config, int64_atomics: bool) -> Vec<Limit> {
 /// Whether a renderer of a configuration may use a shader, by its file under `glsl/`.
 fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
     let Some((folder, name)) = file.split_once('/') else {
-        // The composite.
+        // The path of the composite.
         let stored = crate::composite::way(config) == Shading::Compute;
         return file.ends_with(".comp") == stored;
     };
@@ -152,7 +152,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
         "gpu" => config.bubbles.is_some() || config.kernels == Kernels::Ellipsoids,
         "shore" if of(&["map"]) => false, // a `ShoreMap`'s
         "shore" => config.shore.is_some(),
-        // A `Generator`'s, and the stand-in scene's.
+        // Used by a `Generator` and by the stand-in scene.
         "generate" | "headless" => false,
         _ => true,
     }
@@ -162,7 +162,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Counted by hand in the shaders' sources.
+    /// Expected values, counted by hand in the shaders' sources.
     #[test]
     fn the_numbers_are_the_shaders() {
         let extent = vk::Extent2D { width: 8, height: 8 };

@@ -10,18 +10,18 @@ use crate::contract::Host;
 use crate::error::Error;
 use crate::gpu::access::Synchronization;
 
-/// An error for the first function above Vulkan 1.0 that would panic, else how barriers are recorded. A device that lacks
-/// one of 1.0 is none.
+/// Returns an error for the first function above Vulkan 1.0 that would panic; otherwise how barriers are recorded. A
+/// device without all functions of 1.0 is invalid anyway.
 pub fn check(host: &Host<'_>) -> Result<Synchronization, Error> {
     let (device, enabled) = (host.device, host.enabled);
     if !of_instance(host.instance) {
         return missing("vkGetPhysicalDeviceProperties2");
     }
-    // What ash puts in the place of each.
+    // The stand-in that ash uses for each missing function.
     let (no_1_2, no_1_3) =
         (ash::DeviceFnV1_2::load(|_| null()), ash::DeviceFnV1_3::load(|_| null()));
     let (v1_2, v1_3) = (device.fp_v1_2(), device.fp_v1_3());
-    // It is not called, but every device of Vulkan 1.2 has it, whose shaders these are.
+    // Not called, but every device of Vulkan 1.2 has it, and the shaders need that version.
     if v1_2.reset_query_pool as usize == no_1_2.reset_query_pool as usize {
         return missing("vkResetQueryPool");
     }
@@ -68,7 +68,7 @@ fn find(host: &Host<'_>, name: &CStr) -> *const c_void {
     found.map_or(null(), |function| function as *const c_void)
 }
 
-/// The Vulkan version that a device can be made for: also the instance's, where that is below 1.3.
+/// The Vulkan version that a device can be created for, limited by the instance's if that is below 1.3.
 pub fn api_version(instance: &ash::Instance, properties: &vk::PhysicalDeviceProperties) -> u32 {
     let none = ash::InstanceFnV1_3::load(|_| null());
     let own = instance.fp_v1_3();
@@ -80,15 +80,15 @@ pub fn api_version(instance: &ash::Instance, properties: &vk::PhysicalDeviceProp
     }
 }
 
-/// Whether the device was made for Vulkan 1.3, as far as that shows: some drivers have the functions of their own version
-/// whatever the instance's is.
+/// Whether the device was created for Vulkan 1.3, as far as that can be detected: some drivers provide the functions of
+/// their own version with any instance.
 pub fn is_1_3(device: &ash::Device) -> bool {
     let none = ash::DeviceFnV1_3::load(|_| null());
     device.fp_v1_3().get_device_buffer_memory_requirements as usize
         != none.get_device_buffer_memory_requirements as usize
 }
 
-/// Whether an instance can be asked for features and properties of Vulkan 1.1 and later.
+/// Whether an instance has the functions to query features and properties of Vulkan 1.1 and later.
 pub fn of_instance(instance: &ash::Instance) -> bool {
     let none = ash::InstanceFnV1_1::load(|_| null());
     let own = instance.fp_v1_1();

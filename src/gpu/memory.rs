@@ -44,7 +44,7 @@ pub struct Memory {
     owner: Box<dyn Any + Send + Sync>,
 }
 
-// SAFETY: the mapped bytes are the object's that owns the memory, which reads and writes them by its own borrow.
+// SAFETY: the mapped bytes belong to the object that owns the memory; it reads and writes them under its own borrow.
 unsafe impl Send for Memory {}
 // SAFETY: as above.
 unsafe impl Sync for Memory {}
@@ -113,13 +113,13 @@ pub unsafe trait Allocate: Send + Sync {
     unsafe fn free(&self, memory: Memory);
 }
 
-// SAFETY: as `gpu_allocator` keeps it.
+// SAFETY: guaranteed by `gpu_allocator`.
 unsafe impl Allocate for Mutex<Allocator> {
     fn allocate(
         &self,
         request: &MemoryRequest<'_>,
     ) -> Result<Memory, Box<dyn std::error::Error + Send + Sync>> {
-        // A poisoned lock is taken all the same: the allocator's own state is not ours to judge.
+        // A poisoned lock is accepted, because the allocator keeps its own state consistent.
         let mut allocator = self.lock().unwrap_or_else(PoisonError::into_inner);
         let own = allocator.allocate(&AllocationCreateDesc {
             name: request.name,
@@ -132,7 +132,7 @@ unsafe impl Allocate for Mutex<Allocator> {
             linear: request.linear,
             allocation_scheme: AllocationScheme::GpuAllocatorManaged,
         })?;
-        // SAFETY: bound once, by the object that asks; it goes back by `free` alone.
+        // SAFETY: bound once, by the requesting object; it is freed only with `free`.
         let (memory, offset) = (unsafe { own.memory() }, own.offset());
         let mapped = own.mapped_ptr().map(NonNull::cast);
         Ok(Memory::new(memory, offset, mapped, own))
@@ -140,13 +140,13 @@ unsafe impl Allocate for Mutex<Allocator> {
 
     unsafe fn free(&self, memory: Memory) {
         if let Some(own) = memory.into_owner::<Allocation>() {
-            // The only failure is a broken allocator; the memory then stays with it.
+            // This only fails with a damaged allocator, which then keeps the memory.
             let _ = self.lock().unwrap_or_else(PoisonError::into_inner).free(own);
         }
     }
 }
 
-/// Allocates memory for an object; an error has the object's name.
+/// Allocates memory for an object; an error contains the object's name.
 pub fn allocate(from: &dyn Allocate, request: &MemoryRequest<'_>) -> Result<Memory, Error> {
     let name = request.name;
     from.allocate(request).map_err(|source| Error::Allocation { name: name.into(), source })

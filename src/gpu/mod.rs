@@ -1,5 +1,5 @@
-//! The base of every pass: the host's device with what it enabled, barriers, images, buffers, render passes,
-//! pipelines, descriptor sets, queries, labels and the retire list. No state of a frame.
+//! The base of all passes: the host's device with its enabled features, barriers, images, buffers, render passes,
+//! pipelines, descriptor sets, queries, labels and the retire list. It holds no state of a frame.
 
 pub mod access;
 pub mod buffer;
@@ -29,13 +29,13 @@ use crate::context::{Context, Shared};
 use crate::error::{Error, VkContext};
 use graveyard::{Grave, Graveyard, Owned};
 
-/// The device as one object has it, a renderer or the like: what its context shares, and what it drops itself.
+/// The device for one object, such as a renderer: shared objects of its context, and the deletion queue for its own.
 pub struct Gpu {
-    /// Slots, as `Context::frames_in_flight`.
+    /// Number of slots, as in `Context::frames_in_flight`.
     pub slots: u32,
     graveyard: Graveyard,
-    /// Released by `destroy` alone: an object that is simply dropped may still be used by the GPU, and so may what its
-    /// context holds.
+    /// Released only by `destroy`: the GPU may still use an object that is simply dropped, and the objects of its
+    /// context.
     shared: ManuallyDrop<Arc<Shared>>,
 }
 
@@ -79,7 +79,7 @@ impl Gpu {
         }
     }
 
-    /// Closes the label opened last.
+    /// Closes the last opened label.
     pub fn end_label(&self, cmd: vk::CommandBuffer) {
         if let Some(debug) = &self.debug {
             // SAFETY: cmd is recording and a label is open.
@@ -87,19 +87,20 @@ impl Gpu {
         }
     }
 
-    /// Whether this is a software device, where atomics are cheap and shared memory is dear.
+    /// Whether this is a software device, where atomics are cheap and shared memory is expensive.
     pub fn is_cpu(&self) -> bool {
         self.kind == vk::PhysicalDeviceType::CPU
     }
 }
 
 impl Gpu {
-    /// Frees what was dropped and lets go of the context: the last call. The GPU must be done with everything.
+    /// Frees everything in the deletion queue and releases the context. It must be the last call, and the GPU must have
+    /// finished with everything.
     pub fn destroy(self: Arc<Self>) {
         self.bury();
-        // Nobody else holds it: what could was dropped before.
+        // There is no other owner, because all possible ones were dropped before.
         if let Ok(mut gpu) = Arc::try_unwrap(self) {
-            // SAFETY: `gpu` ends here, and nothing reads it any more.
+            // SAFETY: `gpu` ends here, and nothing reads it afterwards.
             unsafe { ManuallyDrop::drop(&mut gpu.shared) };
         }
     }

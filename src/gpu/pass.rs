@@ -14,29 +14,29 @@ use crate::error::{Error, VkContext};
 pub struct Attachment {
     /// Format.
     pub format: vk::Format,
-    /// Samples a texel.
+    /// Number of samples per texel.
     pub samples: vk::SampleCountFlags,
-    /// What becomes of the contents when the pass begins.
+    /// Load operation at the beginning of the pass.
     pub load: vk::AttachmentLoadOp,
-    /// And when it ends.
+    /// Store operation at its end.
     pub store: vk::AttachmentStoreOp,
 }
 
-/// What a pass draws to. Views and clear values come in the same order, without those left out.
+/// Attachments of a pass. Views and clear values are in the same order, without missing attachments.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct Attachments {
-    /// In COLOR_ATTACHMENT_OPTIMAL.
+    /// Colour attachment in COLOR_ATTACHMENT_OPTIMAL.
     pub color: Option<Attachment>,
-    /// A second one.
+    /// A second colour attachment.
     pub second: Option<Attachment>,
-    /// In DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
+    /// Depth attachment in DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
     pub depth: Option<Attachment>,
-    /// What the samples of `color` are averaged into; in COLOR_ATTACHMENT_OPTIMAL.
+    /// Resolve attachment for the samples of `color`, in COLOR_ATTACHMENT_OPTIMAL.
     pub resolve: Option<Attachment>,
 }
 
 impl Gpu {
-    /// A render pass: the context's, once for each name and attachments.
+    /// A render pass, which the context creates once for each name and attachments.
     pub fn render_pass(
         &self,
         name: &str,
@@ -90,7 +90,7 @@ impl Gpu {
         Ok(pass)
     }
 
-    /// A render pass of one or two colour attachments, which are kept.
+    /// A render pass with one or two colour attachments, whose contents are kept.
     pub fn color_pass(
         &self,
         name: &str,
@@ -105,7 +105,7 @@ impl Gpu {
         self.render_pass(name, &Attachments { color, second, ..Attachments::default() })
     }
 
-    /// A framebuffer of one view.
+    /// A framebuffer with one view.
     pub fn framebuffer(
         &self,
         name: &str,
@@ -116,7 +116,7 @@ impl Gpu {
         self.framebuffer_of(name, pass, &[view], extent)
     }
 
-    /// A framebuffer of the views of a pass.
+    /// A framebuffer with the views of a pass.
     pub fn framebuffer_of(
         &self,
         name: &str,
@@ -137,8 +137,7 @@ impl Gpu {
         Ok(self.own(framebuffer, Grave::Framebuffer))
     }
 
-    /// Begins a colour pass over an area, with viewport and scissor set to it; clears all to one
-    /// value.
+    /// Begins a colour pass over an area, sets viewport and scissor to it, and clears all attachments to one value.
     pub fn begin_pass(
         &self,
         cmd: vk::CommandBuffer,
@@ -181,7 +180,7 @@ impl Gpu {
         }
     }
 
-    /// Clears all of a colour image to one value, outside a pass; it is in [`CLEAR`](super::access::CLEAR).
+    /// Clears a whole colour image to one value, outside a pass; the image is in [`CLEAR`](super::access::CLEAR).
     pub fn clear_color(&self, cmd: vk::CommandBuffer, image: &Image, value: [f32; 4]) {
         let value = vk::ClearColorValue { float32: value };
         let all = [whole(vk::ImageAspectFlags::COLOR)];
@@ -191,7 +190,7 @@ impl Gpu {
         }
     }
 
-    /// Ends the pass begun last.
+    /// Ends the current pass.
     pub fn end_pass(&self, cmd: vk::CommandBuffer) {
         // SAFETY: cmd is recording inside a render pass.
         unsafe { self.device.cmd_end_render_pass(cmd) };

@@ -12,7 +12,7 @@ use super::limits;
 use super::shader::Shader;
 use crate::error::{Error, VkContext};
 
-/// A pipeline, shared through its context or own.
+/// A pipeline, shared through its context or owned by one object.
 pub struct Pipeline(Arc<Made>);
 
 impl Deref for Pipeline {
@@ -29,7 +29,7 @@ pub struct Made {
     pub handle: vk::Pipeline,
     /// Its layout.
     pub layout: vk::PipelineLayout,
-    /// Layout of its one descriptor set.
+    /// Layout of its only descriptor set.
     pub set_layout: vk::DescriptorSetLayout,
     /// The bindings of that set.
     pub bindings: BTreeMap<u32, vk::DescriptorType>,
@@ -41,11 +41,11 @@ pub struct Made {
     pub name: &'static str,
     stages: vk::ShaderStageFlags,
     push_size: u32,
-    /// Deletion queue of an own pipeline; `None` if the context owns it.
+    /// Deletion queue of a pipeline with one owner; `None` if the context owns it.
     yard: Option<Graveyard>,
 }
 
-/// Everything that distinguishes two pipelines of one kind.
+/// All parameters that distinguish two pipelines of one kind.
 #[derive(PartialEq, Eq, Hash)]
 pub struct Key {
     shaders: Vec<&'static str>,
@@ -119,7 +119,7 @@ struct Module<'a>(vk::ShaderModule, &'a Gpu);
 
 impl Drop for Module<'_> {
     fn drop(&mut self) {
-        // SAFETY: no pipeline is being made from it any more; the GPU never uses modules.
+        // SAFETY: no pipeline is being created from it any more; the GPU never uses modules.
         unsafe { self.1.device.destroy_shader_module(self.0, None) };
     }
 }
@@ -151,12 +151,12 @@ impl Specialization {
 }
 
 impl Pipeline {
-    /// A compute pipeline, the context's.
+    /// A compute pipeline, owned by the context.
     pub fn compute(gpu: &Gpu, shader: Shader, constants: &[(u32, u32)]) -> Result<Self, Error> {
         Self::shared(gpu, &[shader], constants, None, || Made::compute(gpu, shader, constants))
     }
 
-    /// A graphics pipeline with one colour attachment, the context's.
+    /// A graphics pipeline with one colour attachment, owned by the context.
     pub fn graphics(gpu: &Gpu, desc: &Graphics<'_>) -> Result<Self, Error> {
         Self::tested(gpu, desc, None)
     }
@@ -173,7 +173,7 @@ impl Pipeline {
         })
     }
 
-    /// A graphics pipeline of any state, which is not shared; its stages and layout are filled in here.
+    /// A graphics pipeline with any state, not shared; its stages and layout are filled in here.
     #[cfg(feature = "headless")]
     pub fn from_state(
         gpu: &Gpu,
@@ -221,7 +221,7 @@ impl Made {
                     .specialization_info(&special),
             )
             .layout(pipeline.layout);
-        // SAFETY: the module and the layout were made from the same shader.
+        // SAFETY: module and layout come from the same shader.
         let made =
             unsafe { gpu.device.create_compute_pipelines(gpu.pipeline_cache, &[info], None) };
         pipeline.handle = pipeline.finish(gpu, made, "vkCreateComputePipelines")?;
@@ -289,7 +289,7 @@ impl Made {
             })
             .collect();
         let info = state.stages(&infos).layout(pipeline.layout);
-        // SAFETY: modules and layout were made to fit each other; the rest is the caller's.
+        // SAFETY: modules and layout fit each other; the caller guarantees the rest.
         let made =
             unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) };
         pipeline.handle = pipeline.finish(gpu, made, "vkCreateGraphicsPipelines")?;
@@ -341,7 +341,7 @@ impl Made {
         let layout = match unsafe { gpu.device.create_pipeline_layout(&info, None) } {
             Ok(layout) => layout,
             Err(result) => {
-                // SAFETY: made above, used nowhere.
+                // SAFETY: created above, not used by anything.
                 unsafe { gpu.device.destroy_descriptor_set_layout(set_layout, None) };
                 return Err(Error::Vulkan {
                     call: format!("vkCreatePipelineLayout {name}"),
@@ -382,13 +382,13 @@ impl Made {
         }
     }
 
-    /// Binds it.
+    /// Binds the pipeline.
     pub fn bind(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         // SAFETY: cmd is recording; the pipeline is alive.
         unsafe { gpu.device.cmd_bind_pipeline(cmd, self.point, self.handle) };
     }
 
-    /// Pushes all of its push constants.
+    /// Sets all of its push constants.
     pub fn push<T: bytemuck::NoUninit>(&self, gpu: &Gpu, cmd: vk::CommandBuffer, value: &T) {
         let bytes = bytemuck::bytes_of(value);
         debug_assert_eq!(bytes.len(), self.push_size as usize, "push constants of {}", self.name);

@@ -1,4 +1,4 @@
-//! What the library needs of a device, and which paths it will use there.
+//! Requirements of the library on a device, and the paths that it will use there.
 
 use std::ffi::CStr;
 
@@ -20,7 +20,7 @@ pub use limits::Limit;
 
 crate::contract::with!(DeviceSupport);
 
-/// One feature or extension that the host has to or may enable, and why.
+/// A feature or extension that the host must or may enable, and the reason.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Requirement {
@@ -30,7 +30,7 @@ pub struct Requirement {
     pub why: &'static str,
 }
 
-/// What to ask of a device before it is created.
+/// Requirements to check before a device is created.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Requirements {
@@ -44,8 +44,8 @@ pub struct Requirements {
     pub optional_extensions: &'static [&'static CStr],
 }
 
-/// What the library needs. Call it before creating the device. [`DeviceSupport::limits`] returns the device limits that
-/// a configuration needs.
+/// The requirements of the library. Call it before creating the device. [`DeviceSupport::limits`] returns the device
+/// limits that a configuration needs.
 pub fn requirements() -> Requirements {
     Requirements {
         api_version: vk::API_VERSION_1_2,
@@ -109,7 +109,7 @@ pub struct DeviceSupport {
     pub output_attachment: bool,
     /// The output format supports storing without a format qualifier.
     pub output_storage: bool,
-    /// Optional features that the device supports. A host that enables all of them passes this on as
+    /// Optional features that the device supports. A host that enables all of them passes this as
     /// [`Host::enabled`](crate::Host::enabled).
     pub optional: EnabledFeatures,
     /// Limits.
@@ -172,7 +172,7 @@ impl DeviceSupport {
             optional: EnabledFeatures {
                 synchronization2: second.synchronization2 == vk::TRUE,
                 storage_image_write_without_format: stores,
-                // Of the instance, not of a device.
+                // It belongs to the instance, not to the device.
                 debug_utils: false,
                 // A device without the extension leaves the structure as it was.
                 conditional_rendering: conditional.conditional_rendering == vk::TRUE,
@@ -215,8 +215,8 @@ impl DeviceSupport {
         }
     }
 
-    /// What the device gives a host that creates its instance for this Vulkan version, and enables these features and
-    /// no others. Below Vulkan 1.3 formats support storing only with
+    /// Support on a device whose host creates its instance for this Vulkan version and enables exactly these features.
+    /// Below Vulkan 1.3 formats support storing only with
     /// [`storage_image_write_without_format`](EnabledFeatures::storage_image_write_without_format).
     #[must_use]
     pub fn with_enabled(mut self, api_version: u32, enabled: EnabledFeatures) -> Self {
@@ -248,7 +248,7 @@ impl DeviceSupport {
     /// Checks the device against a configuration.
     ///
     /// # Errors
-    /// [`Error::Missing`] with what is missing, and what to do.
+    /// [`Error::Missing`], which says what is missing and what to do.
     pub fn check(&self, config: &crate::contract::Config) -> Result<(), Error> {
         let missing = |what: String, why: &str| {
             let mut why = why.to_owned();

@@ -4,13 +4,13 @@
 /// The retire list, with the slots that are in flight.
 #[derive(Default)]
 pub struct RetireList {
-    /// One bit per slot: recorded, not yet come back.
+    /// One bit per slot: set while it is recorded and not yet finished.
     out: u32,
     waiting: Vec<(u32, Box<dyn Send + Sync>)>,
 }
 
 impl RetireList {
-    /// A slot was recorded.
+    /// Call after a slot was recorded.
     pub fn recorded(&mut self, slot: u32) {
         self.out |= 1 << slot;
     }
@@ -27,7 +27,7 @@ impl RetireList {
         self.retire(std::mem::replace(old, new));
     }
 
-    /// A slot has come back: its work is done, or it was never submitted.
+    /// Call when a slot has finished: its work is complete, or it was never submitted.
     pub fn collect(&mut self, slot: u32) {
         self.out &= !(1 << slot);
         for (mask, _) in &mut self.waiting {

@@ -1,6 +1,6 @@
 //! In-place exclusive prefix sum (Blelloch, Prefix sums and their applications, 1990), in three dispatches: sums of
-//! blocks, prefix sum of those, prefix sum within each block.
-//! Reads, writes: the values. Writes: their total, into a word of the counts.
+//! blocks, prefix sum of the block sums, prefix sum within each block. Reads, writes: the values. Writes: their total,
+//! into a word of the counts.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -40,7 +40,7 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// For up to `most` numbers.
+    /// A scan of up to `most` values.
     pub fn new(gpu: &Gpu, name: &str, most: u32) -> Result<Self, Error> {
         Ok(Self {
             sum: Pipeline::compute(gpu, shader::GPU_SCAN_SUM_COMP, &[])?,
@@ -56,8 +56,8 @@ impl Scan {
         })
     }
 
-    /// Replaces the first `count` of `most` values by their exclusive prefix sum. `count`: a word of the
-    /// counts; `None`: all values. Values and counts are in a compute state before and after.
+    /// Replaces the first `count` of `most` values by their exclusive prefix sum. `count` is the index of a word of the
+    /// counts; `None` takes all values. Values and counts are in a compute state before and after.
     pub fn record(
         &self,
         (gpu, cmd, descriptors): (&Gpu, vk::CommandBuffer, &Descriptors),
@@ -88,7 +88,7 @@ impl Scan {
         Ok([set(&self.sum)?, set(&self.blocks)?, set(&self.apply)?])
     }
 
-    /// [`record`](Self::record) with sets made before, of the same buffers.
+    /// [`record`](Self::record) with sets that were created before for the same buffers.
     pub fn record_with(
         &self,
         (gpu, cmd, sets): (&Gpu, vk::CommandBuffer, [vk::DescriptorSet; SETS as usize]),

@@ -1,4 +1,4 @@
-//! The compiled shaders, with what `build.rs` read back from their SPIR-V.
+//! The compiled shaders, with the interfaces that `build.rs` read from their SPIR-V.
 
 use ash::vk;
 
@@ -9,13 +9,13 @@ pub struct Shader {
     pub name: &'static str,
     /// SPIR-V, aligned to 4 bytes.
     pub code: &'static [u8],
-    /// Bytes of push constants it declares.
+    /// Size of its push constants in bytes.
     pub push_size: u32,
     /// Workgroup size (compute).
     pub local_size: [u32; 3],
-    /// Bytes that a workgroup shares (compute).
+    /// Size of a workgroup's shared memory in bytes (compute).
     pub shared: u32,
-    /// Results (of a fragment shader its attachments).
+    /// Number of outputs (attachments of a fragment shader).
     pub outputs: u32,
     /// Bindings of set 0.
     pub bindings: &'static [(u32, vk::DescriptorType)],
@@ -43,7 +43,7 @@ const fn equal(a: &str, b: &str) -> bool {
 }
 
 impl Shader {
-    /// Byte offset of a block's member in the SPIR-V; fails to compile when there is none.
+    /// Byte offset of a block's member in the SPIR-V; compilation fails if there is no such member.
     pub const fn offset(&self, block: &str, member: &str) -> usize {
         let mut i = 0;
         while i < self.members.len() {
@@ -56,7 +56,7 @@ impl Shader {
     }
 }
 
-/// Asserts at compile time that a `repr(C)` struct lies in memory as the shader's block does.
+/// Asserts at compile time that a `repr(C)` struct has the layout of the shader's block.
 macro_rules! assert_layout {
     ($shader:expr, $block:literal, $type:ty { $($member:ident),+ $(,)? }) => {
         $(const _: () = assert!(

@@ -1,4 +1,4 @@
-//! An image with a render pass that draws to it alone.
+//! An image with a render pass that draws only to it.
 
 use ash::vk;
 
@@ -18,7 +18,7 @@ pub struct Target {
 }
 
 impl Target {
-    /// Creates them. `load`: load operation of the pass.
+    /// Creates image, pass and framebuffer. `load` is the load operation of the pass.
     pub fn new(gpu: &Gpu, desc: &ImageDesc<'_>, load: vk::AttachmentLoadOp) -> Result<Self, Error> {
         let image = Image::new(gpu, desc)?;
         let pass = gpu.color_pass(desc.name, &[desc.format], load)?;

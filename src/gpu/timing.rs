@@ -10,7 +10,7 @@ use super::access::Synchronization;
 use super::graveyard::{Grave, Owned};
 use crate::error::{Error, VkContext};
 
-/// Scopes a frame may have.
+/// Max number of scopes per frame.
 const MAX_SCOPES: u32 = 64;
 
 /// Time of one pass.
@@ -26,16 +26,16 @@ pub struct Timing {
 
 /// One slot's timestamps.
 pub struct Timer {
-    /// None where the queue has no timestamps.
+    /// `None` if the queue has no timestamps.
     pool: Option<Owned<vk::QueryPool>>,
     names: Vec<&'static str>,
-    /// The scopes of the frame that was recorded last are not read yet.
+    /// Whether the scopes of the last recorded frame have not been read yet.
     pending: bool,
     results: Vec<Timing>,
 }
 
 impl Timer {
-    /// Makes the query pool (none where the queue has no timestamps).
+    /// Creates the query pool, if the queue has timestamps.
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
         let mut pool = None;
         if gpu.timestamp_bits > 0 {
@@ -56,7 +56,7 @@ impl Timer {
         })
     }
 
-    /// Starts a frame: keeps the results of the frame before, forgets its scopes.
+    /// Starts a frame: keeps the results of the previous frame and removes its scopes.
     pub fn reset(&mut self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         self.read(gpu);
         self.names.clear();
@@ -134,13 +134,13 @@ impl Timer {
         }
     }
 
-    /// Results of the last finished frame; empty before there is one.
+    /// Results of the last finished frame; empty before the first.
     pub fn timings(&mut self, gpu: &Gpu) -> &[Timing] {
         self.read(gpu);
         &self.results
     }
 
-    /// Forgets a frame that was recorded but never submitted.
+    /// Discards a frame that was recorded but never submitted.
     pub fn abandon(&mut self) {
         self.pending = false;
     }

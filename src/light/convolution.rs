@@ -2,20 +2,20 @@
 //! reconstruct the comparison with their own depth (Annen, Mertens, Bekaert, Seidel, Kautz, *Convolution Shadow
 //! Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
 //!
-//! What differs, and why:
+//! Differences, and their reasons:
 //! - Depths are normalised between the nearest and the farthest texel of the map, found on the GPU. Any
 //!   projection works, infinite ones too, and the series rises as steeply as the scene allows. Empty texels
 //!   count as behind. The series is periodic, so both ends keep a margin.
 //! - Terms are damped by exp(−α((k − ½)/M)²), with k − ½ instead of k: a Gaussian of the step, which keeps its
 //!   height with few terms.
-//! - The reconstruction is steepened around one half (and clipped, which hides ringing) and offset by the part
-//!   of its rise that keeps a point touching its occluder in the sun.
+//! - The reconstruction is steepened around one half (and clipped, which hides ringing). It is offset by the part of
+//!   its rise that keeps a point lit that touches its occluder.
 //! - The map is averaged to the size of the library's images first, then box-filtered: no mips.
-//! - The pages of the basis lie side by side in one image, not in an array, so any image can stand in where
-//!   there is none.
+//! - The pages of the basis lie side by side in one image, not in an array, so that any image can be bound if there are
+//!   none.
 //!
-//! Reads: the host's shadow map. Writes: span of its depths; basis, RGBA8 signed or RGBA16F, cosine and sine of
-//! two terms per page, pages in two rows with a border of one texel each.
+//! Reads: the host's shadow map. Writes: min and max of its depths; the basis, RGBA8 signed or RGBA16F, with cosine and
+//! sine of two terms per page, in two rows of pages that have a border of one texel.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -39,22 +39,22 @@ use crate::water::settings::{ShadowFilter, Shadows};
 const SPAN_BLOCK: u32 = 128;
 /// Bytes of the span.
 const SPAN: u64 = 16;
-/// One page, whole and filtered along one axis: every device stores and samples it.
+/// Format of a page, whole and filtered along one axis: every device can store and sample it.
 const PAGE: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
-/// Read by shading passes, and by the vertex shader of spray.
+/// Access by shading passes, and by the vertex shader of spray.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
-/// Last uses in a frame: those, or the host's copy of the layer.
+/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 /// Configuration of convolution shadow maps ([`Shadows::Convolution`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Convolution {
-    /// Terms of the series: 4, 8 or 16 (default). Shadow is complete at a distance behind its occluder of 23, 9
-    /// or 4 % of the depth range of the map.
+    /// Number of terms of the series: 4, 8 or 16 (default). Shadow is complete at a distance behind its occluder of 23,
+    /// 9 or 4 % of the depth range of the map.
     pub terms: u32,
-    /// Maximum side length of the images in texels, 16 to 4096 (default 1024). A larger map is averaged over
-    /// whole blocks of its texels; its size may change from frame to frame.
+    /// Max side length of the images in texels, 16 to 4096 (default 1024). A larger map is averaged over whole blocks
+    /// of its texels; its size may change from frame to frame.
     pub texels: u32,
     /// Bits per value: 8 (default) or 16, which changes the picture by a few thousandths. The images take
     /// 2·`terms`·`bits`/8 + 16 bytes per texel.
@@ -138,7 +138,7 @@ impl Convolved {
         for (i, w) in weights(convolution.terms, settings).enumerate() {
             weight[i / 4][i % 4] = settings.scale * w;
         }
-        // A box narrower than a texel of ours is no box.
+        // A box filter narrower than one of our texels has no effect.
         let reach = (0.5 * settings.width / edge as f32).max(0.5);
         Some(Self {
             linear: linear(shadow, shadow.nearer(&frame.settings.light)),
@@ -162,7 +162,7 @@ fn weights(terms: u32, settings: &ShadowFilter) -> impl Iterator<Item = f32> + u
 /// Position from which the steepened series is 1; its first maximum if it never is.
 fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     const STEPS: u32 = 256;
-    // No maximum comes later, with the damping there may be.
+    // The first maximum is not beyond this, for every damping in range.
     let most = 0.85 / terms as f32;
     let mut before = 0.0;
     for step in 1..=STEPS {
@@ -254,7 +254,7 @@ impl Convolving {
         Resource::Buffer(self.span.handle, 0, SPAN)
     }
 
-    /// `shadow`: the host's map; `map` is its resource for compute.
+    /// `shadow` is the host's map, `map` its resource for compute shaders.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -306,7 +306,7 @@ impl Convolving {
             gpu.barriers(cmd, &[end(page), begin(across)], &[]);
             bind(&self.across, moved);
             r.dispatch_over(size, self.across.local_size);
-            // Pages are apart, but a validation layer knows of whole images alone.
+            // Pages are separate, but a validation layer tracks only whole images.
             let next = access::image(&self.basis, COMPUTE_WRITE, COMPUTE_WRITE);
             gpu.barriers(cmd, &[end(across), next], &[]);
             bind(&self.down, kept);
@@ -342,8 +342,7 @@ mod tests {
         0.5 + settings.scale * sum
     }
 
-    /// Beyond the ramp the light is complete until the end of the period, by default; a steeper ramp is
-    /// shorter.
+    /// By default the light is complete from the end of the ramp to the end of the period; a steeper ramp is shorter.
     #[test]
     fn the_ramp_ends_where_the_light_is_whole() {
         for terms in [4, 8, 16] {
@@ -357,14 +356,14 @@ mod tests {
             }
             let steeper = ShadowFilter { scale: 3.0, ..settings };
             assert!(super::ramp(terms, &steeper) < 0.5 * ramp);
-            // What is damped most still has its ends.
+            // Even with the max damping the series reaches its ends.
             let soft = ShadowFilter { damping: 2.0, scale: 1.0, ..settings };
             let ramp = super::ramp(terms, &soft);
             assert!(4.0 * ramp < 1.0 && rise(terms, &soft, ramp) > 0.99, "{ramp} of {terms}");
         }
     }
 
-    /// Depths of points along a light's axis are even for every projection.
+    /// Depths of points along a light's axis are evenly spaced for every projection.
     #[test]
     fn depths_are_even_away_from_the_light() {
         let view = Mat4::look_at_rh(Vec3::new(3.0, 8.0, 2.0), Vec3::ZERO, Vec3::Y);

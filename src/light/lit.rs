@@ -1,9 +1,9 @@
-//! Pass `lit`: the host's scene with the shadows and caustics of water and foam, written to an own image, from
-//! which the fluid refracts it, and to the output.
+//! Pass `lit`: the host's scene with the shadows and caustics of water and foam. It is written to an image, from which
+//! the fluid refracts it, and to the output.
 //!
-//! It replaces the copy of a scene that is the output itself. The sun's share of a pixel's light is unknown;
-//! that of level ground is used ([`Light`](crate::Light)).
-//! Reads: scene colour and depth, the light's maps, caustics. Writes: lit scene; output, all of it.
+//! If the scene is the output image itself, this pass replaces the copy of the scene. The sun's share of a pixel's
+//! light is unknown, so that of level ground is used ([`Light`](crate::Light)). Reads: scene colour and depth, the
+//! light's maps, caustics. Writes: lit scene; the whole output.
 
 use ash::vk;
 
@@ -22,7 +22,7 @@ use crate::gpu::target::Target;
 use crate::water::Recording;
 use crate::water::settings::Shading;
 
-/// How the scene's colour is read.
+/// Access to the scene's colour.
 pub const SCENE_USE: Access = FRAGMENT_SAMPLED;
 
 /// Destination of the lit scene.
@@ -35,9 +35,9 @@ pub struct Output {
     pub aspect: vk::ImageAspectFlags,
     /// Its framebuffer, or null.
     pub target: vk::Framebuffer,
-    /// The part of it that is the view.
+    /// The area of the view within the image.
     pub area: vk::Rect2D,
-    /// Its use before, and the use that `composite` expects.
+    /// The state of the image before the pass, and the one that `composite` expects.
     pub before: Access,
     pub after: Access,
 }
@@ -161,6 +161,6 @@ impl Lit {
 
 fn desc(config: &Config) -> ImageDesc<'static> {
     let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::COLOR_ATTACHMENT;
-    // Every device draws to it and filters it.
+    // Every device can draw to this format and filter it.
     ImageDesc::new("lit", config.extent, vk::Format::R16G16B16A16_SFLOAT, usage)
 }

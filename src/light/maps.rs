@@ -1,10 +1,9 @@
-//! Pass `light`: water and surface foam as the sun sees them.
+//! Pass `light`: maps of water and surface foam as seen from the sun.
 //!
-//! Every particle is drawn, independent of the camera, directly from the host's streams, without a list.
-//! Particles in culled packets are included, because they cast shadows into the view.
-//! Reads: the counts and the members of `cull`, the host's particles. Writes: front, R32F, metres along the
-//! light to the first surface; thickness, RGBA32F, metres of water and of foam along it, and both times their
-//! position.
+//! Every particle is drawn, independent of the camera, directly from the host's streams, without a list. Particles in
+//! culled packets are included, because they cast shadows into the view. Reads: the counts and the members of `cull`,
+//! the host's particles. Writes: front, R32F, distance in metres along the light to the first surface; thickness,
+//! RGBA32F, of water and of foam in metres along the light, and both multiplied by their position.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -23,9 +22,9 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 use crate::water::{self, Recording, SphereList, Window};
 
-/// Read by compute, by shading passes, and by the vertex shader of spray.
+/// Access by compute, by shading passes, and by the vertex shader of spray.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
-/// Last uses in a frame: those, or the host's copy of the layer.
+/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 #[repr(C)]

@@ -27,7 +27,7 @@ use lit::Lit;
 use maps::Maps;
 use whitewater::Whitewater;
 
-/// Specialisation constants of glsl/include/sunlight.glsl.
+/// Specialization constants of glsl/include/sunlight.glsl.
 pub fn constants(config: &Config) -> [(u32, u32); 5] {
     let (shadow, terms) = match config.shadow {
         None => (0, 2),
@@ -58,7 +58,7 @@ pub struct Sunlight {
     pub convolved: [Resource; 2],
     /// The map of whitewater, or a stand-in.
     pub whitewater: Resource,
-    /// The map of bubble foam, or a stand-in.
+    /// The blobs' shadow map, or a stand-in.
     pub bubbles: Resource,
 }
 
@@ -113,7 +113,7 @@ impl Light {
         Resource::Sampled(self.maps.thickness.image().view, gpu.samplers.nearest)
     }
 
-    /// The map of whitewater, if it casts.
+    /// The map of whitewater, if it casts shadows.
     pub fn whitewater(&self, gpu: &Gpu) -> Option<Resource> {
         let image = &self.whitewater.as_ref()?.image;
         Some(Resource::Sampled(image.view, gpu.samplers.nearest))
@@ -148,7 +148,7 @@ impl Light {
         Ok(self.lit.image())
     }
 
-    /// How the scene's colour is read.
+    /// Access to the scene's colour.
     pub const SCENE_USE: Access = lit::SCENE_USE;
 
     /// Layers for the host.
@@ -182,7 +182,7 @@ impl Light {
 
 pub use lit::Output;
 
-/// Number of descriptor sets per frame for whitewater that casts.
+/// Number of descriptor sets per frame for whitewater that casts shadows.
 pub fn whitewater_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
     match (config.light_map_size, &config.whitewater) {
         (Some(edge), Some(whitewater)) => whitewater::sets(limits, whitewater, edge),

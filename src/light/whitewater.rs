@@ -1,12 +1,11 @@
-//! Pass `whitewater_light`: whitewater as the sun sees it (future work of Akinci et al. 2013, Sec. 4).
+//! Pass `whitewater_light`: a map of whitewater as seen from the sun (future work of Akinci et al. 2013, Sec. 4).
 //!
-//! One invocation per particle, directly from the host's streams, independent of the camera: sums of
-//! fixed-point steps, so the order of the particles does not matter. Each texel has three sums: the thickness
-//! (as for the camera), and its products with the position along the light and its square. They give amount,
-//! mean and spread. From these follows how much foam lies in front of a point, and so how much sunlight reaches
-//! it (glsl/include/sunlight.glsl).
-//! Reads: the host's streams, front. Writes: whitewater, RGBA16F, thickness; metres along the light to its mean,
-//! and its spread.
+//! One invocation per particle reads the host's streams directly, independent of the camera. Sums use fixed-point
+//! steps, so the order of the particles does not matter. Each texel has three sums: the thickness (as for the camera),
+//! and its products with the position along the light and its square. They give amount, mean and spread. From these
+//! follows how much foam lies in front of a point, and so how much sunlight reaches it (glsl/include/sunlight.glsl).
+//! Reads: the host's streams, front. Writes: whitewater, RGBA16F: thickness, mean distance along the light in metres,
+//! and its standard deviation.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -78,7 +77,7 @@ impl Whitewater {
         let (arguments, fill) =
             (vk::BufferUsageFlags::INDIRECT_BUFFER, vk::BufferUsageFlags::TRANSFER_DST);
         let words = WORDS * u64::from(edge) * u64::from(edge);
-        // Cleared where a frame has no particles.
+        // It is cleared in frames without particles.
         let usage = vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::TRANSFER_DST;
         let desc = map_desc("light/whitewater", edge, vk::Format::R16G16B16A16_SFLOAT, usage);
         Ok(Self {
@@ -99,7 +98,7 @@ impl Whitewater {
         })
     }
 
-    /// Runs after `light`, whose front it reads. Takes over the particles' buffers.
+    /// Runs after `light`, whose front it reads. Acquires the particles' buffers.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -173,11 +172,11 @@ impl Whitewater {
 
     fn record_resolve(&self, r: &Recording<'_>) -> Result<(), Error> {
         let (gpu, cmd, edge) = (r.gpu, r.cmd, self.image.extent.height);
-        // A row to either side is read.
+        // One row on either side is read as well.
         let own = if self.rows < edge { self.rows - 2 } else { edge };
         for first in (0..edge).step_by(own as usize) {
             if first > 0 {
-                // Rows of their own: a layer that sees images as wholes asks for it.
+                // The rows are separate, but a validation layer that tracks whole images requires the barrier.
                 let barrier = access::image(&self.image, COMPUTE_WRITE, COMPUTE_WRITE);
                 gpu.barriers(cmd, &[barrier], &[]);
             }
@@ -197,7 +196,8 @@ impl Whitewater {
         Ok(())
     }
 
-    /// The words of rows, the first and the last. Edges are multiples of 16: every device can bind them.
+    /// The words from the first to the last row. Their offsets are multiples of 16 rows, so that every device can bind
+    /// them.
     fn words_of(&self, [first, last]: [u32; 2]) -> Resource {
         let row = WORDS * u64::from(self.image.extent.width);
         let (first, count) = (u64::from(first), u64::from(last - first + 1));
@@ -236,7 +236,7 @@ fn rows(limits: &vk::PhysicalDeviceLimits, edge: u32) -> u32 {
     (fit as u32).clamp(3, edge)
 }
 
-/// Descriptor sets that a frame takes.
+/// Number of descriptor sets per frame.
 pub fn sets(limits: &vk::PhysicalDeviceLimits, whitewater: &WhitewaterConfig, edge: u32) -> u32 {
     let rows = rows(limits, edge);
     let own = if rows < edge { rows - 2 } else { edge };

@@ -27,7 +27,7 @@ impl Contact {
         Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
     }
 
-    /// The water's layers are sampled by fragment shaders before and after.
+    /// Fragment shaders sample the water's layers before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

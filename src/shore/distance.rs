@@ -1,12 +1,11 @@
 //! Pass `map`: distance to the shore on a grid that is fixed in the world, for shores without a mesh of their
 //! own. Not in the blog, whose author asks for it (*Semi-procedural foam shader*, Sec. II).
 //!
-//! Input are heights from above, of the host's meshes or image. Where they cross the water's level are seeds,
-//! and jump flooding finds the nearest seed of each texel (Rong, Tan, *Jump Flooding in GPU with Applications
-//! to Voronoi Diagram and Distance Transform*, 2006), with one extra jump of one texel at the end. If only a
-//! part has changed, only a window is updated.
-//! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, metres, negative in the
-//! water).
+//! The input are heights seen from above, of the host's meshes or image. Texels where they cross the water's level are
+//! seeds, and jump flooding finds the nearest seed of each texel (Rong, Tan, *Jump Flooding in GPU with Applications to
+//! Voronoi Diagram and Distance Transform*, 2006), with one extra jump of one texel at the end. If only a part has
+//! changed, only a window is updated. Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F,
+//! metres, negative in the water).
 
 use std::sync::Arc;
 
@@ -39,12 +38,12 @@ use crate::water::settings::range;
 
 crate::contract::with!(ShoreMapConfig, ShoreMapStep<'_>);
 
-/// How frames and the host read the distances.
+/// Access of frames and of the host to the distances.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Maximum number of jumps, plus one.
 const MOST_JUMPS: u32 = 14;
 
-/// Configuration of a [`ShoreMap`]: what fixes its memory, 16 bytes per texel.
+/// Configuration of a [`ShoreMap`], which determines its memory: 16 bytes per texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreMapConfig {
@@ -63,7 +62,7 @@ impl Default for ShoreMapConfig {
 /// The area that a map covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// World direction up, unit length, as a frame's [`Settings::up`](crate::Settings::up).
+    /// World up direction, unit length, the same as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
     /// Centre along the two level axes: x and z for y up. It is snapped to whole texels, so a map that follows
     /// a camera keeps its content.
@@ -106,17 +105,17 @@ pub struct ShoreMapStep<'a> {
     pub area: Area,
     /// The land: all of it, also where it has not changed.
     pub heights: Heights<'a>,
-    /// What has changed since the last step: minimum and maximum corner along the level axes, scene units, enclosing
-    /// the old and the new position. `None`: everything, as if the area had changed.
+    /// The area that has changed since the last step: minimum and maximum corner along the level axes, scene units,
+    /// enclosing the old and the new position. `None` means everything, as if the area had changed.
     pub changed: Option<[[f32; 2]; 2]>,
     /// Last use of the meshes' buffers before the step (layout ignored).
     pub before: Access,
-    /// First use of them after it (layout ignored).
+    /// First use of these buffers after the step (layout ignored).
     pub after: Access,
 }
 
 impl<'a> ShoreMapStep<'a> {
-    /// All of an area, of meshes whose buffers the CPU wrote before the submit.
+    /// A step over the whole area, for meshes whose buffers the CPU wrote before the submission.
     pub fn new(slot: Slot, area: Area, heights: Heights<'a>) -> Self {
         let (before, after) = (NOTHING, NOTHING);
         Self { slot, area, heights, changed: None, before, after }
@@ -266,7 +265,7 @@ impl Part {
 }
 
 impl ShoreMap {
-    /// Makes pipelines and memory.
+    /// Creates pipelines and allocates memory.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -284,7 +283,7 @@ impl ShoreMap {
         match Self::made(&gpu, config) {
             Ok(map) => Ok(map),
             Err(error) => {
-                // Nothing was submitted with what was made before the failure.
+                // Nothing was submitted with the objects created before the failure.
                 gpu.destroy();
                 Err(error)
             }
@@ -356,15 +355,15 @@ impl ShoreMap {
         })
     }
 
-    /// Records an update after land or water have changed. Never submits, waits or allocates device memory.
+    /// Records an update after land or water have changed. It never submits, waits or allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command buffer, and
-    /// let the next step be of all.
+    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command buffer;
+    /// the next step has to update everything.
     ///
     /// # Safety
-    /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded, before the
-    /// frames that show them.
+    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
+    /// before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -376,7 +375,7 @@ impl ShoreMap {
         let corner = area.corner(size);
         let texel = area.texel(size);
         let reach = (area.reach / texel).ceil() as i32 + 2;
-        // The middle may move within a texel.
+        // The centre may move within a texel.
         let same = |before: Area| Area { center: area.center, ..before } == area;
         let known = self.area.is_some_and(|before| same(before) && before.corner(size) == corner);
         let drawn = matches!(step.heights, Heights::Image(_)) || self.drawn;
@@ -390,11 +389,12 @@ impl ShoreMap {
             }
             None => Part::whole(size),
         };
-        // A texel may be told of another height; what is that far may have another nearest, which may be as far again.
+        // A changed height affects texels within the reach; texels that far away may have a new nearest seed, which may
+        // be as far again.
         let told = changed.grown(reach, size);
         let asked = told.grown(reach, size);
         let first_time = self.area.is_none();
-        // Not known where a failure leaves it.
+        // Unknown after a failure.
         self.area = None;
         let drawn = std::mem::take(&mut self.drawn);
 
@@ -446,7 +446,7 @@ impl ShoreMap {
             pipeline.push(gpu, cmd, &push(asked, 0));
             dispatch(asked);
         }
-        // The last of twice as far as is asked for, and one more of a texel.
+        // The last jump covers twice the reach, followed by one jump of a texel.
         let farthest = (reach as u32 + 1).next_power_of_two() as i32 / 2;
         let jumps = std::iter::successors(Some(farthest.min(size as i32)), |jump| Some(jump / 2));
         let jumps: Vec<_> = jumps.take_while(|jump| *jump > 0).chain([1]).collect();
@@ -539,7 +539,7 @@ impl ShoreMap {
         self.grid.distances.handle
     }
 
-    /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
+    /// Times of the slot's last finished step, in the form of [`Renderer::timings`](crate::Renderer::timings).
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
@@ -583,7 +583,7 @@ impl Grid {
             used.into_iter().map(|handle| buffer(handle, from, to)).collect()
         };
         let sampled = COMPUTE_SAMPLED;
-        // Where it was not drawn before all of it is cleared.
+        // If it was not rendered before, it is cleared as a whole.
         let before = if before { sampled } else { sampled.discarded() };
         gpu.barriers(
             cmd,
@@ -613,7 +613,7 @@ impl Grid {
             let [east, north] = level_axes(up);
             let scale = 2.0 / area.edge;
             let corner = Vec2::from(corner);
-            // The highest and the lowest that is told apart are as far from the water as the area is wide.
+            // The range of heights above and below the water equals the width of the area.
             let rows = [
                 (east * scale).extend(-corner.x * scale - 1.0),
                 (north * scale).extend(-corner.y * scale - 1.0),

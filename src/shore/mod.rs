@@ -38,7 +38,7 @@ use textures::Textures;
 pub(crate) use tiles::COAT_DISPATCH;
 pub(crate) use tiles::list_bytes as bytes_bound;
 
-/// The block `ShoreFrame` of `glsl/include/shore.glsl`; its comments say what each member holds.
+/// The block `ShoreFrame` of `glsl/include/shore.glsl`, whose comments describe each member.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(crate) struct ShoreUniforms {
@@ -90,7 +90,7 @@ shader::assert_layout!(
     }
 );
 
-/// Mapping from a pixel to the texel of a host image: scale; size; first texel.
+/// Mapping from a pixel to the texel of a host image: scale, size, first texel.
 fn texels(image: &HostImage, frame: vk::Extent2D) -> ([f32; 4], [f32; 2]) {
     let vk::Rect2D { offset, extent } = image.rect;
     let [w, h] = [extent.width as f32, extent.height as f32];
@@ -148,7 +148,7 @@ impl ShoreUniforms {
         looks > 2.0 || layers > 2.0 || kind > 1.5 || mask > 0.5 || way > 2.5 || scene_depth != frame
     }
 
-    /// `edges`: side lengths of foam texture and noise in texels. Without a [`Frame::shore`] the values draw
+    /// `edges` are the side lengths of foam texture and noise in texels. Without [`Frame::shore`] the values draw
     /// nothing.
     pub fn new(frame: &Frame<'_>, lens: &Lens, edges: [f32; 2]) -> Self {
         let Settings { shore: look, water, .. } = frame.settings;
@@ -156,7 +156,7 @@ impl ShoreUniforms {
         let extent = frame.output.rect.extent;
         let (s, c) = (&look.shoreline, &look.contact);
 
-        // A row of the eye's space for what is a row of the world's.
+        // Rows of the eye-space matrix for rows of the world-space one.
         let world = lens.view.inverse();
         let turn = Mat3::from_mat4(world);
         let eye = world.transform_point3(Vec3::ZERO);
@@ -202,7 +202,7 @@ impl ShoreUniforms {
         for own in s.layers.iter().filter(|own| own.weight > 0.0) {
             let turn = DVec2::from_angle(f64::from(own.angle).to_radians());
             let [x, y] = (turn * f64::from(own.scale)).as_vec2().to_array();
-            // Turned as the place is.
+            // Rotated with the layer.
             let speed = turn.as_vec2().rotate(own.speed.into());
             let [u, v] = moved(look, own.scale, speed.to_array());
             layer[layers] = [x, y, u, v];
@@ -247,8 +247,8 @@ impl ShoreUniforms {
     }
 }
 
-/// Radiance of both kinds of foam in full light, for `composite`: RGB, then the share that is lit; opacity of
-/// shoreline foam.
+/// Radiance of both kinds of foam in full light, for `composite`: RGB, then the lit share (contact foam) or the opacity
+/// (shoreline foam).
 pub(crate) fn colors(settings: &Settings) -> [Vec4; 2] {
     let (s, c) = (&settings.shore.shoreline, &settings.shore.contact);
     let light = Vec3::from(settings.light.irradiance) / std::f32::consts::PI;
@@ -314,7 +314,7 @@ pub(crate) fn surface_of(shore: &crate::contract::Shore) -> Option<&HostImage> {
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Shore {
-    /// Those of the renderer before a `reconfigure`, if they still fit.
+    /// Textures; shared with the renderer before a `reconfigure` if they still fit.
     textures: Arc<Textures>,
     tiles: tiles::Tiles,
     shoreline: shoreline::Shore,
@@ -322,7 +322,7 @@ pub(crate) struct Shore {
 }
 
 impl Shore {
-    /// `before`: the previous state.
+    /// `before` is the previous state.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -376,7 +376,7 @@ impl Shore {
         self.textures.edges()
     }
 
-    /// Passes `shore-tiles` and `shoreline`. `general`: the frame needs the general pipeline.
+    /// Passes `shore-tiles` and `shoreline`. `general` selects the general pipeline.
     pub fn record_shoreline(
         &self,
         r: &mut Recording<'_>,
@@ -392,7 +392,7 @@ impl Shore {
         Ok(())
     }
 
-    /// Pass `contact`. `general`: the frame needs the general pipeline.
+    /// Pass `contact`. `general` selects the general pipeline.
     pub fn record_contact(
         &self,
         r: &mut Recording<'_>,
@@ -406,8 +406,8 @@ impl Shore {
         Ok(())
     }
 
-    /// The foam image: shoreline foam, contact foam on the host's surface, the sunlight missing on them,
-    /// contact foam on the particles' water.
+    /// The foam image, with four channels: shoreline foam, contact foam on the host's surface, the fraction of sunlight
+    /// that is missing there, contact foam on the particles' water.
     pub fn image(&self) -> &Image {
         self.shoreline.image()
     }

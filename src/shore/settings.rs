@@ -12,7 +12,7 @@ crate::contract::with!(ShoreConfig, ShoreSettings, ShorelineSettings, ContactSet
 /// Maximum number of foam texture layers.
 pub const LAYERS: usize = 4;
 
-/// Configuration of shoreline and contact foam: what costs memory or pipelines.
+/// Configuration of shoreline and contact foam, which determines memory and pipelines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreConfig {
@@ -21,7 +21,7 @@ pub struct ShoreConfig {
     pub edge: Edge,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) edge: Edge,
-    /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. 25⅓ bytes per
+    /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. It takes 25⅓ bytes per
     /// texel.
     pub texture_size: u32,
     /// Seed of the built-in foam texture and noise, default 1.
@@ -54,8 +54,8 @@ pub enum Edge {
     Smooth,
     /// A pixel is foam or not, as in the blog.
     Clip,
-    /// The average of four alpha-to-coverage samples: [`Smooth`](Self::Smooth) quantised to quarters and
-    /// dithered over 2×2 pixels.
+    /// The average of four alpha-to-coverage samples: [`Smooth`](Self::Smooth) quantised to quarters and dithered over
+    /// 2×2 pixels.
     Coverage,
 }
 
@@ -97,7 +97,7 @@ impl ShoreSettings {
         ] {
             wider(&mut noise.scale);
         }
-        // Of these the amplitude is a length too.
+        // Of these noises the amplitude is a length as well.
         for warp in [&mut shore.texture_warp, &mut shore.warp] {
             wider(&mut warp.scale);
             longer(&mut warp.amplitude);
@@ -149,8 +149,8 @@ pub struct ShorelineSettings {
     /// Wave frequency in radians per v, [0, 1000], default 13: two waves between the sea's edge and the shore
     /// line.
     pub frequency: f32,
-    /// Wave speed in radians per second, [-1000, 1000], default -0.9. Negative runs towards the shore, positive
-    /// out to sea, as in the blog.
+    /// Wave speed in radians per second, [-1000, 1000], default -0.9. Negative values run towards the shore, positive
+    /// ones out to sea, as in the blog.
     pub speed: f32,
     /// Share of the motion that oscillates, 0 (none) to 1 (all), default 0.35.
     pub swing: f32,
@@ -160,8 +160,8 @@ pub struct ShorelineSettings {
     pub swing_period: f32,
     /// Noise added to the frequency. Default 5, 1/90 m.
     pub frequency_noise: Noise,
-    /// Noise added to the speed, radians per second. Default 0.35, 1/90 m. It oscillates, because places would
-    /// otherwise drift apart without limit.
+    /// Noise added to the speed, radians per second. Default 0.35, 1/90 m. It oscillates, because otherwise different
+    /// places would drift apart without limit.
     pub speed_noise: Noise,
     /// Period of that oscillation, seconds, [0.1, 1e6], default 11.
     pub speed_period: f32,
@@ -335,14 +335,14 @@ impl ShoreSettings {
         (rate * self.time).rem_euclid(1.0)
     }
 
-    /// The phase of the waves in radians, and what the noise on their speed is multiplied by.
+    /// The phase of the waves in radians, and the factor on the noise of their speed.
     pub(crate) fn phases(&self) -> [f32; 2] {
         let s = &self.shoreline;
         let (by, seconds) = (f64::from(s.swing_amplitude), f64::from(s.swing_period));
         let swing = f64::from(s.swing);
         let straight = self.turned((1.0 - swing) * f64::from(s.speed) / TAU) * TAU;
         let swung = swing * by * (self.turned(1.0 / seconds) * TAU).sin();
-        // Its derivative is a cosine of height 1: radians a second, as the noise has them.
+        // The derivative is a cosine with amplitude 1, so the noise is in radians per second.
         let period = f64::from(s.speed_period);
         let local = period / TAU * (self.turned(1.0 / period) * TAU).sin();
         [(straight + swung).rem_euclid(TAU) as f32, local as f32]

@@ -1,11 +1,11 @@
 //! Pass `shoreline`: foam on the host's water surface, along shores (*Semi-procedural foam shader*) and around
 //! objects (Lettier, Foam).
 //!
-//! A pixel's foam depends only on its position on the surface: the pass needs the scene's depth and no mesh. A
-//! host's strip, if there is one, is drawn first. Then the tiles that may contain foam (`shore-tiles`) are
-//! processed, 2×2 pixels at a time. Foam is handed to `composite` as runs of tiles.
-//! Reads: tiles, scene depth, the surface's, the map of distances, the strip, web, noise, mask. Writes: foam,
-//! RGBA8: along shores, at contacts, sunlight that is missing there, 0 (`contact`'s); the runs, their draw.
+//! A pixel's foam depends only on its position on the surface: the pass needs the scene's depth and no mesh. A host's
+//! strip, if there is one, is drawn first. Then the tiles that may contain foam (`shore-tiles`) are processed, 2×2
+//! pixels at a time. `composite` gets the foam as runs of tiles. Reads: tiles, scene depth, depth of the host's water
+//! surface, map of shore distances, strip, foam texture, noise, mask. Writes: foam, RGBA8 (shoreline foam, contact
+//! foam, missing sunlight, 0 for pass `contact`); the runs and the arguments of their draw.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -29,7 +29,7 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 use crate::water::{Recording, Window};
 
-/// Read by shading passes.
+/// Access by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
@@ -54,7 +54,7 @@ fn desc(config: &Config) -> ImageDesc<'static> {
         | vk::ImageUsageFlags::STORAGE
         | vk::ImageUsageFlags::TRANSFER_SRC
         | vk::ImageUsageFlags::TRANSFER_DST;
-    // Every device stores to it.
+    // Every device can store to this format.
     ImageDesc::new("shore/foam", config.extent, vk::Format::R8G8B8A8_UNORM, usage)
 }
 
@@ -67,7 +67,7 @@ pub struct Shore {
     target: Target,
 }
 
-/// Specialisation constant of the edge.
+/// Specialization constant of the edge.
 pub fn edge_constant(shore: &ShoreConfig) -> (u32, u32) {
     let edge = match shore.edge {
         Edge::Clip => 0,
@@ -81,7 +81,7 @@ impl Shore {
     pub fn new(gpu: &Gpu, config: &Config, shore: &ShoreConfig) -> Result<Self, Error> {
         let target = Target::new(gpu, &desc(config), vk::AttachmentLoadOp::LOAD)?;
         let constants = [&[edge_constant(shore)][..], &crate::light::constants(config)].concat();
-        // Of strips over each other the most.
+        // Where strips overlap, the max value counts.
         let most = [blend(vk::BlendOp::MAX)];
         let strip = Graphics {
             vertex: shader::SHORE_STRIP_VERT,
@@ -118,7 +118,7 @@ impl Shore {
         &self.target.image
     }
 
-    /// `general`: the frame needs the general pipeline.
+    /// `general` selects the general pipeline.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -134,7 +134,7 @@ impl Shore {
             (0, r.uniforms),
             (1, r.shore),
             (2, r.scene_depth),
-            // What a frame does not have is not read.
+            // Missing inputs are bound but not read.
             (3, given.surface.unwrap_or(r.scene_depth)),
             (6, given.map(gpu).unwrap_or(r.scene_depth)),
             (28, textures.noise()),
@@ -172,7 +172,7 @@ impl Shore {
                 r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
                 pipeline.push(gpu, cmd, &tiles.places(r.extent));
                 if i > 1 {
-                    // Each tile is in one list; all may write all for what a validation layer knows.
+                    // Each tile is in one list, but a validation layer assumes that all dispatches write all tiles.
                     gpu.barriers(cmd, &[access::image(image, both, both)], &marked);
                 }
                 // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible (barrier).

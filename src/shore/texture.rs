@@ -1,8 +1,8 @@
 //! Textures of shoreline foam: the distance from a pattern, a foam texture, noise. All are seamless.
 //!
-//! Shoreline foam thresholds a picture. If the picture holds the distance to the nearest line of a pattern,
-//! lines thin and swell as the threshold moves (*Semi-procedural foam shader*, Sec. V). Filters of picture
-//! editors stop at the border; here nothing does.
+//! Shoreline foam thresholds a picture. If the picture holds the distance to the nearest line of a pattern, lines
+//! become thinner and thicker as the threshold changes (*Semi-procedural foam shader*, Sec. V). Filters of picture
+//! editors stop at the border; these functions wrap around.
 //!
 //! No transcendental function is used: a seed gives the same texture on every machine.
 
@@ -14,14 +14,15 @@ const NOWHERE: i64 = i64::MAX;
 /// Distance from each texel's centre to that of the nearest texel of the pattern, in texels, with the picture
 /// repeating in both directions. Infinite everywhere if the pattern is empty.
 ///
-/// Exact except for the rounding of the root, in linear time: along the columns, then the lower envelope of one
-/// parabola per column (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012), which
-/// extends half a row beyond both ends.
+/// An exact Euclidean distance transform except for the rounding of the square root, in time linear in the number of
+/// texels (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012). The first pass runs along the
+/// columns. The second finds, in each row, the lower envelope of one parabola per column; the row is extended
+/// periodically by half its width on both sides, because the picture repeats.
 ///
 /// `pattern` is `width` × `height` texels, row by row.
 ///
 /// # Panics
-/// `pattern` has another length.
+/// If `pattern` has another length.
 pub fn distance_transform(pattern: &[bool], width: usize, height: usize) -> Vec<f32> {
     squares(pattern, width, height).into_iter().map(root).collect()
 }
@@ -30,7 +31,7 @@ pub fn distance_transform(pattern: &[bool], width: usize, height: usize) -> Vec<
 /// 0 everywhere if the pattern is empty; only the pattern if `reach` is not above 0.
 ///
 /// # Panics
-/// As [`distance_transform`].
+/// Those of [`distance_transform`].
 pub fn from_pattern(pattern: &[bool], width: usize, height: usize, reach: f32) -> Vec<f32> {
     let near = |square: i64| match square {
         0 => 1.0,
@@ -52,7 +53,7 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
     if !pattern.contains(&true) {
         return vec![NOWHERE; pattern.len()];
     }
-    // Along the columns: up and down, twice round.
+    // Along the columns, downwards and upwards, twice around the period.
     const NONE: u32 = u32::MAX / 2;
     let mut steps: Vec<u32> = pattern.iter().map(|on| if *on { 0 } else { NONE }).collect();
     let mut follow = |to: usize, from: usize| {
@@ -67,7 +68,8 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
     for y in (1..2 * height).rev() {
         follow(y - 1, y);
     }
-    // Along the rows. Of each parabola of the envelope its apex, its height there, and where it begins to be the lowest.
+    // Along the rows. For each parabola of the envelope: its apex, its height there, and the position from which it is
+    // the lowest.
     let mut envelope: Vec<(i64, i64, i64)> = Vec::with_capacity(2 * width);
     let half = width / 2;
     let mut squares = Vec::with_capacity(pattern.len());
@@ -81,7 +83,7 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
             let (apex, low) = (unrolled as i64 - half as i64, i64::from(step).pow(2));
             let mut from = i64::MIN;
             while let Some(&(before, height, since)) = envelope.last() {
-                // The first place at which it is lower than the one before.
+                // The first position at which it is lower than the previous one.
                 let over = (apex - before) * (apex + before) + low - height;
                 let first = over.div_euclid(2 * (apex - before)) + 1;
                 if first > since {
@@ -104,7 +106,7 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
     squares
 }
 
-/// Octaves of [`noise`]; cells a side of the first, each of the others has twice as many as the one before.
+/// Number of octaves of [`noise`], and number of cells per side of the first; each further octave has twice as many.
 const OCTAVES: u32 = 4;
 const NOISE_CELLS: usize = 4;
 
@@ -140,13 +142,13 @@ pub fn noise(edge: u32, seed: u32) -> Vec<[f32; 4]> {
     texels
 }
 
-/// Of all texels, row by row, in [0, 1).
+/// Centres of all texels, row by row, in [0, 1).
 fn centers(edge: u32) -> impl Iterator<Item = [f32; 2]> {
     let center = move |i: u32| (i as f32 + 0.5) / edge as f32;
     (0..edge).flat_map(move |y| (0..edge).map(move |x| [center(x), center(y)]))
 }
 
-/// Gradients of so many channels at the corners of so many cells a side, over the unit square, which wraps round.
+/// Gradients of N channels at the corners of the cells over the unit square, which is periodic.
 struct Lattice<const N: usize> {
     cells: usize,
     gradients: Vec<[[f32; 2]; N]>,
@@ -165,7 +167,7 @@ impl<const N: usize> Lattice<N> {
         Self { cells, gradients }
     }
 
-    /// At a place in [0, 1).
+    /// The value at a point in [0, 1).
     fn at(&self, x: f32, y: f32) -> [f32; N] {
         let n = self.cells;
         let corners = |v: f32| {
@@ -190,12 +192,12 @@ impl<const N: usize> Lattice<N> {
     }
 }
 
-/// Texels a side of which the web is made, or nearly, where fewer are asked for: those are means of them.
+/// Number of texels per side at which the web is computed; smaller webs are means of about that many texels.
 const FINE: u32 = 1024;
 
-/// A foam texture as the sea leaves it on a shore: filaments between round cells of very different sizes,
-/// thicker where they meet, some of them torn. `edge`² texels, row by row, seamless, the same at every size. It
-/// is meant to be 5 to 15 m wide: the largest cells are a fifth of it, filaments a five-hundredth.
+/// A foam texture as the sea leaves it on a shore: filaments between round cells of very different sizes, thicker where
+/// they meet, some of them torn. `edge`² texels, row by row, seamless, the same at every size. It is meant to cover 5
+/// to 15 m: the largest cells are a fifth of the side length, filaments a five-hundredth.
 ///
 /// An exact [`distance_transform`], inverted: 1 on the filaments, which are a seventh of the area, and 0
 /// farthest from them. Values in between are remapped to uniform area, so that the effect of a threshold is
@@ -219,8 +221,8 @@ pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     means
 }
 
-/// 1 where a distance is 0. Elsewhere the share of the larger ones among the distances above 0, plus half of
-/// the equal ones; 0 for the largest.
+/// 1 where a distance is 0. Elsewhere the share of larger distances among those above 0, plus half of the equal ones; 0
+/// for the largest.
 fn by_area(squares: &[i64]) -> Vec<f32> {
     let most = squares.iter().copied().max().filter(|most| *most != NOWHERE).unwrap_or(0);
     let mut counts = vec![0_u32; most as usize + 1];
@@ -310,7 +312,7 @@ impl Cells {
             let smaller = LARGEST / radius;
             for _ in 0..(TRIES * smaller * smaller) as u32 {
                 let center = [random.next(), random.next()].map(|v| v as f32);
-                // Larger ones are there already.
+                // Larger cores have already been placed.
                 if cores.iter().all(|core| core.distance(center) > (1.0 - OVERLAP) * radius) {
                     cores.push(Core { center, radius });
                 }
@@ -331,7 +333,7 @@ impl Cells {
             while x < edge {
                 let within = self.within(center(x), center(y));
                 row[x] = within < 0.0;
-                // Nearer than that there is none.
+                // No filament is nearer than that.
                 x += 1 + (within.max(0.0) / STEEP * edge as f32) as usize;
             }
         }
@@ -368,7 +370,7 @@ impl Cells {
                 nearest[2] = d;
             }
         }
-        // From the next cell, and from the one after it.
+        // Distances from the border to the second-nearest cell and to the third-nearest.
         let (second, third) = (nearest[1] - nearest[0], nearest[2] - nearest[0]);
         let radius = self.cores[own as usize].radius;
         let width = WIDTH * (1.0 + WIDTH_VARIES * bends[0][0]);
@@ -381,7 +383,8 @@ impl Cells {
         if bound > 0.0 {
             return bound;
         }
-        // What the filament is like: that of the next cell, and where another is almost as near, something of its own.
+        // Properties of the filament: those of the pair with the next cell, and near a third cell a blend with its
+        // pair.
         let reach = BLEND_MOST.min(BLEND * radius);
         let (mut torn, mut smaller, mut all) = (0.0, 0.0, 0.0);
         for i in near.iter().filter(|i| **i != own) {
@@ -396,7 +399,7 @@ impl Cells {
             }
         }
         let (torn, smaller) = (torn / all, smaller / all);
-        // A torn one is the same seen from both of its cells: nothing hides where they meet.
+        // A torn filament looks the same from both of its cells, so that no edge shows.
         let fillet = FILLET * (radius + (smaller - radius) * torn);
         rounded(fillet) - width * (1.0 - torn * third / (TORN_LENGTH * smaller))
     }
@@ -408,7 +411,7 @@ impl Cells {
     }
 }
 
-/// The cores that are among the three nearest, or nearly the second, anywhere in a tile.
+/// The cores that are among the three nearest, or nearly the second-nearest, anywhere in a tile.
 fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
     let distances: Vec<f32> = cores.iter().map(|core| core.distance(center)).collect();
     let mut nearest = [f32::INFINITY; 3];
@@ -416,7 +419,7 @@ fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
         let [first, second, third] = nearest;
         nearest = [first.min(*d), second.min(first.max(*d)), third.min(second.max(*d))];
     }
-    // Places of the tile are so far from its middle; by as much each distance may differ.
+    // Max distance of the tile's points from its centre, and so of the change of each distance.
     let half = std::f32::consts::FRAC_1_SQRT_2 / TILES as f32;
     let most = nearest[2].max(nearest[1] + BLEND_MOST) + 2.0 * half;
     (0..).zip(&distances).filter(|(_, d)| **d <= most).map(|(i, _)| i).collect()
@@ -427,7 +430,7 @@ fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
 mod tests {
     use super::*;
 
-    /// Of every texel to every texel of the pattern, the shorter way round.
+    /// Squared distance of every texel from the nearest texel of the pattern, with periodic borders, by brute force.
     fn brute(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
         let round = |a: usize, b: usize, n: usize| a.abs_diff(b).min(n - a.abs_diff(b)) as i64;
         let texels = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -438,7 +441,7 @@ mod tests {
         texels().map(|(x, y)| to(x, y).unwrap_or(NOWHERE)).collect()
     }
 
-    /// About so many of a thousand texels.
+    /// A random pattern with about this many of a thousand texels.
     fn scattered(width: usize, height: usize, thousandths: u32, seed: u32) -> Vec<bool> {
         let mut random = Random::new(seed);
         let share = f64::from(thousandths) / 1000.0;
@@ -462,7 +465,7 @@ mod tests {
                 .flat_map(|(seed, share)| [seed, seed + 100].map(|seed| (seed, share)))
                 .map(|(seed, share)| scattered(width, height, share, seed))
                 .collect();
-            // A single one, in each corner and in the middle.
+            // A single texel, in each corner and in the middle.
             for at in [0, width - 1, (height - 1) * width, width * height - 1, width * height / 2] {
                 patterns.push((0..width * height).map(|i| i == at).collect());
             }
@@ -523,7 +526,7 @@ mod tests {
         distance_transform(&[true; 5], 3, 2);
     }
 
-    /// The largest difference of neighbours across the borders, and of all others.
+    /// Max difference of neighbours across the borders, and of all others.
     fn jumps(texels: &[f32], edge: usize) -> (f32, f32) {
         let (mut across, mut within) = (0.0_f32, 0.0_f32);
         for (i, texel) in texels.iter().enumerate() {
@@ -555,13 +558,13 @@ mod tests {
         }
     }
 
-    /// Nothing of the pattern stops at a border either: where the first and the last row are on, they go on.
+    /// The pattern continues across the borders: rows and columns on both sides match.
     #[test]
     fn filaments_go_on_across_the_borders() {
         for seed in 0..4 {
             let n = 1024;
             let pattern = Cells::new(seed).pattern(n);
-            // Of the texels that are on, those whose neighbour in the next column, or row, is not.
+            // Number of texels in the pattern whose neighbour in the next column, or row, is not.
             let ends = |at: &dyn Fn(usize, usize) -> usize, from: usize| {
                 let to = (from + 1) % n;
                 let count = (0..n).filter(|i| pattern[at(from, *i)] != pattern[at(to, *i)]).count();
@@ -604,13 +607,13 @@ mod tests {
             let filaments = share(pattern.iter().filter(|on| **on).count(), pattern.len());
             assert!((0.12..0.18).contains(&filaments), "{filaments}");
             let web = web(edge, seed);
-            // Texels that hold both are means, of which some fall on the other side of a threshold.
+            // Texels partly on a filament are means, some of which fall on the other side of a threshold.
             let tolerance = if edge == FINE { 0.04 } else { 0.05 };
             for t in [0.05, 0.1, 0.25, 0.5, 0.75, 0.9] {
                 let found = share(web.iter().filter(|v| f64::from(**v) >= t).count(), web.len());
                 let expected = filaments + (1.0 - filaments) * (1.0 - t);
                 let off = (found - expected).abs();
-                // What is nearest the filaments, all at one distance, goes over at once.
+                // All texels next to a filament have the same distance, so they pass a threshold together.
                 assert!(
                     off < if t < 0.7 { 0.01 } else { tolerance },
                     "{edge} {t}: {found}, {expected}"
@@ -623,7 +626,7 @@ mod tests {
     fn a_web_is_the_same_at_every_size() {
         for seed in [1, 9] {
             let large = web(512, seed);
-            // Of the same finer one.
+            // Means of the same finer web.
             let small = web(256, seed);
             let mean = |x: usize, y: usize| {
                 let at = |i: usize, j: usize| large[(2 * y + j) * 512 + 2 * x + i];
@@ -632,7 +635,7 @@ mod tests {
             for (i, v) in small.iter().enumerate() {
                 assert!((v - mean(i % 256, i / 256)).abs() < 1.0e-5);
             }
-            // Of another, of 640 texels: at the same places nearly the same.
+            // Another size, 640 texels: nearly the same values at the same points.
             let other = web(640, seed);
             let sample = |v: usize| v * 640 / 512;
             let off = |i: usize| other[sample(i / 512) * 640 + sample(i % 512)] - large[i];
@@ -662,7 +665,7 @@ mod tests {
         }
     }
 
-    /// Of the bits of all values (FNV).
+    /// Hash of the bits of all values (FNV).
     fn hash(values: impl Iterator<Item = f32>) -> u64 {
         let one = |hash: u64, v: f32| (hash ^ u64::from(v.to_bits())).wrapping_mul(0x100_0000_01b3);
         values.fold(0xcbf2_9ce4_8422_2325, one)
@@ -674,7 +677,7 @@ mod tests {
         assert_eq!(hash(super::web(64, 1).into_iter()), web);
         assert_ne!(hash(super::web(64, 2).into_iter()), web);
         assert_ne!(hash(super::noise(64, 2).into_iter().flatten()), noise);
-        // To the last digit on every machine.
+        // Equal to the last bit on every machine.
         assert_eq!([web, noise], [10_425_592_817_350_839_320, 10_374_132_684_964_779_970]);
     }
 
@@ -697,7 +700,7 @@ mod tests {
             for c in 0..4 {
                 let channel = || noise.iter().map(|t| t[c]);
                 let mean = channel().map(f64::from).sum::<f64>() / f64::from(edge * edge);
-                // What each was rounded by, at most.
+                // Bound of the rounding error of each value.
                 assert!(mean.abs() <= f64::from(f32::EPSILON) / 4.0, "{edge} {c}: {mean}");
                 assert_eq!(channel().map(f32::abs).fold(0.0, f32::max), 1.0);
             }
@@ -706,8 +709,8 @@ mod tests {
 
     #[test]
     fn channels_of_noise_are_independent() {
-        // Of two that are, the correlation is 0 on the whole; its square is the sum of those of the octaves' shares of the
-        // variance, each over as many numbers as its gradients have.
+        // The expected correlation of two independent channels is 0. Its expected square is the sum over octaves of the
+        // squared share of the variance over the number of gradients.
         let octaves = (0..OCTAVES).map(|i| (0.25_f64.powi(i as i32), NOISE_CELLS << i));
         let variance: f64 = octaves.clone().map(|(share, _)| share).sum();
         let expected: f64 =
@@ -732,14 +735,14 @@ mod tests {
             expected.sqrt()
         );
         assert!(mean.abs() < 4.0 * (expected / pairs).sqrt(), "{mean}");
-        // Gradients do not count alike: by twice as much it may be off.
+        // Gradients have unequal weights, so the tolerance is twice that.
         assert!(square < 2.0 * expected, "{square}, {expected}");
     }
 
     #[test]
     fn the_second_derivative_of_noise_is_continuous() {
         let lattice: Lattice<4> = Lattice::new(4, &mut Random::new(5));
-        // From one border between cells to either side.
+        // Steps from a border between cells to either side.
         let step = 1.0 / 64.0;
         let mut largest = 0.0_f32;
         for y in 0..40 {
@@ -752,7 +755,8 @@ mod tests {
                 largest = largest.max((second(1, c) - second(0, c)).abs());
             }
         }
-        // The third derivative of the weights is 60 at most, of gradients that differ by 2: over two steps no more.
+        // The third derivative of the weights is at most 60, and gradients differ by at most 2; the bound is for two
+        // steps.
         assert!(largest < 2.0 * step * 60.0 * 2.0, "{largest}");
     }
 }

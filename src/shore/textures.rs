@@ -1,5 +1,5 @@
-//! Pass `web`: the textures of shoreline and contact foam with all mip levels, made once; the foam texture
-//! again from an image of the host.
+//! Pass `web`: computes the textures of shoreline and contact foam with all mip levels, once. The foam texture can be
+//! computed again from an image of the host.
 //!
 //! Reads: texels. Writes: the web (mean, mean of the square, slopes) and the noise, RGBA16F.
 
@@ -25,7 +25,7 @@ use crate::gpu::shader;
 
 /// Side length of the noise texture.
 const NOISE: u32 = 256;
-/// How all of them are read.
+/// Access to all of them.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Maximum number of mip levels of both, at 2048 and 256 texels.
 const MOST_LEVELS: u32 = 12 + 9;
@@ -92,7 +92,7 @@ impl Texture {
             image: Image::new(gpu, &ImageDesc { mips: levels, ..desc })?,
             sets: Vec::new(),
         };
-        // No image is read; any will do.
+        // No image is read, so any can be bound.
         let any = Resource::Sampled(made.image.view, gpu.samplers.nearest);
         made.sets = (0..levels)
             .map(|level| {
@@ -107,7 +107,7 @@ impl Texture {
         [(0, Resource::buffer(&self.floats)), (1, Resource::buffer(&self.halves)), (2, image)]
     }
 
-    /// Records all levels and their copy to the image. `host`: pipeline and set of the first level, if it comes
+    /// Records all levels and their copy to the image. `host` has the pipeline and set of the first level, if it comes
     /// from the host.
     fn record(
         &self,
@@ -194,7 +194,8 @@ impl Textures {
         let web = texture::web(config.texture_size, config.seed);
         let noise = texture::noise(NOISE, config.seed);
         let repeat = vk::SamplerAddressMode::REPEAT;
-        // One level, not two mixed: what a level leaves out is kept as a variance, so that the next is another by little.
+        // Mip levels are not interpolated: the detail that a level lacks is stored as a variance, so successive levels
+        // differ little.
         let sampler = vk::SamplerCreateInfo::default()
             .mag_filter(vk::Filter::LINEAR)
             .min_filter(vk::Filter::LINEAR)
@@ -231,7 +232,7 @@ impl Textures {
         gpu.end_label(cmd);
     }
 
-    /// The web of an image of the host's.
+    /// Records the web from an image of the host.
     pub fn record_foam_texture(
         &self,
         gpu: &Gpu,

@@ -1,8 +1,8 @@
 //! Pass `shore-tiles`: lists the screen tiles that may contain foam on the host's surface. Not in the sources:
 //! most of a picture has none, and this test is much cheaper than shading.
 //!
-//! Reads: scene depth, the surface's, the map of distances; the particles' depth for `contact`. Writes: lists
-//! of tiles, dispatches over them.
+//! Reads: scene depth, depth of the host's water surface, map of shore distances; for pass `contact` also the
+//! particles' water depth. Writes: lists of tiles, and the indirect arguments of dispatches over them.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -22,23 +22,23 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Number of max_splits from pixels to tiles: tiles are 8×8 (glsl/include/shore_lists.glsl).
+/// Number of halvings from pixels to tiles: tiles are 8×8 (glsl/include/shore_lists.glsl).
 const LEVEL: u32 = 3;
 /// Maximum number of tiles per run (glsl/include/shore_runs.glsl).
 const LONGEST: u32 = 16;
 /// Number of lists: tiles that may contain shoreline foam, contact foam, both; runs of tiles with any; tiles
 /// that may contain contact foam on the particles' water.
 const LISTS: u32 = 5;
-/// Arguments of an empty draw and empty dispatches, with their tile counts (likewise).
+/// Arguments of an empty draw and of empty dispatches, with their tile counts (same file).
 const NO_TILES: [[u32; 4]; 6] =
     [[4, 0, 0, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0]];
 /// Byte offset of the dispatch over the fourth list.
 pub const COAT_DISPATCH: u64 = 64;
 /// Byte offset of the dispatch over the fifth list.
 pub const CONTACT_DISPATCH: u64 = 80;
-/// How `shoreline` reads the lists.
+/// Access of `shoreline` to the lists.
 const SHADED: Access = COMPUTE_READ.and(INDIRECT);
-/// How `composite` reads the runs and their draw.
+/// Access of `composite` to the runs and their draw.
 const READ: Access = COMPUTE_READ.and(VERTEX_READ).and(INDIRECT);
 
 /// Size-dependent buffers.
@@ -50,7 +50,7 @@ struct Lists {
     marks: Buffer,
 }
 
-/// Tiles of an extent.
+/// Number of tiles of an extent, along x and y.
 pub fn extent_in_tiles(extent: vk::Extent2D) -> vk::Extent2D {
     reduced(extent, LEVEL)
 }
@@ -77,7 +77,7 @@ impl Lists {
 pub struct Tiles {
     /// Pipelines for most frames, and for the general case (glsl/include/shore.glsl).
     pipelines: [Pipeline; 2],
-    /// The same for the particles' water.
+    /// The same pipelines for the particles' water.
     on_particles: [Pipeline; 2],
     runs: Pipeline,
     /// Arguments of the draw of the tiles' quads and of the dispatches.
@@ -117,7 +117,7 @@ impl Tiles {
         Ok(())
     }
 
-    /// The lists, their dispatches and the draw of the fourth, the marks.
+    /// The lists, the arguments, and the marks.
     pub fn buffers(&self) -> [&Buffer; 3] {
         [&self.lists.list, &self.arguments, &self.lists.marks]
     }
@@ -127,7 +127,7 @@ impl Tiles {
         [extent_in_tiles(extent).width, self.lists.most]
     }
 
-    /// `general`: the frame needs the general pipeline.
+    /// `general` selects the general pipeline.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -161,7 +161,7 @@ impl Tiles {
                 (0, r.uniforms),
                 (1, r.shore),
                 (2, r.scene_depth),
-                // What a frame does not have is not read.
+                // Missing inputs are bound but not read.
                 (3, given.surface.unwrap_or(r.scene_depth)),
                 (6, given.map(gpu).unwrap_or(r.scene_depth)),
                 (9, Resource::buffer(list)),

@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use crate::error::Error;
 
-/// Signed distances from a solid of any shape, negative inside, at the points of a grid, interpolated linearly
-/// in between. Outside the grid there is nothing.
+/// Signed distances from a solid of any shape, negative inside, at the points of a grid, interpolated linearly in
+/// between. Outside the grid there is no solid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
     /// Points along each axis, 2 to 1024; x varies fastest.

@@ -1,9 +1,9 @@
 //! Pass `heap`: blob dynamics on the GPU (Huszár, Szécsi, Sec. 6; the paper uses the CPU).
 //!
-//! A blob is a ball: near neighbours attract, nearer ones repel, all fall, roll and rub on solids. A torn-off
-//! blob splits in two, repeatedly. A step has several substeps, each of which finds neighbours with a hashed
-//! grid. Buckets are sorted by id, so the same blobs move identically in every run, in any order.
-//! Reads: the host's streams and solids. Writes: balls, turns, ids, velocities.
+//! A blob is a ball. It attracts near neighbours and repels nearer ones; it falls, rolls and rubs on solids. A torn-off
+//! blob splits in two, repeatedly. A step has several substeps, each of which finds neighbours with a hashed grid.
+//! Buckets are sorted by id, so the same blobs move identically in every run, in any order. Reads: the host's streams
+//! and solids. Writes: balls, turns, ids, velocities.
 
 mod field;
 mod settings;
@@ -35,7 +35,7 @@ pub use field::DistanceField;
 use settings::GpuSolid;
 pub use settings::{BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep, Solid};
 
-/// How blobs are used between steps.
+/// Access to the blobs between steps.
 const AFTER: crate::contract::Access = COMPUTE_READ.and(COPY_READ);
 
 #[repr(C)]
@@ -145,9 +145,9 @@ pub struct BlobSimulation {
 }
 
 impl BlobSimulation {
-    /// Makes pipelines and memory: 140 to 144 bytes per slot, 4 per point of the field, and for each frame in
-    /// flight 48 per solid. There are 2^[`max_splits`](BlobSimulationConfig::max_splits) slots per blob. `field`: solids
-    /// besides those of the steps.
+    /// Creates pipelines and allocates memory: 140 to 144 bytes per slot, 4 per point of the field, and for each frame
+    /// in flight 48 per solid. There are 2^[`max_splits`](BlobSimulationConfig::max_splits) slots per blob. `field`
+    /// holds solids besides those of the steps.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -181,7 +181,7 @@ impl BlobSimulation {
         match made {
             Ok(heap) => Ok(heap),
             Err(error) => {
-                // Nothing was submitted with what was made before the failure.
+                // Nothing was submitted with the objects created before the failure.
                 gpu.destroy();
                 Err(error)
             }
@@ -214,7 +214,7 @@ impl BlobSimulation {
         let slot = |_| {
             let size = size_of::<GpuSolid>() as u64 * u64::from(config.max_solids);
             Ok(HeapSlot {
-                // One set, of ten bindings where two sets have room for sixteen.
+                // One set of ten bindings; the capacity for two sets is sixteen.
                 setting: Descriptors::new(gpu, 2)?,
                 descriptors: Descriptors::new(gpu, 4 + scan::SETS)?,
                 timer: Timer::new(gpu)?,
@@ -262,7 +262,7 @@ impl BlobSimulation {
     /// [`Error::BadInput`] with the field, before the first command.
     ///
     /// # Safety
-    /// As [`record_step`](Self::record_step).
+    /// Those of [`record_step`](Self::record_step).
     pub unsafe fn record_set(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -303,7 +303,7 @@ impl BlobSimulation {
         let ended = || Error::bad("Blobs.spheres", "ends before the first");
         let ([balls, turns, ids], places) = windows(gpu, blobs).ok_or_else(ended)?;
         let drifts = velocities.and_then(|stream| Window::new(gpu, stream, 0));
-        // Not read.
+        // Bound but not read.
         let drifts = drifts.unwrap_or(Window { resource: balls, word: 0, stride: 0 });
         let b = &self.buffers;
         let written = [&b.balls, &b.turns, &b.ids, &b.drifts, &b.spins, &b.growths];
@@ -327,14 +327,14 @@ impl BlobSimulation {
         Ok(())
     }
 
-    /// Records a step. Never submits, waits or allocates device memory.
+    /// Records a step. It never submits, waits or allocates device memory.
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command buffer.
     ///
     /// # Safety
-    /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded, before
-    /// the frames that show them.
+    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
+    /// before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -379,11 +379,11 @@ impl BlobSimulation {
         };
         for part in 0..if self.count == 0 { 0 } else { step.settings.substeps } {
             let before = moved(if part == 0 { AFTER } else { both }, both);
-            // The first go is bound to the order too.
+            // The first dispatch has the order bound as well.
             let others =
                 [buffer(b.buckets.handle, both, CLEAR), buffer(b.order.handle, both, both)];
             gpu.barriers(cmd, &[], &[&before[..], &others].concat());
-            // SAFETY: cmd is recording outside a render pass; the part before is done (barrier).
+            // SAFETY: cmd is recording outside a render pass; the previous substep has finished (barrier).
             unsafe { gpu.device.cmd_fill_buffer(cmd, b.buckets.handle, 0, vk::WHOLE_SIZE, 0) };
             gpu.barriers(cmd, &[], &[buffer(b.buckets.handle, CLEAR, both)]);
             dispatch(&p.place[0], 0, push.blobs);
@@ -406,7 +406,7 @@ impl BlobSimulation {
         let s = step.settings;
         let [x, y, z] = s.gravity;
         let (points, field) = self.field;
-        // As wide as the farthest neighbours are from each other.
+        // Cells are as wide as the max distance of neighbours.
         let cells = 1.0 / (2.0 * self.largest * s.reach);
         Push {
             gravity: [x, y, z, s.drag],
@@ -423,8 +423,8 @@ impl BlobSimulation {
         }
     }
 
-    /// The blobs after the last step, for [`Frame::bubbles`](crate::Frame::bubbles) of renderers on the same queue. Their
-    /// buffers are transfer sources too.
+    /// The blobs after the last step, for [`Frame::bubbles`](crate::Frame::bubbles) of renderers on the same queue.
+    /// Their buffers also have transfer-source usage.
     pub fn blobs(&self) -> Blobs {
         let b = &self.buffers;
         let stream = |own: &Buffer, stride: u32| {
@@ -441,13 +441,13 @@ impl BlobSimulation {
         }
     }
 
-    /// Their velocities (3×f32, m/s), in the same order.
+    /// Velocities of these blobs (3×f32, m/s), in the same order.
     pub fn velocities(&self) -> Stream {
         let size = 16 * u64::from(self.places());
         Stream { buffer: self.buffers.drifts.handle, size, offset: 0, stride: 16 }
     }
 
-    /// Their angular velocities (3×f32, 1/s), in the same order.
+    /// Angular velocities of these blobs (3×f32, 1/s), in the same order.
     pub fn spins(&self) -> Stream {
         Stream { buffer: self.buffers.spins.handle, ..self.velocities() }
     }
@@ -462,7 +462,7 @@ impl BlobSimulation {
         self.config.max_blobs << self.config.max_splits
     }
 
-    /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
+    /// Times of the slot's last finished step, in the form of [`Renderer::timings`](crate::Renderer::timings).
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(own) => own.timer.timings(&self.gpu),

@@ -9,7 +9,7 @@ use crate::water::settings::range;
 
 crate::contract::with!(BlobSimulationConfig, BlobSimulationSettings, BlobSimulationStep<'_>);
 
-/// Most parts of a step.
+/// Max number of substeps per step.
 const MOST_SUBSTEPS: u32 = 64;
 
 /// How blobs move. Lengths are in scene units; the defaults are for metres.
@@ -47,8 +47,8 @@ pub struct BlobSimulationSettings {
     pub water: Option<f32>,
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
-    /// A blob splits in two if the blobs that it touches have less than this many times its volume, [0, 100],
-    /// default 2.5. A torn-off blob becomes a clump of four and more. With [`BlobSimulationConfig::max_splits`].
+    /// A blob splits in two if the blobs that it touches have less than this many times its volume, [0, 100], default
+    /// 2.5. A torn-off blob becomes a clump of four and more. Needs [`BlobSimulationConfig::max_splits`] above 0.
     pub split_support: f32,
     /// Time that a blob must be isolated before it splits, seconds, [0, 10], default 0.1.
     pub split_delay: f32,
@@ -118,12 +118,12 @@ impl BlobSimulationSettings {
     }
 }
 
-/// What blobs collide with.
+/// A solid that blobs collide with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solid {
     /// A half space: everything behind a plane, `normal · x < distance`.
     Plane {
-        /// Unit length.
+        /// Normal, of unit length.
         normal: [f32; 3],
         /// Distance of the plane from the origin along the normal, scene units.
         distance: f32,
@@ -179,7 +179,7 @@ impl Solid {
     }
 }
 
-/// Configuration of a [`BlobSimulation`](super::BlobSimulation): what fixes its memory.
+/// Configuration of a [`BlobSimulation`](super::BlobSimulation), which determines its memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct BlobSimulationConfig {
