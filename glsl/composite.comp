@@ -1,10 +1,9 @@
 #version 460
-// Pass `composite`, compute: shades the pixels with water of the tiles' groups, where the
-// source draws one quad over the screen (thesis Sec. 4.9.3). A tile is 16 texels
-// of the first level wide, up to 64 pixels: groups of 8x8 pixels share it. Tiles lie in the second and the
-// third dimension of the dispatch: one may be too short for all, and a loop over tiles round all this
-// took one driver ten seconds to compile.
-// Reads: what shade.glsl reads, tile list and arguments. Writes: output.
+// Pass `composite`, compute: shades the pixels with water, tile by tile; the source draws one quad over the screen
+// (thesis Sec. 4.9.3). A tile is 16 texels of the first level wide, up to 64 pixels: groups of 8x8 pixels share it.
+// Tiles are in the second and third dimension of the dispatch, because one may be too short for all, and with a loop
+// over tiles one driver took ten seconds to compile.
+// Reads: inputs of shade.glsl, tile list and arguments. Writes: output.
 
 #include "frame.glsl"
 #include "medium.glsl"
@@ -25,7 +24,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// The format is the host's choice: written without a format qualifier.
+// The host chooses the format, so the image has no format qualifier.
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[]; };

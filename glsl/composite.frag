@@ -1,7 +1,7 @@
 #version 460
-// Pass `composite`, raster: shades the pixels with water of the tiles' quads. The thesis draws
-// one quad over the screen (Sec. 4.9.3).
-// Reads: what shade.glsl reads. Writes: output.
+// Pass `composite`, raster: shades the pixels with water in the quads of the tiles. The thesis draws one quad over the
+// screen (Sec. 4.9.3).
+// Reads: inputs of shade.glsl. Writes: output.
 
 #include "frame.glsl"
 #include "medium.glsl"

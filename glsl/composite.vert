@@ -1,6 +1,5 @@
 #version 460
-// Pass `composite`, raster: one quad per tile that holds water. The thesis has one over the screen
-// (Sec. 4.9.3).
+// Pass `composite`, raster: one quad per tile that holds water. The thesis draws one quad over the screen (Sec. 4.9.3).
 // Reads: tile list, levels. Writes: the quad's corners.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `blobs`: lists of blobs per tile and depth slice, front to back (the paper draws a billboard each). Three
-// dispatches: blobs to eye space, with their depth range; counts per cell; entries. Between the last two the counts
-// become exclusive prefix sums, and after the last one inclusive ones.
+// Pass `blobs`: lists of blobs per tile and depth slice, front to back (the paper draws a billboard for each blob).
+// Three dispatches: blobs to eye space, with their depth range; counts per cell; entries. Between the last two the
+// counts become exclusive prefix sums, and after the last one inclusive ones.
 // Reads: the host's streams, count. Writes: blobs, range, cells, spans, list.
 
 #include "frame.glsl"
@@ -21,7 +21,7 @@ layout(set = 0, binding = 6, std430) buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 7, std430) buffer Range { BlobRange range; };
 layout(set = 0, binding = 8, std430) buffer Cells { uint cells[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };
-// First depth slice with a blob, and the end, for each tile.
+// For each tile: the first depth slice with a blob, and the one behind the last.
 layout(set = 0, binding = 10, std430) buffer Spans { uint spans[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -35,7 +35,7 @@ layout(push_constant, std430) uniform Push {
     uint from_gpu;
 } push;
 
-// Rotation from the world to the blob's space; the host's goes the other way.
+// Rotation from the world to the blob's space. The host's rotation is the inverse.
 vec4 turn_of(uint index) {
     vec4 q = vec4(0.0, 0.0, 0.0, 1.0);
     if (push.turn_stride > 0u) {
@@ -48,9 +48,9 @@ vec4 turn_of(uint index) {
     return turned_back(q);
 }
 
-// Factor on a blob's radius by its distance, so that no blob is smaller than the limit. Of the blobs beyond, a
-// random subset is kept and enlarged so that the mean coverage stays the same (Cook et al. 2007). Blobs shrink
-// before they vanish; the mean of the squares includes that.
+// Factor on a blob's radius by its distance, so that no blob is smaller than the limit. Of the blobs farther away, a
+// random subset is kept and enlarged so that the mean coverage stays the same (Cook et al. 2007). Blobs shrink before
+// they vanish; the mean of the squares includes that.
 float merged(float radius, float distance_, uint id) {
     const float FADES = 0.5; // range of the fade, relative to the kept fraction
     float pixels = radius / max(distance_ * frame.texel.x, 1.0e-20);

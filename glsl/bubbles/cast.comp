@@ -1,7 +1,7 @@
 #version 460
-// Pass `cast`: shadow map of the blobs: distance along the light to the first one, each a ball. Blob shadows are grey,
-// not coloured as the water's: a core is opaque.
-// Reads: blobs. Writes: light's blobs, by atomics.
+// Pass `cast`: shadow map of the blobs: distance along the light to the first blob, taken as a ball. Blob shadows are
+// grey, unlike the water's, because a core is opaque.
+// Reads: blobs. Writes: the map, by atomics.
 
 #include "frame.glsl"
 #include "bubbles.glsl"

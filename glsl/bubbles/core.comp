@@ -14,7 +14,7 @@ layout(push_constant, std430) uniform Push {
     uint seed;
 } push;
 
-// Vector to the nearest feature point (cells of size 1), and how much farther the second nearest is.
+// Vector to the nearest feature point (cells of size 1), and the distance to the second nearest minus that.
 vec4 nearest_point(vec3 p, uint seed) {
     ivec3 cell = ivec3(floor(p));
     vec3 best = vec3(0.0);
@@ -54,6 +54,6 @@ void main() {
         cells *= 2.1;
         part *= 0.6;
     }
-    // Subtract the mean of what was added, a fifth.
+    // Subtract the mean of the added values, a fifth.
     imageStore(core, texel, vec4(lean, clamp(brightness - 0.2, 0.2, 1.8)));
 }

@@ -1,8 +1,8 @@
 #version 460
-// Pass `heap`, move: forces on a blob and its motion (Huszar, Szecsi, Sec. 6, on the CPU: attraction of near
-// neighbours, repulsion of nearer ones, gravity, solids). Forces derive from a potential, so the energy of a closed
-// system decreases from step to step; they begin and end continuously. A blob with too little around it splits in two,
-// one of which shrinks as the other grows.
+// Pass `heap`, move: forces on a blob and its motion (Huszar, Szecsi, Sec. 6; theirs runs on the CPU). Forces are
+// attraction of near neighbours, repulsion of nearer ones, gravity and solids. Forces derive from a potential, so the
+// energy of a closed system decreases from step to step; they begin and end continuously. A blob with too little around
+// it splits in two, one of which shrinks as the other grows.
 // Reads: heaped, buckets, solids, field. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "heap.glsl"
@@ -23,7 +23,7 @@ layout(set = 0, binding = 8, std430) readonly buffer Solids { Solid solids[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Field { float field[]; };
 layout(set = 0, binding = 10, std430) buffer Growths { Growth growths[]; };
 
-// Inverse of a ball's factor of inertia: 1 / (2/5).
+// Reciprocal of the factor 2/5 in a ball's moment of inertia.
 const float ROUND = 2.5;
 
 struct Pushed {
@@ -53,7 +53,7 @@ Pushed pushed_by(Heaped own, Heaped other) {
     float parting = dot(slip, n);
     float near = min(part, 1.0);
     vec3 across = push.damping.y * near * (slip - parting * n);
-    // The same force on both, divided by their masses.
+    // The forces on both are equal and opposite; they are divided by their masses.
     float a = own.ball.w * own.ball.w * own.ball.w;
     float b = other.ball.w * other.ball.w * other.ball.w;
     float share = 2.0 * b / (a + b);
@@ -76,7 +76,7 @@ vec4 solid_at(Solid solid, vec3 place) {
     return vec4(turned(solid.turn, n), beside > 0.0 ? beside : most);
 }
 
-// The same for the distance field: interpolated value and gradient; outside its box there is nothing.
+// The same for the distance field: interpolated value and gradient. There is no solid outside its box.
 vec4 field_at(vec3 place) {
     vec3 at = (place - push.field.xyz) / push.field.w;
     vec3 last = vec3(push.field_size.xyz) - 1.0;
@@ -113,15 +113,15 @@ void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     vec3 slip = speed - dot(speed, n) * n + cross(spin, -ball.w * n);
     slip -= dot(slip, n) * n;
     float fast = length(slip);
-    // At most what stops the point of contact: then it rolls.
+    // At most the change that stops sliding at the contact; the ball then rolls.
     float held = min(push.damping.w * gained, fast / (1.0 + ROUND));
     vec3 change = fast > 0.0 ? -held / fast * slip : vec3(0.0);
     speed += change;
     spin += ROUND / ball.w * cross(-n, change);
 }
 
-// What a blob touches: volume of the neighbours, direction towards neighbours and solids, direction out of the
-// last solid.
+// Surroundings of a blob: volume of the touching neighbours, direction towards neighbours and solids, direction out of
+// the last solid.
 struct Company {
     float volume;
     vec3 lean;
@@ -150,8 +150,8 @@ void lies_on(inout Company company, Heaped own, vec4 solid) {
     }
 }
 
-// Direction in which the other half of a blob grows: random by its number, beside what it touches, so that clumps
-// form, and not into solids.
+// Direction in which the other half of a blob grows: random by its id, next to the neighbours, so that clumps form, and
+// not into solids.
 vec3 way_apart(Heaped own, Company company) {
     uint number = pcg(floatBitsToUint(own.drift.w) ^ 0x70617274u);
     float up = float(number >> 8) / 8388608.0 - 1.0;
@@ -160,7 +160,7 @@ vec3 way_apart(Heaped own, Company company) {
     float far = length(company.lean);
     vec3 to = far > 0.0 ? company.lean / far : vec3(0.0);
     vec3 across = any_ - dot(any_, to) * to;
-    // At about 65 degrees from it: then three blobs of one size touch each other.
+    // At about 65 degrees from that direction, so that three blobs of one size touch each other.
     vec3 way = across / max(length(across), 0.01) + 0.45 * to;
     way -= 2.0 * min(dot(way, company.ground), 0.0) * company.ground;
     return way / max(length(way), 0.01);

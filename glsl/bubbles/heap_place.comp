@@ -6,7 +6,7 @@
 #include "heap.glsl"
 
 layout(local_size_x = 64) in;
-// 0: numbers, 1: which.
+// 0: counts. 1: entries.
 layout(constant_id = 0) const uint GO = 0;
 
 layout(set = 0, binding = 0, std430) readonly buffer Balls { vec4 balls[]; };

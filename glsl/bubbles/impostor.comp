@@ -1,7 +1,7 @@
 #version 460
 // Pass `impostor`: cube maps of the blobs' outermost surface, once per renderer (Huszar, Szecsi, Sec. 4.2, 4.3): all
-// six faces of all blobs in one dispatch, where the paper uses a geometry shader. Two maps: distance from the centre,
-// and index of the bubble.
+// six faces of all blobs in one dispatch (the paper uses a geometry shader). Two maps: distance from the centre, and
+// index of the bubble.
 // Reads: bubbles. Writes: distances (R32F), ids (bytes).
 
 #include "cube.glsl"

@@ -1,8 +1,10 @@
 #version 460
-// Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs (Akinci et al. 2013 draw no foam there;
-// blobs by Huszar, Szecsi): a particle's blob grows as its sprite shrinks. Two dispatches over the particles: a
-// histogram of their distances, then the blobs for which there are slots.
-// Reads: positions, kinds, radii, ages, ids, arguments, crossfade. Writes: numbers; count, balls, turns, blob ids.
+// Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs: a particle's blob grows as its sprite
+// shrinks. (Akinci et al. 2013 draw no foam near the camera; blobs by Huszar, Szecsi.) Two dispatches over the
+// particles: the first builds a histogram of their distances; the second writes the blobs nearer than the distance up
+// to which there are enough slots.
+// Reads: positions, kinds, radii, ages, ids, particle counts, cross-fade distances. Writes: histogram (first); count,
+// spheres, orientations and ids of the blobs (second).
 
 #include "frame.glsl"
 #include "falloff.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // Pass `near`, between its dispatches: the distance up to which there are enough slots. If there are too few, the
 // cross-fade moves nearer for all particles, so that no blob is cut off half-way.
-// Reads: numbers. Writes: crossfade.
+// Reads: histogram. Writes: cross-fade distances.
 
 #include "frame.glsl"
 #include "crossfade_rings.glsl"

@@ -1,8 +1,8 @@
 #version 460
-// Pass `peel` by tiles: the nearest blobs of each pixel, and the maximum opacity of all (Huszar, Szecsi, Sec. 5, which
-// draws all once per layer and once more). Here in one pass: a pixel walks its tile's blobs slice by slice from the
-// front, keeps the nearest, and stops where nothing behind can change the result.
-// Reads: blobs, range, cells, spans, list, scene depth, what blob.glsl reads. Writes: layers, bubble depth (R32F).
+// Pass `peel` by tiles: the nearest blobs of each pixel, and the maximum opacity of all (Huszar, Szecsi, Sec. 5, draw
+// all blobs once per layer and once more). Here one pass suffices: a pixel iterates over its tile's blobs slice by
+// slice from the front, keeps the nearest, and stops when no farther blob can change the result.
+// Reads: blobs, range, cells, spans, list, scene depth, inputs of blob.glsl. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"
 #include "bubbles.glsl"
@@ -19,7 +19,7 @@ layout(set = 0, binding = 4, std430) readonly buffer Range { BlobRange range; };
 layout(set = 0, binding = 5, std430) readonly buffer Cells { uint cells[]; };
 layout(set = 0, binding = 6, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 12, std430) readonly buffer Spans { uvec2 spans[]; };
-// For each pixel its layers, front to back, then the greatest opacity.
+// For each pixel its layers, front to back, then the max opacity.
 layout(set = 0, binding = 7, std430) writeonly buffer Layers { uint layers[]; };
 layout(set = 0, binding = 11, r32f) uniform writeonly image2D bubble_depth;
 
@@ -45,7 +45,7 @@ void main() {
     uvec2 span = spans[tile.y * bubbly.tiles.x + tile.x];
     uint slice = span.x;
     bool done = span.x >= span.y;
-    // Loops have their condition at the end: lavapipe runs what follows a break once more.
+    // Loops have their condition at the end, because lavapipe runs the code after a break once more.
     while (!done) {
         uint cell = cell_of(slice, tile);
         uint place = cell > 0u ? min(cells[cell - 1u], bubbly.tiles.w) : 0u;
@@ -81,7 +81,7 @@ void main() {
         for (uint i = 0u; i < LAYERS; ++i) {
             behind *= 1.0 - opacities[i];
         }
-        // No layer still to come could plug a visible hole.
+        // No layer still to come could fill a visible hole.
         bool hidden = min(through, behind) < HIDDEN || bubbly.mirror.w < 0.5;
         bool full = depths[LAYERS - 1u] <= begin && hidden;
         done = slice >= span.y || full || begin >= scene;

@@ -1,6 +1,7 @@
 #version 460
-// Pass `peel`, a layer: the nearest blob behind the layer before (depth peeling, Everitt 2001; Huszar, Szecsi, Sec. 5).
-// Reads: what billboard.glsl reads, the layer before. Writes: depth and number of the layer.
+// Pass `peel`, a layer: the nearest blob behind the previous layer (depth peeling, Everitt 2001; Huszar, Szecsi, Sec.
+// 5).
+// Reads: inputs of billboard.glsl, the previous layer. Writes: depth and number of the layer.
 
 #include "billboard.glsl"
 

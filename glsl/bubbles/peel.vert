@@ -1,5 +1,5 @@
 #version 460
-// Pass `peel`, billboards (Huszar, Szecsi, Sec. 5): one round the pixels of each blob.
+// Pass `peel`, billboards (Huszar, Szecsi, Sec. 5): a quad around the pixels of each blob.
 // Reads: blobs. Writes: the corners of its quad.
 
 #include "frame.glsl"

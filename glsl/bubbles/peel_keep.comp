@@ -1,6 +1,6 @@
 #version 460
-// Pass `peel`, raster path: copies the result of a draw to where the tiled path stores it.
-// Reads: layer or opacity, blobs, what blob.glsl reads. Writes: layers, bubble depth (R32F).
+// Pass `peel`, raster path: copies the result of a draw to the buffer of the tiled path.
+// Reads: layer or opacity, blobs, inputs of blob.glsl. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"
 #include "bubbles.glsl"

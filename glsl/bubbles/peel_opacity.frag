@@ -1,6 +1,6 @@
 #version 460
 // Pass `peel`, opacity: the maximum over all blobs (Huszar, Szecsi, Sec. 5).
-// Reads: what billboard.glsl reads. Writes: opacity, by MAX blending.
+// Reads: inputs of billboard.glsl. Writes: opacity, by MAX blending.
 
 #include "billboard.glsl"
 

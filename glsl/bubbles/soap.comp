@@ -1,10 +1,9 @@
 #version 460
-// Pass `soap`: shades the blobs of a pixel, front to back (Huszar, Szecsi, Sec. 4.4 and 5). Each layer composites
-// front film, wall, core and back film. Water in front of a layer attenuates it and adds its own light in proportion
-// to the layer's opacity, so the background behind all layers keeps its value, in water or not.
-// Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, what blob.glsl and sunlight.glsl
-// read.
-// Writes: bubbles (RGBA16F), premultiplied.
+// Pass `soap`: shades the blobs of a pixel, front to back (Huszar, Szecsi, Sec. 4.4 and 5). Each layer composites front
+// film, wall, core and back film. Water in front of a layer attenuates it and adds its own light in proportion to the
+// layer's opacity, so the background behind all layers keeps its value, in water or not.
+// Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, inputs of blob.glsl and
+// sunlight.glsl. Writes: bubbles (RGBA16F), premultiplied.
 
 #include "frame.glsl"
 #include "medium.glsl"
@@ -121,8 +120,8 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
     return other;
 }
 
-// Light of a blob's layer, and its transmittance `through`. `opacity`: of the core as pass `peel` knows it,
-// and behind a wall.
+// Light of a blob's layer, and its transmittance `through`. `opacity` is that of the core, as in pass `peel`, and
+// behind a wall.
 vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 opacity) {
     BlobRay ray = look.ray;
     vec2 way = ray.span;
@@ -155,8 +154,8 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
         float b = distance_at(which, round_ + other) - distance_at(which, round_ - other);
         normal = normalize(round_ - (a * side + b * other) / (2.0 * 0.03 * 0.03 * length(met)));
     }
-    // Bubbles too small to be seen are a rough white ball, and a ball too small is its visible side: the mean
-    // of their light instead of that of one point.
+    // Bubbles too small to be seen are shaded as a rough white ball, and a ball that is too small as the mean over its
+    // visible side, instead of one point.
     float pixels = radius * look.pixels;
     float fine = smoothstep(0.7, 3.0, pixels);
     vec3 ball = normalize(mix(-ray.direction, round_, smoothstep(0.7, 3.0, look.pixels)));
@@ -239,7 +238,7 @@ void main() {
     vec3 color = vec3(0.0);
     vec3 left = vec3(1.0);
     vec3 body = vec3(0.0);
-    // Depth of the water's surface, and metres of water behind it, without possible air between.
+    // Depth of the water's surface, and thickness of the water behind it in metres; air in between is ignored.
     float surface = texelFetch(water_depth, pixel, 0).x;
     float room = surface < EMPTY && frame.target.z >= FRONT_WATER ? water_at(vec2(pixel) + 0.5) : 0.0;
     float metres = 0.0;
@@ -282,9 +281,8 @@ void main() {
         more = open && i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
     }
     float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
-    // Holes between the layers are as opaque as the layers themselves turned out (Sec. 5), or as what lies
-    // farther, if `peel` looked that far. The comparison allows for half precision, in which that was
-    // blended.
+    // Holes between the layers get the opacity of the layers themselves (Sec. 5), or that of blobs behind them, if
+    // `peel` evaluated them. The comparison allows for half precision, in which opacities were blended.
     most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
     float plug = bubbly.mirror.w > 0.5 ? max(most - covered, 0.0) : 0.0;
     color += through_medium(plug * body, vec3(plug), metres).rgb;

@@ -1,5 +1,5 @@
 #version 460
-// Pass `environment`: irradiance divided by 2 pi, so that a constant environment of 1 gives one half, as the samples
+// Pass `environment`: irradiance divided by 2 pi, so that a constant environment of 1 gives one half, as do the samples
 // that it replaces (Akinci et al. 2013, Sec. 2.4.2).
 // Reads: environment. Writes: irradiance (RGBA16F), octahedral with a border.
 

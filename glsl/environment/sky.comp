@@ -1,6 +1,6 @@
 #version 460
 // Pass `environment`: the built-in sky (atmosphere.glsl) into the cube's first mip.
-// Reads: the sun alone. Writes: environment (RGBA16F), all faces.
+// Reads: only the sun. Writes: environment (RGBA16F), all faces.
 
 #include "cube.glsl"
 #include "atmosphere.glsl"

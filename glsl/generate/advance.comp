@@ -1,7 +1,7 @@
 #version 460
 // Pass `advance`: moves the existing whitewater particles: spray flies, foam is advected by the water, bubbles rise in
 // it; only foam ages (Ihmsen et al. 2012, Sec. 3.3 and 3.4).
-// Reads: the grid. Writes: whitewater particles, gone.
+// Reads: the grid. Writes: whitewater particles, flags of free slots.
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -16,7 +16,7 @@ layout(set = 0, binding = 7, std430) writeonly buffer Kinds { uint kinds[]; };
 // 1 for each free slot.
 layout(set = 0, binding = 8, std430) writeonly buffer Gone { uint gone[]; };
 
-// Not requested: 0.
+// No emission here, so the rate is 0.
 float rate_of(uint j) {
     return 0.0;
 }
@@ -46,7 +46,7 @@ void visit(uint i) {
     // Comparisons with NaN are false.
     bool inside = all(greaterThanEqual(particle.position, vec3(push.low_x, push.low_y, push.low_z)))
                && all(lessThanEqual(particle.position, vec3(push.high_x, push.high_y, push.high_z)));
-    // A particle outside the grid is removed, as in the fluid.
+    // Particles outside the grid's range are removed, as fluid particles are.
     inside = inside && all(lessThan(abs(particle.position), vec3(min(1.0e18, 2147483648.0 * push.spacing))));
     bool stays = inside && particle.age < 1.0;
     particle.age = stays ? particle.age : 1.0;

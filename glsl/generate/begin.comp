@@ -1,5 +1,5 @@
 #version 460
-// Pass `grid`, first part: number of particles of the step.
+// Pass `grid`, first part: stores the number of particles of the step.
 // Reads: the host's count. Writes: counts.
 
 #include "random.glsl"
@@ -12,7 +12,7 @@ layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count
 layout(set = 0, binding = 2, std430) buffer CountBuffer { GenerateCounts counts; };
 
 void main() {
-    // If the host knows the count, it is the capacity. The state of another generator (the host's mistake) is
+    // If the host knows the count, it is the capacity. A restored state of another generator (an error of the host) is
     // clamped to the capacity.
     counts.high = min(counts.high, push.most);
     counts.fluid = FROM_GPU == 1u ? min(host_count, push.capacity) : push.capacity;

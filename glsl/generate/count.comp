@@ -1,6 +1,8 @@
 #version 460
-// Pass `grid`: number of particles in each bucket.
-// Reads: counts, positions, velocities. Writes: buckets; clears wanted and potentials.
+// Pass `grid`: counts the particles in each bucket. It needs velocities because particles with an invalid velocity are
+// dropped.
+// Reads: number of particles, positions, velocities. Writes: bucket counts; clears the potentials and the number of
+// whitewater particles to emit.
 
 #include "random.glsl"
 #include "fluid.glsl"

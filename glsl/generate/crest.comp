@@ -1,7 +1,7 @@
 #version 460
 // Pass `crest`: wave-crest potential (curvature where the surface moves outwards), and from all potentials the number
 // of whitewater particles to emit (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
-// Reads: the grid, normals, potentials. Writes: potentials, rates, wanted.
+// Reads: the grid, normals, potentials. Writes: potentials, emission rates, number of particles to emit.
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -13,12 +13,12 @@ layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCount
 layout(set = 0, binding = 5, std430) readonly buffer Normals { vec4 normals[]; };
 layout(set = 0, binding = 6, std430) buffer Potentials { vec4 potentials[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Wanted { uint wanted[]; };
-// In the grid's order: fraction of the largest rate per second.
+// Fraction of the max emission rate, in the grid's order.
 layout(set = 0, binding = 8, std430) writeonly buffer Rates { float rates[]; };
 
 // Cosine of the angle to the normal within which a crest moves.
 const float ALONG = 0.6;
-// Most whitewater particles per fluid particle and step.
+// Max number of whitewater particles per fluid particle and step.
 const float MOST_MADE = 64.0;
 
 // Curvature from convex neighbours only: those below the tangent plane.

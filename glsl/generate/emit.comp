@@ -1,8 +1,9 @@
 #version 460
-// Pass `emit`: new whitewater particles, in a cylinder along the path of each fluid particle in the step (Ihmsen et
-// al. 2012, Sec. 3.2). They take the free slots in the order of the fluid's particles. In a snapshot they are placed
-// within a spacing of the particle, with the age of their moment.
-// Reads: the grid, normals or stages, wanted (exclusive prefix sum), free. Writes: whitewater particles.
+// Pass `emit`: new whitewater particles, in a cylinder along the path of each fluid particle in the step (Ihmsen et al.
+// 2012, Sec. 3.2). They take the free slots in the order of the fluid's particles. In a snapshot they are placed within
+// a spacing of the particle, with the age of their stage.
+// Reads: the grid, normals or stages, number of particles to emit (exclusive prefix sum), free slots. Writes:
+// whitewater particles.
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -41,7 +42,7 @@ void visit(uint i) {
     }
     vec3 velocity = motions[i].velocity;
     float speed = length(velocity);
-    // A particle at rest may emit too, where foam has come to it: then around the up axis.
+    // A particle at rest may emit too, where foam has flowed to it; the cylinder's axis is then the up direction.
     vec3 ahead = speed > 0.0 ? velocity / speed : vec3(0.0, 1.0, 0.0);
     float way = SNAPSHOT == 0u ? push.dt * speed : speed > 0.0 ? push.spacing : 0.0;
     vec3 x;
@@ -51,7 +52,7 @@ void visit(uint i) {
     uint id = places[i].id;
     // The particle that emits it counts as a neighbour, as in later steps.
     uint kind = kind_of(uint(uintBitsToFloat(normals[i].w)) + 1u);
-    // Earlier random numbers belong to the stages.
+    // In a snapshot, the first random numbers are used by the stages.
     uint random = SNAPSHOT == 0u ? 1u : 32u;
     uint stage = 0u;
     uint of_stage = normals[i].x & MOST_OF_STAGE;

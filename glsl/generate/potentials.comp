@@ -15,8 +15,8 @@ layout(set = 0, binding = 5, std430) writeonly buffer Normals { vec4 normals[]; 
 // In the order of the step: trapped air, wave crest, energy, number of neighbours.
 layout(set = 0, binding = 6, std430) writeonly buffer Potentials { vec4 potentials[]; };
 
-// Least distance of the neighbours' weighted mean, per sum of weights, for a particle at the surface: on a flat
-// surface it is 0.3, inside 0.
+// Min length of the neighbours' weighted mean vector, per sum of weights, of a particle at the surface: it is 0.3 on a
+// flat surface and 0 inside.
 const float AT_SURFACE = 0.15;
 
 void visit(uint i) {

@@ -1,8 +1,8 @@
 #version 460
 // Pass `trace`, snapshots only: number of whitewater particles that a steady flow would have left at each water
-// particle, from the emission at the places where its water came from. Ihmsen et al. 2012 simulate sequences only; a
-// single frame has nothing but its own flow.
-// Reads: the grid, rates. Writes: stages (in place of normals), wanted.
+// particle, from the emission along the path of its water. Ihmsen et al. 2012 simulate sequences only; a single frame
+// only has its own flow.
+// Reads: the grid, emission rates. Writes: stages (in place of normals), number of particles to emit.
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -23,7 +23,7 @@ float rate_of(uint j) {
 #include "generate_water.glsl"
 #include "generate_stages.glsl"
 
-// Fraction of foam of an age that is left: lifetimes are uniform between the least and the greatest.
+// Fraction of foam of an age that is still alive: lifetimes are uniform between min and max.
 float left_of(float seconds) {
     float rest = push.life_most - seconds;
     return seconds < push.life_least ? 1.0 : clamp(rest / max(push.life_most - push.life_least, 1.0e-20), 0.0, 1.0);

@@ -1,11 +1,10 @@
-// A physically based clear sky: single scattering of the sun in a Rayleigh and Mie atmosphere
-// (Nishita et al. 1993; Rayleigh coefficient and layers of Bruneton and Neyret 2008), and a term for the light that
-// scatters more often, fitted to a Monte Carlo solution over ground of albedo 0.2: the irradiance of the sky on level ground
-// is within 6 % of it for suns above 30 degrees, 18 % in blue at 10 degrees.
-// The three wavelengths are 645, 553 and 443 nm: with those the spectral sky's colour in Rec. 709 is met within 4 %.
-// The coefficients at 550 nm go with the wavelength to the power -4 (Rayleigh) and -1.3 (aerosol, Angstrom's exponent). The
-// aerosol's optical depth to the zenith is 0.1, that of a clear day; its single-scattering albedo is 0.9.
-// Lengths in kilometres.
+// A physically based clear sky: single scattering of the sun in a Rayleigh and Mie atmosphere (Nishita et al. 1993;
+// Rayleigh coefficient and layers of Bruneton and Neyret 2008), and a term for the light that scatters more often,
+// fitted to a Monte Carlo solution over ground of albedo 0.2: the irradiance of the sky on level ground is within 6 %
+// of it for suns above 30 degrees, 18 % in blue at 10 degrees. The three wavelengths are 645, 553 and 443 nm, which
+// give the colour of the spectral sky in Rec. 709 within 4 %. The coefficients are given at 550 nm and scale with the
+// wavelength to the power -4 (Rayleigh) and -1.3 (aerosol, Angstrom's exponent). The aerosol's optical depth to the
+// zenith is 0.1, that of a clear day; its single-scattering albedo is 0.9. Lengths in kilometres.
 
 const float EARTH = 6360.0;
 const float TOP = 6420.0;
@@ -44,7 +43,7 @@ vec3 transmittance(vec2 depth) {
 vec3 sky_radiance(vec3 direction, vec3 sun) {
     const int steps = 24;
     float eye = EARTH + 0.05;
-    // The horizon itself is the lowest direction that is marched.
+    // The horizon is the lowest direction that is integrated.
     float up = max(direction.y, 0.003);
     vec3 d = normalize(vec3(direction.x, up, direction.z));
     float span = leave_sphere(eye, d.y, TOP);

@@ -2,7 +2,8 @@
 // 2013, Eq. 16, the inverse of G without 1/h). Six 16-bit numbers, whose steps move the surface by less than a 5000th
 // of the radius. Needs nothing.
 
-// None of them is larger: of ratio 8, the largest axis of a flat or long one of the sphere's volume.
+// Limit of all elements: the longest axis of an ellipsoid of ratio 8 with the sphere's volume, flat or elongated, is
+// less.
 const float MOST_AXIS = 4.0;
 
 uvec3 pack_axes(mat3 axes) {

@@ -2,13 +2,13 @@
 // absorption; not in the thesis).
 // Needs frame.glsl, medium.glsl, and of shade.glsl a sheet and its ladder. Reads: nothing.
 
-// Colour of what lies under a sheet, from its colour when dry. The surface lets 1 - F of the incoming light in. Of the light
-// that the bed scatters, the share q = (1 - F)/n^2 leaves the water, and the surface reflects the rest back to the bed. The
-// bed's albedo A scatters part of that again, and so on: together q/(1 - A (1 - q)) leaves, which is 1 for white. The
-// reflection of the view ray is applied with what the sheet mirrors.
-// Sunlight is absorbed along its refracted path down, skylight along the mean path of an even sky. Light between two
-// scatterings goes up and down inside, mostly by total reflection and so at flat angles: five such mean paths. `over`
-// applies the absorption on the way to the eye.
+// Colour of the scene under a sheet of water, from its dry colour. The surface lets 1 - F of the incoming light in. Of
+// the light that the bed scatters, the share q = (1 - F)/n^2 leaves the water, and the surface reflects the rest back
+// to the bed. The bed's albedo A scatters part of that again, and so on: together q/(1 - A (1 - q)) leaves, which is 1
+// for white. The reflection of the view ray is part of the sheet's own reflection. Sunlight is absorbed along its
+// refracted path down, skylight along the mean path of an even sky. Light between two scatterings goes up and down
+// inside, mostly by total reflection and so at flat angles: five such mean paths. `over` applies the absorption on the
+// way to the eye.
 vec3 under_water(Sheet sheet, vec3 dry) {
     vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
     vec3 sky = exp(-extinction * (frame.bed.y * sheet.down));

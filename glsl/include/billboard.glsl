@@ -1,5 +1,4 @@
-// A blob in a pixel of its billboard. Needs nothing else included before. Reads: scene depth, blobs, what blob.glsl
-// reads.
+// A blob in a pixel of its billboard. Needs nothing. Reads: scene depth, blobs, inputs of blob.glsl.
 
 #include "frame.glsl"
 #include "bubbles.glsl"

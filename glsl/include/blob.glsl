@@ -14,8 +14,7 @@ layout(set = 0, binding = 8, std430) readonly buffer Bubbles { vec4 bubbles[]; }
 layout(set = 0, binding = 9) uniform sampler2DArray blob_distances;
 // Four texels per word.
 layout(set = 0, binding = 10, std430) readonly buffer BlobIds { uint blob_ids[]; };
-// For each bubble, the numbers of sixteen that it intersects, a byte each; its own number where there are
-// fewer.
+// For each bubble, the indices of sixteen bubbles that it intersects, a byte each; its own index if there are fewer.
 layout(set = 0, binding = 13, std430) readonly buffer Neighbours { uvec4 neighbours[]; };
 
 const uint NO_BUBBLE = 0xffffffffu;

@@ -1,9 +1,9 @@
-// What stands for a block of pixels in the smoothing (thesis Sec. 4.7 scales the depth down). Needs
+// The depth that represents a block of pixels in the smoothing (thesis Sec. 4.7 scales the depth down). Needs
 // frame.glsl and the image `depth`.
 
-// The depth that stands for a block of pixels: that of its nearest surface, but where that is less
-// than a quarter of the block's water of the one behind it. A drop would hide a texel's worth of
-// the pool from the smoothing; it is drawn by its own shape anyway.
+// The depth that represents a block of pixels: that of its nearest surface, unless that surface covers less than a
+// quarter of the block's water; then that of the surface behind. A drop would otherwise hide a texel of the pool from
+// the smoothing; it is drawn with its own shape anyway.
 float block_depth(ivec2 first, ivec2 end, float nearest) {
     float second = EMPTY;
     int own = 0;

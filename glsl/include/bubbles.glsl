@@ -1,4 +1,4 @@
-// What the passes of bubble foam share. Needs frame.glsl. Reads: the block of bubble foam.
+// Shared by the passes of bubble foam. Needs frame.glsl. Reads: the block of bubble foam.
 
 #include "quaternion.glsl"
 
@@ -26,7 +26,7 @@ struct Blob {
 // Range and counts of all blobs.
 struct BlobRange {
     uint nearest;  // bits of the depth of the nearest point of the nearest blob
-    uint farthest; // the same of the farthest blob
+    uint farthest; // the same for the farthest blob
     uint seen;     // blobs on the screen
     uint dropped;  // invalid blobs
     uint taken;    // entries in the tiles' lists; if there are more than fit, the farthest are lost
@@ -46,8 +46,7 @@ float slice_begin(BlobRange range, uint slice) {
 uint slice_of(BlobRange range, float depth) {
     float place = (depth - uintBitsToFloat(range.nearest)) / slice_width(range);
     uint slice = min(uint(max(place, 0.0)), bubbly.tiles.z - 1u);
-    // Compares with the exact value of `slice_begin`, so that what lies in a slice never lies before its
-    // beginning.
+    // Compares with the exact value of `slice_begin`, so that no depth in a slice is less than the slice's beginning.
     return slice > 0u && depth < slice_begin(range, slice) ? slice - 1u : slice;
 }
 

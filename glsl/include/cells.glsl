@@ -1,5 +1,4 @@
-// Cells of the grid of neighbours. Needs random.glsl and a push constant with `cells`, how many there are along a
-// unit of length, and `buckets`.
+// Cells of the neighbour grid. Needs random.glsl and push constants `cells` (cells per unit of length) and `buckets`.
 
 ivec3 cell_of(vec3 position) {
     // `precise`, so that all passes compute the same cell.

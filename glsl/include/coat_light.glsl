@@ -1,6 +1,6 @@
 // Light reflected by foam on the scene's water. Needs frame.glsl.
 
-// In all light; less by `lost` where none of the sun's comes there.
+// Full light; multiplied by 1 - `lost` where sunlight is missing.
 struct CoatLight {
     vec4 shore;        // w: opacity
     vec3 shore_lost;

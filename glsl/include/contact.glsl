@@ -3,8 +3,8 @@
 
 layout(set = 0, binding = 30) uniform sampler2D contact_mask;
 
-// Distance of the scene's point from the surface's on the same ray; large if there is none. The vertical measure
-// is also large on a ray that does not go down, because what is behind is then not below.
+// Distance between the scene's point and the surface's on the same ray; large if there is no scene. The vertical
+// measure is also large for a ray that does not go down, because the scene behind is then not below.
 float contact_distance(vec3 ray, float z, float scene) {
     float far = scene > 0.0 ? scene - z : EMPTY;
     if (shore.contact.w == 0.0) {
@@ -32,7 +32,7 @@ vec3 pattern_at(vec2 pixel, vec2 p, mat2 across) {
     return pattern;
 }
 
-// Coverage of contact foam. far: distance divided by the foam's depth.
+// Coverage of contact foam. `far` is the distance divided by the foam's depth.
 float contact_foam(float far, float pattern) {
     return eased((1.0 - clamp(far, 0.0, 1.0)) * mix(1.0, clamp(pattern, 0.0, 1.0), shore.contact.z));
 }

@@ -16,13 +16,12 @@ float along_light(float depth) {
         / (frame.shadow_linear.z * depth + frame.shadow_linear.w);
 }
 
-// The span stores the bits of the least depth and the inverted bits of the greatest.
+// The span stores the bits of the min depth and the inverted bits of the max.
 bool span_holds(uvec4 span) {
     return span.x != NO_SPAN;
 }
 
-// 0 at the nearest texel, 1 - 4 ramps at the farthest. The series is periodic, so both ends keep the room that it
-// needs to rise.
+// 0 at the nearest texel, 1 - 4 ramps at the farthest. The series is periodic, so both ends keep a margin for its rise.
 float span_place(float depth, uvec4 span) {
     vec2 ends = vec2(along_light(uintBitsToFloat(span.x)), along_light(uintBitsToFloat(~span.y)));
     ends = frame.shadow_map.y > 0.0 ? ends : ends.yx;

@@ -1,4 +1,4 @@
-// Per-chunk counters that are draw and dispatch arguments at once (src/water/cull.rs).
+// Per-chunk counters that also serve as draw and dispatch arguments (src/water/cull.rs).
 
 struct Counts {
     uint small;           // points: vertexCount. Small sprites, at the front of the list

@@ -5,7 +5,7 @@
 // Not read without blobs.
 layout(set = 0, binding = 11, std430) readonly buffer Over { Crossfade crossfade; };
 
-// RINGS or more: too far for blobs.
+// Histogram bin of a distance; RINGS or more is too far for blobs.
 uint ring_of(float distance_) {
     return distance_ < frame.whitewater.z ? min(uint(distance_ / frame.whitewater.z * float(RINGS)), RINGS - 1u) : RINGS;
 }

@@ -10,7 +10,7 @@ vec3 cube_direction(ivec3 texel, int size) {
     return normalize(d);
 }
 
-// Position of a direction (any length but 0) on a cube: across and down its face, 0 to 1, and the face.
+// Position of a direction (any length except 0) on a cube: across and down its face, 0 to 1, and the face.
 vec3 cube_place(vec3 d) {
     vec3 a = abs(d);
     vec3 p; // across, down, along the face's axis
@@ -34,7 +34,7 @@ ivec3 cube_texel(vec3 d, int size) {
     return ivec3(clamp(ivec2(place.xy * float(size)), ivec2(0), ivec2(size - 1)), int(place.z));
 }
 
-// A world direction in axes with y up, from the world's up direction and x axis.
+// A world direction in axes with y up, given the world's up direction and x axis.
 vec3 standing(vec3 direction, vec3 east, vec3 up) {
     return vec3(dot(direction, east), dot(direction, up), dot(direction, cross(east, up)));
 }

@@ -1,6 +1,5 @@
-// One step of curvature flow at a pixel (thesis Sec. 2.5.3 and 4.7, Listing A.13). z is the eye depth.
-// What differs stands at each step. Needs nothing.
-// `precise`: raster and compute forms must agree bit for bit.
+// One step of curvature flow at a pixel (thesis Sec. 2.5.3 and 4.7, Listing A.13). z is the eye depth. Differences from
+// the thesis are described at each step. Needs nothing. `precise`: raster and compute forms must agree bit for bit.
 
 struct Stencil {
     float z;          // centre
@@ -57,10 +56,10 @@ float source_step(Stencil s, vec2 c, float falloff, float epsilon) {
     return moved;
 }
 
-// Mean curvature flow of the surface P = (slope, -1) z from its two fundamental forms, so that the width
-// smoothed along the surface does not depend on distance, slant or position in the image. (The thesis' D
-// leaves the ray's slope out: it is correct only on the optical axis, and planes drift away.) g: signed slope
-// per pixel. kappa: diffusion in square pixels for a surface that faces the eye.
+// Mean curvature flow of the surface P = (slope, -1) z from its two fundamental forms, so that the width smoothed along
+// the surface does not depend on distance, slant or position in the image. (The thesis' D omits the ray's slope, so it
+// is correct only on the optical axis, and planes drift away.) `g` is the signed slope per pixel, `kappa` the diffusion
+// in square pixels for a surface that faces the eye.
 float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     Derivatives z = derivatives(s, falloff, true);
     precise float ww = 1.0 + slope.x * slope.x + slope.y * slope.y;
@@ -71,7 +70,7 @@ float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     precise float h = ww * z.y * z.y + gy * (2.0 * slope.y * z.y + gy);
     precise float bend = 2.0 / s.z;
     precise float l = z.xx - bend * z.x * z.x;
-    // Without z_xy there is no M at all: half of it would bend a plane.
+    // Without z_xy the whole term is 0: half of it would bend a plane.
     precise float mixed = z.xy - bend * z.x * z.y;
     precise float m = z.has_xy ? mixed : 0.0;
     precise float n = z.yy - bend * z.y * z.y;

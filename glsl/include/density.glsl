@@ -1,7 +1,7 @@
 // Classification of a particle by its density: spray or bulk (thesis Sec. 4.9.5 has a hard threshold). Needs
 // frame.glsl.
 
-// From 0, all spray, to 1, all of it water or foam, over a range of densities.
+// 0 for pure spray to 1 for pure water or foam, over a range of densities.
 float risen(float full, float density) {
     // The edges are never equal: GLSL leaves that undefined.
     float end = max(full, frame.density.x * 1.000001 + 1.0e-6);
@@ -16,11 +16,11 @@ float share_of_spray(float density) {
     return 1.0 - risen(frame.density.z, density);
 }
 
-// Lower bound of torn_of: that of a particle that is entirely spray.
+// Min value of torn_of: that of a particle that is entirely spray.
 const float LEAST_TORN = 0.3;
 
-// Fraction of the droplets that a particle has, by its share of spray: water being torn is many fine ones, a particle that
-// is entirely spray is a few large drops. Its fraction of mist is the cube.
+// Fraction of the droplets that a particle has, by its share of spray: water that is being torn has many fine droplets,
+// a particle that is entirely spray a few large ones. The fraction of mist is the cube of this.
 float torn_of(float share) {
     return frame.density.w > 1.0 ? clamp(4.0 * (1.0 - share), LEAST_TORN, 1.0) : 1.0;
 }

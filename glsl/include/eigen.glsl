@@ -1,10 +1,10 @@
 // Eigenvalues and eigenvectors of a symmetric matrix by a fixed number of Jacobi rotations (Golub and Van Loan 2013,
 // Sec. 8.5), so that no matrix hangs a device. Needs nothing.
 
-// Turns the axes p and q so that a_pq is 0; r is the third.
+// Rotates the axes p and q so that a_pq becomes 0; r is the third axis.
 void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout float qr, inout vec3 p, inout vec3 q) {
     float d = qq - pp;
-    // The smaller of both angles; 0 instead of 0 / 0 for a multiple of the identity.
+    // The smaller of both angles. For a multiple of the identity it is 0, and not 0 / 0.
     float t = (d < 0.0 ? -2.0 : 2.0) * pq / max(abs(d) + sqrt(d * d + 4.0 * pq * pq), 1.0e-30);
     float c = inversesqrt(1.0 + t * t);
     float s = t * c;

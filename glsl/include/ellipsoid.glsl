@@ -35,8 +35,7 @@ mat3 ellipsoid_dual(Ellipsoid e, float radius) {
     return (radius * radius) * (e.axes * e.axes);
 }
 
-// As sphere_bounds: a plane through the eye, x = s depth, is tangent where (c_x - s depth)^2 = (1, s).B (1,
-// s).
+// Like sphere_bounds: a plane through the eye, x = s depth, is tangent where (c_x - s depth)^2 = (1, s).B (1, s).
 bool ellipsoid_bounds(Ellipsoid e, out vec4 bounds) {
     if (ELLIPSOIDS == 0u) {
         return sphere_bounds(e.sphere.xyz, e.sphere.w, bounds);
@@ -67,7 +66,7 @@ float ellipsoid_nearest(Ellipsoid e) {
     return -e.sphere.z * (1.0 - 1.0e-5) - 1.00001 * sqrt(ellipsoid_dual(e, e.sphere.w)[2].z);
 }
 
-// As sphere_hit.
+// Like sphere_hit.
 float ellipsoid_hit(vec2 slope, Ellipsoid e, float near) {
     if (ELLIPSOIDS == 0u) {
         return sphere_hit(slope, e.sphere.xyz, e.sphere.w, near);
@@ -81,8 +80,8 @@ float ellipsoid_reach(Ellipsoid e) {
     return max(rows.x, max(rows.y, rows.z));
 }
 
-// The thickness sprite: the ellipse that the ellipsoid's shadow along the ray through its centre makes in the
-// plane of the centre.
+// The thickness sprite: an ellipse in the plane of the centre, the parallel projection of the ellipsoid along the ray
+// through its centre.
 struct Disc {
     vec3 conic;   // (xx, xy, yy) of the quadratic form rho^2
     vec2 reach;   // half of its bounding box
@@ -108,7 +107,7 @@ Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
         yy = least;
         xy = 0.0;
     } else if (squares.y < least) {
-        // Widen the shorter axis only, with the projector on it.
+        // Widens only the shorter axis, by the projector on it.
         float more = (least - squares.y) / (squares.x - squares.y);
         vec3 onto = vec3(squares.x - xx, -xy, squares.x - yy) * more;
         xx += onto.x;

@@ -1,6 +1,6 @@
 // Thin-film interference of a soap film in air: its reflectance (Airy). Needs nothing.
 
-// How an interface reflects. Exact: both polarisations by themselves; Schlick: his approximation of their mean; the
+// Reflection of an interface. Exact: both polarizations separately. Schlick: his approximation of their mean. The
 // source: 1 - cos.
 const uint FRESNEL_EXACT = 0u;
 const uint FRESNEL_SCHLICK = 1u;
@@ -28,8 +28,8 @@ vec2 film_face(float cosine, float n, uint kind) {
     return vec2(mix(normal * normal, 1.0, square * square * out_of));
 }
 
-// sin^2 of half the phase between the light from the two faces of a film. By the series over a quarter of a turn,
-// because devices guarantee sines to 2^-11 only.
+// sin^2 of half the phase between the light from the two faces of a film. Evaluated by its series over a quarter of a
+// turn, because devices guarantee sines only to 2^-11.
 float film_phase(float cosine, float n, float thickness, float wavelength) {
     float turns = 2.0 * n * thickness * film_refracted(cosine, n) / wavelength;
     float x = 3.14159265 * (turns - floor(turns + 0.5));

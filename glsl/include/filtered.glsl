@@ -1,8 +1,8 @@
 // Bilinear look-up in a part of an image.
 
-// At a place in texels from the part's first. Nothing outside the part is read, not even with weight 0: a NaN there
-// would come through. So a texel's centre is read alone, and places keep a step of the filter's 8 bits from the
-// centres of the outermost texels.
+// The value at a position in texels from the part's first. Texels outside the part are not read, not even with weight
+// 0, because a NaN there would come through. So at a texel's centre only that texel is read, and positions are clamped
+// to a step of the filter's 8 bits inside the centres of the outermost texels.
 vec4 filtered(sampler2D image, vec2 place, vec2 first, vec2 size) {
     place = clamp(place, vec2(0.5), size - 0.5);
     vec2 texel = floor(place);

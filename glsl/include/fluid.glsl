@@ -1,4 +1,4 @@
-// A chunk of the host's fluid particles, for the passes that make the grid of neighbours. Needs random.glsl.
+// A chunk of the host's fluid particles, for the passes that build the neighbour grid. Needs random.glsl.
 // Reads: positions, velocities, ids, counts. Writes: buckets.
 
 #include "generate_types.glsl"
@@ -25,7 +25,7 @@ layout(push_constant, std430) uniform Push {
 
 #include "cells.glsl"
 
-// Particles that are not finite, or far beyond any scene, do not take part.
+// Particles that are not finite, or far beyond any scene, are ignored.
 bool takes_part(uint i, out vec3 position, out vec3 velocity) {
     uint at = push.position_word + i * push.position_stride;
     position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);

@@ -3,7 +3,7 @@
 struct GenerateCounts {
     uint high;   // number of whitewater slots ever used; first, because drawing reads it
     uint fluid;  // fluid particles of the step
-    uint sorted; // of those, the ones that take part
+    uint sorted; // of those, the particles in the grid
     uint free;   // free slots among the used ones
     uint made;   // created in this step
     uint lost;   // in total, not created because no slot was free

@@ -1,4 +1,4 @@
-// Gradient noise (Perlin 2002), and where in it a particle's own begins. Needs random.glsl.
+// Gradient noise (Perlin 2002), and the origin of each particle's own noise in it. Needs random.glsl.
 
 // Three uniform numbers of an id, 0 to 1.
 vec3 noise_phase(uint id) {
@@ -19,7 +19,7 @@ float lattice_gradient(uint joined, vec3 off) {
     return mix(u, -u, (h & 1u) != 0u) + mix(v, -v, (h & 2u) != 0u);
 }
 
-// Noise of a row along x, whose part of the hash is given.
+// Noise of a row along x, given the row's part of the hash.
 float row_noise(uint x, uint row, vec3 off, float fade) {
     return mix(lattice_gradient(x ^ row, off),
                lattice_gradient((x + LATTICE.x) ^ row, off - vec3(1.0, 0.0, 0.0)), fade);

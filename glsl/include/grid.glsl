@@ -1,6 +1,6 @@
-// Particles by the cells of a grid as wide as their support, in a hash table (Teschner et al. 2003): those of a bucket lie
-// next to each other, behind those of the bucket before. Needs random.glsl, place.glsl and what cells.glsl needs.
-// Reads: the grid (where buckets end, places).
+// Particles by grid cell, in a hash table (Teschner et al. 2003). Cells are as wide as the particles' support. The list
+// is sorted by bucket. Needs random.glsl, place.glsl and the requirements of cells.glsl.
+// Reads: the grid (ends of the buckets, places).
 //
 //     for (int c = 0; c < 27; ++c) {
 //         ivec3 cell = neighbour_cell(position, c);
@@ -8,12 +8,12 @@
 //         for (uint j = range.x; j < range.y; ++j) { if (in_cell(places[j].position, cell)) ... }
 //     }
 
-// Where a bucket's particles end.
+// Index behind the last particle of each bucket.
 layout(set = 0, binding = 1, std430) readonly buffer Ends { uint ends[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Places { Place places[]; };
 
-// Most particles read per bucket: particles heaped on one spot must not hang a device. Water has eight per cell
-// of two spacings.
+// Max number of particles that are read per bucket: particles heaped on one spot must not hang a device. Water has
+// eight per cell of two spacings.
 const uint MOST_IN_BUCKET = 256u;
 
 #include "cells.glsl"

@@ -1,6 +1,7 @@
-// What the passes of moving blobs share (Huszar, Szecsi, Sec. 6). Needs nothing.
+// Shared by the passes of the blob simulation (Huszar, Szecsi, Sec. 6). Needs nothing.
 
-// Of a bucket no more are looked at, those of the lowest ids: blobs heaped on one spot must not hang a device.
+// Max number of blobs that are visited in a bucket, those with the lowest ids: blobs heaped on one spot must not hang a
+// device.
 const uint MOST_IN_BUCKET = 128u;
 
 // A blob, stored beside the others of its bucket.
@@ -21,13 +22,13 @@ layout(push_constant, std430) uniform Push {
     uint blobs;
     uint buckets;      // a power of two
     float cells;       // grid cells per metre
-    uint max_splits;     // most max_splits of one blob; there are 2^that entries for each
+    uint max_splits;     // max number of splits of one blob; there are 2^max_splits entries for each
 } push;
 
 #include "random.glsl"
 #include "cells.glsl"
 
-// However far it has fallen.
+// Grid cell, also for blobs that have fallen very far.
 ivec3 heap_cell(vec3 place) {
     return cell_of(clamp(place, -1.0e8 / push.cells, 1.0e8 / push.cells));
 }

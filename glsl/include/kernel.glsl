@@ -1,8 +1,8 @@
 // The thickness kernel: N_z exp(-2 rho^2), N_z = sqrt(1 - rho^2) (thesis Listing A.15; Eq. 3.4
 // lacks the square). Its integral over the unit disc is pi J, J = 0.3400030. Needs frame.glsl.
 
-// Parts of a whole particle's amplitude that the compute path counts in: as fine as a float's own,
-// so that of a sprite widened from a hundredth of a pixel still 1700 are left.
+// Fixed-point steps per amplitude of a whole particle in the compute path. They are as fine as a float's own precision,
+// so that a sprite widened from a hundredth of a pixel still has 1700 steps.
 const float UNITS = 16777216.0;
 
 float thickness_kernel(float rho2) {

@@ -1,13 +1,12 @@
-// Lace: bubbles of different sizes, between which foam forms threads, and which tear thin foam open. A power diagram
-// of spheres of three sizes (Worley 1996 has distances to points), warped by the slope of a gradient noise, in world
+// Lace: bubbles of different sizes that tear thin foam open, so that it forms threads between them. A power diagram of
+// spheres of three sizes (Worley 1996 has distances to points), warped by the slope of a gradient noise, in world
 // space, evaluated per pixel, and advected with the foam as in pattern.glsl. Not in the thesis, whose thin foam is a
-// veil.
-// Needs frame.glsl, gradient_noise.glsl, surface_foam_drift.glsl. Reads: drift.
+// veil. Needs frame.glsl, gradient_noise.glsl, surface_foam_drift.glsl. Reads: drift.
 
 layout(set = 0, binding = 33, std430) readonly buffer Drift { int drift[]; };
 
-// Least and largest radius in cells, and largest distance of a centre from the centre of its cell. Eight
-// cells hold all bubbles that reach a point: 0.5 + 0.5 - 0.3 is the largest radius.
+// Min and max radius in cells, and max distance of a centre from the centre of its cell. Eight cells hold all bubbles
+// that reach a point: 0.5 + 0.5 - 0.3 is the max radius.
 const vec2 BUBBLE_RADII = vec2(0.5, 0.7);
 const float BUBBLE_STRAY = 0.3;
 // Large, medium and small bubbles: size of their cells, offset of the cells, weight.
@@ -16,8 +15,8 @@ const vec3 BUBBLE_BEGIN = vec3(0.0, 31.7, 77.3);
 const vec3 BUBBLE_PART = vec3(0.42, 0.34, 0.24);
 // Mean of their sum, used where cells are less than 1.5 pixels wide.
 const float BUBBLE_MEAN = 0.232;
-// Noise cell in cells of the large bubbles, displacement by the noise's slope in the same unit, and weight of
-// the noise itself.
+// Width of a noise cell in cells of the large bubbles, displacement by the noise's slope in the same unit, and weight
+// of the noise itself.
 const float DRAWN_CELL = 2.6;
 const float DRAWN = 0.3;
 const float RAGGED = 0.3;
@@ -26,7 +25,7 @@ const float CLOSES = 0.22;
 // Amount of foam for a coverage of 1/2, and scale of the logistic function that maps coverage to amount. Between
 // coverages of 0.1 and 0.9 the mean coverage is off by at most 0.02.
 const vec2 COVERS = vec2(0.33, 0.127);
-// Half the width over which a thread ends: at least, and per cell of a pixel.
+// Half the width over which a thread ends: min value, and value per cell of a pixel.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
 // The same for the other half of a thread's opacity: single bubbles at its edge.
 const float EDGE_ENDS = 0.16;

@@ -52,8 +52,8 @@ float nearness(float z, vec2 slope) {
     return levels.near.x * foreshortened(slope) / (z * z);
 }
 
-// The level at a point, and how far the next one has faded in. It depends on distance and not on time, so
-// that a frame does not depend on those before.
+// The level at a point, and how far the next one has faded in. It depends on distance and not on time, so that a frame
+// does not depend on previous frames.
 uint shown_level(float near, out float fade) {
     float doubled = log2(max(near, 1.0));
     float level = floor(0.5 * doubled);

@@ -7,7 +7,7 @@ layout(set = 0, binding = 1) uniform sampler2D scene_color;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D caustics;
 
-// Limit of the concentration: the sun is not a point and no surface is as smooth as ours, so focused light is
+// Max concentration of light: the sun is not a point, and no real surface is as smooth as ours, so focused light is
 // spread.
 const float MOST_GATHERED = 3.0;
 

@@ -1,14 +1,14 @@
 // Light on its way through water (thesis, Eq. 3.5 to 3.7). Needs frame.glsl.
 
-// Rungs of the ladder: what is above the one that is drawn is left out.
+// Rungs of the ladder; layers above the selected rung are omitted.
 const float BACK_WATER = 1.0;
 const float FOAM_TOO = 2.0;
 const float FRONT_WATER = 3.0;
 const float WHOLE = 4.0;
 
-// Light behind `path` metres of water. The light is premultiplied by `share`, its coverage per channel; the water
-// adds its own light before that share, scaled by `lit`. w: mean transmittance (with the thesis' medium, the
-// weight of what is behind).
+// Light behind `path` metres of water. The light is premultiplied by `share`, its coverage per channel; the water adds
+// its own light before that share, scaled by `lit`. w: mean transmittance (with the thesis' medium, the weight of the
+// light behind).
 vec4 through_medium(vec3 light, vec3 share, float path, vec3 lit) {
     // One exponential for both media: a CPU driver executes both sides of a branch.
     bool source = frame.medium_a.w > 0.5;
@@ -28,9 +28,9 @@ vec4 through_medium(vec3 background, float path, vec3 lit) {
     return through_medium(background, vec3(1.0), path, lit);
 }
 
-// Light that a turbid medium scatters at a surface, relative to level ground in the sun: as for a matte surface,
-// by its slope and the visibility of the sun. What it emits is the same everywhere. n, up: unit vectors in eye
-// space; sun: visibility of the sun.
+// Light that a turbid medium scatters at a surface, relative to that of level ground in the sun. It depends on slope
+// and sun visibility, as for a matte surface; emission is the same everywhere. `n` and `up` are unit vectors in eye
+// space, `sun` is the visibility of the sun.
 vec3 lit_on(vec3 n, vec3 up, float sun) {
     vec3 to = frame.sun_direction.xyz;
     float facing = sun * max(dot(n, to), 0.0) / max(dot(up, to), 0.05);

@@ -1,9 +1,9 @@
-// Pass `motion`, not in the sources: motion of the surface in a texel since the previous frame: sums over the
-// particles near the frontmost surface of the texel's pixels, and near the farthest where that is another one. Needs
-// frame.glsl and the push constant `level`, the number of max_splits.
+// Pass `motion`, not in the sources: motion of the surface in a texel since the previous frame. Sums are over the
+// particles near the frontmost surface of the texel's pixels, and near the farthest if that is another one. Needs
+// frame.glsl and the push constant `level`, the number of halvings.
 // Reads and writes: fronts, sums.
 
-// Per texel the nearest and the farthest surface of its pixels; EMPTY where there is none, or no other.
+// For each texel the nearest and the farthest surface of its pixels; EMPTY if there is none, or no second one.
 layout(set = 0, binding = 1, std430) buffer Fronts { vec2 fronts[]; };
 // For each texel: weight times displacement (x, y, z), then weight; then the same for the farther surfaces.
 // 64-bit integers in two's complement, low word first, so the order of additions does not matter.
@@ -31,7 +31,7 @@ ivec2 texel_extent() {
     return (ivec2(frame.extent.xy) + (texel_edge() - 1)) >> int(push.level);
 }
 
-// From texel to slope.
+// Transform from texel to slope.
 vec4 texel_slope() {
     return vec4(frame.slope.xy * float(texel_edge()), frame.slope.zw);
 }

@@ -1,6 +1,6 @@
-// The fluid's particles by the cells of a grid, for the passes that make whitewater particles, and how they move. Needs
+// The fluid's particles by grid cell, for the passes that emit whitewater particles, and their motion. Needs
 // generate.glsl, random.glsl.
-// Reads: the grid (where buckets end, places, motions).
+// Reads: the grid (ends of the buckets, places, motions).
 
 #include "grid.glsl"
 

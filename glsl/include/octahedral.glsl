@@ -15,7 +15,7 @@ vec3 octahedral_direction(vec2 p) {
     return normalize(d);
 }
 
-// Position of a direction of any length but 0.
+// Position of a direction of any length except 0.
 vec2 octahedral_place(vec3 d) {
     vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
     return d.z < 0.0 ? (1.0 - abs(p.yx)) * octahedral_signs(p) : p;

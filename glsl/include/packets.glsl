@@ -1,5 +1,5 @@
-// The host's packets of particles (thesis Sec. 4.3). What includes this binds packets, eight words each: first
-// particle, how many, least and greatest corner of the box of their centres. Reads: packets.
+// The host's packets of particles (thesis Sec. 4.3). The includer binds packets as eight words each: first particle,
+// number of particles, min and max corner of the box of their centres. Reads: packets.
 
 struct Packet {
     uint first; // first particle, in the chunk

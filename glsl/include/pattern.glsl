@@ -3,7 +3,7 @@
 // and many overlapping ones average to a mist. Coarse octaves are evaluated per sprite, the finest per texel. Needs
 // frame.glsl, gradient_noise.glsl.
 
-// Width of a cell of the coarse octaves and of the finest to the first's, their heights.
+// Cell widths of the coarse octaves and of the finest one, relative to the first, and their amplitudes.
 const vec3 OCTAVES = vec3(1.0, 0.53, 0.23);
 const vec3 HEIGHTS = vec3(1.0, 0.7, 1.1);
 // Mean square of the noise.

@@ -1,7 +1,6 @@
-// Plan of one smoothing pixel in 32 bits: iterations (9 bits, low) and step (23 bits), fixed before the first
-// iteration, where the thesis decides in each (Listing A.12).
-// The step is relative to the largest possible one: kappa of 1/4 for ConstantWidth, epsilon of 0.053 r for Source and
-// Fixed.
+// Plan of one smoothing pixel in 32 bits: iterations (9 bits, low) and step (23 bits), fixed before the first iteration
+// (the thesis decides anew in each, Listing A.12). The step is relative to the largest possible one: kappa of 1/4 for
+// ConstantWidth, epsilon of 0.053 r for Source and Fixed.
 
 const uint RULE_SOURCE = 0u;
 const uint RULE_CONSTANT_WIDTH = 1u;

@@ -1,6 +1,6 @@
-// A sprite in a plane: its axes over their half-axes, and the plane's normal. Needs frame.glsl.
+// A sprite in a plane: its axes divided by their half-axes, and the plane's normal. Needs frame.glsl.
 
-// Where a ray meets it: place in half-axes, and depth; false where it does not.
+// Intersection of a ray with the plane: position in half-axes, and depth; false if there is none.
 bool plane_hit(vec3 centre, vec3 along, vec3 across, vec3 normal, vec2 slope, out vec2 place, out float depth) {
     vec3 w = vec3(slope, -1.0);
     float q = dot(normal, w);

@@ -2,8 +2,8 @@
 // with the half of its viewport; Listing A.12).
 // Needs frame.glsl, plan.glsl, level.glsl and the constant RULE.
 
-// Iterations before the cap, and the step's share of the largest, of a surface at depth z; c: world
-// size of a pixel per depth.
+// Number of iterations before the cap, and the step size relative to the largest, for a surface at depth z; `c` is the
+// world size of a pixel per depth.
 float iterations(float z, vec2 slope, vec2 c, out float share) {
     float width = c.x * z; // width of the pixel in the world
     if (RULE == RULE_CONSTANT_WIDTH) {
@@ -17,15 +17,15 @@ float iterations(float z, vec2 slope, vec2 c, out float share) {
     return RULE == RULE_FIXED ? frame.smoothing.w : floor(SOURCE_RADIUS * r / width) + 1.0;
 }
 
-// Whether a level is visible at a depth, or would be with a quarter more or a fifth less iterations: smoothed
-// regions must end where they are not visible.
+// Whether a level is visible at a depth, or would be with a quarter more or a fifth fewer iterations. The margin puts
+// the edges of smoothed regions where they are not visible.
 bool wanted_at(float near, uint level, bool finest, bool coarsest) {
     float here = near * exp2(-2.0 * float(level)); // in its own iterations
     return (finest || here >= 0.2) && (coarsest || here <= 2.5);
 }
 
-// The plan of a texel of a level (0 to 3): 0 without water. finest, coarsest: whether it is that level of its
-// sheet.
+// The plan of a texel of a level (0 to 3): 0 without water. `finest` and `coarsest` tell whether it is that level of
+// its sheet.
 uint plan_pixel(float z, vec2 pixel, Level at, uint level, bool finest, bool coarsest) {
     vec2 slope = ray_slope(pixel + 0.5, at.slope);
     if (z >= EMPTY || !wanted_at(nearness(z, slope), level, finest, coarsest)) {

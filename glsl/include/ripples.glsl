@@ -1,7 +1,7 @@
 // The surface noise in the picture (van der Laan et al. 2009; thesis Sec. 2.5.3): a height along the
 // normal, and the baseline's foam. Needs frame.glsl, surface_noise.glsl. Reads: noise, depth.
 
-// 1: there is some; else it is not read.
+// 1: there may be surface noise; otherwise it is not read.
 layout(constant_id = 14) const uint NOISE = 0;
 
 layout(set = 0, binding = 20) uniform sampler2D surface_noise;

@@ -1,9 +1,10 @@
-// In-place exclusive prefix sum in three dispatches: sums of blocks, prefix sum of those, prefix sum within each block
-// (Blelloch 1990). Sums saturate at MOST_SUM: a wrapped sum would start again and place entries at wrong positions.
+// In-place exclusive prefix sum in three dispatches: sums of blocks, prefix sum of the block sums, prefix sum within
+// each block (Blelloch 1990). Sums saturate at MOST_SUM: a wrapped sum would start again and place entries at wrong
+// positions.
 // Reads: counts, blocks. Writes: counts, blocks.
 
 const uint SCAN_GROUP = 256u;
-// Numbers per invocation, and per block.
+// Number of values per invocation, and per block.
 const uint SCAN_EACH = 4u;
 const uint SCAN_BLOCK = SCAN_GROUP * SCAN_EACH;
 
@@ -15,7 +16,7 @@ layout(push_constant, std430) uniform Push {
 
 const uint NONE = 0xffffffffu;
 
-// Limit of sums: twice this fits into 32 bits, and so does this plus some millions.
+// Limit of sums: twice this value fits into 32 bits, and so does this value plus some millions.
 const uint MOST_SUM = 0x7fffffffu;
 
 uint plus(uint a, uint b) {
@@ -49,7 +50,7 @@ uint sum_before(uint own, out uint all) {
     }
     uint before = local > 0u ? sums[at][local - 1u] : 0u;
     all = sums[at][SCAN_GROUP - 1u];
-    // Wait before they are written again.
+    // Wait before the shared values are written again.
     barrier();
     return before;
 }

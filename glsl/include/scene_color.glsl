@@ -30,7 +30,7 @@ vec3 coated(vec3 c, vec4 coat, CoatLight light) {
     return with_contact(c, coat.y, coat.z, light);
 }
 
-// Fraction of the scene that both leave visible.
+// Fraction of the scene that both kinds of foam leave visible.
 float uncovered(vec4 coat, CoatLight light) {
     return (1.0 - coat.x * light.shore.w) * (1.0 - coat.y);
 }

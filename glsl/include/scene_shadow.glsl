@@ -1,8 +1,7 @@
-// Shadow of the host's scene at a point, from its shadow map or mask (thesis Sec. 4.9.4, which uses convolution shadow
-// maps).
+// Shadow of the host's scene at a point, from its shadow map or mask. (Thesis Sec. 4.9.4 uses convolution shadow maps.)
 // Needs frame.glsl, convolution.glsl. Reads: shadow map or mask, its basis and span.
 
-// 0: the host says nothing, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
+// 0: no shadow, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
 layout(constant_id = 11) const uint SHADOW = 0;
 // Number of terms of the Fourier basis.
 layout(constant_id = 13) const int TERMS = 16;

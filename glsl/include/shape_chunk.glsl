@@ -1,4 +1,4 @@
-// A chunk of the host's particles, for the passes that make the grid of neighbours of `shape`. Needs random.glsl.
+// A chunk of the host's particles, for the passes that build the neighbour grid of `shape`. Needs random.glsl.
 // Reads: the host's count, positions. Writes: buckets.
 
 layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count; };
@@ -28,7 +28,7 @@ vec3 position_of(uint i) {
     return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
 }
 
-// Particles that are not finite, or far beyond any scene, do not take part.
+// Particles that are not finite, or far beyond any scene, are ignored.
 bool takes_part(vec3 position) {
     // Comparisons with NaN are false.
     return all(lessThan(abs(position), vec3(min(1.0e18, 1073741824.0 / push.cells))));

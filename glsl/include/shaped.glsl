@@ -2,5 +2,5 @@
 // and of its spray, and the sum of its neighbours' weights, or CROWDED. Needs nothing.
 
 const uint SHAPED_WORDS = 10u;
-// For spray that does not go by its neighbours.
+// Marks spray that does not depend on the number of its neighbours.
 const float CROWDED = 64.0;

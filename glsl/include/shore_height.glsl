@@ -1,6 +1,6 @@
 // Heights of the map over the water. Needs shore_map.glsl. Reads: heights.
 
-// 0: depths of the rasteriser, 1: the host's image.
+// 0: depths of the rasterizer, 1: the host's image.
 layout(constant_id = 0) const uint OWN = 0;
 
 layout(set = 0, binding = 0) uniform sampler2D heights;

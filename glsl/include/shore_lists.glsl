@@ -1,8 +1,8 @@
 // Tile lists of shoreline and contact foam with their dispatches, shared by producers and consumers.
 // Reads, writes: lists, arguments.
 
-// Tiles that may have shoreline foam, contact foam, both; runs of those that have any (shore_runs.glsl); tiles that may have
-// contact foam on the particles' water.
+// Lists of tiles that may have shoreline foam, contact foam, or both; of runs of tiles with any foam (shore_runs.glsl);
+// and of tiles that may have contact foam on the particles' water.
 layout(set = 0, binding = 9, std430) buffer Lists { uint list[]; };
 // For each list: workgroups in x, y, z and the number of tiles. The fourth list holds runs of tiles, and its
 // arguments are those of a draw: vertices, instances, first vertex, first instance.
@@ -13,7 +13,7 @@ layout(push_constant, std430) uniform Push {
 } push;
 
 const uint TILE = 8u;            // pixels
-const uint TILES = 4u;           // of a group of what goes over the lists
+const uint TILES = 4u;           // per group of a dispatch over the lists
 const uint RUNS = 4u;            // the list of runs
 const uint MOST_LISTED = 65535u; // limit of a dispatch, on each axis
 

@@ -1,4 +1,4 @@
-// Tiles of 8x8 pixels next to each other in a row, in one word: the first, and how many there are.
+// A run of adjacent tiles of 8x8 pixels in a row, in one word: the first tile, and the number of tiles.
 
 const uint LONGEST = 16u;
 

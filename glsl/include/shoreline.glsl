@@ -41,16 +41,16 @@ Noises noises_at(vec2 p, float width) {
     return noises;
 }
 
-// How far the mix exceeds the threshold, its change per pixel to the right and down, and the variance that is
-// too fine for the pixel.
+// The mix minus the threshold, its change per pixel to the right and down, and the variance of detail too fine for the
+// pixel.
 struct Mixed {
     float over;
     vec2 change;
     float variance;
 };
 
-// What the pixels around a point share. The noises change little from one pixel to the next, so their change
-// is neglected.
+// Values shared by the pixels around a point. The noises change little from one pixel to the next, so their change is
+// neglected.
 struct Place {
     vec4 noise;     // sums of the noises
     vec2 moved;     // p, displaced by them

@@ -8,13 +8,13 @@ layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 layout(set = 0, binding = 9) uniform sampler2D foam_thickness;
 
-// Depth of the frontmost foam if it hides at least half of what is behind, else EMPTY: a veil moves like what
-// shows through it.
+// Depth of the frontmost foam if its opacity is at least a half, otherwise EMPTY: a veil moves like the surface behind
+// it.
 float shown_foam(vec2 pixel) {
     if (FOAM == 0u) {
         return EMPTY;
     }
-    // As in `composite`.
+    // The same test as in `composite`.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     FoamTexels texels = foam_texels(foam_depth, pixel, scene);
     float t = 0.0;

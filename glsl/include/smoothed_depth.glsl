@@ -1,4 +1,5 @@
-// The smoothed water surface's depth in a pixel, where no more is asked for. Needs frame.glsl, level.glsl.
+// Depth of the smoothed water surface at a pixel, for passes that need nothing else of it. Needs frame.glsl,
+// level.glsl.
 // Reads: smoothed.
 
 layout(set = 0, binding = 5) uniform sampler2D smoothed;

@@ -1,7 +1,7 @@
 // The arithmetic of one pixel and iteration, shared by every form of the smoothing (curvature.glsl).
 // Needs frame.glsl, plan.glsl, level.glsl, curvature.glsl and the constant RULE.
 
-// pixel: from the corner of its level.
+// `pixel` counts from the corner of its level.
 float smooth_pixel(Stencil s, Level level, ivec2 pixel, uint planned) {
     float share = plan_step(planned);
     if (RULE == RULE_CONSTANT_WIDTH) {

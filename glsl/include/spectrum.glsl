@@ -1,7 +1,7 @@
 // Wavelengths (nm) as linear Rec. 709, equal energy as white: the CIE 1931 observer by sums of Gaussians (Wyman, Sloan,
 // Shirley, Simple Analytic Approximations to the CIE XYZ Color Matching Functions, 2013). Needs nothing.
 
-// First of the wavelengths that are added up, how many, and how far apart.
+// First wavelength of the sum, number of wavelengths, and distance between them.
 const float SPECTRUM_FIRST = 380.0;
 const int SPECTRUM_COUNT = 81;
 const float SPECTRUM_STEP = 5.0;

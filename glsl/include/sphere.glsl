@@ -1,8 +1,8 @@
-// Spheres in perspective: footprint and exact intersection, where the thesis offsets a billboard by N_z r (Sec. 4.6.1,
-// Listings A.8, A.9). Needs nothing.
+// Spheres in perspective: footprint and exact intersection. (The thesis offsets a billboard by N_z r: Sec. 4.6.1,
+// Listings A.8, A.9.) Needs nothing.
 
-// Bounds of the projected sphere in slopes (min xy, max xy), from the tangents through the eye in
-// the planes of x and y; false when it reaches the eye plane and has none.
+// Bounds of the projected sphere in slopes (min xy, max xy), from the tangents through the eye in the planes of x and
+// y; false if the sphere reaches the eye plane and has no bounds.
 bool sphere_bounds(vec3 centre, float radius, out vec4 bounds) {
     float d = -centre.z;
     float h = d * d - radius * radius;

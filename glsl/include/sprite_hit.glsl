@@ -1,4 +1,4 @@
-// The fragment of a sprite in a plane: needs frame.glsl and what foam.vert and spray.vert hand on.
+// The fragment of a sprite in a plane. Needs frame.glsl and the outputs of surface_foam.vert or spray.vert.
 
 #include "plane.glsl"
 

@@ -1,6 +1,5 @@
 // Sunlight that reaches a point: past the host's scene (scene_shadow.glsl), and through water and foam (not in the
-// thesis).
-// Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: what scene_shadow.glsl reads, the light's maps of
+// thesis). Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: inputs of scene_shadow.glsl, the light's maps of
 // thickness, whitewater particles and bubble foam.
 
 #include "scene_shadow.glsl"
@@ -44,11 +43,11 @@ vec2 before_depth(vec4 thick, float depth) {
     return clamp(depth - mean + 0.5 * t, vec2(0.0), t);
 }
 
-// Coverage of a texel by the whitewater particles before a depth. Only their mean depth and standard
-// deviation s are known. At a distance x behind the mean at least 1 - s^2 / (s^2 + x^2) of them lie before it
-// (Cantelli's inequality), with equality if they lie at two depths, such as foam on water and spray above it.
-// The bound is scaled to reach 1 at the end of a uniform body. A minimal distance is subtracted, so that foam
-// does not shade itself within what a texel can resolve.
+// Coverage of a texel by the whitewater particles in front of a depth, that is, nearer to the sun. Only their mean
+// depth and standard deviation s are known. At a distance x behind the mean at least 1 - s^2 / (s^2 + x^2) of them lie
+// before it (Cantelli's inequality), with equality if they lie at two depths, such as foam on water and spray above it.
+// The bound is scaled to reach 1 at the far end of a uniform distribution. A minimal distance is subtracted, so that
+// foam does not shade itself within what a texel can resolve.
 float covered_by_whitewater(ivec2 texel, float depth) {
     vec3 there = texelFetch(light_whitewater, texel, 0).xyz;
     float reach = 0.5 * frame.particle.y + 1.5 * frame.light_map.y;

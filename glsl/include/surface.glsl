@@ -1,18 +1,18 @@
-// The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.9.3,
-// Listings A.17, A.18, A.21 and A.23-A.25). Two depths belong to one surface if they differ by at most the
-// falloff. Of the neighbours of a texel on an axis, both belong to its surface also if one does and the other
-// continues its slope: the two differences differ by at most the falloff. (The thesis' program tests the
-// second difference as well.) So a surface seen at a grazing angle has no border.
+// The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.9.3, Listings A.17,
+// A.18, A.21 and A.23-A.25). Two depths belong to one surface if they differ by at most the falloff. If one neighbour
+// of a texel on an axis belongs to its surface, the other one also does if it continues the slope, that is, if the two
+// differences differ by at most the falloff. (The thesis' program tests the second difference as well.) So a surface
+// seen at a grazing angle has no border.
 // - The slope of a texel along an axis is the mean of the differences to its two neighbours on its surface. A
 //   texel that lacks one of its four neighbours is on the rim.
 // - A pixel uses those of the four texels around it that belong to the surface of its own depth, with
 //   bilinear weights. Texels beyond the image's edge repeat it.
 // - Depth and slope of the pixel are the weighted means. In the slope, rim texels have the weight RIM. If
 //   whole texels have at most 1/63 of the weight, the slope is limited to RIM_SLOPE.
-// - If none of the four texels belongs to its surface, the pixel takes slope and thickness of a texel beside
-//   the four (within one and a half of the pixel), the one nearest in depth, and keeps its own depth. If that
-//   is not on its surface either, or at full resolution, the pixel faces the eye and takes the thickness of
-//   that of the four texels that is nearest in depth.
+// - If none of the four texels belongs to its surface, the pixel takes slope and thickness of a texel beside the four
+//   (within one and a half of the pixel), the one nearest in depth, and keeps its own depth. If that is not on its
+//   surface either, or at full resolution, the pixel faces the eye and takes the thickness of the texel, among the
+//   four, that is nearest in depth.
 // The thesis' program shades four neighbours at a border and blends their colours. Here the derivatives on
 // the same surface are blended and shaded once: the colour of another surface never bleeds in, which would
 // show as dark seams.
@@ -49,13 +49,13 @@ float smoothed_at(Level level, ivec2 texel) {
     return inside ? texelFetch(smoothed, level.rect.xy + texel, 0).x : EMPTY;
 }
 
-// Weight of a rim texel in the slope beside whole ones. The last particle of a body of water curves away
+// Weight of a rim texel in the slope, relative to complete ones. The last particle of a body of water curves away
 // within a pixel or two; with full weight it would reflect the horizon and bead every outline with white.
 const float RIM = 1.0 / 64.0;
 // Steepest slope, depth per width, where whole texels have at most 1/63 of the weight (a drop).
 const float RIM_SLOPE = 1.5;
 
-// front: depth of the pixel's own surface; negative: the surface of the nearest texel.
+// `front` is the depth of the pixel's own surface; if negative, the surface of the nearest texel is taken.
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
     vec2 h = pixel / level.texel.z - 0.5;

@@ -14,12 +14,12 @@ const uint FOAM_GROUP = 64u;
 // thickness does not, because its profile ends softly, and a narrower one would cut it off. (The thesis has 2
 // to 3.)
 const float FOAM_AXIS = 2.0;
-// Least half-axis of the thickness in texels: narrower sprites would come and go between texel centres. Wider
-// ones are thinner in proportion.
+// Min half-axis of the thickness in texels: narrower sprites would flicker between texel centres. Widened sprites are
+// thinner in proportion.
 const float LEAST_FOAM_AXIS = 1.5;
 // Noise cells per half-axis.
 const float NOISE_CELLS = 1.6;
-// Least cosine of a sprite towards the eye: seen from its edge it would be infinitely thick.
+// Min cosine between a sprite's normal and the view ray: seen edge-on, the sprite would be infinitely thick.
 const float LEAST_FACING = 0.2;
 
 // Unit vectors along and across the motion; returns the stretch, 0 to 1.

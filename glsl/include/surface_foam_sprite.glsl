@@ -1,8 +1,8 @@
 // A foam sprite as it is drawn, by quads or by invocations. Needs frame.glsl, random.glsl, whole_steps.glsl,
 // gradient_noise.glsl, surface_foam.glsl, pattern.glsl, kernel.glsl.
 
-// Over the foam, the depth's part of the half-axes: whole before there is enough foam to be seen, for what
-// is behind the frontmost foam and what is before it changes at its outline.
+// Factor on the foam amount that gives the depth sprite's size: it is full before the foam becomes visible, because at
+// its outline the split into front layer and foam behind it changes.
 const float DEPTH_GROWTH = 8.0;
 
 struct FoamPlane {
@@ -36,9 +36,9 @@ FoamPlane foam_plane(FoamSprite sprite, bool thick) {
     return plane;
 }
 
-// Metres along z at its centre. As for thickness sprites, the integral over the image plane is the volume.
-// The square of a slope contains z^2 / (n . (slope, 1)) of the sprite's area: n . centre / z, which off the
-// axis is not n.z.
+// Metres along z at its centre. As for thickness sprites, the integral over the image plane is the volume. A unit
+// square of slopes covers z^2 / (n . (slope, 1)) of the sprite's area, with n . centre / z, which differs from n.z off
+// the axis.
 float foam_amount(FoamSprite sprite, FoamPlane plane) {
     float facing = max(abs(dot(plane.normal, plane.centre) / plane.centre.z), LEAST_FACING);
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
@@ -78,10 +78,10 @@ FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
     return noise;
 }
 
-// What the sprite adds at a ray: to all foam; to the layer right behind the frontmost; to the sunlit part of
-// that; and weighted by the distance behind the frontmost. All in whole steps, so that sums are exact in any
-// order, and rounded with the same number, so that a part is never more than the whole. before: metres to the
-// scene.
+// Amounts that the sprite adds at a ray: to all foam; to the front layer, right behind the frontmost foam; to the
+// sunlit part of that; and weighted by the distance behind the frontmost. All are whole steps, so that sums are exact
+// in any order, and they are rounded with the same random number, so that a part never exceeds the whole. `before` is
+// the distance to the scene in metres.
 vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
     float noise = own.torn.x * gradient_noise(own.place + own.along * place.x + own.across * place.y);
     amount *= thickness_kernel(dot(place, place));

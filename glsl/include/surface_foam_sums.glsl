@@ -15,9 +15,9 @@ const uint FAR = 3u + LIT;
 const uint LATE = 4u + LIT;
 const uint WORDS = 5u + LIT;
 
-// Largest sum: single precision represents all integers up to it. It is at least 4096 spacings of foam.
+// Max sum: single precision represents all integers up to it. It is at least 4096 spacings of foam.
 const uint FULL = 16777216u;
-// Nothing is added beyond this. It leaves room for what 85 thousand invocations may be adding at the same time.
+// No more is added above this, which leaves room for 85 thousand invocations that add at the same time.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 texel) {

@@ -1,7 +1,8 @@
-// The baseline's surface noise (van der Laan, Green, Sainz, I3D 2009; thesis Sec. 2.5.3): what its pass and
-// `composite` agree on. Needs frame.glsl.
+// The baseline's surface noise (van der Laan, Green, Sainz, I3D 2009; thesis Sec. 2.5.3): definitions shared by its
+// pass and by `composite`. Needs frame.glsl.
 
-// Parts of 1 that sums are counted in: floats hold them exactly up to 256, in any order.
+// Fixed-point steps per noise value of 1: floats hold multiples of 1/65536 exactly up to 256, so sums up to 256 are
+// exact in any order.
 const float NOISE_PARTS = 65536.0;
 
 // A Gaussian that ends smoothly, also in its slope, which is used for shading.

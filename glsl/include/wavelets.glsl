@@ -2,12 +2,13 @@
 // "Vectorized procedural models for natural terrain"). Not in the thesis.
 // Needs frame.glsl. Reads: nothing.
 
-// Cosine between normal and vertical up to which water has no waves, and from which on it has all of them.
+// Cosine between normal and vertical up to which water has no waves, and that from which it has all of them.
 const vec2 LEVEL_WATER = vec2(0.2, 0.7);
-// Width of a pixel on the water per wavelength where a wave is whole, and where it is gone.
+// Width of a pixel on the water, in wavelengths, up to which a wave is complete, and that from which it is absent.
 const vec2 SMALL_WAVE = vec2(0.2, 0.45);
 
-// Gradient of the height at a point of the world. pixel: width of a pixel on the water; with 0 all waves are whole.
+// Gradient of the height at a point of the world. `pixel` is the width of a pixel on the water; with 0 all waves are
+// complete.
 vec3 wavelet_slope(vec3 world, float pixel) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < frame.wavelets.length(); ++i) {
@@ -21,18 +22,18 @@ vec3 wavelet_slope(vec3 world, float pixel) {
     return frame.texel.z * sum;
 }
 
-// How much of the waves a surface of this normal has. Eye space.
+// Share of the waves on a surface with this normal, in eye space.
 float wavelet_share(vec3 n) {
     return smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(n, frame.up.xyz * mat3(frame.world)));
 }
 
-// A normal turned by that share of the waves at a point. Eye space; pixel: as above.
+// A normal tilted by that share of the waves at a point, in eye space; `pixel` as above.
 vec3 turned_by_wavelets(vec3 n, vec3 at, float share, float pixel) {
     vec3 slope = wavelet_slope((frame.world * vec4(at, 1.0)).xyz, pixel) * mat3(frame.world);
     return normalize(n - share * (slope - dot(slope, n) * n));
 }
 
-// The normal of a surface with the waves on it. All in eye space.
+// The normal of a surface with waves on it, in eye space.
 vec3 with_wavelets(vec3 n, vec3 at, float thick) {
     float share = wavelet_share(n) * smoothstep(frame.particle.y, 2.0 * frame.particle.y, thick);
     // A loop instead of a branch, for CPU drivers (docs/performance.md).

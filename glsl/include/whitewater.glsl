@@ -1,7 +1,7 @@
 // Screen footprint of a whitewater particle, for every path (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc that faces
-// the camera, with the depth of a sphere. Not in the paper: small ones are widened until no pixel centre can miss
-// them, with their total light preserved exactly at any sub-pixel position, so that far foam does not sparkle.
-// Needs frame.glsl, falloff.glsl.
+// the camera, with the depth of a sphere. Not in the paper: small ones are widened so that they always cover a pixel
+// centre, with their total light preserved exactly at any sub-pixel position, so that far foam does not sparkle. Needs
+// frame.glsl, falloff.glsl.
 
 const uint FOAM = 0u;
 const uint SPRAY = 1u;
@@ -34,8 +34,8 @@ Whitewater whitewater_of(vec3 position, uint kind, float radius, float age, uint
     // A centre that is not finite is moved behind the eye, where no path draws it.
     p.centre = all(lessThan(abs(p.centre), vec3(EMPTY))) ? p.centre : vec3(0.0, 0.0, EMPTY);
     p.kind = kind;
-    // As in the paper, radii vary between a fifth and the whole, for an irregular look; bubbles have half of
-    // it.
+    // As in the paper, radii vary between a fifth and the full radius, for an irregular look; bubbles have half of
+    // that.
     uint size = (SHAPED == 1u ? id % uint(frame.whitewater_life.z) : id % 5u) + 1u;
     float bubble = SHAPED == 1u ? frame.whitewater_life.w : 0.5;
     p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.whitewater.x) / float(size) * (kind == BUBBLE ? bubble : 1.0);
@@ -70,7 +70,7 @@ float whitewater_mean(uint kind) {
     return kind == SPRAY ? 1.0 - 2.0 / 3.5 : kind == BUBBLE ? 0.5 : 1.0 - 2.0 / 4.25;
 }
 
-// Least half-axis in pixels: more than half a pixel's diagonal.
+// Min half-axis in pixels: more than half a pixel's diagonal.
 const float LEAST_REACH = 0.75;
 
 // Weight of a particle's own profile, by its radius in pixels.
@@ -91,7 +91,7 @@ struct Footprint {
 const int COVERED = 4;
 const vec4 MIDDLES = vec4(0.5, 1.5, 2.5, 3.5);
 
-// Most blocks of 4x4 pixels over which a footprint is summed. Only a footprint less than two pixels high or
+// Max number of blocks of 4x4 pixels over which a footprint is summed. Only a footprint less than two pixels high or
 // wide has more than one block: a row or two, where pixels are far from square.
 const int MOST_BLOCKS = 8192;
 
@@ -156,8 +156,7 @@ float whitewater_amount(Whitewater p, Footprint f, float rr) {
     return p.life * (f.even * (1.0 - rr) + f.own * whitewater_shape(p.kind, rr));
 }
 
-// Splits the thickness: before the fluid's surface, behind it, and the latter weighted by depth. Depths along
-// z.
+// Splits the thickness: before the fluid's surface, behind it, and the latter weighted by depth. Depths are along z.
 vec3 whitewater_shares(float amount, float depth, float fluid) {
     float behind = fluid < EMPTY ? depth - fluid : 0.0;
     // The paper's falloff, used where our water does not absorb the light.

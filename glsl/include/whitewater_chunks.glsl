@@ -1,4 +1,4 @@
-// Number of whitewater particles in a chunk. Needs the push constants that it names. Reads: count.
+// Number of whitewater particles in a chunk. Needs the push constants that it uses. Reads: count.
 
 uint own_of(uint chunk) {
     uint all = push.from_gpu == 1u ? min(count, push.count) : push.count;

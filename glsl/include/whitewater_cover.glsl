@@ -1,8 +1,8 @@
 // Traversal of whitewater particles: one invocation per particle, or a group per host packet; then a group per large
-// particle, which the first dispatch left in a list. There are no barriers, which are expensive on a CPU. The includer
-// defines a particle (a Sprite with a Whitewater p and a Footprint f, by sprite_at), the pixels of a box that exist
-// (inside), the operation on a pixel (splat), and whether a sphere can contribute at all (shows); it binds arguments.
-// Needs whitewater_streams.glsl. Reads: arguments, packets, list. Writes: list.
+// particle, from a list that the first dispatch wrote. There are no barriers, which are expensive on a CPU. The
+// includer defines a particle (a Sprite with a Whitewater p and a Footprint f, by sprite_at), the pixels of a box that
+// exist (inside), the operation on a pixel (splat), and whether a sphere can contribute at all (shows); it binds
+// arguments. Needs whitewater_streams.glsl. Reads: arguments, packets, list. Writes: list.
 
 // 1: a group for each packet.
 layout(constant_id = 1) const uint PACKETS = 0;
@@ -10,13 +10,12 @@ layout(constant_id = 1) const uint PACKETS = 0;
 layout(constant_id = 2) const uint LARGE = 0;
 
 layout(set = 0, binding = 9, std430) readonly buffer HostPackets { uint packets[]; };
-// For each chunk: workgroups to dispatch (4 words, the last is the number of large particles), then the
-// particles that fit.
+// For each chunk: dispatch arguments (4 words; the last is the number of large particles), then the particles that fit.
 layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
 
 #include "packets.glsl"
 
-// Largest number of pixels of a box that one invocation handles alone; it also does so when the list is full.
+// Max number of pixels of a box that one invocation processes alone; if the list is full, it processes more.
 const int SMALL = 256;
 const uint ROOM = 16384u;
 const uint LIST = ROOM + 4u; // words per chunk
@@ -45,8 +44,8 @@ void cover_one(uint i, uint past) {
         uint head = LIST * push.chunk;
         uint slot = atomicAdd(list[head + 3u], 1u);
         if (slot < ROOM) {
-            // An atomic, because synchronization validation takes a plain store as one of the dispatch for large
-            // particles too: that shares the shader, but not this branch.
+            // An atomic, because synchronization validation would attribute a plain store to the dispatch for large
+            // particles too, which shares the shader but not this branch.
             atomicExchange(list[head + 4u + slot], i);
             atomicMax(list[head], slot + 1u);
             left = 0;

@@ -25,11 +25,11 @@ bool shows(vec3 middle, float reach) {
     return in_frustum(centre, reach + wider);
 }
 
-// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether
-// or not they add anything. What would go to a word that is half full is taken out again.
+// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether or not
+// they add anything. An addition to a word that is half full is subtracted again.
 void add(uint word, uvec3 steps) {
     do {
-        // A zero must not count as too much: it would be taken out again for ever.
+        // A zero must not count as an overflow: it would be subtracted again forever.
         bool over = atomicAdd(WORD(word), steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
         word += over ? 0u : 1u;

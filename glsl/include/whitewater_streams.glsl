@@ -1,6 +1,6 @@
-// The host's streams of whitewater particles, as a pass that splats them binds a chunk of each.
-// Needs frame.glsl, falloff.glsl, whitewater.glsl, crossfade.glsl, and push constants with offsets and strides (0 for an
-// absent stream). Reads: positions, kinds, radii, ages, ids.
+// The host's streams of whitewater particles: the chunk of each that a splat pass binds. Needs frame.glsl,
+// falloff.glsl, whitewater.glsl, crossfade.glsl, and push constants with offsets and strides (0 for an absent stream).
+// Reads: positions, kinds, radii, ages, ids.
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Kinds { uint kinds[]; };
@@ -15,7 +15,7 @@ vec4 whitewater_world(uint i) {
     return vec4(position, push.age_stride > 0u ? uintBitsToFloat(ages[push.age_word + i * push.age_stride]) : 0.0);
 }
 
-// Its id.
+// Id of the particle.
 uint whitewater_id(uint i) {
     return push.id_stride > 0u ? ids[push.id_word + i * push.id_stride] : push.chunk_first + i;
 }

@@ -1,7 +1,8 @@
-// Tiles of 8x8 pixels in which there is foam of whitewater particles, and the dispatch over them, a group each. Needs frame.glsl.
+// Tiles of 8x8 pixels with foam of whitewater particles, and the dispatch over them, with one group per tile. Needs
+// frame.glsl.
 // Reads, writes: tiles.
 
-// Groups in x, y, z, how many tiles there are; the tiles, numbered row by row.
+// Groups in x, y, z and the number of tiles, then the tiles, numbered row by row.
 layout(set = 0, binding = 9, std430) buffer Tiles { uint tiles[]; };
 
 const uint FIRST_TILE = 4u;

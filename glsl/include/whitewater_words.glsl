@@ -1,8 +1,7 @@
-// Words of each pixel that whitewater particles accumulate, next to each other: attributes of the frontmost, bits of
-// its depth (these two form a 64-bit word, whose minimum is the frontmost's), bits of the scene's and the fluid's
-// depths, and fixed-point sums of the thickness in front of the fluid, behind it, and the latter times its distance.
-// The last word is padding: a pixel has 32 bytes, one memory sector of a GPU.
-// Needs frame.glsl.
+// Words of each pixel that whitewater particles accumulate, next to each other: attributes of the frontmost particle
+// and bits of its depth (together a 64-bit word, whose minimum belongs to the frontmost), bits of the scene's and the
+// fluid's depths, and fixed-point sums of the thickness in front of the fluid, behind it, and the latter times its
+// distance. The last word is padding: a pixel has 32 bytes, one memory sector of a GPU. Needs frame.glsl.
 
 const uint WITH = 0u;
 const uint FRONT = 1u;
@@ -13,7 +12,7 @@ const uint WORDS = 8u;
 
 // Fixed-point steps per thickness of 1.
 const float STEPS = 65536.0;
-// Nothing is added beyond this, so that any number of particles may lie on one spot.
+// No more is added above this, so that any number of particles may lie on one spot.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 pixel) {

@@ -1,7 +1,7 @@
 #version 460
 // Pass `caustics`: refracts the light of each texel of the light map to where it leaves the water again, usually the
-// ground (caustics mapping, Shah et al. 2007, without its mesh). Where the host's scene shadows the water there is no
-// light: it would enter through the water's side at a wall and be thrown along the bed.
+// ground (caustics mapping, Shah et al. 2007, without its mesh). Where the host's scene shadows the water, no light
+// enters; otherwise light would enter through the water's side at a wall and spread along the bed.
 // Reads: smoothed front, thickness, shadow map or its basis and span. Writes: photons, fixed point, summed.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `caustics`, last part: light per texel relative to that without water, slightly blurred, because the sun is no
-// point. Where there is no water above, the unrefracted light is added. (Source: see caustics.comp.)
+// Pass `caustics`, last part: light per texel relative to that without water, slightly blurred, because the sun is not
+// a point. Where there is no water above, the unrefracted light is added. (Source: see caustics.comp.)
 // Reads: photons, front. Writes: caustics (R32F).
 
 #include "frame.glsl"

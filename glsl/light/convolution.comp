@@ -1,6 +1,6 @@
 #version 460
-// Pass `convolution`, second part: the basis of two terms (convolution.glsl), averaged over the map's
-// texels in one of ours.
+// Pass `convolution`, second part: the basis of two terms (convolution.glsl), averaged over the map's texels within
+// each texel of the library's image.
 // Reads: shadow map, span. Writes: one page.
 
 #include "frame.glsl"

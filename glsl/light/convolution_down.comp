@@ -1,7 +1,7 @@
 #version 460
-// Pass `convolution`, last part: the box along y, the filter's other half, and the page's border
-// of one texel.
-// Reads: one page, filtered along x. Writes: it into the basis.
+// Pass `convolution`, last part: a box filter along y, the other half of the filter, and the page's border of one
+// texel.
+// Reads: one page, filtered along x. Writes: the page in the basis.
 
 #include "frame.glsl"
 

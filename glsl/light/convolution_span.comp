@@ -1,6 +1,6 @@
 #version 460
-// Pass `convolution`, first part: the nearest and the farthest depth of the shadow map with something
-// there, between which the series runs (ours, src/light/convolution.rs). A group looks at 128x128 texels.
+// Pass `convolution`, first part: the min and max depth of the shadow map, without empty texels, between which the
+// series is defined (src/light/convolution.rs; not in the source). A group reads 128x128 texels.
 // Reads: shadow map. Writes: span.
 
 #include "frame.glsl"

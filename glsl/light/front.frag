@@ -1,6 +1,6 @@
 #version 460
-// Pass `light`: where the sun's light meets water or foam first, metres along it. MIN blending keeps
-// the nearest. Not in the thesis. Reads: sprites.vert's discs. Writes: front (R32F).
+// Pass `light`: distance in metres along the sunlight at which it first meets water or foam. MIN blending keeps the
+// nearest. Not in the thesis. Reads: the discs of sprites.vert. Writes: front (R32F).
 
 #include "frame.glsl"
 

@@ -7,7 +7,7 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(set = 0, binding = 1) uniform sampler2D lit;
-// The format is the host's choice: written without a format qualifier.
+// The host chooses the format, so the image has no format qualifier.
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 
 void main() {

@@ -1,6 +1,6 @@
 #version 460
 // Pass `caustics`, first part: smooths the front surface of the light map along one axis, by a Gaussian over texels on
-// the same surface. Not in the paper. Reads: front, or the first axis' result. Writes: smoothed.
+// the same surface. Not in the paper. Reads: front, or the result of the first axis. Writes: smoothed.
 
 #include "frame.glsl"
 

@@ -1,5 +1,5 @@
 #version 460
-// Pass `light`: a quad around each particle as the sun sees it, directly from the host's streams. Not in the thesis.
+// Pass `light`: a quad around each particle as seen from the sun, directly from the host's streams. Not in the thesis.
 // Reads: positions, densities, foam, members. Writes: the disc's corners, position, size and heights.
 
 #include "frame.glsl"
@@ -73,7 +73,7 @@ void main() {
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     amount = shares * volume / (axis * axis);
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // One texel wider, so that snapping does not cut it.
+    // One texel wider on each side, so that snapping of vertex positions does not cut the footprint.
     centre = seen.xy * frame.light_map.x;
     vec2 ndc = (centre + side * (axis / texel + 1.0)) / frame.light_map.x * 2.0 - 1.0;
     bool there = is_member(index) && shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));

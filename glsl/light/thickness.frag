@@ -1,7 +1,8 @@
 #version 460
-// Pass `light`: metres of water and of foam along the sunlight, and both times their position along it: thickness as
-// for the camera (thesis Sec. 3.2.2, kernel.glsl), seen from the sun, which the thesis does not do.
-// Reads: sprites.vert's discs. Writes: thickness (RGBA32F), summed.
+// Pass `light`: thickness of water and of foam in metres along the sunlight, and both multiplied by their position
+// along it: the thickness of the camera (thesis Sec. 3.2.2, kernel.glsl), but seen from the sun, which is not in the
+// thesis.
+// Reads: the discs of sprites.vert. Writes: thickness (RGBA32F), summed.
 
 #include "frame.glsl"
 #include "kernel.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `whitewater_light`: thickness of whitewater as the sun sees it, and its position along the light; splatted as Akinci et
-// al. 2013, Sec. 2.2, do for the camera. Shadows of whitewater are their future work. One invocation per particle, a
-// whole group for large ones.
+// Pass `whitewater_light`: thickness of whitewater as seen from the sun, and its position along the light. Particles
+// are splatted as for the camera (Akinci et al. 2013, Sec. 2.2); shadows of whitewater are their future work. One
+// invocation per particle, a whole group for large ones.
 // Reads: positions, kinds, radii, ages, ids, crossfade, front, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
@@ -38,7 +38,7 @@ layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments
 // Depth at which the light first meets water.
 layout(set = 0, binding = 8) uniform sampler2D front;
 
-// A particle as the sun sees it.
+// A particle as seen from the sun.
 struct Sprite {
     Whitewater p;
     Footprint f;
@@ -59,7 +59,7 @@ Sprite sprite_at(uint i) {
     float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
     // Particles behind the eye cast shadows too.
     bool there = world.w < 1.0 && all(lessThan(abs(s.p.centre), vec3(EMPTY))) && place < frame.light_map.x;
-    // The part of it that is a blob casts as a blob.
+    // The part of it that is drawn as a blob casts its shadow as a blob.
     float kept = 1.0;
     for (bool handed = frame.whitewater.z > 0.0 && may_be_blob(s.p, length(s.p.centre)); handed; handed = false) {
         kept = kept_of(s.p);
@@ -69,8 +69,8 @@ Sprite sprite_at(uint i) {
     return s;
 }
 
-// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether
-// or not they add anything. What would go to a sum that is full is taken out again.
+// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether or not
+// they add anything. An addition to a sum that is full is subtracted again.
 void add(uint at, uint steps, uint place) {
     uint high, low;
     umulExtended(steps * place, place, high, low);
@@ -94,7 +94,7 @@ void splat(ivec2 texel, Sprite s) {
         return;
     }
     float amount = whitewater_amount(s.p, s.f, rr);
-    // What is not drawn behind the water's surface casts no shadow either.
+    // Particles that are not drawn behind the water's surface cast no shadow.
     if (SHAPED == 1u && frame.whitewater.w > 0.0) {
         float depth = s.depth - sqrt(1.0 - rr) * s.p.radius;
         amount = whitewater_shares(amount, depth, texelFetch(front, texel, 0).x).x;

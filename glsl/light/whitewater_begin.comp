@@ -1,5 +1,5 @@
 #version 460
-// Pass `whitewater_light`, first part: the dispatches that the particles need. Not in the paper.
+// Pass `whitewater_light`, first part: arguments of the dispatches over the particles. Not in the paper.
 // Reads: count. Writes: arguments.
 
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `whitewater_light`, last part: sums to the thickness of each texel, its mean position and its spread; slightly blurred,
-// because the sun is no point. (Source: see whitewater.comp.)
+// Pass `whitewater_light`, last part: converts the sums to the thickness of each texel, its mean position and its
+// standard deviation, slightly blurred, because the sun is not a point. (Source: see whitewater.comp.)
 // Reads: words. Writes: whitewater (RGBA16F).
 
 #include "frame.glsl"
@@ -17,7 +17,7 @@ layout(push_constant, std430) uniform Push {
     int bound; // row of the first word
 } push;
 
-// Numbers of 64 bits.
+// Sum of 64-bit integers.
 uvec2 plus(uvec2 a, uvec2 b) {
     uint carry;
     uint low = uaddCarry(a.x, b.x, carry);
@@ -43,7 +43,7 @@ struct Moments {
     float square; // mean square of the offset from `about`
 };
 
-// Moments about an integer near the mean. All but the final quotients is exact.
+// Moments about an integer near the mean. Everything except the final quotients is exact.
 Moments moments_of(uvec4 w) {
     Moments m;
     m.sum = float(w.x);
@@ -54,7 +54,7 @@ Moments moments_of(uvec4 w) {
     uvec2 square = minus(second, times(first, 2u * about));
     square = plus(square, times(uvec2(w.x, 0u), about * about));
     m.about = int(about);
-    // Its magnitude is below the sum, so the low word is all of it.
+    // Its magnitude is below the sum, so the low word suffices.
     m.mean = float(int(off.x)) / m.sum;
     m.square = (float(square.y) * 4294967296.0 + float(square.x)) / m.sum;
     return m;

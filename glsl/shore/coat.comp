@@ -9,7 +9,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// The format is the host's choice: written without a format qualifier.
+// The host chooses the format, so the image has no format qualifier.
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 layout(set = 0, binding = 32, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 33, std430) readonly buffer Arguments { uint arguments[24]; };

@@ -1,14 +1,14 @@
 #version 460
 // Pass `composite`, raster: foam on the scene's water. Particle water is drawn over it afterwards.
-// Reads: shoreline and contact foam; scene colour, where the output cannot be blended with. Writes: output.
+// Reads: shoreline and contact foam; scene colour, if the output cannot be blended. Writes: output.
 
 #include "frame.glsl"
 #include "scene_color.glsl"
 
-// 1: blended onto the output, which holds the scene's colour; alpha is the fraction of it that stays.
+// 1: blended onto the output, which holds the scene's colour; alpha is the fraction of the scene that remains.
 layout(constant_id = 0) const uint BLENDED = 1;
 
-// An input instead of the uniform block, which a CPU driver reads anew for each pixel.
+// An input instead of the uniform block, which a CPU driver would read again for each pixel.
 layout(location = 0) flat in CoatLight light;
 layout(location = 4) flat in vec2 target;
 
@@ -18,7 +18,7 @@ void main() {
     vec2 pixel = gl_FragCoord.xy - target;
     vec4 coat = texelFetch(shore_foam, ivec2(pixel), 0);
     if (BLENDED == 1u) {
-        // Without foam all of the output stays.
+        // Without foam the output is unchanged.
         color = vec4(coated(vec3(0.0), coat, light), uncovered(coat, light));
     } else {
         if (coat.x + coat.y == 0.0) {

@@ -1,7 +1,7 @@
 #version 460
 // Pass `contact`: foam on the particles' water around objects (Lettier, Foam), on the smoothed surface.
-// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, of the pixels that have some.
-// `composite` evaluates its sunlight: the host's surface behind may be lit differently.
+// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, for pixels that have some. `composite`
+// evaluates the sunlight on it, because the host's surface behind may be lit differently.
 
 #include "frame.glsl"
 #include "level.glsl"

@@ -20,8 +20,8 @@ void main() {
     }
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
     vec2 own = 1.0 / vec2(textureSize(depth, 0));
-    // Least distance behind the water's front of an object in it, since the smoothed surface differs by less than
-    // the border's threshold.
+    // Min distance of an object in the water behind the water's front; the smoothed surface differs from that by less
+    // than the border's threshold.
     vec4 least = vec4(EMPTY);
     for (int i = 0; i < FOURS; ++i) {
         vec2 four = four_of(first, i);

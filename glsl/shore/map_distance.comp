@@ -1,5 +1,6 @@
 #version 460
-// Pass `map`, distances: from each texel to a shore-line segment one texel long at its seed, negative in the water.
+// Pass `map`, distances: distance from each texel to a segment of the shore line, one texel long, at its seed; negative
+// in the water.
 // Reads: seeds, heights. Writes: distances.
 
 #include "shore_map.glsl"

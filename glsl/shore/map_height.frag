@@ -1,4 +1,4 @@
 #version 460
-// Pass `map`, heights: the depth alone is written. Reads: nothing. Writes: nothing.
+// Pass `map`, heights: only depth is written. Reads: nothing. Writes: nothing.
 
 void main() {}

@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, seeds: nearest crossing of the shore line with the lines from a texel to its four neighbours.
+// Pass `map`, seeds: nearest crossing of the shore line with the segments from a texel to its four neighbours.
 // Reads: heights. Writes: seeds.
 
 #include "shore_map.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // Pass `shoreline`, last part: merges the 8x8 tiles with foam on the host's surface to runs along their rows, for
-// `composite`: a quad per run costs much less set-up than one per tile. One invocation per stretch of a row as long as
-// the longest run.
+// `composite`: a quad per run costs much less set-up than one per tile. One invocation processes a stretch of a row of
+// the max length of a run.
 // Reads: marks. Writes: list of runs, arguments.
 
 layout(local_size_x = 8, local_size_y = 8) in;

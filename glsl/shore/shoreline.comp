@@ -1,8 +1,7 @@
 #version 460
 // Pass `shoreline`: foam on the host's water surface: along shores by the distance map or the ground's slope (blog),
-// and around objects (Lettier, Foam).
-// Differs from both: no mesh; fractional coverage of a pixel, where they clip.
-// Reads: lists of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes:
+// and around objects (Lettier, Foam). Differs from both: no mesh; fractional coverage of a pixel instead of clipping.
+// Reads: lists of tiles, scene depth, surface depth, noise, foam texture, map, mask, inputs of sunlight.glsl. Writes:
 // shoreline foam, contact foam, missing sunlight.
 
 #extension GL_EXT_control_flow_attributes : require
@@ -29,13 +28,13 @@ layout(constant_id = 1) const uint PARTS = 3;
 #include "shore_light.glsl"
 #include "shore_place.glsl"
 
-// v from the depth of the water alone: the distance to the shore that the slope of the bed implies. What is
-// visible through the surface from below is no bed: 0, far from the shore.
+// v from the water's depth alone: the distance to the shore that the slope of the bed implies. If the surface is seen
+// from below, the scene behind it is no bed; v is then 0, far from the shore.
 float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     vec3 places[3];
     places[0] = ray * scene;
     for (int i = 1; i < 3; ++i) {
-        // Of the two neighbours the one with the depth nearer to the pixel's.
+        // Of two neighbours, the one whose depth is nearer to the pixel's.
         vec2 to = i == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
         float best = EMPTY;
         for (int k = -1; k < 2; k += 2) {
@@ -63,7 +62,7 @@ Water water_at(vec2 pixel) {
     return water_point(ray, z > 0.0 ? min(z, 1.0e6) : 1.0e6);
 }
 
-// Shades a pixel; device: the scene's depth.
+// Shades a pixel; `device` is the scene's device depth.
 bool shaded(uvec2 texel, bool listed, float device, Mixed mixed, float v, float pattern) {
     vec2 pixel = vec2(texel) + 0.5;
     bool inside = listed && all(lessThan(pixel, frame.extent.xy));
@@ -91,7 +90,7 @@ bool shaded(uvec2 texel, bool listed, float device, Mixed mixed, float v, float 
     return foams;
 }
 
-// For any surface, one pixel.
+// One pixel of a surface of any shape.
 bool shaded_alone(uvec2 texel, bool listed) {
     vec2 pixel = min(vec2(texel) + 0.5, frame.extent.xy - 0.5);
     Water w = water_at(pixel);
@@ -116,7 +115,7 @@ bool shaded_alone(uvec2 texel, bool listed) {
     return shaded(texel, listed, device, mixed, v, pattern);
 }
 
-// For a level surface, 2x2 pixels: what changes little between them is computed once.
+// 2x2 pixels of a level surface; values that change little between them are computed once.
 bool shaded_together(uvec2 first, bool listed) {
     vec2 middle = vec2(first) + 1.0;
     Water w = water_at(middle);

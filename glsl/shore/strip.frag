@@ -1,6 +1,6 @@
 #version 460
 // Pass `shoreline`: foam of the host's strip, by its own v (blog, Sec. IV to VIII).
-// Reads: scene depth, noise, web, what sunlight.glsl reads. Writes: shoreline foam, missing sunlight.
+// Reads: scene depth, noise, foam texture, inputs of sunlight.glsl. Writes: shoreline foam, missing sunlight.
 
 #include "frame.glsl"
 #include "shore.glsl"

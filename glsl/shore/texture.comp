@@ -1,7 +1,7 @@
 #version 460
 // Pass `web`: one mip level of the foam texture or the noise as half floats, for a copy to its image. The foam texture
 // has the mean, the mean square (whose variance stands for detail finer than a pixel) and the slopes. Not in the blog.
-// Reads: texels of the host, or 32-bit floats, or the level before. Writes: the level.
+// Reads: texels of the host, or 32-bit floats, or the previous level. Writes: the level.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -1,7 +1,7 @@
 #version 460
 // Pass `shore-tiles`: lists the 8x8 tiles that may contain foam on the host's surface, by kind, with the dispatches
 // over them. Not in the sources: most of a picture has none, and the test is much cheaper than shading.
-// Reads: scene depth, surface depth, map of distances. Writes: lists, arguments.
+// Reads: scene depth, surface depth, map of shore distances. Writes: lists, arguments.
 
 #include "frame.glsl"
 #include "shore.glsl"
@@ -13,7 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 const float NONE = -3.0e38;
 
-// The scene's device depths are compared directly, negated if necessary so that nearer is greater. This saves
+// The scene's device depths are compared directly, negated if necessary so that nearer depths are greater. This saves
 // work per texel.
 struct Range {
     vec4 seen;    // the surface is hidden where the scene's depth is greater
@@ -25,8 +25,8 @@ vec4 device(vec4 reciprocal) {
     return abs(frame.depth.x) * reciprocal - (frame.depth.x < 0.0 ? -frame.depth.y : frame.depth.y);
 }
 
-// The range, from the bounds of the reciprocal eye depth of the surface in a tile. part: fraction of a metre along the view that
-// counts as near. With a margin for rounding: pixels are tested again.
+// The range, from the bounds of the reciprocal eye depth of the surface in a tile. `part` is the fraction of a metre
+// along the view that counts as near. The range has a margin for rounding, because pixels are tested again.
 Range range_of(vec4 least, vec4 most, vec4 part) {
     const float SPARE = 1.0e-5;
     float ulps = 2.5e-7 * (1.0 + abs(frame.depth.y));
@@ -92,8 +92,8 @@ void main() {
     Range range = range_of(vec4(least), vec4(most), vec4(part));
     float side = sign(frame.depth.x);
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
-    // Greatest depth that does not hide the surface; for a surface that need not be level, relative to where
-    // contacts begin. This may include texels outside the picture: pixels are tested again.
+    // Greatest depth that does not hide the surface; for a surface that need not be level, relative to the depth at
+    // which contact foam begins. This may include texels outside the picture: pixels are tested again.
     vec4 nearest = vec4(NONE);
     for (int row = 0; row < (asked ? HALF : 0); ++row) {
         for (int column = 0; column < HALF; ++column) {

@@ -1,7 +1,7 @@
 #version 460
-// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample per texel.
-// Not in the thesis; the hit is that of pass `depth`.
-// Reads: Counts, visible, boundaries, blocks, levels. Writes: back bits.
+// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample per texel. Not in
+// the thesis; the hit is that of pass `depth`.
+// Reads: Counts, visible, boundaries, blocks, levels. Writes: bits of the back depth.
 
 #include "frame.glsl"
 #include "sphere.glsl"
@@ -51,7 +51,7 @@ ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     ivec2 most = ivec2(frame.extent.xy) - 1;
     ivec4 touched = ivec4(min(box.xy * edge + (edge >> 1), most), min(box.zw * edge + (edge >> 1), most)) >> BLOCK_BITS;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two loops: lavapipe 22.3 loses what a single loop with its condition last finds in its only iteration.
+    // Two loops, because lavapipe 22.3 loses the result of the only iteration of a single loop with its condition last.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-body.sphere.z >= blocks[y * columns + x]) {

@@ -1,7 +1,7 @@
 #version 460
-// Pass `back`, first part: in tiles of the back layer's first level with a boundary in or around them, the depth where
-// there is only one layer, so that the smoothing finds neighbours; EMPTY elsewhere.
-// Not in the thesis.
+// Pass `back`, first part: initial depth of the back layer's first level. In tiles with a boundary in or around them it
+// is the depth of the water where there is only one layer, so that the smoothing finds neighbours; EMPTY elsewhere. Not
+// in the thesis.
 // Reads: boundaries, levels, depth. Writes: back.
 
 #include "frame.glsl"

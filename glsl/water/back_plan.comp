@@ -1,6 +1,6 @@
 #version 460
-// Pass `back`, last part: adds the back layer to the levels of the smoothing: its first level as it is, and for each
-// coarser one that the frame needs the nearest of each block. Not in the thesis.
+// Pass `back`, last part: adds the back layer to the levels of the smoothing: its first level unchanged, and for each
+// required coarser level the nearest depth of each block. Not in the thesis.
 // Reads: back, levels, levels needed. Writes: both smoothing images, plan, work of the levels' tiles.
 
 #include "frame.glsl"

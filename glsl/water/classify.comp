@@ -78,9 +78,9 @@ uint slot_of(uint key) {
     return high - push.part_first;
 }
 
-// Longest search in rows. In a table that is two thirds full no search takes a quarter of this. But with ids
-// made to collide, or a state that something else wrote, each search would visit all rows. A particle that
-// finds no row starts as new water in each step.
+// Max length of a search in rows. In a table that is two thirds full no search takes a quarter of this. But with ids
+// chosen to collide, or with a corrupt state, each search would visit all rows. A particle that finds no row starts as
+// new water in each step.
 const uint MOST_LOOKS = 1024u;
 
 // The search wraps around at the end of the part.

@@ -1,8 +1,8 @@
 #version 460
-// Pass `cull`: the border. Drops NaN and infinite particles, classifies spray, culls the rest against the frustum
-// (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the survivors in eye space: small sprites from
-// the front of the list, large ones from its back.
-// Reads: positions, of ellipsoids with their shapes, densities, packets. Writes: Counts, visible, members.
+// Pass `cull`: the input stage. It drops NaN and infinite particles, classifies spray, culls the rest against the
+// frustum (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the survivors in eye space: small
+// sprites from the front of the list, large ones from its back.
+// Reads: positions (for ellipsoids with their shapes), densities, packets. Writes: Counts, visible, members.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -57,7 +57,7 @@ const uint LARGE = 2u;
 // A smaller fraction of water counts as none.
 const float LEAST_SHARE = 1.0 / 256.0;
 
-// The shape that pass `shape` stored behind a position, rotated to eye space.
+// The shape that pass `shape` stored after a position, rotated to eye space.
 vec4 seen_shape(uint at) {
     mat3 axes = unpack_axes(uvec3(positions[at], positions[at + 1u], positions[at + 2u]));
     mat3 turn = mat3(frame.view);
@@ -127,7 +127,7 @@ uint classify(uint index, out vec4 sphere, out vec4 shape, out float share) {
         shape = seen_shape(at + 3u);
         return classify_ellipsoid(ellipsoid_of(vec4(centre, radius), shape));
     }
-    // The half-axis of the thickness sprite bounds both: it is the wider one.
+    // The half-axis of the thickness sprite bounds both, because it is the larger one.
     float reach = radius * frame.particle.z / frame.particle.x;
     if (!in_frustum(centre, reach)) {
         return NONE;
@@ -179,7 +179,7 @@ void append(uint kind, vec4 sphere, vec4 shape, float share) {
     barrier();
 }
 
-// Marks all particles of the packet, visible or not: the sun sees others than the eye.
+// Marks all particles of the packet, visible or not, because the sun sees other ones than the camera.
 void enter(Packet packet) {
     uint past = (packet.past + 31u) >> 5;
     for (uint word = (packet.first >> 5) + gl_LocalInvocationIndex; word < past; word += gl_WorkGroupSize.x) {

@@ -1,5 +1,5 @@
 #version 460
-// Pass `cull`, last part: number of survivors to number of workgroups. (The thesis draws directly.)
+// Pass `cull`, last part: converts the number of survivors to a number of workgroups. (The thesis draws directly.)
 // Reads: Counts of every chunk. Writes: their arguments.
 
 layout(local_size_x = 32) in;

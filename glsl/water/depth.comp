@@ -1,7 +1,7 @@
 #version 460
-// Pass `depth`, compute path: exact depth of spheres or ellipsoids (thesis Sec. 4.6.1, with the ray's true hit in
-// place of the billboard's offset). Positive floats order as their bits do, so the nearest one is
-// an integer atomic.
+// Pass `depth`, compute path: exact depth of spheres or ellipsoids (thesis Sec. 4.6.1, with the ray's exact
+// intersection in place of the billboard's offset). Positive floats have the order of their bits, so an integer atomic
+// minimum finds the nearest.
 // Reads: Counts, visible. Writes: depth bits (nearest eye depth, EMPTY elsewhere).
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `depth`, raster path: the hit of the pixel's ray (thesis Sec. 4.6.1; Listing A.9 offsets the
-// billboard instead). MIN blending keeps the nearest.
-// Reads: depth.vert's sphere. Writes: depth (R32F).
+// Pass `depth`, raster path: intersection of the pixel's ray (thesis Sec. 4.6.1; Listing A.9 offsets the billboard
+// instead). MIN blending keeps the nearest.
+// Reads: the sphere of depth.vert. Writes: depth (R32F).
 
 #include "frame.glsl"
 #include "sphere.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `depth`, raster path: one sprite a sphere or ellipsoid, as a point where it fits, else as a quad (thesis Sec. 4.5,
-// 4.6.1, Listing A.8: points alone). The footprint is conservative; the hit test alone decides coverage.
+// Pass `depth`, raster path: one sprite per sphere or ellipsoid, a point if it fits, otherwise a quad (thesis Sec. 4.5,
+// 4.6.1, Listing A.8: only points). The footprint is conservative; only the intersection test decides coverage.
 // Reads: visible. Writes: the sprite's corners.
 
 #include "frame.glsl"

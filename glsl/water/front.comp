@@ -1,6 +1,6 @@
 #version 460
-// Pass `front`, second part: keeps the sprites that can be visible in some cell they touch, in a list of the same
-// form. In deep water that is the surface alone. Not in the thesis.
+// Pass `front`, second part: keeps the sprites that can be visible in some cell that they touch, in a list of the same
+// form. In deep water these are only the surface. Not in the thesis.
 // Reads: Counts, visible, cells. Writes: front counts, front list.
 
 #include "frame.glsl"
@@ -73,7 +73,7 @@ void main() {
     if (keep) {
         copy(index, group_first + slot);
     }
-    // Large sprites are few: they are copied.
+    // Large sprites are few, so they are copied without a test.
     uint large = counts.large;
     if (index == 0u) {
         front_counts.large = large;

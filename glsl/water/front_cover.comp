@@ -1,8 +1,9 @@
 #version 460
 // Pass `front`, first part: for each cell of 4x4 pixels the depth behind which nothing is visible, because one sphere
-// covers the whole cell. Each small sprite tries the four cells nearest its centre. The part of a convex body's front
-// before some depth has a convex outline, so its farthest point over a cell is at a corner. Not in the thesis.
-// Reads: Counts, visible. Writes: cells (bits of the depth; EMPTY where none covers).
+// covers the whole cell. Each small sprite tests the four cells nearest its centre. The part of a convex body's front
+// that is nearer than a given depth has a convex outline, so the farthest point over a cell is at a corner. Not in the
+// thesis.
+// Reads: Counts, visible. Writes: cells (bits of the depth; EMPTY if no sphere covers the cell).
 
 #include "frame.glsl"
 #include "sphere.glsl"
@@ -28,7 +29,7 @@ void main() {
     }
     Ellipsoid body = ellipsoid_in(visible, index);
     vec4 sphere = body.sphere;
-    // Too small to cover a cell (its half diagonal is 2.83 pixels).
+    // Too small to cover a cell (half the cell's diagonal is 2.83 pixels).
     if (ellipsoid_reach(body) * sphere.w * 2.9 < 8.0 * frame.texel.x * -sphere.z) {
         return;
     }

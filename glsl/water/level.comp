@@ -41,7 +41,7 @@ void main() {
     barrier();
     ivec2 block = corner - own.rect.xy + ivec2(gl_LocalInvocationID.xy);
     if (all(lessThan(block, own.rect.zw))) {
-        // Outside the tiles that need this level there is nothing to smooth with.
+        // Texels outside the tiles that need this level do not contribute to the smoothing.
         float z = EMPTY;
         ivec2 end = mark == 2u ? min((block + 1) * edge, ivec2(frame.extent.xy)) : ivec2(0);
         for (int y = block.y * edge; y < end.y; ++y) {

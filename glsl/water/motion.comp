@@ -1,6 +1,6 @@
 #version 460
-// Pass `motion`, second part, not in the sources: motion of each particle near a surface, weighted by its thickness.
-// Particles over few texels take one invocation each; a whole group handles each of the others.
+// Pass `motion`, second part, not in the sources: motion of each particle near a surface, weighted by its thickness. A
+// particle over few texels takes one invocation; a whole group processes each of the others.
 // Reads: Counts (particles), positions, velocities, densities, foam, members, fronts. Writes: sums.
 
 #include "frame.glsl"

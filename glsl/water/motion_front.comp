@@ -29,7 +29,7 @@ void main() {
             farthest = z < EMPTY ? max(farthest, z) : farthest;
         }
     }
-    // Otherwise what is near the first would also be near the second.
+    // Otherwise particles near the first surface would also be near the second.
     bool other = nearest < EMPTY && farthest - nearest > 3.0 * frame.particle.x;
     uint at = texel_index(texel);
     fronts[at] = vec2(nearest, other ? farthest : EMPTY);

@@ -1,7 +1,8 @@
 #version 460
-// Pass `motion`, last part: previous position of the visible point of each pixel, as a vector in pixels from there to
-// here. Water and foam have their own motion and the camera's, the scene has the camera's alone. Everything is
-// computed as differences: zero motion is exactly zero, and small motion is as exact as large. Not in the sources.
+// Pass `motion`, last part: motion vector of each pixel: position of its visible point minus the point's previous
+// position, in pixels. Water and foam have their own motion and the camera's, the scene has only the camera's.
+// Everything is computed as differences, so that zero motion is exactly zero and small motion is as exact as large
+// motion. Not in the sources.
 // Reads: fronts, sums, depth, foam depth and thickness, smoothed, levels, scene depth. Writes: motion.
 
 #include "frame.glsl"
@@ -17,7 +18,7 @@ layout(push_constant, std430) uniform Push { uint level; } push;
 #include "smoothed_depth.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
-// A format qualifier would need a feature (shaderStorageImageExtendedFormats): written without one.
+// A format qualifier would need a feature (shaderStorageImageExtendedFormats), so there is none.
 layout(set = 0, binding = 8) uniform writeonly image2D motion;
 
 // A 64-bit sum, rounded once.
@@ -33,8 +34,8 @@ float sum_at(uint at) {
     return negative ? -value : value;
 }
 
-// Weighted displacement and weight of that surface of a texel which is nearer to a depth and has any; and its
-// distance from it.
+// Weighted displacement and weight of the texel's surface that is nearer to a depth, among those with a weight; and its
+// distance from that depth.
 vec4 texel_sums(ivec2 texel, float z, out float away) {
     uint at = texel_index(texel);
     vec2 front = fronts[at];
@@ -103,7 +104,7 @@ void main() {
     } else {
         float device = texelFetch(scene_depth, scene_texel(pixel), 0).x;
         float scene = eye_depth(device);
-        // Nothing there: with a reversed infinite depth, infinity is 1/0, or negative by rounding.
+        // No scene: with a reversed infinite depth, infinity is 1/0, or negative by rounding.
         z = device == frame.before_lens.w || !(scene > 0.0 && scene < EMPTY) ? EMPTY : scene;
     }
     // Its position in the eye space of the previous frame minus that in the current one. For points at

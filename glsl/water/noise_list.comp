@@ -1,6 +1,6 @@
 #version 460
-// Pass `noise`, first part: lists the particles on the screen that are not spray, in eye space. (Leaving out those
-// that `front` knows to be deep below the surface saved nothing: where spheres are small none covers a cell.)
+// Pass `noise`, first part: lists the particles on the screen that are not spray, in eye space. (Omitting particles
+// that `front` finds deep below the surface saved nothing, because small spheres do not cover a cell.)
 // Reads: Counts (particles), positions, densities, ids, members. Writes: Counts (noise), sprites.
 
 #include "frame.glsl"

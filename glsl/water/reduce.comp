@@ -17,8 +17,8 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
-// Greatest number of iterations + 1, 0 without water; from bit 16 on the coarsest level needed, at bit 24 whether
-// a coarser level may be visible.
+// Max number of iterations + 1, 0 without water; from bit 16 on the coarsest required level; bit 24: whether a coarser
+// level may be visible.
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
 #include "surface_foam_texels.glsl"
@@ -29,8 +29,8 @@ layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; 
 shared uint most;
 shared uint nearest_bits;
 
-// Depth of a block before the scene; `best`: the nearest depth; `other`: whether something other than water is
-// drawn there.
+// Depth of a block in front of the scene. `best` is the nearest depth; `other` tells whether something other than water
+// is drawn there.
 float reduced(ivec2 block, out float best, out bool other) {
     ivec2 extent = ivec2(frame.extent.xy);
     other = foam_beside(block << LEVEL, 1 << LEVEL);

@@ -1,10 +1,9 @@
 #version 460
 // Pass `shape`, third part: fits the ellipsoid of each particle to the weighted covariance of its neighbours (Yu and
-// Turk 2013, Sec. 4, Eqs. 6 and 9 to 16). Differs: it keeps its sphere's volume (the paper's k_s is a kernel
-// constant), and it changes from sphere to ellipsoid with the sum of the neighbours' weights, not at a number of
-// neighbours, so that it does not jump in time. Spray has an ellipsoid of its own, from one neighbour on: a line of torn
-// water is a strand of droplets.
-// Sums use fixed-point steps: the order of the neighbours does not matter.
+// Turk 2013, Sec. 4, Eqs. 6 and 9 to 16). Differs: it keeps its sphere's volume (the paper's k_s is a kernel constant),
+// and it changes from sphere to ellipsoid gradually with the sum of the neighbours' weights, instead of at a number of
+// neighbours, so that it does not jump in time. Spray has an ellipsoid of its own, from one neighbour on: a line of
+// torn water is a strand of droplets. Sums use fixed-point steps: the order of the neighbours does not matter.
 // Reads: the grid, counts. Writes: shaped, shifts.
 
 #include "random.glsl"
@@ -42,10 +41,10 @@ const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
 // line of them 2.9.
 const vec2 ALONE = vec2(1.5, 2.5);
 
-// Variance that Jacobi rotations leave of 0, in squares of the reach.
+// Variance that counts as 0: Jacobi rotations leave rounding errors. In squares of the reach.
 const float NO_VARIANCE = 1.0e-6;
 
-// Half-axes of a volume of 1 that have the proportions of variances, as far as a ratio admits.
+// Half-axes with a product of 1 in the proportions of the variances, limited to a ratio.
 vec3 axes_of(vec3 variances, float ratio) {
     float most = max(variances.x, max(variances.y, variances.z));
     if (most <= NO_VARIANCE) {

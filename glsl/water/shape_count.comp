@@ -1,7 +1,7 @@
 #version 460
 // Pass `shape`, first part: number of particles in each bucket of the neighbour grid (Yu and Turk 2013 do not say how
 // neighbours are found).
-// Reads: the host's count, positions. Writes: buckets; shaped: the spheres of particles that take no part.
+// Reads: the host's count, positions. Writes: bucket counts; shaped: the spheres of particles that are not in the grid.
 
 #include "random.glsl"
 #include "shape_chunk.glsl"

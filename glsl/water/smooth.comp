@@ -80,8 +80,8 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
 void main() {
     uint tiles = arguments[push.iteration].w;
     uint i = gl_WorkGroupID.x;
-    // The condition is at the end: with it at the top, a CPU driver executes the body once more for no
-    // invocation. Every workgroup has a tile.
+    // The condition is at the end: with it at the top, a CPU driver executes the body once more without active
+    // invocations. Every workgroup has a tile.
     do {
         uint tile = list[i];
         ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `smooth`, form Query: one iteration of curvature flow, and the two draws beside it (thesis Sec. 4.7,
-// Listings A.11-A.13; the thesis counts fragments that it has not discarded).
+// Pass `smooth`, form Query: one iteration of curvature flow, and the two accompanying draws (thesis Sec. 4.7, Listings
+// A.11-A.13; the thesis counts fragments that it has not discarded).
 // Reads: one smoothing image, plan. Writes: the other smoothing image.
 
 #include "frame.glsl"
@@ -40,7 +40,7 @@ void main() {
     }
     uint planned = texelFetch(plan, p, 0).x;
     bool active_here = plan_count(planned) >= push.iteration;
-    // No early_fragment_tests: with it lavapipe would count what is discarded.
+    // early_fragment_tests is not set: with it lavapipe would count discarded fragments.
     if (TASK == 1u) {
         if (!active_here) {
             discard;

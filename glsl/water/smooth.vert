@@ -1,6 +1,6 @@
 #version 460
-// Pass `smooth`, form Query: one quad a tile that holds water, gated by the block's predicate, where the
-// source draws one over the image until the CPU has seen a query (thesis Sec. 4.7, Listing A.11).
+// Pass `smooth`, form Query: one quad per tile that holds water, gated by the block's predicate. (The source draws one
+// quad over the image until the CPU has read a query: thesis Sec. 4.7, Listing A.11.)
 // Reads: tile list, predicates. Writes: the quad's corners.
 
 #include "frame.glsl"

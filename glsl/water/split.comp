@@ -1,7 +1,6 @@
 #version 460
 // Pass `split`: sorts the first level's tiles with water by whether they hold a boundary, foam, and coarser levels, so
-// that `composite` can shade each kind with a shader that handles no more.
-// Not in the thesis.
+// that `composite` can shade each kind with the simplest shader that suffices. Not in the thesis.
 // Reads: tile list and arguments, work, levels, boundaries, foam depth and thickness. Writes: eight lists, their
 // lengths.
 

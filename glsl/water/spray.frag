@@ -1,6 +1,6 @@
 #version 460
 // Pass `spray`: optical depth of droplets in front of scene and water (thesis Sec. 4.9.5 adds a colour instead).
-// Reads: scene depth, water depth. Writes: spray (RG32F, or RG16F where that is not blended), summed.
+// Reads: scene depth, water depth. Writes: spray (RG32F, or RG16F if the device cannot blend that), summed.
 
 #include "frame.glsl"
 #include "random.glsl"
@@ -47,11 +47,11 @@ float value_noise(vec2 p, uint salt) {
     return mix(low, high, f.y);
 }
 
-// Growth of the noise's amplitude per octave, up to 1. Coarse octaves are weak: strong clumps of a particle's size would show
-// the particles.
+// Growth of the noise's amplitude per octave, up to 1. Coarse octaves are weak, because strong clumps of a particle's
+// size would show the particles.
 const float FINER = 0.25;
 
-// Density of mist over its mean. Drops come in clumps of all sizes: the logarithm is a sum of octaves of noise.
+// Density of mist relative to its mean. Drops come in clumps of all sizes: the logarithm is a sum of octaves of noise.
 float clumps(vec2 place) {
     vec2 cells = place * grain.xy;
     vec2 at = vec2(cells.x * turn.x - cells.y * turn.y, cells.x * turn.y + cells.y * turn.x);
@@ -84,7 +84,8 @@ void main() {
     if (scene > 0.0 && depth >= scene) {
         discard;
     }
-    // Droplets surround particles that may also be water, so those just behind the surface are visible.
+    // Droplets surround particles that may also be drawn as water, so droplets up to 1.5 spacings behind the water's
+    // surface stay visible, fading with the distance.
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
     // The kernel of the thickness, because the thesis' exp(-2 rho^2) alone ends with an edge.
     float added = before * amount.x * clumps(place) * thickness_kernel(dot(place, place));

@@ -1,8 +1,8 @@
 #version 460
 // Pass `spray` (thesis Sec. 4.9.5; several droplets per particle are new): a quad around each droplet, an ellipse that
-// faces the camera, stretched along its projected motion. Droplets of a particle with neighbours fill the ellipsoid that
-// pass `shape` has fitted to them; mist is that ellipsoid and its streak as seen.
-// Reads: sprites, what sunlight.glsl reads. Writes: the quad's corners, its optical depth and visibility of the sun, and
+// faces the camera, stretched along its projected motion. Droplets of a particle with neighbours fill the ellipsoid
+// that pass `shape` has fitted to them; mist is the projection of that ellipsoid and of its streak.
+// Reads: sprites, inputs of sunlight.glsl. Writes: the quad's corners, its optical depth and visibility of the sun, and
 // the scale of the noise in mist.
 
 #include "frame.glsl"
@@ -29,7 +29,7 @@ layout(location = 8) flat out vec2 turn;   // cosine and sine from the noise's a
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
-// Salt of the numbers that a particle has once.
+// First counter of the random numbers that a particle has once.
 const uint SPINDLE = 4096u;
 // Sums of squared half-axes between which droplets change from a random spindle to the ellipsoid of the neighbours.
 const float BALL = 3.0;
@@ -111,8 +111,8 @@ void main() {
     vec3 level = normalize(cross(side, normal));
     vec3 e1 = speed > still_below ? motion / speed : level;
     vec3 e2 = cross(e1, normal);
-    // A streak covers more than the droplet, but each point for a shorter time. No narrower than 1.5 pixels,
-    // to avoid flicker; then it is thinner in proportion.
+    // A streak covers more than the droplet, but each point for a shorter time. It is at least 1.5 pixels wide, to
+    // avoid flicker, and thinner in proportion.
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
@@ -135,14 +135,14 @@ void main() {
     vec2 cell = frame.particle.x + abs(vec2(dot(motion, e1), dot(motion, e2))) * frame.spray.w;
     float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(min(cell.x, cell.y) / pixel), 0.0, OCTAVES) : 0.0;
     grain = vec3(axes / cell, mist ? octaves : 0.0);
-    // The noise is lengthened along the streak, and does not turn with it: that of a particle that hardly moves has any
-    // direction, another one in each frame.
+    // The noise is lengthened along the streak, and does not turn with it: the streak of a particle that hardly moves
+    // has a random direction, another one in each frame.
     turn = vec2(dot(e1, level), dot(e1, upright));
     along = e1 / axes.x;
     across = e2 / axes.y;
 
     vec2 corner = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // One pixel wider, so that snapping does not cut the footprint.
+    // One pixel wider on each side, so that snapping of vertex positions does not cut the footprint.
     vec3 at = centre + corner.x * e1 * (axes.x + pixel) + corner.y * e2 * (axes.y + pixel);
     bool drawn = float(gl_InstanceIndex % droplets) < kept;
     bool whole = drawn && depth > 2.0 * (axes.x + pixel) && depth > frame.depth.z;

@@ -25,7 +25,7 @@ layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprite
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 
-// Largest number of texels of a box that one invocation handles alone. It is at the end of a class.
+// Max number of texels of a box that one invocation processes alone; it is the upper end of a size class.
 const int SMALL = 1023;
 
 // Number of size classes: two per power of two of the number of texels.
@@ -78,12 +78,12 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Adds to the sum of all foam and to those after it, which often get nothing. Any number of sprites may lie
-// on one spot: what would go to a word that is half full is taken out again. All in one loop: at each atomic
-// operation that a CPU driver meets, it runs the invocations one by one, whether or not they add anything.
+// Adds to the sum of all foam and to the following sums, which often get 0. Any number of sprites may lie on one spot:
+// an addition to a word that is half full is subtracted again. All in one loop: at each atomic operation that a CPU
+// driver meets, it runs the invocations one by one, whether or not they add anything.
 void add(uint word, uvec4 steps) {
     do {
-        // A zero must not count as too much: it would be taken out again for ever.
+        // A zero must not count as an overflow: it would be subtracted again forever.
         bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec4(0u - steps.x, steps.yzw) : uvec4(steps.yzw, 0u);
         word += over ? 0u : 1u;

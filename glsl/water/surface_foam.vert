@@ -1,7 +1,7 @@
 #version 460
-// Pass `surface_foam`, raster path: a quad round each sprite, in its plane (thesis Sec. 4.6.2; Listing A.10 does it
-// in a geometry shader); the ellipse is the fragment's. Seen from its edge, or through the near plane, it is
-// the box of a sphere round it.
+// Pass `surface_foam`, raster path: a quad around each sprite, in its plane (thesis Sec. 4.6.2; Listing A.10 builds it
+// in a geometry shader). The fragment shader cuts out the ellipse. If the plane is seen edge-on or crosses the near
+// plane, the quad is the bounding box of a sphere around the sprite.
 // Reads: sprites. Writes: corners, the sprite's plane, noise and light.
 
 #include "frame.glsl"
@@ -39,7 +39,8 @@ void main() {
     vec4 scale = frame.thick_slope;
     vec2 extent = frame.thick_extent.xy;
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // One texel wider, so that snapping (1/16 at worst) does not cut the footprint, even foreshortened.
+    // One texel of the target wider on each side, so that snapping of vertex positions (to 1/16 pixel at worst) does
+    // not cut the footprint, even if it is foreshortened.
     vec3 reach_a = plane.e1 * (plane.axes.x + plane.texel);
     vec3 reach_b = plane.e2 * (plane.axes.y + plane.texel);
     float depth = -centre.z;

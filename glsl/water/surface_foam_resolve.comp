@@ -1,5 +1,5 @@
 #version 460
-// Pass `surface_foam`, compute path, last part: fixed point to metres.
+// Pass `surface_foam`, compute path, last part: converts fixed point to metres.
 // Reads: words. Writes: foam depth, foam thickness.
 
 #include "frame.glsl"
@@ -7,7 +7,7 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 1, std430) readonly buffer Words { uint words[]; };
-// A format qualifier would need a feature (shaderStorageImageExtendedFormats): written without one.
+// A format qualifier would need a feature (shaderStorageImageExtendedFormats), so there is none.
 layout(set = 0, binding = 2) uniform writeonly image2D thickness;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D depth;
 

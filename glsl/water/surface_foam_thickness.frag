@@ -1,7 +1,7 @@
 #version 460
-// Pass `surface_foam`, raster path: metres of all foam, of the layer right behind the frontmost (thesis Sec. 4.8.2, Listing
-// A.16), of its sunlit part, and of all foam times its distance behind the frontmost. A noise breaks up the discs: the
-// shared pattern, or one per sprite that changes with its age.
+// Pass `surface_foam`, raster path: thickness in metres of all foam, of the front layer, right behind the frontmost
+// foam (thesis Sec. 4.8.2, Listing A.16), of its sunlit part, and of all foam times its distance behind the frontmost.
+// A noise breaks up the discs: the shared pattern, or one per sprite that changes with its age.
 // Reads: scene depth, foam depth. Writes: foam thickness (RGBA32F).
 
 #include "frame.glsl"

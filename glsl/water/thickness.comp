@@ -1,12 +1,10 @@
 #version 460
 // Pass `thickness`, compute path: fixed-point sums, so that the order does not matter (thesis Sec. 4.8.1 blends;
-// kernel.glsl).
-// An addend is 2^26 at most (a particle of half the radius), so 64 of them overflow a word; carries are counted in a
-// second word. Any number of particles may lie on one spot.
-// A second dispatch sums the front of two layers and the window between them, for the few spheres that are not well
-// behind every nearby boundary.
-// Reads: Counts, visible, scene depth, with foam that and the frontmost foam's from its words, boundaries, blocks.
-// Writes: sums (UNITS of the amplitude).
+// kernel.glsl). An addend is 2^26 at most (a particle of half the radius), so 64 of them overflow a word; carries are
+// counted in a second word. Any number of particles may lie on one spot. A second dispatch sums the front of two layers
+// and the window between them, for the few spheres that are not well behind every nearby boundary.
+// Reads: Counts, visible, scene depth (with foam: depths of scene and frontmost foam, from the foam's words),
+// boundaries, blocks. Writes: sums (UNITS of the amplitude).
 
 #include "frame.glsl"
 #include "sphere.glsl"
@@ -142,7 +140,7 @@ ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of a block's texels
     ivec4 touched = box >> bits;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two loops: lavapipe 22.3 loses what a single loop with its condition last finds in its only iteration.
+    // Two loops, because lavapipe 22.3 loses the result of the only iteration of a single loop with its condition last.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-sprite.centre.z < blocks[y * columns + x] + frame.particle.y) {

@@ -1,7 +1,7 @@
 #version 460
-// Pass `thickness`, compute path, with two layers: their sums to metres. Where all water belongs to one layer the
-// boundary is removed, except where the scene hides it at the texel's centre, beside which it may show. Not in the
-// thesis.
+// Pass `thickness`, compute path, with two layers: converts their sums to metres. Where all water belongs to one layer
+// the boundary is removed, except if the scene hides the water at the texel's centre, because it may be visible beside
+// that. Not in the thesis.
 // Reads: sums, boundaries, scene depth. Writes: sheets (RGBA32F: front, back, window), boundaries.
 
 #include "frame.glsl"

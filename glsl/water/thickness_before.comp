@@ -1,6 +1,6 @@
 #version 460
-// Pass `thickness`, compute path with foam, last part: fixed point to metres, of all water and of the water in front
-// of the frontmost foam: all of it where there is none (T_wf, thesis Sec. 3.2.2).
+// Pass `thickness`, compute path with foam, last part: converts fixed point to metres, for all water and for the water
+// in front of the frontmost foam, which is all water if there is no foam (T_wf, thesis Sec. 3.2.2).
 // Reads: sums, foam depth. Writes: thickness (RG32F).
 
 #include "frame.glsl"
@@ -10,7 +10,7 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 1, std430) readonly buffer Sums { uvec2 sums[]; };
-// A format qualifier would need a feature (shaderStorageImageExtendedFormats): written without one.
+// A format qualifier would need a feature (shaderStorageImageExtendedFormats), so there is none.
 layout(set = 0, binding = 2) uniform writeonly image2D thickness;
 
 void main() {

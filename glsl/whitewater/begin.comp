@@ -1,13 +1,13 @@
 #version 460
-// Pass `splat`, first part: clears all pixels and stores the depths of scene and fluid, which particles read many
-// times (Akinci et al. 2013, passes 1 and 2); computes the dispatches over the particles.
-// Reads: scene depth, water depth, the host's fluid's, count. Writes: words, arguments.
+// Pass `splat`, first part: clears all pixels and stores the depths of scene and fluid, which particles read many times
+// (Akinci et al. 2013, passes 1 and 2); computes the dispatches over the particles.
+// Reads: scene depth, water depth, depth of the host's own fluid, count. Writes: words, arguments.
 
 #include "frame.glsl"
 #include "whitewater_words.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-// Two per pixel.
+// Two entries per pixel.
 layout(set = 0, binding = 1, std430) writeonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;

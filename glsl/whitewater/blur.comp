@@ -1,7 +1,8 @@
 #version 460
 // Pass `blur`: removes the sampling noise of light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along rows and
 // then along columns, not across depth gaps.
-// Reads: tiles with foam, foam depth, foam normal with its search radius, light and shadow. Writes: the same, blurred.
+// Reads: tiles with foam, foam depth, foam normal with its search radius, light and shadow. Writes: light and shadow,
+// blurred.
 
 #include "frame.glsl"
 #include "whitewater_tiles.glsl"
@@ -17,8 +18,8 @@ layout(set = 0, binding = 3) uniform sampler2D radiance;
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D blurred;
 layout(push_constant, std430) uniform Push { ivec2 step; } push;
 
-// Most pixels read on each side. A wider blur reads every n-th pixel, with the least odd n that suffices: an odd
-// step visits all positions of the 4x4 blocks, and at least eleven values per side represent a Gaussian.
+// Max number of pixels read on each side. A wider blur reads every n-th pixel, with the smallest odd n that suffices:
+// an odd step visits all positions of the 4x4 blocks, and at least eleven values per side represent a Gaussian.
 const int MOST = 32;
 
 void main() {

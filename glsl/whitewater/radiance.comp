@@ -1,11 +1,11 @@
 #version 460
 // Pass `radiance`: ambient occlusion and environment light of the foam of each pixel (Akinci et al. 2013, Sec. 2.4;
-// pass 6). Occlusion is sampled in one sphere per pass, each larger, with points that all pixels share.
-// Not in the paper: the sun's light and shadows, and the normal of particles smaller than a pixel. A pixel's centre
-// hits an arbitrary point of such a sphere, and shading by its normal makes far foam look like salt and pepper.
-// Instead the normal is where the same samples find open space, so a plume is lit as one body.
-// Reads: tiles with foam, foam depth and intensity beside the depths of fluid and scene, foam normal, points,
-// irradiance, environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
+// pass 6). Occlusion is sampled in one sphere per pass, each larger, with points that all pixels share. Not in the
+// paper: the sun's light and shadows, and the normal of particles smaller than a pixel. A pixel's centre hits an
+// arbitrary point of such a sphere, and shading by its normal makes far foam look like salt and pepper. Instead the
+// normal is the direction in which the same samples find open space, so that a plume is lit as one body.
+// Reads: tiles with foam, depths of foam, fluid and scene, foam intensity, foam normal, points, irradiance,
+// environment, inputs of sunlight.glsl. Writes: foam normal, foam radiance.
 
 #include "frame.glsl"
 #include "falloff.glsl"

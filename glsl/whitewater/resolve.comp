@@ -1,13 +1,14 @@
 #version 460
-// Pass `splat`, last part: words to images, and the thickness to intensity (Akinci et al. 2013, Sec. 2.3; pass 5).
-// Reads: words. Writes: foam depth and intensity beside the depths of fluid and scene, foam thickness, foam normal.
+// Pass `splat`, last part: converts the words to images, and the thickness to intensity (Akinci et al. 2013, Sec. 2.3;
+// pass 5).
+// Reads: words. Writes: depths of foam, fluid and scene with the foam's intensity, foam thickness, foam normal.
 
 #include "frame.glsl"
 #include "whitewater_words.glsl"
 #include "intensity.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-// Two per pixel.
+// Two entries per pixel.
 layout(set = 0, binding = 1, std430) readonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D occluders;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly image2D thickness;

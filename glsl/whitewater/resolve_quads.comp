@@ -1,8 +1,8 @@
 #version 460
-// Pass `splat` by quads, last part: the frontmost to images, and the thickness to intensity (Akinci et al. 2013,
-// Sec. 2.3; pass 5).
-// Reads: words, the frontmost, foam thickness. Writes: foam depth and intensity beside the depths of fluid and scene,
-// foam normal.
+// Pass `splat` by quads, last part: converts the frontmost particle's attributes to images, and the thickness to
+// intensity (Akinci et al. 2013, Sec. 2.3; pass 5).
+// Reads: words, the frontmost, foam thickness. Writes: depths of foam, fluid and scene with the foam's intensity, foam
+// normal.
 
 #include "frame.glsl"
 #include "whitewater_words.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // Pass `splat`: depth of the frontmost whitewater particle and thickness of all (Akinci et al. 2013, Sec. 2.1 and 2.2;
-// passes 3 and 4), one invocation per particle. Unlike water, depth is not smoothed: that would weaken the occlusion.
-// The second dispatch writes the frontmost particle's attributes: search radius and normal.
+// passes 3 and 4), one invocation per particle. Unlike the water's depth, this depth is not smoothed, which would
+// weaken the occlusion. The second dispatch writes the frontmost particle's attributes: search radius and normal.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
@@ -18,7 +18,7 @@ layout(constant_id = 0) const uint FRONTMOST = 0;
 #include "whitewater_push.glsl"
 #include "whitewater_streams.glsl"
 
-// Two per pixel. One declaration for both whole reads and atomics on words, because a driver may take two
+// Two entries per pixel. One declaration serves whole reads and atomics on words, because a driver may take two
 // declarations for different memory.
 layout(set = 0, binding = 6, std430) buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };

@@ -1,7 +1,7 @@
 #version 460
 // Pass `splat` in one dispatch, with 64-bit atomics (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4): the depth
-// of the frontmost and, in the lower bits of the word, its attributes. Same result as the two dispatches of
-// splat.comp.
+// of the frontmost particle and, in the lower bits of the word, its attributes. The result is that of the two
+// dispatches of splat.comp.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
 
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require

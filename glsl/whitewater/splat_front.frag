@@ -1,5 +1,6 @@
 #version 460
-// Pass `splat` by quads, first draw (Akinci et al. 2013, Sec. 2.1; pass 3): the frontmost, by a depth test.
+// Pass `splat` by quads, first draw (Akinci et al. 2013, Sec. 2.1; pass 3): finds the frontmost particle by a depth
+// test.
 // Reads: words. Writes: bits of its depth, its search radius and normal.
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
 // Pass `splat` by quads, second draw (Akinci et al. 2013, Sec. 2.2; pass 4): thickness, by additive blending.
-// Reads: words. Writes: thickness in front of the fluid, behind it, and the latter times its distance behind.
+// Reads: words. Writes: thickness in front of the fluid, behind it, and the latter times its distance behind the
+// fluid's surface.
 
 #include "frame.glsl"
 #include "falloff.glsl"

@@ -1,8 +1,8 @@
 #version 460
 // Pass `radiance`, first part: replaces the fluid's depth by the smoothed surface, because the bumps of its spheres
-// would occlude foam. `splat` uses the spheres, which exist before the smoothing and its tiles.
-// Not in the paper, whose fluid surface is given.
-// Reads: depth, smoothed, levels, foam depth and intensity beside the depths of fluid and scene. Writes: these.
+// would occlude foam. `splat` uses the spheres, which exist before the smoothing and its tiles. Not in the paper, whose
+// fluid surface is given.
+// Reads: depth, smoothed, levels, depths of foam, fluid and scene. Writes: depth of the fluid.
 
 #include "frame.glsl"
 #include "level.glsl"
