@@ -2,7 +2,8 @@
 //!
 //! The paper draws a billboard per blob, and all billboards once per layer. Here each pixel iterates over the list of
 //! its tile. The lists share one buffer, with offsets from a prefix sum over depth slices, so that the farthest blobs
-//! are dropped when it is full. Reads: the host's streams. Writes: blobs, range, cells, spans, list.
+//! are dropped when it is full.
+//! Reads: the host's streams. Writes: blobs, range, cells, spans, list.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -2,8 +2,9 @@
 //! foam.
 //!
 //! A histogram of the particles' distances gives the distance up to which there are enough slots for blobs. Up to that
-//! distance each particle becomes a blob; which slot it gets is arbitrary and not visible. Reads: the host's whitewater
-//! particles. Writes: distances of the cross-fade; spheres, orientations, ids and count of the blobs.
+//! distance each particle becomes a blob; which slot it gets is arbitrary and not visible.
+//! Reads: the host's whitewater particles. Writes: distances of the cross-fade; spheres, orientations, ids and count of
+//! the blobs.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -3,8 +3,8 @@
 //!
 //! The front of the light map is smoothed with the same width as the water on the screen. Each texel's light is
 //! refracted there and added, with integer atomics, to the texel where it leaves the water again. Light that the host's
-//! scene blocks, by its shadow map, is left out. Reads: front, thickness, shadow map. Writes: caustics, R32F, light
-//! relative to that without water.
+//! scene blocks, by its shadow map, is left out.
+//! Reads: front, thickness, shadow map. Writes: caustics, R32F, light relative to that without water.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

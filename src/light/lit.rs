@@ -2,8 +2,8 @@
 //! the fluid refracts it, and to the output.
 //!
 //! If the scene is the output image itself, this pass replaces the copy of the scene. The sun's share of a pixel's
-//! light is unknown, so that of level ground is used ([`Light`](crate::Light)). Reads: scene colour and depth, the
-//! light's maps, caustics. Writes: lit scene; the whole output.
+//! light is unknown, so that of level ground is used ([`Light`](crate::Light)).
+//! Reads: scene colour and depth, the light's maps, caustics. Writes: lit scene; the whole output.
 
 use ash::vk;
 

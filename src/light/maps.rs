@@ -1,9 +1,10 @@
 //! Pass `light`: maps of water and surface foam as seen from the sun.
 //!
 //! Every particle is drawn, independent of the camera, directly from the host's streams, without a list. Particles in
-//! culled packets are included, because they cast shadows into the view. Reads: the counts and the members of `cull`,
-//! the host's particles. Writes: front, R32F, distance in metres along the light to the first surface; thickness,
-//! RGBA32F, of water and of foam in metres along the light, and both multiplied by their position.
+//! culled packets are included, because they cast shadows into the view.
+//! Reads: the counts and the members of `cull`, the host's particles. Writes: front, R32F, distance in metres along the
+//! light to the first surface; thickness, RGBA32F, of water and of foam in metres along the light, and both multiplied
+//! by their position.
 
 use ash::vk;
 use bytemuck::NoUninit;

@@ -4,8 +4,8 @@
 //! The input are heights seen from above, of the host's meshes or image. Texels where they cross the water's level are
 //! seeds, and jump flooding finds the nearest seed of each texel (Rong, Tan, *Jump Flooding in GPU with Applications to
 //! Voronoi Diagram and Distance Transform*, 2006), with one extra jump of one texel at the end. If only a part has
-//! changed, only a window is updated. Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F,
-//! metres, negative in the water).
+//! changed, only a window is updated.
+//! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, metres, negative in the water).
 
 use std::sync::Arc;
 

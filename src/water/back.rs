@@ -3,8 +3,9 @@
 //! Not in the thesis. It is one level coarser than the front layer's smoothing, with one sample per texel, because it
 //! is only seen through water. It joins the levels in the smoothing images, so every form of the smoothing processes
 //! it. Only tiles near a boundary that `thickness` has kept are computed. The nearest depth of each block of texels is
-//! found first, so that most spheres skip the texels. Reads: the list of `cull`, boundaries, depth. Writes: blocks,
-//! depth of the back layer; for its levels both smoothing images, plan, each tile's work.
+//! found first, so that most spheres skip the texels.
+//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, depth of the back layer; for its levels both smoothing
+//! images, plan, each tile's work.
 
 use ash::vk;
 

@@ -3,8 +3,8 @@
 //!
 //! State is stored by particle id in a hash table. Each step writes a new table from the previous one, so particles may
 //! be reordered, appear and vanish, and the result does not depend on their order. A table larger than one binding is
-//! split into parts, each its own hash table; each step processes them one after the other. Reads: velocities,
-//! densities, ids, the old table. Writes: the new table, foam.
+//! split into parts, each its own hash table; each step processes them one after the other.
+//! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -3,8 +3,8 @@
 //! Not in the thesis, which draws every particle. Each cell of 4×4 pixels first finds the nearest depth at which one
 //! sphere covers it completely. Then every sphere is removed that lies behind that depth in all cells that it touches.
 //! The result is exact: the depth image is the same to the bit. In a splashing pool nine layers deep this removes six
-//! of ten spheres; in deeper water the depth pass costs only what the surface costs. Reads: the list of `cull`. Writes:
-//! cells, the front list.
+//! of ten spheres; in deeper water the depth pass costs only what the surface costs.
+//! Reads: the list of `cull`. Writes: cells, the front list.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

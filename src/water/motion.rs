@@ -10,9 +10,9 @@
 //! no motion of its own: a pixel with droplets has the motion of the surface behind them.
 //!
 //! The format is RG32F: half floats would be wrong by a thirty-second of a pixel at a hundred pixels and by half a
-//! pixel at a thousand. A pixel has the motion of foam if the foam's opacity is at least a half. Reads: the counts of
-//! `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene depth. Writes: motion, RG32F,
-//! every pixel.
+//! pixel at a thousand. A pixel has the motion of foam if the foam's opacity is at least a half.
+//! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene depth.
+//! Writes: motion, RG32F, every pixel.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -4,8 +4,8 @@
 //! A block is five iterations and a copy back, so that the result is always in the same image. Its fifth iteration
 //! counts the pixels that are still active, with a separate draw without colour writes. One invocation converts the
 //! count to the predicate of the next block. How the predicate skips the block depends on the gate; a skipped block
-//! costs only its empty render passes. Reads: smoothing images, plan, tile list. Writes: smoothing images, query
-//! results, predicates.
+//! costs only its empty render passes.
+//! Reads: smoothing images, plan, tile list. Writes: smoothing images, query results, predicates.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -2,8 +2,9 @@
 //! levels.
 //!
 //! Not in the thesis. Shading two layers costs twice as much as shading one, and foam adds half. With a single shader a
-//! CPU, and partly a GPU, would pay that cost in every tile. Reads: the list of `tiles`, their work, boundaries, foam
-//! depth and thickness. Writes: eight lists, the arguments of `composite`.
+//! CPU, and partly a GPU, would pay that cost in every tile.
+//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the arguments of
+//! `composite`.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

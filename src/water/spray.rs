@@ -5,9 +5,10 @@
 //! the camera and streaks along its motion; `composite` lays them over everything else. The thesis adds one sprite per
 //! particle to the picture, which shows as a disc near the camera. Optical depths are summed in any order: each droplet
 //! adds fixed-point steps. The steps are so fine that distant droplets, which are thinned to be a pixel wide, still add
-//! several; fractions of a step are rounded stochastically (glsl/include/whole_steps.glsl). Reads: the counts of
-//! `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (RG16F, with coarser steps, where a
-//! device does not blend that): optical depth of the droplets in front of scene and water, and its sunlit part.
+//! several; fractions of a step are rounded stochastically (glsl/include/whole_steps.glsl).
+//! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (RG16F, with
+//! coarser steps, where a device does not blend that): optical depth of the droplets in front of scene and water, and
+//! its sunlit part.
 
 use ash::vk;
 use bytemuck::NoUninit;

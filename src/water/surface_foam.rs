@@ -18,11 +18,11 @@
 //! one read; foam behind the front layer, of which there usually is none, is summed separately. Both paths sum
 //! fixed-point steps, in any order. The foam's velocity is summed coarsely on the screen, for the lace that it advects.
 //!
-//! Spray is not foam: with falling density pass `spray` replaces it. Reads: the counts of `cull`, the host's particles,
-//! scene depth. Writes: foam depth, R32F, EMPTY where there is none; foam thickness, RGBA32F, in metres: the total, the
-//! front layer (right behind the frontmost foam), the sunlit part of that layer (per sprite; a mask applies per pixel),
-//! and the total weighted by `d / (d + s)`, with s one spacing and d the distance behind the point one spacing behind
-//! the frontmost foam.
+//! Spray is not foam: with falling density pass `spray` replaces it.
+//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there is none;
+//! foam thickness, RGBA32F, in metres: the total, the front layer (right behind the frontmost foam), the sunlit part of
+//! that layer (per sprite; a mask applies per pixel), and the total weighted by `d / (d + s)`, with s one spacing and d
+//! the distance behind the point one spacing behind the frontmost foam.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -1,7 +1,7 @@
 //! Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2): the paper's own path, with the fixed functions of a
 //! GPU. It finds the frontmost particle by a depth test, then sums thickness by blending. A vertex shader builds each
-//! particle's quad, so that there is no sprite list here either. Reads: the host's streams, words. Writes: depth bits
-//! and attributes of the frontmost particle, thickness.
+//! particle's quad, so that there is no sprite list here either.
+//! Reads: the host's streams, words. Writes: depth bits and attributes of the frontmost particle, thickness.
 
 use ash::vk;
 

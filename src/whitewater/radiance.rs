@@ -5,9 +5,9 @@
 //! same for every pixel. In the fast mode each pixel evaluates a sixteenth of the points, which the blur recombines.
 //! Foam without neighbours has only its own samples. They come in opposite pairs, of which a plane through the centre
 //! occludes exactly one. Their density follows the paper's weights, so that all have weight 1. Particles smaller than a
-//! pixel take the mean direction of unoccluded samples as their normal, which is not in the paper. Reads: the images of
-//! `splat`, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes: foam normal, foam
-//! radiance.
+//! pixel take the mean direction of unoccluded samples as their normal, which is not in the paper.
+//! Reads: the images of `splat`, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes: foam
+//! normal, foam radiance.
 
 use std::f64::consts::TAU;
 

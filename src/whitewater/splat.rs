@@ -5,8 +5,8 @@
 //! order of the particles does not matter. Depth and thickness are written in one pass, so that a particle is read once
 //! for both. The attributes of the frontmost particle are the low bits of a 64-bit word whose high bits are its depth,
 //! or they take a second pass. There is no intermediate sprite list: for millions of particles it would dominate the
-//! memory. `quads` is the alternative path. Reads: the host's streams, depths of water and scene. Writes: three images
-//! of the frame's size.
+//! memory. `quads` is the alternative path.
+//! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

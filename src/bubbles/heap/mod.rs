@@ -2,8 +2,8 @@
 //!
 //! A blob is a ball. It attracts near neighbours and repels nearer ones; it falls, rolls and rubs on solids. A torn-off
 //! blob splits in two, repeatedly. A step has several substeps, each of which finds neighbours with a hashed grid.
-//! Buckets are sorted by id, so the same blobs move identically in every run, in any order. Reads: the host's streams
-//! and solids. Writes: balls, turns, ids, velocities.
+//! Buckets are sorted by id, so the same blobs move identically in every run, in any order.
+//! Reads: the host's streams and solids. Writes: balls, turns, ids, velocities.
 
 mod field;
 mod settings;

@@ -8,8 +8,8 @@
 //! one exception: if more than 256 fluid particles share a grid bucket, thirty times as many as water has in a cell,
 //! the order on the device decides which of them are visited. For a single frame a snapshot
 //! ([`Generator::record_snapshot`]) gives the whitewater that a steady flow would have left, by tracing each fluid
-//! particle back along the flow. Reads: the fluid's positions, velocities and ids. Writes: whitewater particles,
-//! potentials.
+//! particle back along the flow.
+//! Reads: the fluid's positions, velocities and ids. Writes: whitewater particles, potentials.
 
 mod passes;
 pub mod settings;

@@ -1,5 +1,6 @@
 //! Draws the depth that the water is tested against: one sample at each pixel's centre, however many samples the colour
-//! has. Reads: vertices. Writes: the whole scene depth.
+//! has.
+//! Reads: vertices. Writes: the whole scene depth.
 
 use ash::vk;
 

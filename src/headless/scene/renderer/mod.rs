@@ -4,7 +4,8 @@
 //! of the environment; [`depth`], which the water is tested against, with one sample per pixel; [`color`] of [`meshes`]
 //! and [`sky`], with four samples if requested and supported. [`targets`] are the images and framebuffers that they
 //! draw to, [`uniforms`] and [`sea`] the view and the sea for their shaders, and [`opaque`] the pipeline state that
-//! they share. Reads: vertices, shadow map, environment. Writes: the whole scene colour and depth.
+//! they share.
+//! Reads: vertices, shadow map, environment. Writes: the whole scene colour and depth.
 
 mod color;
 mod depth;
