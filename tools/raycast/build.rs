@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-// As in the library's build, whose passes these are timed beside.
+// The library's build does the same, so both sides of a timing come from the same compiler.
 #[allow(dead_code)] // `counted` is a test's
 #[path = "../../build/uniforms.rs"]
 mod uniforms;

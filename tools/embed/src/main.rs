@@ -1,12 +1,11 @@
-//! The smallest host: all Vulkan objects are its own, its scene is a cleared colour and depth
-//! image, and whitewater records the water into its command buffers, two frames in flight.
+//! The smallest host application. It owns all Vulkan objects, its scene is a cleared colour and depth image, and
+//! whitewater records the water into its command buffers, with two frames in flight.
 //!
-//! `whitewater-embed [--validate] [PICTURE.ppm]` draws a few frames of a wave in a pool, prints
-//! what each pass took and writes the last frame. With `--validate` any message of core or
-//! synchronization validation is an error.
+//! `whitewater-embed [--validate] [PICTURE.ppm]` draws a few frames of a wave in a pool, prints the time of each pass
+//! and writes the last frame. With `--validate` any message of core or synchronization validation is an error.
 //!
-//! `vulkan.rs` is what an engine has before it meets whitewater: device, images, buffers. Look
-//! there for the choice of the device and the features it enables.
+//! `vulkan.rs` is what an engine already has: device, images, buffers. It shows how to choose the device and which
+//! features to enable.
 
 mod vulkan;
 
@@ -29,7 +28,7 @@ const FRAMES_IN_FLIGHT: u32 = 2;
 const MAX_PARTICLES: usize = 32_768;
 const SPACING: f32 = 0.03; // between particles at rest, in metres
 
-/// A particle as this host stores it. Its size is the stride of both streams.
+/// A particle as this host stores it. Its size is the stride of both streams, positions and velocities.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Particle {
@@ -61,8 +60,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Draws the frames; returns the last one with the times of its passes. `adjust` changes the
-/// defaults. On an error Vulkan's objects are left to the end of the process.
+/// Draws the frames; returns the last one with the times of its passes. `adjust` changes the default configuration.
+/// After an error the Vulkan objects are not destroyed, as the process ends.
 pub fn draw(
     validate: bool,
     adjust: impl FnOnce(&mut Config),
@@ -73,11 +72,11 @@ pub fn draw(
     let gpu = Gpu::new(validate, &config)?;
     let device = &gpu.device;
 
-    // The water is drawn into the image that holds the scene: it has to be a copy's source, too.
+    // The water is drawn into the scene's image, which must also be a copy's source.
     let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::TRANSFER_SRC;
     let (color, color_memory) =
         gpu.image(format, EXTENT, vk::ImageAspectFlags::COLOR, usage, COPY)?;
-    // Its depth is only sampled, in a layout that has to be an attachment's, too.
+    // The depth image is only sampled, but its layout is an attachment's, so it needs that usage too.
     let usage = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
     let (depth, depth_memory) =
         gpu.image(vk::Format::D32_SFLOAT, EXTENT, vk::ImageAspectFlags::DEPTH, usage, CLEAR)?;
@@ -94,7 +93,8 @@ pub fn draw(
         Host::new(&gpu.instance, gpu.physical_device, device, gpu.queue_family, FRAMES_IN_FLIGHT)
             .with_allocator(gpu.allocator.clone())
             .with_enabled(gpu.enabled);
-    // SAFETY: the handles belong together and outlive context and renderer; `enabled` is the truth.
+    // SAFETY: the handles belong together and outlive context and renderer; `enabled` holds exactly the enabled
+    // features.
     let context = unsafe { Context::new(&host)? };
     let mut water = Renderer::new(&context, &config)?;
     drop((host, context)); // they share the allocator, which has to go before the device
@@ -116,7 +116,7 @@ pub fn draw(
     for number in 0..FRAMES {
         let slot = Slot(number % FRAMES_IN_FLIGHT);
         let (pool, cmd, fence) = slots[slot.0 as usize];
-        // SAFETY: after the fence nothing uses the slot, nor its pool.
+        // SAFETY: after the fence nothing uses the slot's commands or its pool.
         unsafe {
             device.wait_for_fences(&[fence], true, u64::MAX)?;
             device.reset_fences(&[fence])?;
@@ -135,13 +135,13 @@ pub fn draw(
             let stride = size_of::<Particle>() as u32;
             Stream { buffer, size, offset: offset + field as u64, stride }
         };
-        // No barrier for what the CPU wrote before the submit: before and after stay `access::NOTHING`.
+        // The CPU wrote before the submit, which needs no barrier: before and after stay `access::NOTHING`.
         let particles = Particles::new(
             stream(std::mem::offset_of!(Particle, position)),
             Count::Cpu(wave.len() as u32),
         )
         .with_densities(stream(std::mem::offset_of!(Particle, density)));
-        // Reversed depth without a far plane; row 0 is up in glam and down in Vulkan.
+        // Reversed depth without a far plane. Row 0 is the bottom in glam and the top in Vulkan.
         let aspect = EXTENT.width as f32 / EXTENT.height as f32;
         let projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0))
             * Mat4::perspective_infinite_reverse_rh(0.6, aspect, 0.1);
@@ -149,7 +149,7 @@ pub fn draw(
         let camera = Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d());
         let frame = Frame::new(slot, color, depth, particles, camera, &settings);
 
-        // SAFETY: cmd is recording outside a render pass; what it uses lives until the fence.
+        // SAFETY: cmd is recording outside a render pass; all objects that it uses live until the fence.
         unsafe {
             gpu.clear(cmd, &color, &depth);
             if number == 0 {
@@ -193,7 +193,7 @@ fn wave(time: f32) -> Vec<Particle> {
     let mut particles = Vec::with_capacity(MAX_PARTICLES);
     for cell in 0..64 * 24 * 32 {
         let (x, y, z) = (cell % 64, cell / 64 % 24, cell / (64 * 24));
-        // Off the lattice by up to a quarter of it, as particles are.
+        // Jitter of up to a quarter of the lattice, as simulated particles are irregular.
         let jitter = |axis: u32| ((cell * 3 + axis) as f32 * 12.9898).sin() * 0.25;
         let position = SPACING
             * vec3(
@@ -209,9 +209,9 @@ fn wave(time: f32) -> Vec<Particle> {
     particles
 }
 
-/// Half float in linear light to a byte in sRGB's curve, about: x / (1 + x), gamma 2.2.
+/// Converts a half float of linear light to a display byte, approximately: x / (1 + x), gamma 2.2.
 fn tone_map(half: u16) -> u8 {
-    // The bits of a positive half, moved to where a float has them, are 2^-112 of its value.
+    // A float with the bits of a positive half, shifted into place, has 2^-112 of its value.
     let linear = f32::from_bits(u32::from(half & 0x7fff) << 13) * 2f32.powi(112);
     (255.0 * (linear / (1.0 + linear)).powf(1.0 / 2.2)).round() as u8
 }

@@ -1,5 +1,5 @@
-//! What an engine has before it meets whitewater: instance, device, queue, allocator, images and
-//! buffers, and the commands of a scene that is no more than two clears.
+//! What an engine has before it adds whitewater: instance, device, queue, allocator, images and buffers, and a scene of
+//! just two clears.
 
 use std::error::Error;
 use std::ffi::{CStr, c_void};
@@ -9,13 +9,13 @@ use whitewater::ash::{Device, Entry, Instance, ext::debug_utils, vk};
 use whitewater::gpu_allocator::{AllocationSizes, MemoryLocation, vulkan as memory};
 use whitewater::{Access, Config, DeviceSupport, EnabledFeatures, HostImage};
 
-/// How this host writes its images.
+/// Access with which this host writes its images.
 pub const CLEAR: Access = Access::new(
     vk::PipelineStageFlags2::ALL_TRANSFER,
     vk::AccessFlags2::TRANSFER_WRITE,
     vk::ImageLayout::TRANSFER_DST_OPTIMAL,
 );
-/// How it reads them.
+/// Access with which this host reads its images.
 pub const COPY: Access = Access::new(
     vk::PipelineStageFlags2::ALL_TRANSFER,
     vk::AccessFlags2::TRANSFER_READ,
@@ -24,12 +24,12 @@ pub const COPY: Access = Access::new(
 
 static MESSAGES: Mutex<Vec<String>> = Mutex::new(Vec::new());
 
-/// What validation has said since the last call.
+/// Messages of validation since the last call.
 pub fn take_messages() -> Vec<String> {
     std::mem::take(&mut *MESSAGES.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// The device with all that hangs on it. Dropping it leaks, [`Gpu::destroy`] does not.
+/// The device and all that depends on it. Dropping leaks it; [`Gpu::destroy`] frees it.
 pub struct Gpu {
     pub instance: Instance,
     pub physical_device: vk::PhysicalDevice,
@@ -80,8 +80,8 @@ impl Gpu {
             None
         };
         let (physical_device, queue_family) = choose(&instance, config)?;
-        // All that whitewater can use of the device, and no more: `Host::with_enabled` tells it. It needs none of it; this
-        // host itself needs synchronization2.
+        // Enable every feature that whitewater can use, and report them with `Host::with_enabled`. Whitewater needs
+        // none of them; this host itself needs synchronization2.
         let offer = DeviceSupport::of(&instance, physical_device, config.output_format);
         let enabled = offer.optional.with(|it| it.debug_utils = validate);
         let mut features = enabled.device_features();
@@ -94,7 +94,7 @@ impl Gpu {
             .queue_create_infos(&queues)
             .enabled_extension_names(&names);
         let info = features.chain(info);
-        // SAFETY: the features are those that the device offers; the queue is one that is asked for.
+        // SAFETY: the device offers these features; the queue is one of those created.
         let (device, queue) = unsafe {
             let device = instance.create_device(physical_device, &info, None)?;
             let queue = device.get_device_queue(queue_family, 0);
@@ -122,7 +122,7 @@ impl Gpu {
         })
     }
 
-    /// An image that is cleared at the start of a frame, and used as `after` at its end.
+    /// An image that is cleared at the start of a frame and is in access `after` at its end.
     pub fn image(
         &self,
         format: vk::Format,
@@ -190,19 +190,19 @@ impl Gpu {
         })?)
     }
 
-    /// The scene: one colour, and nothing in front of it.
+    /// Draws the scene: one colour at infinite depth.
     ///
     /// # Safety
-    /// `cmd` is recording outside a render pass; the images live until it is done.
+    /// `cmd` is recording outside a render pass; the images live until it has been executed.
     pub unsafe fn clear(&self, cmd: vk::CommandBuffer, color: &HostImage, depth: &HostImage) {
         let backdrop = vk::ClearColorValue { float32: [0.06, 0.08, 0.1, 1.0] };
         let far = vk::ClearDepthStencilValue { depth: 0.0, stencil: 0 }; // reversed depth
         let (layout, color_range, depth_range) =
             (CLEAR.layout, range(color.aspect), range(depth.aspect));
-        // SAFETY: the caller's promises; the barriers bring the images into the clears' layout.
+        // SAFETY: the caller guarantees it; the barriers bring the images into the layout for clears.
         unsafe {
             for image in [color, depth] {
-                // After the frame before, whose picture need not be kept.
+                // Waits for the previous frame, whose contents are discarded.
                 self.barrier(cmd, image, image.after.discarded(), CLEAR);
             }
             self.device.cmd_clear_color_image(cmd, color.image, layout, &backdrop, &[color_range]);
@@ -216,7 +216,7 @@ impl Gpu {
         }
     }
 
-    /// Copies an image, as the water leaves it, to a buffer that the CPU reads after the fence.
+    /// Copies an image, in the access that the water leaves it in, to a buffer that the CPU reads after the fence.
     ///
     /// # Safety
     /// As [`Gpu::clear`]; the image is in COPY's layout and the buffer is large enough.
@@ -234,7 +234,7 @@ impl Gpu {
             .dst_stage_mask(vk::PipelineStageFlags2::HOST)
             .dst_access_mask(vk::AccessFlags2::HOST_READ)];
         let to_host = vk::DependencyInfo::default().memory_barriers(&to_host);
-        // SAFETY: the caller's promises.
+        // SAFETY: the caller guarantees it.
         unsafe {
             let device = &self.device;
             device.cmd_copy_image_to_buffer(cmd, image.image, COPY.layout, buffer, &[region]);
@@ -255,14 +255,14 @@ impl Gpu {
             .dst_access_mask(to.access)
             .new_layout(to.layout)];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barrier);
-        // SAFETY: the caller's promises.
+        // SAFETY: the caller guarantees it.
         unsafe { self.device.cmd_pipeline_barrier2(cmd, &info) };
     }
 
     /// Frees memory, device and instance.
     ///
     /// # Safety
-    /// The GPU is idle; all that was made from the device is destroyed.
+    /// The GPU is idle; everything made from the device has been destroyed.
     pub unsafe fn destroy(
         self,
         memory: impl IntoIterator<Item = memory::Allocation>,
@@ -273,7 +273,7 @@ impl Gpu {
             allocator.free(memory)?;
         }
         drop(allocator); // before its device
-        // SAFETY: the caller's promises.
+        // SAFETY: the caller guarantees it.
         unsafe {
             self.device.destroy_device(None);
             if let Some((debug, messenger)) = self.messenger {
@@ -285,8 +285,8 @@ impl Gpu {
     }
 }
 
-/// The first device that has what the configuration needs, and its first family with both
-/// graphics and compute; else why the last one was refused.
+/// The first device that meets the configuration, and its first queue family with both graphics and compute; or the
+/// reason why the last device was refused.
 fn choose(
     instance: &Instance,
     config: &Config,
@@ -321,7 +321,7 @@ unsafe extern "system" fn on_message(
     data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
     _: *mut c_void,
 ) -> vk::Bool32 {
-    // SAFETY: the layer hands in a message that lives during the call.
+    // SAFETY: the layer passes a message that lives during the call.
     let text = unsafe { CStr::from_ptr((*data).p_message) };
     let mut messages = MESSAGES.lock().unwrap_or_else(PoisonError::into_inner);
     messages.push(text.to_string_lossy().into_owned());

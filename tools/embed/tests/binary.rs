@@ -1,4 +1,4 @@
-//! The program as a stranger runs it: silent under validation, with water in its picture.
+//! Runs the program as a user does: it is silent under validation, and its picture shows water.
 
 use std::process::Command;
 
@@ -29,7 +29,7 @@ fn draws_water_and_is_silent() {
     let bytes = std::fs::read(&picture).expect("the picture is there");
     let pixels = bytes.strip_prefix(b"P6 960 540 255\n").expect("the header of a PPM");
     assert_eq!(pixels.len(), 960 * 540 * 3);
-    // The host's scene is one colour; what differs from it is water.
+    // The host's scene has one colour; pixels that differ from it are water.
     let water = pixels.chunks(3).filter(|pixel| *pixel != &pixels[..3]).count();
     assert!((960 * 540 / 10..960 * 540 / 2).contains(&water), "{water} pixels of water");
     std::fs::remove_dir_all(&folder).expect("the temporary folder can go");

@@ -1,5 +1,5 @@
-//! The host's frame drawn in every form there is, on a device that enables nothing optional: the
-//! same picture from each, no word from validation, and an error from what needs more.
+//! The host's frame in every configuration, on a device with no optional features: each gives the same picture without
+//! validation messages, and a configuration that needs more gives an error.
 
 #[allow(dead_code)] // its `main`
 #[path = "../src/main.rs"]
@@ -9,7 +9,7 @@ use host::{Picture, draw, take_messages};
 use whitewater::water::{Exit, Gate, Smoothing, Splat};
 use whitewater::{Config, Error};
 
-/// One test, since the messages of the layer are the process's.
+/// A single test, because the layer's messages are global to the process.
 #[test]
 fn all_forms_draw_the_same() {
     let validate = match draw(true, |_| ()) {
@@ -45,7 +45,7 @@ fn all_forms_draw_the_same() {
                 });
                 let (mean, most) = difference(expected, &drawn);
                 println!("{name}, {exit:?}: mean difference {mean:.6}, largest {most:.4}");
-                // What a ray meets that is bent twice is a decision: rounding turns it in a pixel or two.
+                // A ray that refracts twice may hit or miss, so rounding can change a pixel or two.
                 let near = most < 0.02 || exit == Exit::TwoInterfaces;
                 assert!(mean < 1e-4 && near, "{name}, {exit:?}: mean {mean}, largest {most}");
             }
@@ -56,7 +56,8 @@ fn all_forms_draw_the_same() {
         [(Gate::DrawCount, "drawIndirectCount"), (Gate::Predicate, "VK_EXT_conditional_rendering")]
     {
         let adjust = |config: &mut Config| config.smoothing = Some(Smoothing::Query(gate));
-        // The host enables what the device offers; a device without it refuses the configuration.
+        // The host enables all features that the device offers; on a device without the needed one the configuration is
+        // refused.
         match draw(validate, adjust) {
             Ok((pixels, _)) => {
                 let (mean, _) = difference(&expected[0], &pixels);
@@ -71,7 +72,7 @@ fn all_forms_draw_the_same() {
     assert_eq!(take_messages(), Vec::<String>::new());
 }
 
-/// Mean and largest difference of the colours, of what a tone map makes of them: x / (1 + x).
+/// Mean and largest difference of the colours, after the tone map x / (1 + x).
 fn difference(a: &Picture, b: &Picture) -> (f32, f32) {
     let mapped = |half: u16| {
         let linear = f32::from_bits(u32::from(half & 0x7fff) << 13) * 2f32.powi(112);

@@ -1,4 +1,4 @@
-//! The figures of bubble foam, each by its number in the paper (Huszár, Szécsi).
+//! The figures of bubble foam, with their numbers in the paper (Huszár, Szécsi).
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use crate::figures::pictures;
 use crate::panels::{channel, depth, grid};
 use crate::tool::Tool;
 
-/// A blob's upper half from near, with sky behind its films.
+/// The upper half of a blob at close range, with sky behind its films.
 const FILMS: &str = "--eye 0.2,1.9,2.3 --target 0.05,1.45,0";
 
-/// Whitewater foam from near: sprites, and the blobs that take over from them.
+/// Whitewater foam at close range: sprites, and the blobs that replace them.
 pub fn near(tool: &Tool, docs: &Path) -> Outcome<()> {
     let kept = tool.temporary("kept_%04d.bgeo");
     let kept = kept.display();
@@ -30,14 +30,14 @@ pub fn near(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&[sprites?, blobs?], 2, &pictures(docs, "foam-near.jpg"))
 }
 
-/// Figure 6: one blob, whole and from near.
+/// Figure 6: a single blob, in full and at close range.
 pub fn one(tool: &Tool, docs: &Path) -> Outcome<()> {
     let near = "--eye 0.3,1.3,1.6 --target 0,1.1,0";
     let panels = [tool.bubbles("one", 1, "")?, tool.bubbles("one", 1, near)?];
     grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-one.jpg"))
 }
 
-/// What films are: thin and thick, all light and three wavelengths, the source's reflectance.
+/// Films: thin and thick, with the full spectrum and with three wavelengths, and with the source's reflectance.
 pub fn films(tool: &Tool, docs: &Path) -> Outcome<()> {
     let looks = [
         "film = 120.0\ncore_opaque_radius = 0.4\ncore_outer_radius = 0.7",
@@ -55,8 +55,9 @@ pub fn films(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 3, &pictures(docs, "bubble-films.jpg"))
 }
 
-/// What an impostor's map and steps are worth: of a blob's pixels those whose depth is off by more than a hundredth of its
-/// radius, beside the finest by bubble ids, which is that of all bubbles (a test).
+/// Accuracy of an impostor by map size and steps: the share of a blob's pixels whose depth is off by more than a
+/// hundredth of its radius. The reference is the finest impostor by bubble ids, which a test shows equal to drawing all
+/// bubbles.
 pub fn errors(tool: &Tool, docs: &Path) -> Outcome<()> {
     let depths = |look: &str| -> Outcome<Vec<f32>> {
         let settings = tool.settings(&format!("[bubbles]\n{look}\n"))?;
@@ -105,7 +106,7 @@ pub fn errors(tool: &Tool, docs: &Path) -> Outcome<()> {
     Ok(())
 }
 
-/// Both impostors, and without walls.
+/// Both impostors, and foam without inner walls.
 pub fn impostors(tool: &Tool, docs: &Path) -> Outcome<()> {
     let looks = ["", "walls = false", "impostor = \"distance\""];
     let near = "--eye 0.3,1.3,1.6 --target 0,1.1,0";
@@ -134,7 +135,7 @@ pub fn slope(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 2, &pictures(docs, "bubble-slope.jpg"))
 }
 
-/// Figure 9: a box of 5000 blobs; of a hundred as well.
+/// Figure 9: a box of 5000 blobs, and one of a hundred.
 pub fn boxes(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels = [tool.bubbles("box", 1, "")?, tool.bubbles("box:100", 1, "")?];
     grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-box.jpg"))

@@ -1,4 +1,4 @@
-//! Curves: of cost over a camera's way, and of functions.
+//! Diagrams: costs along a camera path, and functions.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use crate::Outcome;
 
-/// A way to draw and its milliseconds, frame by frame.
+/// A way of drawing, and its milliseconds in each frame.
 pub type Curve = (&'static str, Vec<f64>);
 
 const COLORS: [RGBColor; 4] = [
@@ -16,25 +16,25 @@ const COLORS: [RGBColor; 4] = [
     RGBColor(20, 150, 90),
 ];
 
-/// A function as a line, and what was drawn by it as dots.
+/// A function as a line, and measured values as dots.
 pub struct Function {
     pub name: String,
     pub line: Vec<(f64, f64)>,
     pub dots: Vec<(f64, f64)>,
 }
 
-/// What stands round the lines.
+/// Title and axes of a diagram.
 struct Diagram<'a> {
     title: &'a str,
     legend: SeriesLabelPosition,
     axes: [&'a str; 2],
-    /// Of both axes, which begin at 0.
+    /// Largest values of both axes, which begin at 0.
     most: [f64; 2],
     size: (u32, u32),
     colors: &'a [RGBColor],
 }
 
-/// Curves in one diagram, as SVG.
+/// Writes cost curves as one SVG diagram.
 pub fn plot(title: &str, along: &str, curves: &[Curve], to: &Path) -> Outcome<()> {
     let most = curves.iter().flat_map(|(_, ms)| ms).copied().fold(0.0, f64::max);
     let last = curves.iter().map(|(_, ms)| ms.len()).max().unwrap_or(0).saturating_sub(1);
@@ -54,7 +54,7 @@ pub fn plot(title: &str, along: &str, curves: &[Curve], to: &Path) -> Outcome<()
     write(&diagram, &curves.iter().map(line).collect::<Vec<_>>(), to)
 }
 
-/// Functions in one diagram from 0 on, as SVG; `most`: of both axes, whose names are `axes`.
+/// Writes functions as one SVG diagram from 0 on. `most` holds the largest values of both axes, and `axes` their names.
 pub fn functions(
     (title, legend): (&str, SeriesLabelPosition),
     axes: [&str; 2],

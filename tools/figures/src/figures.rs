@@ -1,4 +1,4 @@
-//! The figures of layered water, each by its number in the thesis.
+//! The figures of layered water, with their numbers in the thesis.
 
 use std::path::{Path, PathBuf};
 
@@ -62,10 +62,10 @@ pub fn pictures(docs: &Path, name: &str) -> PathBuf {
     docs.join("pictures").join(name)
 }
 
-/// Of the waterfall's particles, drawn: twice 0.656 of half their spacing of 0.04 m.
+/// Radius at which the waterfall's particles are drawn: twice 0.656 of half their spacing of 0.04 m.
 const RADIUS: f32 = 0.656 * 0.04;
 
-/// The basin and the pillar of the waterfall from near.
+/// The basin and the pillar of the waterfall at close range.
 const NEAR: &str = "--eye 1.1,0.95,1.9 --target 0.1,0.3,0 --fov 40";
 
 /// The README's picture, as `tools/demo` draws it.
@@ -73,7 +73,7 @@ fn demo(tool: &Tool, docs: &Path) -> Outcome<()> {
     save(&tool.demo()?, &pictures(docs, "waterfall.jpg"))
 }
 
-/// The README's moving picture: a second of the waterfall, 24 frames of it.
+/// The README's animation: 24 frames of the waterfall, about a second.
 fn film(tool: &Tool, docs: &Path) -> Outcome<()> {
     let view = "--eye 1.9,1.75,3.1 --target -0.3,0.48,0 --fov 34";
     tool.film("waterfall", [171, 240, 3], view, &pictures(docs, "waterfall.webp"))
@@ -87,20 +87,20 @@ fn noise_foam(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "noise-foam.jpg"))
 }
 
-/// The source's whole look beside ours.
+/// The thesis's whole look beside ours.
 fn thesis(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels: Result<Vec<_>, _> = ["--look thesis", ""]
         .iter()
         .map(|more| {
             let picture = tool.frame("waterfall", 240, more)?.picture;
-            // Of the sky and of the ground less.
+            // Crop most of the sky and the ground.
             Ok::<_, String>(image::imageops::crop_imm(&picture, 60, 10, 400, 225).to_image())
         })
         .collect();
     grid(&panels?, 2, &pictures(docs, "thesis.jpg"))
 }
 
-/// Figures 4.7 to 4.20: what each pass leaves.
+/// Figures 4.7 to 4.20: the result of each pass.
 fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     let frame = tool.frame("waterfall", 240, "")?;
     let without = tool.frame("waterfall", 240, "--spray none")?;
@@ -123,7 +123,7 @@ fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 3, &pictures(docs, "layers.jpg"))
 }
 
-/// Iterations of the three scenes' views, by the source's rule and by ours.
+/// Prints the iteration counts in three scenes' views, by the thesis's rule and by ours.
 fn iteration_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     for (scene, frame) in [("waterfall", 240), ("corridor", 110), ("bamboo", 112)] {
@@ -138,11 +138,11 @@ fn iteration_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "iterations.png"))
 }
 
-/// Figure 5.3: foam against the threshold, in the proportions of the source's 110, 90, 70 and 50.
+/// Figure 5.3: foam at several thresholds, in the proportions of the thesis's 110, 90, 70 and 50.
 fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     let mut before = 0.0;
-    // The one that the tool finds for the sequence stands for the source's 80.
+    // The threshold that the tool finds for the sequence corresponds to the thesis's 80.
     let found = found_threshold(&tool.frame("waterfall", 240, "--surface-foam auto")?.layers)?;
     println!("thresholds: found We {found:.1}");
     for source in [110.0, 90.0, 70.0, 50.0] {
@@ -159,21 +159,21 @@ fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "thresholds.jpg"))
 }
 
-/// The Weber number that a frame was drawn with, of the settings that it holds.
+/// Weber number of a frame, from the settings that its file holds.
 fn found_threshold(layers: &Layers) -> Outcome<f32> {
     let settings = layers.attributes.iter().find(|(name, _)| name == "settings");
     let lines = settings.into_iter().flat_map(|(_, text)| text.lines());
     let mut found = lines.filter_map(|line| line.strip_prefix("threshold = "));
-    // Table [surface_foam] stands before [shoreline], which has one too.
+    // Table [surface_foam] stands before [shoreline], which has a `threshold` too.
     let number = found.next().and_then(|number| number.parse().ok());
     number.ok_or_else(|| "the frame does not say from which Weber number on it foams".into())
 }
 
-/// Figures 4.7 and 4.11: the curvature of the spheres and that of the smoothed surface, below from near.
+/// Figures 4.7 and 4.11: curvature of the spheres and of the smoothed surface; the lower row is at close range.
 fn curvature(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     for more in ["", NEAR] {
-        // A pixel of the layers is one of the smoothing.
+        // One pixel of the layers is one pixel of the smoothing.
         let more = format!("{more} --surface-foam none --spray none --shadows none");
         let frame = tool.frame("waterfall", 240, &more)?;
         for name in ["water.depth.Z", "water.surface.Z"] {
@@ -185,7 +185,7 @@ fn curvature(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "curvature.png"))
 }
 
-/// Figure 4.10: several fixed counts, from far and from near, and ours.
+/// Figure 4.10: several fixed counts and our rule, from far and from near.
 fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     let far = "--eye 2.6,2.6,5.6 --target -0.2,0.3,0 --fov 36";
@@ -197,7 +197,7 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
             let picture = tool.frame("waterfall", 240, &more)?.picture;
             let half = (SIZE.0 as u32 / 2, SIZE.1 as u32 / 2);
             let panel = match view == far {
-                // The water, as it is there.
+                // From far, crop to the water at full resolution.
                 true => image::imageops::crop_imm(&picture, 140, 60, half.0, half.1).to_image(),
                 false => image::imageops::thumbnail(&picture, half.0, half.1),
             };
@@ -207,9 +207,9 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 4, &pictures(docs, "fixed-counts.jpg"))
 }
 
-/// Figures 4.13 and 4.15: what one particle adds to the thickness of water and of foam, and what many add up to.
+/// Figures 4.13 and 4.15: thickness of water and of foam from a single particle, and from many.
 fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
-    // From above: the ground lies behind.
+    // The view from above shows only ground behind the particle.
     let view = "--radius 0.05 --eye 0,0.8,0 --target 0,0,0 --up 0,0,-1 --fov 40 --spray none --shadows none";
     let water = tool.particles("x,y,z\n0,0,0\n", &format!("{view} --surface-foam none"))?;
     let own = tool.settings("[surface_foam]\npattern = 0\nnoise = 1\n")?;
@@ -233,7 +233,7 @@ fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 4, &pictures(docs, "kernels.png"))
 }
 
-/// Figure 4.14: water behind the frontmost foam, and before it.
+/// Figure 4.14: water behind the front layer of foam, and before it.
 fn water_layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     let layers = tool.frame("waterfall", 240, NEAR)?.layers;
     let panels = [
@@ -243,7 +243,7 @@ fn water_layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "water-layers.png"))
 }
 
-/// Figure 4.18: where the surface is shaded one-sidedly, red, and where its derivatives are interpolated, yellow.
+/// Figure 4.18: red where the surface uses one-sided differences, yellow where derivatives are interpolated.
 fn borders(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     for view in ["", NEAR] {
@@ -254,7 +254,7 @@ fn borders(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "borders.png"))
 }
 
-/// Figure 5.4: no shadows, those of the scene, and those of water and foam with caustics.
+/// Figure 5.4: no shadows; shadows of the scene; shadows of water and foam, with caustics.
 fn shadows(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels: Result<Vec<_>, _> = ["none", "scene", "all"]
         .iter()
@@ -266,7 +266,7 @@ fn shadows(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 3, &pictures(docs, "shadows.jpg"))
 }
 
-/// Figures 5.5 and 5.6: the bamboo fills, tips and is empty, and the pouring from near.
+/// Figures 5.5 and 5.6: the bamboo fills, tips and is empty; and the pouring at close range.
 fn bamboo(tool: &Tool, docs: &Path) -> Outcome<()> {
     let near = "--eye 1.0,0.75,1.05 --target 0.45,0.3,0 --fov 36";
     let panels = [
@@ -278,7 +278,7 @@ fn bamboo(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "bamboo-foam.jpg"))
 }
 
-/// Figure 5.7, without and with foam; below it Figure 5.8's foam under the surface, and where foam is.
+/// Figure 5.7, without and with foam; below it Figure 5.8's foam under the surface, and a map of the foam.
 fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
     let wave = "--eye 0.6,0.85,0.3 --target -1.4,0.15,-0.1 --fov 50";
     let under = "--eye 0.75,0.75,1.35 --target -0.05,0.1,0.1 --fov 40";
@@ -291,7 +291,7 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "foam.jpg"))
 }
 
-/// Foam by a noise of each sprite's own, and by one that all share.
+/// Foam by a noise of each sprite's own, and by a noise that all sprites share.
 fn pattern(tool: &Tool, docs: &Path) -> Outcome<()> {
     let wave = "--eye 0.6,0.85,0.3 --target -1.4,0.15,-0.1 --fov 50";
     let own = tool.settings("[surface_foam]\npattern = 0\nnoise = 1\n")?;
@@ -304,7 +304,7 @@ fn pattern(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "foam-pattern.jpg"))
 }
 
-/// Figure 5.13: one sheet of water, whose thickness counts what is behind the air, and two.
+/// Figure 5.13: one sheet of water, whose thickness includes water behind an air gap, and two sheets.
 fn sheets(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels: Result<Vec<_>, _> = ["1", "2"]
         .iter()
@@ -318,8 +318,8 @@ fn sheets(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 2, &pictures(docs, "sheets.jpg"))
 }
 
-/// The ways that the thesis compares, and ours. All see straight through water, as the thesis does: what a second refraction
-/// costs is no matter of smoothing and foam.
+/// The ways of drawing that the thesis compares, and ours. All see straight through water, as in the thesis, because
+/// the cost of a second refraction is no question of smoothing or foam.
 const WAYS: [(&str, &str); 4] = [
     ("baseline: 40 iterations", "--sheets 1 --surface-foam none --rule fixed:40"),
     ("source, without foam", "--sheets 1 --surface-foam none --rule source"),
@@ -327,14 +327,14 @@ const WAYS: [(&str, &str); 4] = [
     ("ours: constant width, two sheets, foam", "--surface-foam auto"),
 ];
 
-/// The most that the thesis' ways may cost, of the baseline's: without foam and with it (its Table 5.1 has up to 1.10 and
-/// 1.42).
+/// Largest allowed cost of each way relative to the baseline, without and with foam (the thesis's Table 5.1 has up to
+/// 1.10 and 1.42).
 const LIMITS: [Option<f64>; WAYS.len()] = [None, Some(1.1), Some(1.45), None];
 
-/// Runs over each way, in turn, so that what else the machine does at a time is no one way's.
+/// Runs of each way, interleaved, so that other load on the machine spreads over all ways.
 const ROUNDS: usize = 3;
 
-/// Of each way the mean over the frames of each frame's median over all draws.
+/// For each way, the mean over all frames of the median time of a frame's draws.
 fn measure(tool: &Tool, scene: &str, frames: &[String], camera: &Path) -> Outcome<Vec<Curve>> {
     let straight = tool.settings("[water]\nexit = 'straight'\n")?;
     let mut timed: [Vec<Timed>; WAYS.len()] = Default::default();
@@ -368,7 +368,7 @@ fn measure(tool: &Tool, scene: &str, frames: &[String], camera: &Path) -> Outcom
     Ok(curves)
 }
 
-/// The passes and their parts of the time of all draws, and of as many steps.
+/// Share of each pass in the frames' time, which is the mean of a step plus the mean of a draw.
 fn shares(frames: &[Timed]) -> Vec<(String, f64)> {
     let mut sums: Vec<(String, f64)> = Vec::new();
     for all in frames.iter().flat_map(|frame| [&frame.steps, &frame.draws]) {
@@ -384,17 +384,17 @@ fn shares(frames: &[Timed]) -> Vec<(String, f64)> {
     sums.into_iter().map(|(pass, sum)| (pass, sum / whole)).collect()
 }
 
-/// Figure 5.9: a zoom to the waterfall's basin, over one frame.
+/// Figure 5.9: a zoom to the waterfall's basin in a single frame.
 fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
     const STEPS: u32 = 16;
-    // Frames before them, in which foam comes.
+    // Frames before the first, in which foam accumulates.
     const LEAD: u32 = 60;
     let still = tool.scene("waterfall")?.join("waterfall_0240.bgeo");
     for frame in 1..=LEAD + STEPS {
         let file = tool.temporary(&format!("zoom_{frame:04}.bgeo"));
         std::fs::copy(&still, &file).map_err(|error| format!("{}: {error}", file.display()))?;
     }
-    // From ten metres to one, each step as much nearer as the one before in proportion.
+    // From ten metres to one; the distance shrinks by the same factor in each step.
     let keys: Vec<_> = (1..=STEPS)
         .map(|step| {
             let away = 10.0_f64.powf(1.0 - f64::from(step - 1) / f64::from(STEPS - 1));
@@ -413,7 +413,7 @@ fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
     curves::plot("Zoom, waterfall", "from 10 m to 1 m", &curves, &pictures(docs, "cost-zoom.svg"))
 }
 
-/// Figures 5.10 to 5.12: a scene's own camera way, every fifteenth frame.
+/// Figures 5.10 to 5.12: a scene's own camera path, every fifteenth frame.
 fn flight(tool: &Tool, docs: &Path, scene: &str) -> Outcome<()> {
     let folder = tool.scene(scene)?;
     let more = ["--frames=15-240", "--every=15"].map(str::to_owned);

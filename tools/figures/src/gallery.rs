@@ -1,4 +1,5 @@
-//! The gallery: ten default pictures, of our own scenes and of public caches, and the page that shows them.
+//! The gallery: ten pictures with default settings, of our own scenes and of public caches, and the page that shows
+//! them.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -7,20 +8,20 @@ use crate::Outcome;
 use crate::panels::save;
 use crate::tool::{Tool, sequence};
 
-/// What a picture is of.
+/// Subject of a picture.
 enum Of {
-    /// A frame of a scene of ours.
+    /// A frame of one of our own scenes.
     Scene(&'static str, u32),
-    /// A file of the folder of public caches, and further arguments.
+    /// A file in the folder of public caches, and further arguments.
     Cache(&'static str, &'static str),
 }
 
 /// A picture of the gallery.
 struct Shown {
-    /// Its file's name, without the ending.
+    /// Name of its file, without the extension.
     name: &'static str,
     of: Of,
-    /// What it shows, and whose data it is.
+    /// Caption: subject and source of the data.
     about: &'static str,
 }
 
@@ -84,7 +85,7 @@ const ALL: [Shown; 10] = [
     },
 ];
 
-/// Draws all, or one, into the documents' folder `gallery`, and writes the page.
+/// Draws all pictures, or one, into the folder `gallery` of the documents, and writes the page.
 pub fn draw(tool: &Tool, docs: &Path, public: &Path, only: Option<&str>) -> Outcome<()> {
     let wanted: Vec<_> = ALL.iter().filter(|s| only.is_none_or(|only| only == s.name)).collect();
     if wanted.is_empty() {
@@ -105,7 +106,7 @@ pub fn draw(tool: &Tool, docs: &Path, public: &Path, only: Option<&str>) -> Outc
     std::fs::write(&file, page()).map_err(|error| cannot(&file, error))
 }
 
-/// Arguments that draw a picture, but for where it goes.
+/// Arguments that draw a picture, without the output path.
 fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> {
     match shown.of {
         Of::Scene(scene, frame) => {
@@ -130,7 +131,7 @@ fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> 
     }
 }
 
-/// The page.
+/// Text of the page.
 fn page() -> String {
     let mut text = String::from(
         "# Gallery\n\nDefault pictures: each command draws its picture with no settings. These commands draw all of them:\n\n```sh\n\
@@ -149,7 +150,7 @@ fn page() -> String {
             }
         };
         let command = command.trim();
-        // To a text all is written.
+        // Writing to a string cannot fail.
         let _ = write!(
             text,
             "\n## {about}\n\n![{name}](gallery/{name}.jpg)\n\n`whitewater render {command} -o {name}.png`\n"

@@ -1,5 +1,5 @@
-//! The figures of `docs/layered-water.md`, `docs/whitewater.md`, `docs/bubble-foam.md` and `docs/shore-foam.md`: the
-//! sources' own (F. Bagar, 2010; Akinci et al., 2013; Huszár, Szécsi; a blog; D. Lettier), drawn anew by `whitewater`.
+//! The figures of `docs/layered-water.md`, `docs/whitewater.md`, `docs/bubble-foam.md` and `docs/shore-foam.md`: those
+//! of the sources (F. Bagar, 2010; Akinci et al., 2013; Huszár, Szécsi; a blog; D. Lettier), drawn with `whitewater`.
 //!
 //! ```sh
 //! cargo build --release -p whitewater-cli -p whitewater-figures -p whitewater-raycast
@@ -8,8 +8,8 @@
 //! target/release/whitewater-figures --caches DIR --gallery --public CACHES   # docs/gallery.md
 //! ```
 //!
-//! Scenes that are not yet in DIR are simulated first, some minutes each. Figures are drawn by the command
-//! line as anyone would; here is only what puts them side by side.
+//! Scenes that are missing in DIR are simulated first, which takes some minutes each. The command-line tool draws the
+//! figures; this program only arranges them.
 
 mod bubbles;
 mod curves;
@@ -27,28 +27,28 @@ use clap::Parser;
 
 use crate::tool::Tool;
 
-/// Of everything here: a line for the user.
+/// Result of everything here: an error is a line for the user.
 type Outcome<T> = Result<T, String>;
 
 /// Draws the figures of the documents.
 #[derive(Parser)]
 struct Args {
-    /// Folder of the simulated scenes; what is missing there is simulated
+    /// Folder of the simulated scenes; missing scenes are simulated
     #[arg(long)]
     caches: PathBuf,
     /// Folder of the documents
     #[arg(long, default_value = "docs")]
     docs: PathBuf,
-    /// This figure, or picture of the gallery, alone
+    /// Draw only this figure, or this picture of the gallery
     #[arg(long)]
     only: Option<String>,
-    /// The gallery's pictures and page, instead of the figures
+    /// Draw the gallery's pictures and page instead of the figures
     #[arg(long, requires = "public")]
     gallery: bool,
-    /// Folder of the public caches that the gallery shows, by the names that stand in its page
+    /// Folder of the public caches for the gallery, under the names that its page shows
     #[arg(long, requires = "gallery")]
     public: Option<PathBuf>,
-    /// The program that draws [default: `whitewater` beside this one]
+    /// Program that draws [default: `whitewater` beside this one]
     #[arg(long)]
     tool: Option<PathBuf>,
 }

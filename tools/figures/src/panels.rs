@@ -1,4 +1,4 @@
-//! Layers as colours, pictures side by side, and their files.
+//! Layers as coloured panels, grids of panels, and their files.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use whitewater::io::picture::Layers;
 
 use crate::Outcome;
 
-/// A depth: near is bright.
+/// A depth layer as grey; near is bright.
 pub fn depth(layers: &Layers, name: &str) -> Outcome<RgbImage> {
     let z = channel(layers, name)?;
     let there = |v: &&f32| **v < 1.0e9;
@@ -22,13 +22,13 @@ pub fn depth(layers: &Layers, name: &str) -> Outcome<RgbImage> {
     }))
 }
 
-/// An amount, white where it is all there is: `1 - exp(-amount / scale)`.
+/// An amount as grey, `1 - exp(-amount / scale)`, so that a large amount is white.
 pub fn amount(layers: &Layers, name: &str, scale: f32) -> Outcome<RgbImage> {
     let all = channel(layers, name)?;
     Ok(picture(layers, |i| [1.0 - (-all[i] / scale).exp(); 3]))
 }
 
-/// Normals, where there is a depth.
+/// Normals as colours, where there is a depth.
 pub fn normals(layers: &Layers, name: &str, depth: &str) -> Outcome<RgbImage> {
     let [x, y, z] = ["X", "Y", "Z"].map(|axis| channel(layers, &format!("{name}.{axis}")));
     let (x, y, z) = (x?, y?, z?);
@@ -39,20 +39,20 @@ pub fn normals(layers: &Layers, name: &str, depth: &str) -> Outcome<RgbImage> {
     }))
 }
 
-/// A share as grey.
+/// A fraction as grey.
 pub fn share(layers: &Layers, name: &str) -> Outcome<RgbImage> {
     let all = channel(layers, name)?;
     Ok(picture(layers, |i| [all[i]; 3]))
 }
 
-/// Light, brightest what is `most`.
+/// Light as a picture; `most` is the brightest value.
 pub fn light(layers: &Layers, name: &str, most: f32) -> Outcome<RgbImage> {
     let [r, g, b] = ["R", "G", "B"].map(|part| channel(layers, &format!("{name}.{part}")));
     let (r, g, b) = (r?, g?, b?);
     Ok(picture(layers, |i| [r[i], g[i], b[i]].map(|v| (v / most).powf(1.0 / 2.2))))
 }
 
-/// Iterations from yellow (few) to red (the most), as the thesis has them.
+/// Iterations from yellow (few) to red (the most), with the thesis's colours.
 pub fn iterations(layers: &Layers) -> Outcome<RgbImage> {
     let all = channel(layers, "water.iterations")?;
     let (_, most) = range_of(layers, "water.iterations")?;
@@ -62,7 +62,8 @@ pub fn iterations(layers: &Layers) -> Outcome<RgbImage> {
     }))
 }
 
-/// The size of a layer and the vertical field of view it was drawn with, as world sizes of a pixel a metre away.
+/// World-space width and height of a pixel at a distance of one metre, from the layer's size and the camera's field of
+/// view.
 fn pixel_sizes(layers: &Layers) -> Outcome<[f32; 2]> {
     let camera = layers.attributes.iter().find(|(name, _)| name == "camera");
     let camera = camera.ok_or("the frame has no camera")?;
@@ -73,11 +74,12 @@ fn pixel_sizes(layers: &Layers) -> Outcome<[f32; 2]> {
     Ok([size as f32; 2])
 }
 
-/// Mean curvature times a radius, of a depth: red where it bulges to the eye, blue where it is hollow, white where it is
-/// flat; black at silhouettes, where neighbours are farther than five radii apart. And its mean magnitude.
+/// Mean curvature of a depth layer, times a radius: red where it bulges to the eye, blue where it is hollow, white
+/// where it is flat; black at silhouettes, where neighbouring depths differ by more than five radii. Also returns its
+/// mean magnitude.
 ///
-/// `2H = (C_y E_x + C_x E_y) / D^(3/2)`, `D = C_y² z_x² + C_x² z_y² + C_x² C_y² z²`, `E_x = z_x D_x / 2 - z_xx D` (van der
-/// Laan et al. 2009), by central differences: a pixel, whose size is `C z`.
+/// `2H = (C_y E_x + C_x E_y) / D^(3/2)`, `D = C_y² z_x² + C_x² z_y² + C_x² C_y² z²`, `E_x = z_x D_x / 2 - z_xx D` (van
+/// der Laan et al. 2009), by central differences over pixels of size `C z`.
 pub fn curvature(layers: &Layers, name: &str, radius: f32) -> Outcome<(RgbImage, f32)> {
     let z = channel(layers, name)?;
     let [c_x, c_y] = pixel_sizes(layers)?;
@@ -121,8 +123,8 @@ pub fn curvature(layers: &Layers, name: &str, radius: f32) -> Outcome<(RgbImage,
     Ok((image, mean))
 }
 
-/// Where a depth is at a border, red, and inside, yellow: there a second difference along an axis or an edge of the block
-/// of nine is over a threshold.
+/// Red at a border of a depth layer; yellow inside, where a second difference along an axis or along an edge of the 3 x
+/// 3 block exceeds a threshold.
 pub fn borders(layers: &Layers, name: &str, threshold: f32) -> Outcome<RgbImage> {
     let z = channel(layers, name)?;
     let (width, height) = (layers.width, layers.height);
@@ -152,20 +154,20 @@ pub fn borders(layers: &Layers, name: &str, threshold: f32) -> Outcome<RgbImage>
     }))
 }
 
-/// The least and the most of a channel's values over 0.
+/// Smallest and largest positive value of a channel.
 pub fn range_of(layers: &Layers, name: &str) -> Outcome<(f32, f32)> {
     let all = channel(layers, name)?;
     let some = || all.iter().copied().filter(|v| *v > 0.0);
     Ok((some().fold(f32::INFINITY, f32::min), some().fold(0.0, f32::max)))
 }
 
-/// The mean of a channel.
+/// Mean of a channel.
 pub fn mean_of(layers: &Layers, name: &str) -> Outcome<f64> {
     let all = channel(layers, name)?;
     Ok(all.iter().map(|v| f64::from(*v)).sum::<f64>() / all.len().max(1) as f64)
 }
 
-/// A layer's values.
+/// Values of a layer's channel.
 pub fn channel<'a>(layers: &'a Layers, name: &str) -> Outcome<&'a [f32]> {
     layers.channel(name).ok_or_else(|| format!("the frame has no layer {name}"))
 }
@@ -177,7 +179,7 @@ fn picture(layers: &Layers, color: impl Fn(usize) -> [f32; 3]) -> RgbImage {
     })
 }
 
-/// Pictures of one size, row by row, with a gap between them.
+/// Arranges pictures of equal size row by row, with a gap between them.
 pub fn grid(pictures: &[RgbImage], columns: u32, to: &Path) -> Outcome<()> {
     const GAP: u32 = 4;
     let first = pictures.first().ok_or("no pictures")?;

@@ -7,10 +7,10 @@ use crate::figures::pictures;
 use crate::panels::{grid, share};
 use crate::tool::Tool;
 
-/// A beach of the main island.
+/// A beach on the main island.
 const BEACH: &str = "--eye 8,9,52 --target 18,0,18 --fov 45";
 
-/// Waves as the blog begins with them, without noise or web.
+/// The blog's first waves, without noise or web.
 const PLAIN: &str = "texture_weight = 0.0\nwave_weight = 1.0\nfrequency_noise = [0.0, 0.0]\nspeed_noise = [0.0, 0.0]\n\
      threshold_noise = [0.0, 0.0]\nrise_noise = [0.0, 0.0]\nswing = 0.0\nspeed = 0.9\nfrequency = 19.0\nfade = 0.02\n";
 
@@ -18,7 +18,7 @@ fn look(tool: &Tool, look: &str) -> Outcome<String> {
     tool.settings(&format!("[contact]\nopacity = 0.0\n[shoreline]\n{look}"))
 }
 
-/// The blog's steps: waves; thinner out to sea; noise on the frequency; the web, by two thresholds; the mix.
+/// The blog's steps: waves; waves that thin out to sea; noise on the frequency; the web, by two thresholds; the mix.
 pub fn steps(tool: &Tool, docs: &Path) -> Outcome<()> {
     let web = "wave_weight = 0.0\ntexture_weight = 1.0\nthreshold_noise = [0.0, 0.0]\nrise_noise = [0.0, 0.0]\nfade = 0.02\n\
                texture_slope = 0.9\ntexture_offset = -0.9\n";
@@ -39,7 +39,7 @@ pub fn steps(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 3, &pictures(docs, "shore-steps.jpg"))
 }
 
-/// By the map, by a strip, by the screen's depth.
+/// The three ways to find the shore: by the map, by a strip, by screen-space depth.
 pub fn ways(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panel = |by: &&str| -> Outcome<_> {
         let settings = tool.settings(&format!("[shore]\nby = \"{by}\"\n"))?;
@@ -56,7 +56,7 @@ pub fn islands(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 2, &pictures(docs, "shore-islands.jpg"))
 }
 
-/// Contact foam in a pool and in lava, on the particles' water, and none.
+/// Contact foam in a pool, in lava and on particle water, and a pool without it.
 pub fn contact(tool: &Tool, docs: &Path) -> Outcome<()> {
     let none = tool.settings("[contact]\nopacity = 0.0\n")?;
     let without = tool.shore("pool", 1, &none)?.picture;

@@ -1,4 +1,4 @@
-//! Runs the command line, and reads what it wrote.
+//! Runs the command-line tool and reads its output.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,57 +14,57 @@ const CASTER: &str = "whitewater-raycast";
 /// Size of a panel's picture.
 pub const SIZE: (usize, usize) = (480, 270);
 
-/// Towards the sun in all pictures: from the side.
+/// Direction to the sun in all pictures: from the side.
 const SUN: &str = "-0.75,0.62,0.3";
 
-/// The command line with the scenes to draw.
+/// The command-line tool, and the folder of scenes.
 pub struct Tool {
     program: PathBuf,
     caches: PathBuf,
     folder: tempfile::TempDir,
 }
 
-/// A frame as it was drawn.
+/// A drawn frame.
 pub struct Frame {
-    /// Its layers, with the linear picture.
+    /// Its layers, including the linear picture.
     pub layers: Layers,
-    /// As a screen shows it.
+    /// The displayed picture.
     pub picture: RgbImage,
 }
 
-/// How ffmpeg writes an animated WebP.
+/// ffmpeg options for an animated WebP.
 const WEBP: &str = "-c:v libwebp_anim -quality 75 -compression_level 6 -loop 0";
 
-/// How many times a frame is drawn whose passes are timed.
+/// Draws of a frame whose passes are timed.
 const REPEATS: u32 = 8;
 
-/// Milliseconds of the passes of a draw, or of a step before it, in their order.
+/// Milliseconds of the passes of a draw, or of a step before it, in order.
 pub type Times = Vec<(String, f64)>;
 
-/// What a frame took.
+/// Times of a frame.
 #[derive(Clone, Default)]
 pub struct Timed {
-    /// What is done once a step, before the frame is drawn: each time.
+    /// Times of each step before the frame is drawn.
     pub steps: Vec<Times>,
-    /// Each time that it was drawn.
+    /// Times of each draw.
     pub draws: Vec<Times>,
 }
 
 impl Timed {
-    /// Milliseconds of the frame: the median of its draws, each the sum of its passes, and that of its steps.
+    /// Milliseconds of the frame: the median of its draws, each the sum of its passes, plus the median of its steps.
     pub fn median(&self) -> f64 {
         [&self.steps, &self.draws].map(|all| median(all.iter().map(total).collect())).iter().sum()
     }
 }
 
-/// The middle one; of none 0.
+/// The median, or 0 if there are no values.
 fn median(mut all: Vec<f64>) -> f64 {
     all.sort_by(f64::total_cmp);
     all.get(all.len() / 2).copied().unwrap_or(0.0)
 }
 
 impl Tool {
-    /// The program, by default that beside this one.
+    /// `program` is the tool to run; the default is the one beside this program.
     pub fn new(program: Option<&Path>, caches: &Path) -> Outcome<Self> {
         let beside =
             || Ok::<_, std::io::Error>(std::env::current_exe()?.with_file_name("whitewater"));
@@ -80,7 +80,7 @@ impl Tool {
         Ok(Self { program, caches: caches.to_owned(), folder })
     }
 
-    /// A file that goes when this ends.
+    /// Path of a file that is deleted when this program ends.
     pub fn temporary(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
@@ -89,7 +89,7 @@ impl Tool {
         run(&self.program, arguments)
     }
 
-    /// Files of a scene's simulation, made when they are not there.
+    /// Folder of a scene's simulated files; simulates them if they are missing.
     pub fn scene(&self, name: &str) -> Outcome<PathBuf> {
         let folder = self.caches.join(name);
         if !folder.join(format!("{name}_0240.bgeo")).exists() {
@@ -100,7 +100,7 @@ impl Tool {
         Ok(folder)
     }
 
-    /// A frame of a scene's sequence, with the foam that frames before have left. `more` are further arguments.
+    /// A frame of a scene's sequence, with the foam that earlier frames left. `more` are further arguments.
     pub fn frame(&self, scene: &str, frame: u32, more: &str) -> Outcome<Frame> {
         let folder = self.scene(scene)?;
         let [exr, png] =
@@ -126,11 +126,11 @@ impl Tool {
         Ok(Frame { layers, picture })
     }
 
-    /// A picture by arguments of `render`, by way of a file.
+    /// The picture that `render` writes with these arguments.
     pub fn draw(&self, arguments: &[String], png: &Path) -> Outcome<RgbImage> {
         let mut all = vec!["render".to_owned()];
         all.extend_from_slice(arguments);
-        // Of one frame of a sequence the number would be in the name.
+        // For a sequence, the tool puts the frame's number into the name.
         let pattern = png.with_file_name("gallery_%04d.png");
         let numbered = arguments.iter().any(|a| a.starts_with("--frames="));
         let to = if numbered { &pattern } else { png };
@@ -144,7 +144,7 @@ impl Tool {
         Ok(image::open(&written).map_err(|error| error.to_string())?.into_rgb8())
     }
 
-    /// The picture that `tools/demo` leaves.
+    /// The picture that `tools/demo` writes.
     pub fn demo(&self) -> Outcome<RgbImage> {
         let png = self.temporary("demo.png");
         let to = format!("--output={}", png.display());
@@ -175,7 +175,7 @@ impl Tool {
         ];
         arguments.extend(more.split_whitespace().map(str::to_owned));
         self.run(&arguments)?;
-        // ffmpeg's pattern takes consecutive numbers.
+        // ffmpeg's pattern needs consecutive numbers.
         for (i, frame) in (first..=last).step_by(step as usize).enumerate() {
             let [from, to] = [format!("film_{frame:04}.png"), format!("webp_{i:04}.png")]
                 .map(|name| self.temporary(&name));
@@ -220,20 +220,20 @@ impl Tool {
         Ok(Frame { layers, picture })
     }
 
-    /// The argument that draws by such settings, TOML.
+    /// The argument that draws with these settings (TOML).
     pub fn settings(&self, text: &str) -> Outcome<String> {
         let path = self.temporary("settings.toml");
         std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(format!("--settings {}", path.display()))
     }
 
-    /// The picture of a sea, of so many whitewater particles. `look`: its table `[whitewater]`.
+    /// A picture of a sea with `whitewater` particles. `look` is the table `[whitewater]`.
     pub fn sea(&self, sea: &str, whitewater: &str, size: &str, look: &str) -> Outcome<RgbImage> {
         let png = self.draw_sea("png", [sea, whitewater, size, look], None)?;
         Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
     }
 
-    /// The same from so many metres away.
+    /// The same from a distance in metres.
     pub fn sea_from(
         &self,
         metres: f32,
@@ -245,7 +245,7 @@ impl Tool {
         Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
     }
 
-    /// The layers of its foam.
+    /// The layers of the sea's foam.
     pub fn sea_layers(
         &self,
         sea: &str,
@@ -281,7 +281,7 @@ impl Tool {
         Ok(to)
     }
 
-    /// How much of each pixel the foam of a sea covers by volume ray-casting, 0 to 1.
+    /// Intensity of a sea's foam in each pixel by volume ray-casting, 0 to 1.
     pub fn sea_ray_cast(&self, sea: &str, whitewater: u32, size: &str) -> Outcome<Vec<f32>> {
         let (program, png) = (self.program.with_file_name(CASTER), self.temporary("cast.png"));
         if !program.exists() {
@@ -302,10 +302,10 @@ impl Tool {
         Ok(grey.iter().map(|v| linear(*v)).collect())
     }
 
-    /// The layers of one whitewater particle of a kind, whose disc has a radius in pixels in the middle of a picture of so
-    /// many.
+    /// The layers of a single whitewater particle of a kind, whose disc has a radius of `pixels` in the middle of a
+    /// picture `size` pixels wide.
     pub fn particle(&self, kind: &str, size: u32, pixels: f64) -> Outcome<Layers> {
-        // At a depth where the picture is twice its radius of one high.
+        // The depth at which the particle, with a radius of 1, has a radius of `pixels`.
         let depth = f64::from(size) / (2.0 * pixels) / 30.0_f64.to_radians().tan();
         let radius = if kind == "bubble" { 2.0 } else { 1.0 };
         let files = [
@@ -334,7 +334,7 @@ impl Tool {
         picture::read(&self.temporary("one.exr")).map_err(|error| error.to_string())
     }
 
-    /// A frame of particles of our own, `x,y,z...` as CSV. `more` are further arguments.
+    /// The layers of a frame of our own particles, `x,y,z...` as CSV. `more` are further arguments.
     pub fn particles(&self, csv: &str, more: &str) -> Outcome<Layers> {
         let [from, exr] = ["own.csv", "own.exr"].map(|name| self.temporary(name));
         std::fs::write(&from, csv).map_err(|error| format!("{}: {error}", from.display()))?;
@@ -353,7 +353,7 @@ impl Tool {
         picture::read(&exr).map_err(|error| error.to_string())
     }
 
-    /// Times of a scene's frames from a moving camera. `frames` are those files and which of them.
+    /// Times of a scene's frames along a moving camera. `frames` are the arguments that name the files and the frames.
     pub fn times(
         &self,
         scene: &str,
@@ -394,22 +394,22 @@ fn run(program: &Path, arguments: &[String]) -> Outcome<()> {
     Err(format!("{} {} ended with {status}", program.display(), arguments.join(" ")))
 }
 
-/// What a screen shows of a byte.
+/// Linear light of an sRGB byte.
 pub fn linear(byte: u8) -> f32 {
     picture::srgb_decode(f32::from(byte) / 255.0)
 }
 
-/// All files of a scene.
+/// Pattern of a scene's files.
 pub fn sequence(folder: &Path, scene: &str) -> String {
     folder.join(format!("{scene}_%04d.bgeo")).display().to_string()
 }
 
-/// Milliseconds of all passes.
+/// Total milliseconds of the passes.
 fn total(times: &Times) -> f64 {
     times.iter().map(|(_, ms)| ms).sum()
 }
 
-/// The rows of `--timings`: frame, pass, start, nanoseconds. What is submitted together begins with a start of 0.
+/// Parses the rows of `--timings`: frame, pass, start, nanoseconds. A start of 0 begins a new submission.
 fn read_times(csv: &Path) -> Outcome<Vec<Timed>> {
     let text =
         std::fs::read_to_string(csv).map_err(|error| format!("{}: {error}", csv.display()))?;
@@ -443,7 +443,7 @@ fn read_times(csv: &Path) -> Outcome<Vec<Timed>> {
 mod tests {
     use super::*;
 
-    /// Two frames, of a step and three draws each: medians of what is drawn, not of the best of each pass.
+    /// A frame has the median of its draws' totals, not the sum of the best passes.
     #[test]
     fn a_frame_takes_the_median_of_its_draws() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -462,7 +462,7 @@ mod tests {
         assert_eq!(frames.len(), 2);
         for frame in frames {
             assert_eq!((frame.steps.len(), frame.draws.len()), (1, 3));
-            // Of 10, 7 and 9; the best of each pass are 2.
+            // The totals are 10, 7 and 9; the sum of the best passes would be 2.
             assert_eq!(frame.median(), 9.0 + 0.5);
         }
     }

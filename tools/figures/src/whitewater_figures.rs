@@ -1,4 +1,4 @@
-//! The figures of screen-space foam, each by its number in the paper (Akinci et al. 2013).
+//! The figures of screen-space foam, with their numbers in the paper (Akinci et al. 2013).
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::figures::pictures;
 use crate::panels::{amount, channel, depth, grid, light, normals, share};
 use crate::tool::{Tool, linear};
 
-/// Figures 1 and 8, upper row: the seas, each with as many particles as the source's.
+/// Figures 1 and 8, upper row: the seas, with the paper's particle counts.
 pub fn seas(tool: &Tool, docs: &Path) -> Outcome<()> {
     let seas = [("wave", "820k"), ("ship", "9m"), ("lighthouse", "15m"), ("flood", "29m")];
     let panels: Result<Vec<_>, String> =
@@ -20,7 +20,7 @@ pub fn seas(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 2, &pictures(docs, "seas.jpg"))
 }
 
-/// The same foam from near and from far, metres away.
+/// The same foam from several distances in metres.
 pub fn distances(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels: Result<Vec<_>, String> = [5.0, 20.0, 60.0, 200.0]
         .iter()
@@ -29,8 +29,8 @@ pub fn distances(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 2, &pictures(docs, "whitewater-distances.jpg"))
 }
 
-/// Figure 8: above ours, below the same foam by volume ray-casting, which knows of emission and absorption alone: it
-/// shines as the mean of ours.
+/// Figure 8: our foam above, and below it the same foam by volume ray-casting. Ray-casting has only emission and
+/// absorption, so it is given the mean brightness of ours.
 pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {
     let size = "480x360";
     let seas = [("wave", 820_000), ("lighthouse", 15_000_000), ("ship", 9_000_000)];
@@ -38,7 +38,7 @@ pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {
     for (sea, count) in seas {
         let picture = tool.sea(sea, &count.to_string(), size, "")?;
         let layers = tool.sea_layers(sea, &count.to_string(), size, "")?;
-        // The one particle does not show.
+        // A sea needs at least one particle, and this one is invisible.
         let bare = tool.sea(sea, "1", size, "half_intensity_thickness = 1000000.0")?;
         let covered = tool.sea_ray_cast(sea, count, size)?;
         let shine = mean_of_dense(&picture, channel(&layers, "whitewater.intensity")?);
@@ -53,14 +53,14 @@ pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&[ours, theirs].concat(), 3, &pictures(docs, "seas-ray-cast.jpg"))
 }
 
-/// Linear, of what foam covers nearly whole.
+/// Mean linear colour of the pixels that foam covers almost fully.
 fn mean_of_dense(picture: &RgbImage, intensity: &[f32]) -> [f32; 3] {
     let dense = || picture.pixels().zip(intensity).filter(|(_, part)| **part > 0.9);
     let count = dense().count().max(1) as f32;
     [0, 1, 2].map(|c| dense().map(|(pixel, _)| linear(pixel[c])).sum::<f32>() / count)
 }
 
-/// Figure 3: what each pass leaves.
+/// Figure 3: the result of each pass.
 pub fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     let (sea, count, size) = ("wave", "820k", "480x360");
     let layers = &tool.sea_layers(sea, count, size, "")?;
@@ -77,7 +77,7 @@ pub fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "whitewater-layers.jpg"))
 }
 
-/// Figures 4 to 6: the kinds' shapes and the intensity, by the formula and as they are drawn.
+/// Figures 4 to 6: the kinds' shapes and the intensity, as formulas and as drawn.
 pub fn shapes(tool: &Tool, docs: &Path) -> Outcome<()> {
     const SIZE: u32 = 240;
     const RADIUS: f64 = 112.0;
@@ -92,7 +92,7 @@ pub fn shapes(tool: &Tool, docs: &Path) -> Outcome<()> {
         discs.push(share(&layers, "whitewater.thickness")?);
         let shape = |x: f64| if kind == "bubble" { x.powf(power) } else { 1.0 - x.powf(power) };
         let line = (0..=100).map(|i| f64::from(i) / 100.0).map(|x| (x, shape(x))).collect();
-        // A row beside the middle, every eighth pixel.
+        // The row next to the middle, every eighth pixel.
         let (row, values) = (SIZE / 2, channel(&layers, "whitewater.thickness")?);
         let dot = |x: u32| {
             let away = (f64::from(x - row) + 0.5).hypot(0.5) / RADIUS;
@@ -114,7 +114,7 @@ pub fn shapes(tool: &Tool, docs: &Path) -> Outcome<()> {
             (channel(&layers, "whitewater.thickness")?, channel(&layers, "whitewater.intensity")?);
         let sigmoid = |rho: f64| rho.powf(exponent) / (half + rho.powf(exponent));
         let line = (0..=120).map(|i| f64::from(i) / 10.0).map(|x| (x, sigmoid(x))).collect();
-        // A pixel for each half of a unit of thickness.
+        // The pixel whose thickness is nearest to each multiple of 0.5.
         let near = |rho: f32| {
             let off = |i: &usize| (thickness[*i] - rho).abs();
             (0..thickness.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
@@ -128,7 +128,7 @@ pub fn shapes(tool: &Tool, docs: &Path) -> Outcome<()> {
     functions(title, axes, [12.0, 1.0], &all, &pictures(docs, "whitewater-intensity.svg"))
 }
 
-/// Figure 7: what the parameters do.
+/// Figure 7: the effect of the parameters.
 pub fn looks(tool: &Tool, docs: &Path) -> Outcome<()> {
     let looks = [
         "",

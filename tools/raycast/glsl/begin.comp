@@ -1,5 +1,5 @@
 #version 460
-// Pass `prepare`, first part: no particles in any tile, and how far the scene lets see in it.
+// Pass `prepare`, first part: marks each tile as empty, and finds the farthest depth of the scene in it.
 // Reads: scene depth. Writes: tiles.
 
 #include "view.glsl"

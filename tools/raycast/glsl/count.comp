@@ -1,5 +1,5 @@
 #version 460
-// Pass `count`: how many particles each cell has that may add to its samples; bricks are only marked.
+// Pass `count`: counts the particles that overlap each cell. With bricks, cells are only marked as occupied.
 // Reads: records, tiles, starts. Writes: cells.
 
 #include "view.glsl"

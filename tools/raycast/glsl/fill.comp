@@ -1,6 +1,6 @@
 #version 460
-// Pass `fill` of the kernel ray-caster: which particles each cell has (counting sort). Before it the number of a cell
-// is where its particles begin, after it where they end.
+// Pass `fill` of the kernel ray-caster: lists the particles of each cell (counting sort). A cell's number is the index
+// of its first entry before this pass, and the index after its last entry afterwards.
 // Reads: records, tiles, starts, cells. Writes: cells, entries.
 
 #include "view.glsl"

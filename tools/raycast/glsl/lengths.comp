@@ -1,5 +1,5 @@
 #version 460
-// Pass `tiles`: how many slabs each tile has particles in.
+// Pass `tiles`: number of slabs from each tile's first to its last slab with particles.
 // Reads: tiles. Writes: starts.
 
 #include "view.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `march` of the density grid: the sum of a ray's voxels, of bricks that have particles.
+// Pass `march` of the density grid: sums the voxels of each ray, in the bricks that have particles.
 // Reads: tiles, starts, cells, voxels, scene depth. Writes: thickness.
 
 #include "view.glsl"

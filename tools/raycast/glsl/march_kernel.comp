@@ -1,7 +1,6 @@
 #version 460
-// Pass `march` of the kernel ray-caster: at each sample of a ray the sum of the kernels of the particles near it
-// (Ihmsen et al. 2012, Sec. 5). The particles of a cell are gone through once for all samples in it, and only those
-// samples that lie in one are taken.
+// Pass `march` of the kernel ray-caster: sums the kernels of nearby particles at each sample of a ray (Ihmsen et al.
+// 2012, Sec. 5). Each particle of a cell is visited once, and only the samples that lie in it are evaluated.
 // Reads: records, tiles, starts, cells, entries, scene depth. Writes: thickness.
 
 #include "view.glsl"
@@ -47,7 +46,7 @@ void main() {
                 float rest = rest_of(where.xyz, inverse, slope);
                 float t = (first - where.z) * inverse;
                 float dt = dz * inverse;
-                // Most particles of the cell the ray misses: what is a loop a CPU goes past.
+                // The ray misses most particles of the cell. As a loop without turns, a miss lets a CPU skip the body.
                 ivec2 inside = samples_in(rest, t, dt, before);
                 for (int k = inside.x; k <= inside.y; ++k) {
                     float q = t + float(k) * dt;

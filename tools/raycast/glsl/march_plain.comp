@@ -1,7 +1,7 @@
 #version 460
-// Pass `march` of the plain ray-caster: at each sample of a ray the sum of the kernels of the particles in the cells
-// about it (Ihmsen et al. 2012, Sec. 5), from where the ray enters the box of all particles to where it leaves it.
-// In rounds: a ray that has looked at much goes on in the next one.
+// Pass `march` of the plain ray-caster: sums at each sample of a ray the kernels of the particles in the surrounding
+// cells (Ihmsen et al. 2012, Sec. 5), from where the ray enters the bounding box of all particles to where it leaves
+// it. It runs in rounds: a ray that reaches its limit of look-ups goes on in the next round.
 // Reads: cells, sorted, box, scene depth, rays. Writes: box, thickness, rays.
 
 #include "view.glsl"
@@ -16,20 +16,20 @@ layout(set = 0, binding = 4, std430) readonly buffer Scene { float scene[]; };
 layout(set = 0, binding = 5, std430) buffer Thickness { float thickness[]; };
 layout(set = 0, binding = 6, std430) buffer Rays { uint rays[]; };
 
-// What a ray may look at in a round. A device is not kept for long then, and lavapipe ends all loops after 65535 turns of
-// eight rays together.
+// Look-ups per ray and round. The limit keeps a dispatch short; and lavapipe ends every loop after 65535 turns of eight
+// rays together.
 const uint MOST_LOOKS = 6000u;
-// Of a ray in place of its next sample.
+// Stored for a finished ray in place of its next sample.
 const uint DONE = 0xffffffffu;
 
-// Of all kernels at a sample; adds what it looked at.
+// Sum of all kernels at a sample. Adds the number of look-ups to `looks`.
 float density_at(vec2 slope, float depth, inout uint looks) {
     float sum = 0.0;
     uvec2 layers = layers_about(depth);
     for (uint layer = layers.x; layer <= layers.y; ++layer) {
         vec2 scale = scale_of(layer);
         vec2 at = slope * depth * scale;
-        // A ball's reach in cells, and some for rounding.
+        // Reach of a ball in cells, with a margin for rounding.
         vec2 reach = 1.0 / CELL + 1.0e-3 + 1.0e-6 * abs(at);
         uint left = across_of(at.x - reach.x);
         uint right = across_of(at.x + reach.x);
@@ -45,7 +45,7 @@ float density_at(vec2 slope, float depth, inout uint looks) {
                 float q = (depth - ball.z) * ball.w;
                 float y = rest_of(ball.xyz, ball.w, slope) - q * q;
                 if (y > 0.0) {
-                    // Two rows may share buckets: each finds its own.
+                    // Two rows may share buckets, so compare the row's key.
                     uvec4 what = sorted[2u * i + 1u];
                     sum += what.w == row ? kernel_at(uintBitsToFloat(what.xyz), y) : 0.0;
                 }
@@ -77,7 +77,7 @@ void main() {
     float place = sample_place(pixel);
     uint samples = view.samples.x;
     uvec2 slabs = slabs_between(near, far);
-    // All samples of all slabs in one row.
+    // Index of the next sample, counted over all slabs of the ray.
     uint next = max(rays[at], slabs.x * samples);
     uint looks = 0u;
     for (uint slab = next / samples; slab <= slabs.y && sum < view.lens.w && looks < MOST_LOOKS; ++slab) {

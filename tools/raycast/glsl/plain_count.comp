@@ -1,5 +1,6 @@
 #version 460
-// Pass `count` of the plain ray-caster: the cell of each ball, how many each cell has, and the box of them all.
+// Pass `count` of the plain ray-caster: finds the cell of each ball, the number of balls in each cell, and the bounding
+// box of all balls.
 // Reads: records. Writes: places, cells, box.
 
 #include "view.glsl"
@@ -11,7 +12,7 @@ layout(set = 0, binding = 2, std430) writeonly buffer Places { uvec2 places[]; }
 layout(set = 0, binding = 3, std430) buffer Cells { uint cells[]; };
 layout(set = 0, binding = 4, std430) buffer Box { uint box[7]; };
 
-// Of the group: an atomic for it in place of one for each ball.
+// Corners of the group's box: six atomics per group instead of six per ball.
 shared uint corners[6];
 
 void main() {
@@ -30,7 +31,7 @@ void main() {
             place.y = row_of(at.y, layer);
             place.x = bucket_of(place.y) + across_of(at.x);
             atomicAdd(cells[place.x], 1u);
-            // Rounding makes the box larger.
+            // A margin for rounding makes the box larger.
             vec3 reach = 1.001 * ball.radius * vec3(flare(), 1.0) + 1.0e-6 * abs(ball.centre);
             vec3 low = -(ball.centre - reach);
             vec3 high = ball.centre + reach;

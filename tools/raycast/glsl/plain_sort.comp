@@ -1,6 +1,6 @@
 #version 460
-// Pass `sort` of the plain ray-caster: the balls, cell by cell (counting sort). Before it the number of a cell is where
-// its balls begin, after it where they end.
+// Pass `sort` of the plain ray-caster: copies the balls, cell by cell (counting sort). A cell's number is the index of
+// its first ball before this pass, and the index after its last ball afterwards.
 // Reads: records, places, cells. Writes: cells, sorted.
 
 #include "view.glsl"
@@ -21,7 +21,7 @@ void main() {
     if (place.x > 0u) {
         Ball ball = ball_of(i);
         uint at = atomicAdd(cells[place.x], 1u);
-        // What tells whether a sample lies in it comes first.
+        // The first word decides whether a sample lies in the ball.
         sorted[2u * at] = floatBitsToUint(vec4(ball.centre, ball.inverse));
         sorted[2u * at + 1u] = uvec4(floatBitsToUint(ball.kernel), place.y);
     }

@@ -1,7 +1,7 @@
 #version 460
-// Pass `prepare`: particles to balls in eye space, with the shape, the size and the fading with age that whitewater's
-// sprites have (Akinci et al. 2013, Sec. 2.1 and 2.2), and as wide as those where they are small; the slabs that each
-// tile has particles in.
+// Pass `prepare`: transforms particles to balls in eye space, with the shape, size and fading of whitewater's sprites
+// (Akinci et al. 2013, Sec. 2.1 and 2.2), and widened like them where they are small. Marks the slabs of each tile that
+// have particles.
 // Reads: positions, kinds, ages, ids, tiles. Writes: records, tiles.
 
 #include "view.glsl"
@@ -23,28 +23,29 @@ layout(push_constant, std430) uniform Push {
 const uint SPRAY = 1u;
 const uint BUBBLE = 2u;
 
-// Least half-axis in pixels: over half a pixel's diagonal.
+// Least half-axis in pixels: a little over half of a pixel's diagonal.
 const float LEAST_REACH = 0.75;
 
-// Thickness across the disc, of y = 1 - x^2 at x radii from its middle: y (a + b y + c y^2). src/lib.rs has the same.
+// Coefficients a, b, c of the thickness across the disc, y (a + b y + c y^2) with y = 1 - x^2 at x radii from its
+// middle. src/lib.rs has the same numbers.
 vec3 profile_of(uint kind) {
     return kind == SPRAY ? vec3(0.80382775, -0.16404648, 0.32535885)
          : kind == BUBBLE ? vec3(4.55953372, -9.24229808, 5.20399667)
          : vec3(1.11000391, 0.00375636, -0.10736924);
 }
 
-// Its mean over the disc.
+// Mean of the sprite's thickness over its disc.
 float mean_of(uint kind) {
     return kind == SPRAY ? 1.0 - 2.0 / 3.5 : kind == BUBBLE ? 0.5 : 1.0 - 2.0 / 4.25;
 }
 
-// What is left of it, 1 to 0 with its age.
+// Opacity left at an age, from 1 down to 0.
 float life_of(float age) {
     float l = max(age, 0.0);
     return l < 1.0 ? pow(max(1.0 - l * l, 1.0e-20), 0.4) : 0.0;
 }
 
-// From the thickness to the kernel: of sqrt(y) y^k the integral along a ray is y^(k + 1) by these.
+// Factors from thickness to kernel: the integral of ABEL[k] sqrt(y) y^k along a ray is y^(k + 1).
 const vec3 ABEL = vec3(0.63661977, 0.84882636, 1.01859164);
 
 void main() {
@@ -58,7 +59,7 @@ void main() {
     uint kind = kinds[i];
     float age = ages[i];
     bool drawn = age < 1.0 && centre.z > view.lens.z && centre.z < EMPTY && all(lessThan(abs(centre.xy), vec2(EMPTY)));
-    // None of it is in the picture.
+    // Until shown otherwise, no part of the particle is in the picture.
     records[2u * i] = vec4(0.0);
     records[2u * i + 1u] = vec4(0.0);
     if (!drawn) {
@@ -73,7 +74,8 @@ void main() {
     if (box.x > box.z || box.y > box.w) {
         return;
     }
-    // Small ones: as much light as they have, whatever pixels they lie between. Those beside the picture count.
+    // A small particle adds the same light wherever it lies between pixels: its share is normalised over the pixels
+    // that it covers, those beside the picture included.
     float own = smoothstep(1.0, 2.0, min(reach.x, reach.y));
     float even = 0.0;
     if (own < 1.0) {
@@ -99,7 +101,7 @@ void main() {
             if (centre.z - radius < uintBitsToFloat(tiles[at + SCENE])) {
                 seen = true;
                 uint end = min(slabs.y, tiles[at + SCENE_SLAB]) + 1u;
-                // Most change nothing: a read is cheaper than an atomic.
+                // Most particles change nothing, and a read is cheaper than an atomic.
                 if (slabs.x < tiles[at + NEAR]) {
                     atomicMin(tiles[at + NEAR], slabs.x);
                 }

@@ -1,5 +1,5 @@
 #version 460
-// Pass `resolve`: thickness to intensity (Akinci et al. 2013, Sec. 2.3).
+// Pass `resolve`: converts thickness to intensity (Akinci et al. 2013, Sec. 2.3).
 // Reads: thickness. Writes: intensity.
 
 #include "view.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Passes `tiles` and `scan`, last part: sums of the numbers before each.
+// Passes `tiles` and `scan`, last part: prefix sums of the values within each block.
 // Reads: blocks, values. Writes: values.
 
 #include "scan.glsl"

@@ -1,5 +1,6 @@
 #version 460
-// Passes `tiles` and `scan`, second part: sums of the blocks before each, by one group; the sum of all after them.
+// Passes `tiles` and `scan`, second part: one group forms the prefix sums of the blocks, and stores the total after
+// them.
 // Reads: blocks. Writes: blocks.
 
 #include "scan.glsl"

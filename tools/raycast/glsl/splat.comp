@@ -1,7 +1,7 @@
 #version 460
-// Pass `splat` of the density grid: what each particle adds to the voxels in it, in whole steps, so that no order of
-// the particles changes a sum (the grid is that of Fraedrich et al. 2010, aligned with the view and in perspective).
-// An invocation a particle, all of a group the large ones.
+// Pass `splat` of the density grid: adds each particle to the voxels in it, in fixed point, so that the order of the
+// particles cannot change a sum. The grid is that of Fraedrich et al. 2010: aligned with the view and in perspective.
+// One invocation splats a small particle, the whole group a large one.
 // Reads: records, tiles, starts, cells. Writes: voxels.
 
 #include "view.glsl"
@@ -19,13 +19,13 @@ layout(set = 0, binding = 3, std430) readonly buffer Starts { uint starts[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Cells { uint cells[]; };
 layout(set = 0, binding = 5, std430) buffer Voxels { uint voxels[]; };
 
-// Pixels of a box that an invocation does by itself.
+// Most pixels that an invocation splats alone; larger particles are splatted by the whole group.
 const int SMALL = 256;
 
 shared uint large[gl_WorkGroupSize.x];
 shared uint larges;
 
-// In a slab from a depth on, of samples so far apart.
+// Splats a pixel of a ball into one slab, whose samples begin at `depth` and are `dz` apart.
 void splat(Ball ball, uvec2 pixel, uint slab, float depth, float dz) {
     float rest = rest_of(ball.centre, ball.inverse, (vec2(pixel) + 0.5) * view.slope.xy + view.slope.zw);
     uint tile = tile_of(pixel / TILE);

@@ -1,5 +1,5 @@
-//! Shared by all ray-casters: particles as balls in eye space (pass `prepare`), and at the end thickness to
-//! intensity (pass `resolve`).
+//! Parts that all ray-casters share: particles as balls in eye space (pass `prepare`), and at the end the conversion of
+//! thickness to intensity (pass `resolve`).
 
 use bytemuck::{Pod, Zeroable};
 use whitewater::Error;
@@ -17,11 +17,11 @@ macro_rules! shader {
 }
 pub(crate) use shader;
 
-/// Bytes of a particle's record.
+/// Bytes per particle record.
 const RECORD: u64 = 32;
-/// Invocations of a group over particles, tiles or pixels.
+/// Invocations per group, in passes over particles, tiles or pixels.
 pub(crate) const GROUP: u32 = 64;
-/// Groups of a dispatch at most.
+/// Most groups of a dispatch along one axis.
 const MOST_GROUPS: u32 = 65_535;
 
 /// The block `View` of `glsl/include/view.glsl`; its comments say what each member holds.
@@ -37,7 +37,7 @@ struct View {
     samples: [u32; 4],
 }
 
-/// Particles that are taken at a time.
+/// Particles that are processed together.
 pub(crate) struct Chunk<'d> {
     positions: Buffer<'d>,
     kinds: Buffer<'d>,
@@ -59,13 +59,13 @@ impl<'d> Chunk<'d> {
         })
     }
 
-    /// Groups with an invocation a particle.
+    /// Group counts for one invocation per particle.
     pub fn groups(&self) -> [u32; 2] {
         [self.count.div_ceil(GROUP), 1]
     }
 }
 
-/// Passes and buffers of all.
+/// Passes and buffers that all ray-casters share.
 pub(crate) struct Balls<'d> {
     begin: Pass<'d>,
     prepare: Pass<'d>,
@@ -74,13 +74,13 @@ pub(crate) struct Balls<'d> {
     pub size: [u32; 2],
     /// Edge of a tile in pixels.
     pub tile: u32,
-    /// Tiles across and down.
+    /// Number of tiles across and down.
     pub tile_count: [u32; 2],
-    /// Radius of the least ball that is drawn, over its depth.
+    /// Radius of the least drawn ball, divided by its depth.
     pub least_reach: f32,
-    /// The larger slope of the picture's borders, across.
+    /// Larger absolute slope of the picture's left and right edges.
     pub widest_slope: f32,
-    /// Bytes of a storage buffer at most.
+    /// Most bytes of a storage buffer.
     pub range: u64,
     pub chunks: Vec<Chunk<'d>>,
     pub view: Buffer<'d>,
@@ -92,7 +92,8 @@ pub(crate) struct Balls<'d> {
 }
 
 impl<'d> Balls<'d> {
-    /// Of tiles of so many pixels and slabs of so many samples; without particles yet ([`Self::take`]).
+    /// Makes the passes for tiles of `tile` pixels and slabs of `samples` samples. [`Self::take`] uploads particles
+    /// later.
     pub fn new(
         device: &'d Device,
         input: &Input<'_>,
@@ -136,14 +137,14 @@ impl<'d> Balls<'d> {
         })
     }
 
-    /// Most particles that may be taken at a time, of so many in all.
+    /// Most particles that can be processed together, out of `all`.
     pub fn most(&self, all: usize, settings: &Settings) -> usize {
         let most = (self.range / RECORD).min(u64::from(GROUP * MOST_GROUPS)) as usize;
         let chunk = settings.chunk.map_or(most, |chunk| most.min(chunk as usize));
         all.min(chunk).max(1)
     }
 
-    /// Uploads all particles in chunks of so many.
+    /// Uploads all particles, in chunks of `size`.
     pub fn take(
         &mut self,
         device: &'d Device,
@@ -166,18 +167,18 @@ impl<'d> Balls<'d> {
         own.into_iter().chain(particles).map(|buffer| buffer.size).sum()
     }
 
-    /// Specialization constants of passes.
+    /// Specialization constants that all passes have.
     pub fn constants(&self) -> [(u32, u32); 1] {
         [(1, self.tile)]
     }
 
-    /// Before the first chunk.
+    /// Records the work before the first chunk.
     pub fn record_begin(&self, frame: &mut Frame<'_>) {
         frame.clear(&self.thickness);
         frame.barrier(&[(&self.thickness, FILL, UPDATE)]);
     }
 
-    /// Pass `prepare`; its records are to be waited for.
+    /// Records pass `prepare`. The caller adds the barrier after it.
     pub fn record_prepare(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
         let (view, push) = (&self.view, [chunk.count, 0, 0]);
         let tiles = self.tile_count[0] * self.tile_count[1];
@@ -198,7 +199,7 @@ impl<'d> Balls<'d> {
         })
     }
 
-    /// After the last chunk.
+    /// Records the work after the last chunk.
     pub fn record_end(&self, frame: &mut Frame<'_>) -> Result<(), Error> {
         frame.scope("resolve", |frame| {
             frame.barrier(&[(&self.thickness, UPDATE, READ)]);

@@ -1,8 +1,8 @@
-//! Cells of tiles of the picture and slabs of depth (passes `tiles`, `count`, `scan`), in which the first two ray-casters
-//! find what a ray meets.
+//! Cells, each one slab of depth in one tile of the picture (passes `tiles`, `count`, `scan`). The kernel and the grid
+//! ray-caster use them to find the particles along a ray.
 //!
-//! The cells of a tile reach from its first slab with particles to the last one or the scene's, so that what is
-//! empty before, between the tiles and behind costs nothing.
+//! The cells of a tile extend from its first slab with particles to its last one or to the scene, so empty space in
+//! front, between tiles and behind costs nothing.
 
 use whitewater::Error;
 use whitewater::gpu_allocator::MemoryLocation;
@@ -13,20 +13,20 @@ use crate::scan::Scan;
 use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE, WRITE};
 use crate::{Input, Settings, bad};
 
-/// How cells are laid out.
+/// Layout of the cells.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     /// Edge of a tile in pixels.
     pub tile: u32,
-    /// Samples of a slab.
+    /// Samples per slab.
     pub samples: u32,
-    /// They are marked, not counted.
+    /// Occupied cells are numbered as bricks; their particles are not counted.
     pub bricks: bool,
-    /// Bytes of an entry, or of a brick.
+    /// Bytes per entry, or per brick.
     pub bytes_each: u64,
 }
 
-/// What there is room for.
+/// Capacity of the buffers.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Room {
     cells: u64,
@@ -34,7 +34,7 @@ pub(crate) struct Room {
     pub total: u64,
 }
 
-/// Passes and buffers of both.
+/// Passes and buffers that the kernel and the grid ray-caster share.
 pub(crate) struct Cells<'d> {
     pub balls: Balls<'d>,
     lengths: Pass<'d>,
@@ -81,12 +81,12 @@ impl<'d> Cells<'d> {
         self.balls.memory() + own.into_iter().map(|buffer| buffer.size).sum::<u64>()
     }
 
-    /// Push constants of passes over particles and cells.
+    /// Push constants of the passes over particles and cells.
     pub fn push(&self, chunk: &Chunk<'_>) -> [u32; 3] {
         [chunk.count, self.room.cells as u32, self.room.total as u32]
     }
 
-    /// Finds chunks whose cells and entries the device has room for.
+    /// Finds a chunk size whose cells and entries fit on the device.
     fn make_room(
         &mut self,
         device: &'d Device,
@@ -135,12 +135,12 @@ impl<'d> Cells<'d> {
         Ok(true)
     }
 
-    /// The sum that a scan of so many values left.
+    /// Total that a prefix sum of `count` values left.
     fn total(&self, count: u64) -> Result<u64, Error> {
         Ok(self.balls.queue.read(&self.blocks, Scan::sum_of(count), 1)?[0].into())
     }
 
-    /// Passes `prepare` and `tiles`.
+    /// Records passes `prepare` and `tiles`.
     fn record_tiles(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
         let Balls { view, tiles, tile_count, .. } = &self.balls;
         let count = tile_count[0] * tile_count[1];
@@ -153,7 +153,7 @@ impl<'d> Cells<'d> {
         })
     }
 
-    /// Passes `count` and `scan`.
+    /// Records passes `count` and `scan`.
     fn record_counts(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
         let Balls { view, tiles, records, .. } = &self.balls;
         frame.scope("count", |frame| {
@@ -172,7 +172,7 @@ impl<'d> Cells<'d> {
         })
     }
 
-    /// The cells of a chunk.
+    /// Records the passes that build the cells of a chunk.
     pub fn record(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
         self.record_tiles(frame, chunk)?;
         self.record_counts(frame, chunk)

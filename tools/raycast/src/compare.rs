@@ -13,25 +13,26 @@ use whitewater_seas::{Foam, Sea};
 use crate::picture::{self, mean_flip};
 use crate::{Args, Outcome, by_name, line, measure, median, settings};
 
-/// How far from the converged picture a step may be.
+/// Largest mean FLIP from the converged picture that a chosen step may have.
 const TOLERANCE: f32 = 0.02;
-/// Two steps, one half the other, whose pictures are no farther apart are converged.
+/// A picture is converged if halving the step changes it by no more than this mean FLIP.
 const CONVERGED: f32 = 0.002;
 /// The finest step.
 const FINEST: f32 = 1.0 / 32.0;
-/// Steps to choose from, in radii.
+/// Candidate steps, in radii.
 const STEPS: [f32; 14] =
     [16.0, 12.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.75, 0.5, 0.25, 0.125, 0.0625];
 
-/// What is compared.
+/// Options of the comparison.
 #[derive(ClapArgs)]
 pub struct CompareArgs {
-    /// Folder for the pictures: ours, and of each ray-caster the converged one and that of the step that was chosen
+    /// Folder for the pictures: whitewater's, and for each ray-caster the converged picture and the one at the chosen
+    /// step
     #[arg(long, value_name = "DIR")]
     pictures: Option<PathBuf>,
 }
 
-/// A sea's foam with a view of it.
+/// Foam of a sea, with a view of it.
 pub struct Shot {
     sea: Sea,
     foam: Foam,
@@ -53,7 +54,7 @@ impl Shot {
         }
     }
 
-    /// As the ray-casters take it.
+    /// Input for the ray-casters.
     pub fn input<'a>(&'a self, scene: &'a SceneDepth) -> Input<'a> {
         Input {
             foam: &self.foam,
@@ -85,25 +86,25 @@ pub fn scene_depth(device: Device, shot: &Shot) -> Outcome<(Device, SceneDepth)>
     Ok((device, drawn?))
 }
 
-/// What `whitewater` makes of it.
+/// Results of `whitewater`.
 struct Ours {
     times: Vec<(&'static str, f64)>,
     intensity: Picture<f32>,
     scene: SceneDepth,
 }
 
-/// What a ray-caster comes to, the finer its steps.
+/// Limit of a ray-caster's picture as its step shrinks.
 struct Converged {
     step: f32,
     picture: Picture<f32>,
-    /// How far ours is from it.
+    /// Mean FLIP between `whitewater`'s picture and this one.
     ours: f32,
 }
 
-/// What a ray-caster makes of it at a step.
+/// Results of a ray-caster at one step.
 struct Cast {
     step: f32,
-    /// How far its picture is from the converged one.
+    /// Mean FLIP from the converged picture.
     flip: f32,
     picture: Picture<f32>,
     times: Vec<(&'static str, f64)>,
@@ -111,7 +112,8 @@ struct Cast {
     chunks: usize,
 }
 
-/// How near a ray-caster's picture is to be to its converged one.
+/// Suffixes of the two rows per ray-caster: within [`TOLERANCE`] of its converged picture, and as near to it as
+/// `whitewater`'s picture.
 const NEARNESSES: [&str; 2] = ["", ", equal"];
 
 pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
@@ -137,7 +139,7 @@ pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
     };
     let (intensity, total) = (of(&["splat"]), of(&["splat", "radiance", "blur", "composite"]));
     let sums = [sum(&intensity), sum(&total)];
-    // The plain one has the kernels' samples, and so their pictures.
+    // The plain ray-caster has the same samples as the kernel one, so its pictures and steps are the same.
     let mut steps = [0.0; 2];
     let mut apart = Vec::new();
     for method in Method::ALL {
@@ -147,7 +149,8 @@ pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
             steps.map(|step| casting.at(step, picture))
         } else {
             let converged = casting.converged(&ours.intensity)?;
-            // As near as ours is; nearer than converged pictures are to each other means nothing.
+            // The second limit is `whitewater`'s own distance, but no less than the distance at which pictures count as
+            // converged.
             let most = [TOLERANCE, converged.ours.max(CONVERGED)];
             let casts = most.map(|most| casting.coarsest(most, &converged.picture));
             apart.push((method, converged));
@@ -181,7 +184,7 @@ fn sum(times: &[(&'static str, f64)]) -> f64 {
     times.iter().map(|(_, ms)| ms).sum()
 }
 
-/// A row of the table; how many times as long as our intensity alone and as all of ours.
+/// Prints a row of the table, with the ratios to the time of `whitewater`'s intensity alone and of its whole foam.
 fn row(name: &str, cast: Option<&Cast>, times: &[(&'static str, f64)], ours: [f64; 2]) {
     let all = sum(times);
     let [intensity, total] = ours.map(|ms| all / ms);
@@ -236,7 +239,7 @@ fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)
     Ok((device, Ours { times: median(frames), intensity, scene }))
 }
 
-/// A ray-caster of a sea, at any step.
+/// A ray-caster of one sea, at any step.
 struct Casting<'a> {
     device: &'a Device,
     method: Method,
@@ -270,7 +273,7 @@ impl Casting<'_> {
         Ok(Converged { step, ours: mean_flip(ours, &finer), picture: finer })
     }
 
-    /// At the coarsest step whose picture is no farther from the converged one.
+    /// Measures the coarsest step whose picture is within a mean FLIP of `most` from the converged one.
     fn coarsest(&self, most: f32, converged: &Picture<f32>) -> Outcome<Cast> {
         for step in STEPS {
             if mean_flip(&self.draw(step)?, converged) <= most {

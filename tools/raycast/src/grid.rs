@@ -1,8 +1,8 @@
-//! The ray-caster through a density grid that is aligned with the view (Fraedrich et al. 2010): passes `prepare`,
-//! `tiles`, `count`, `scan` of [`Cells`], which here are bricks of voxels, then `clear`, `splat` and `march`.
+//! The ray-caster through a view-aligned density grid (Fraedrich et al. 2010): passes `prepare`, `tiles`, `count`,
+//! `scan` of [`Cells`], which here are bricks of voxels, then `clear`, `splat` and `march`.
 //!
-//! A column of voxels a pixel, a voxel a sample of its ray. The source's grid is dense; of ours there are only the
-//! bricks with particles.
+//! There is one column of voxels per pixel, and one voxel per sample of its ray. The paper's grid is dense; here only
+//! bricks with particles exist.
 
 use whitewater::Error;
 use whitewater::gpu_allocator::MemoryLocation;
@@ -13,19 +13,19 @@ use crate::cells::{Cells, Layout};
 use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE};
 use crate::{Input, Settings};
 
-/// Samples of a brick along a ray: with fewer ones there are more bricks, with more ones more empty voxels.
+/// Samples of a brick along a ray. Fewer mean more bricks, more mean more empty voxels.
 const SAMPLES: u32 = 8;
 /// Edge of a tile in pixels.
 const TILE: u32 = 4;
 
-/// Of its bricks.
+/// Layout of the grid's cells.
 fn layout(settings: &Settings) -> Layout {
     let tile = settings.tile.unwrap_or(TILE);
     let voxels = u64::from(SAMPLES * tile * tile);
     Layout { tile, samples: SAMPLES, bricks: true, bytes_each: 4 * voxels }
 }
 
-/// All of it.
+/// Passes and buffers of the grid ray-caster.
 pub(crate) struct Grid<'d> {
     pub cells: Cells<'d>,
     splat: Pass<'d>,

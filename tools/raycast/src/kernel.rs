@@ -10,24 +10,25 @@ use crate::cells::{Cells, Layout};
 use crate::vulkan::{Buffer, Frame, Pass, READ, UPDATE, WRITE};
 use crate::{Input, Settings};
 
-/// Thickness of a cell in radii, at least: with thinner ones a particle lies in more of them; thicker ones cost
-/// nothing, as of a particle only the samples that lie in it are taken, but steps grow only from slab to slab.
+/// Least thickness of a cell in radii. In thinner cells a particle lies in more of them. Thicker ones cost no time,
+/// because only samples inside a particle are evaluated, but they make steps grow less evenly: the step is constant
+/// within a slab.
 const SLAB: f32 = 32.0;
 /// Edge of a tile in pixels.
 const TILE: u32 = 4;
 
-/// Samples of a slab at a step.
+/// Samples per slab, for the step of the settings.
 pub(crate) fn samples(settings: &Settings) -> u32 {
     (SLAB / settings.step).ceil().max(1.0) as u32
 }
 
-/// Of its cells.
+/// Layout of the kernel ray-caster's cells.
 fn layout(settings: &Settings) -> Layout {
     let samples = samples(settings);
     Layout { tile: settings.tile.unwrap_or(TILE), samples, bricks: false, bytes_each: 4 }
 }
 
-/// All of it.
+/// Passes and buffers of the kernel ray-caster.
 pub(crate) struct Kernel<'d> {
     pub cells: Cells<'d>,
     fill: Pass<'d>,

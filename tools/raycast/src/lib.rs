@@ -70,37 +70,37 @@ pub const PROFILES: [[f64; 3]; 3] = [
     [4.55953372, -9.24229808, 5.20399667],
 ];
 
-/// What those are multiplied by in the kernel: 2/π, 8/(3π), 16/(5π).
+/// Factors from the coefficients of the thickness to those of the kernel: 2/π, 8/(3π), 16/(5π).
 pub const ABEL: [f64; 3] = [
     2.0 / std::f64::consts::PI,
     8.0 / (3.0 * std::f64::consts::PI),
     16.0 / (5.0 * std::f64::consts::PI),
 ];
 
-/// Least half-axis of a sprite in pixels, as `whitewater` has it.
+/// Least half-axis of a sprite in pixels, the same as `whitewater`'s.
 pub const LEAST_REACH: f32 = 0.75;
 
-/// Pixels of a picture at most: an invocation each of one dispatch of 64.
+/// Most pixels of a picture: one invocation each, in one dispatch of groups of 64.
 const MOST_PIXELS: u64 = 64 * 65_535;
 
-/// Eye depth of nothing.
+/// Eye depth of a pixel without scene.
 pub const EMPTY: f32 = 1.0e10;
 
-/// What ends the rays.
+/// The opaque scene that ends the rays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum SceneDepth {
-    /// Nothing.
+    /// No scene.
     #[default]
     Nothing,
-    /// Positive eye depth of each pixel, row 0 on top; [`EMPTY`] of nothing.
+    /// Positive eye depth of each pixel, row 0 on top; [`EMPTY`] where there is no scene.
     Depths(Vec<f32>),
 }
 
 impl SceneDepth {
-    /// Of a depth image, as cameras write it.
+    /// Converts a depth image, as a depth buffer stores it, to eye depths.
     ///
     /// # Errors
-    /// A camera that cannot be drawn with.
+    /// The camera is not a perspective one.
     pub fn of_device(camera: &Camera, depths: &[f32]) -> Result<Self, Error> {
         let lens = Lens::new(camera)?;
         let eye = |device: &f32| {
@@ -112,27 +112,27 @@ impl SceneDepth {
     }
 }
 
-/// How a ray is sampled and what it becomes.
+/// Sampling of rays, and the parameters of the intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Distance of a ray's samples in particle radii, [1/256, 64], default 1/2: of the default radius, or of the
-    /// least that is drawn ([`LEAST_REACH`] pixels) where that is larger.
+    /// Distance between a ray's samples in particle radii, [1/256, 64], default 1/2. The unit is the default radius, or
+    /// the least drawn radius ([`LEAST_REACH`] pixels) where that is larger.
     pub step: f32,
     /// Samples are shifted from pixel to pixel by a pattern of 4 × 4 instead of lying side by side; default true.
     pub shifted: bool,
     /// m of the intensity ρ^e / (m + ρ^e), (0, ∞), default 3.
     pub half: f32,
-    /// Its exponent e, (0, ∞), default 1.25.
+    /// Exponent e of the intensity, (0, ∞), default 1.25.
     pub exponent: f32,
-    /// Intensity from which on a ray ends, (0, 1]; default 1 − 1/512, half a step of 8 bits.
+    /// Intensity at which a ray ends, (0, 1]; default 1 − 1/512, half a step of 8 bits.
     pub opaque: f32,
-    /// Edge of a tile in pixels, 4, 8 or 16, of [`Method::Plain`] that of a group of rays; `None`: what was measured to
-    /// be the fastest.
+    /// Edge of a tile in pixels, 4, 8 or 16; for [`Method::Plain`] the edge of a group of rays. `None` takes the
+    /// fastest measured value.
     pub tile: Option<u32>,
-    /// Edge of a cell of [`Method::Plain`] in radii of the largest ball that may be there, [1, 16]: 1 as wide as a
-    /// kernel reaches, 27 cells to look at; `None`: what was measured to be the fastest.
+    /// Edge of a cell of [`Method::Plain`] in radii of the largest ball that may lie in it, [1, 16]. At 1 a cell is as
+    /// wide as a kernel's reach, and 27 cells are searched. `None` takes the fastest measured value.
     pub cell: Option<f32>,
-    /// Most particles that are taken at a time, from 1 on; `None`: as many as the device has room for.
+    /// Most particles that are processed together, at least 1; `None`: as many as fit on the device.
     pub chunk: Option<u32>,
 }
 
@@ -173,29 +173,29 @@ impl Settings {
         }
     }
 
-    /// Thickness of the intensity where a ray ends.
+    /// Optical thickness at which a ray ends.
     fn most(&self) -> f32 {
         let ratio = f64::from(self.opaque) / (1.0 - f64::from(self.opaque));
         ((f64::from(self.half) * ratio).powf(1.0 / f64::from(self.exponent)) as f32).min(f32::MAX)
     }
 }
 
-/// Which ray-caster.
+/// A ray-casting method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Kernels are summed at each sample.
+    /// Sums kernels at each sample, found by screen-space lists.
     Kernel,
-    /// Rays go through a grid of densities.
+    /// Marches through a grid of densities.
     Grid,
-    /// Kernels are summed at each sample, and at each the cells about it are searched.
+    /// Sums kernels at each sample, found by a search of the surrounding cells.
     Plain,
 }
 
 impl Method {
-    /// All of them.
+    /// All methods.
     pub const ALL: [Self; 3] = [Self::Kernel, Self::Grid, Self::Plain];
 
-    /// Its name at the command line.
+    /// Name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Kernel => "kernel",
@@ -205,18 +205,19 @@ impl Method {
     }
 }
 
-/// What is drawn.
+/// Everything that a picture shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Input<'a> {
     /// The particles.
     pub foam: &'a Foam,
-    /// Default radius, scene units, (0, ∞); divided by 1 to 5 by the id, a bubble's halved.
+    /// Default radius in scene units, (0, ∞). A particle's radius is this divided by `id % 5 + 1`, and half of that for
+    /// a bubble.
     pub radius: f32,
-    /// The view; perspective.
+    /// The view; it must be a perspective one.
     pub camera: &'a Camera,
     /// Width and height in pixels, at least 1.
     pub size: [u32; 2],
-    /// What ends the rays.
+    /// The opaque scene that ends the rays.
     pub scene: &'a SceneDepth,
 }
 
@@ -258,9 +259,9 @@ fn bad(field: &'static str, why: String) -> Error {
     Error::BadInput { field, why }
 }
 
-/// A perspective camera taken apart.
+/// Components of a perspective camera.
 struct Lens {
-    /// World to an eye space that looks down −z.
+    /// Transform from world space to an eye space that looks down −z.
     view: Mat4,
     /// P₀₀, P₁₁, P₂₀, P₂₁: ndc = P₀₀₁₁ · slope − P₂₀₂₁.
     p: Vec4,
@@ -308,7 +309,7 @@ impl Lens {
     }
 }
 
-/// One of the ray-casters with all that it needs for one picture, which can be drawn again and again.
+/// A ray-caster, ready to draw one picture any number of times.
 pub struct Caster<'d> {
     way: Way<'d>,
 }
@@ -320,11 +321,11 @@ enum Way<'d> {
 }
 
 impl<'d> Caster<'d> {
-    /// Uploads the particles, and makes room for what they need in this view: what must be known for that is counted
-    /// and waited for.
+    /// Uploads the particles and allocates buffers for this view. It counts on the GPU how large they must be, and
+    /// waits for that.
     ///
     /// # Errors
-    /// Bad input, a step too fine for the device's memory, and what Vulkan reports.
+    /// The input is bad, the step is too fine for the device's memory, or Vulkan fails.
     pub fn new(
         device: &'d Device,
         method: Method,
@@ -349,10 +350,10 @@ impl<'d> Caster<'d> {
         }
     }
 
-    /// Draws and waits; how long each pass took, in its order, once for each chunk of particles.
+    /// Draws and waits. Returns the time of each pass, in their order, once per chunk of particles.
     ///
     /// # Errors
-    /// What Vulkan reports.
+    /// Vulkan fails.
     pub fn draw(&self) -> Result<Vec<Timing>, Error> {
         let balls = self.balls();
         balls.queue.run(|frame| {
@@ -376,23 +377,23 @@ impl<'d> Caster<'d> {
         Ok(Picture { width, height, data })
     }
 
-    /// Optical thickness of the picture drawn last.
+    /// Reads back the optical thickness of the last picture.
     ///
     /// # Errors
-    /// What Vulkan reports.
+    /// Vulkan fails.
     pub fn thickness(&self) -> Result<Picture<f32>, Error> {
         self.picture(&self.balls().thickness)
     }
 
-    /// Its intensity, 0 to 1.
+    /// Reads back the intensity of the last picture, 0 to 1.
     ///
     /// # Errors
-    /// What Vulkan reports.
+    /// Vulkan fails.
     pub fn intensity(&self) -> Result<Picture<f32>, Error> {
         self.picture(&self.balls().intensity)
     }
 
-    /// Bytes of device memory, the particles' own included.
+    /// Bytes of device memory, the particles included.
     pub fn memory(&self) -> u64 {
         match &self.way {
             Way::Kernel(kernel) => kernel.memory(),
@@ -401,7 +402,7 @@ impl<'d> Caster<'d> {
         }
     }
 
-    /// In how many chunks the particles are taken.
+    /// Number of chunks that the particles are processed in.
     pub fn chunk_count(&self) -> usize {
         self.balls().chunks.len()
     }

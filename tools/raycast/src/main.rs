@@ -1,4 +1,4 @@
-//! `whitewater-raycast`: draws foam by volume ray-casting, and measures that beside `whitewater`.
+//! `whitewater-raycast`: draws foam by volume ray-casting, and compares its cost with `whitewater`'s.
 //!
 //! ```sh
 //! whitewater-raycast --particles 800000 --method grid --step 1 -o foam.png --timings
@@ -18,68 +18,68 @@ use whitewater::{Error, Timing};
 use whitewater_raycast::{Caster, Method, Settings};
 use whitewater_seas::Sea;
 
-/// Of everything here: a line for the user.
+/// Result of everything here: an error is a line for the user.
 type Outcome<T> = Result<T, String>;
 
-/// Draws foam by volume ray-casting (emission and absorption alone)
+/// Draws foam by volume ray-casting (emission and absorption only)
 #[derive(Parser)]
 #[command(version)]
 struct Args {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Whose foam
+    /// Sea whose foam is drawn
     #[arg(long, value_name = "SEA", default_value = "wave", value_parser = sea, global = true)]
     sea: Sea,
-    /// How many particles
+    /// Number of particles
     #[arg(long, value_name = "N", default_value_t = 100_000, global = true)]
     particles: u32,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = size, global = true)]
     size: [u32; 2],
-    /// Part of the adapter's name
+    /// Part of the name of the GPU to use
     #[arg(long, value_name = "NAME", global = true)]
     device: Option<String>,
-    /// Edge of a tile in pixels: 4, 8 or 16 [default: the fastest that was measured]
+    /// Edge of a tile in pixels: 4, 8 or 16 [default: the fastest measured]
     #[arg(long, value_name = "PIXELS", global = true)]
     tile: Option<u32>,
-    /// Edge of a cell of the plain ray-caster in radii, 1 to 16 [default: the fastest that was measured]
+    /// Edge of a cell of the plain ray-caster in radii, 1 to 16 [default: the fastest measured]
     #[arg(long, value_name = "RADII", global = true)]
     cell: Option<f32>,
-    /// Frames of which the times are the median
+    /// Number of frames to time; the median is printed
     #[arg(long, value_name = "N", default_value_t = 5, global = true,
           value_parser = clap::value_parser!(u32).range(1..=1000))]
     repeat: u32,
-    /// Which ray-caster
+    /// Ray-casting method
     #[arg(long, value_enum, default_value_t = MethodArg::Kernel)]
     method: MethodArg,
-    /// Distance of a ray's samples in particle radii
+    /// Distance between a ray's samples in particle radii
     #[arg(long, value_name = "RADII", default_value_t = 0.5)]
     step: f32,
-    /// All samples side by side, not shifted from pixel to pixel
+    /// Align all samples, instead of shifting them from pixel to pixel
     #[arg(long, global = true)]
     even: bool,
-    /// The intensity as grey
+    /// Write the intensity as a grey picture
     #[arg(short, long, value_name = "OUT.png")]
     output: Option<PathBuf>,
-    /// Print how long each pass took
+    /// Print the time of each pass
     #[arg(long)]
     timings: bool,
 }
 
 #[derive(Subcommand)]
 enum Command {
-    /// Measures all ray-casters, at the coarsest steps that look converged and that are as near to that as ours, beside
-    /// whitewater
+    /// Time all ray-casters and whitewater, at the coarsest steps that look converged, and at those as near to
+    /// convergence as whitewater
     Compare(compare::CompareArgs),
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodArg {
-    /// Kernels summed at each sample
+    /// Sum kernels at each sample, found by screen-space lists
     Kernel,
-    /// A grid of densities, aligned with the view
+    /// March through a density grid that is aligned with the view
     Grid,
-    /// Kernels summed at each sample, by a search of the cells about it
+    /// Sum kernels at each sample, found by searching the surrounding cells
     Plain,
 }
 
@@ -111,7 +111,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Bad values at the command line end as clap's own do, by exit code 2; all else is a line.
+/// Line for the user. A bad value on the command line instead ends the program with exit code 2, as clap does.
 fn line(error: Error) -> String {
     let option = |field: &str| match field {
         "Settings.step" => Some("--step"),
@@ -182,8 +182,8 @@ fn draw(args: &Args) -> Outcome<()> {
     Ok(())
 }
 
-/// The passes of a frame by name, in their order, in milliseconds: those of the frame that took the median time of
-/// so many, after one that is not counted.
+/// Times of a frame's passes in milliseconds, by name and in their order. Draws `repeat` frames after a warm-up frame,
+/// and returns those of the median frame.
 fn measure(caster: &Caster<'_>, repeat: u32) -> Outcome<Vec<(&'static str, f64)>> {
     caster.draw().map_err(line)?;
     let mut frames = Vec::new();
@@ -193,7 +193,7 @@ fn measure(caster: &Caster<'_>, repeat: u32) -> Outcome<Vec<(&'static str, f64)>
     Ok(median(frames))
 }
 
-/// The sum of each pass.
+/// Sums the times of each pass.
 fn by_name(timings: &[Timing]) -> Vec<(&'static str, f64)> {
     let mut sums: Vec<(&'static str, f64)> = Vec::new();
     for timing in timings {
@@ -206,7 +206,7 @@ fn by_name(timings: &[Timing]) -> Vec<(&'static str, f64)> {
     sums
 }
 
-/// The frame of the median of all times.
+/// The frame with the median of the total times.
 fn median(mut frames: Vec<Vec<(&'static str, f64)>>) -> Vec<(&'static str, f64)> {
     let sum = |frame: &[(&str, f64)]| frame.iter().map(|(_, ms)| ms).sum::<f64>();
     frames.sort_by(|a, b| sum(a).total_cmp(&sum(b)));

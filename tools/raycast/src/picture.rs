@@ -1,4 +1,4 @@
-//! Intensities as displayed: files, and the difference of two of them.
+//! Displayed intensities: picture files, and the difference between two pictures.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use whitewater::headless::Picture;
 
 use crate::Outcome;
 
-/// 8 bits of each pixel by the transfer function of sRGB (IEC 61966-2-1).
+/// 8-bit values of all pixels, by the transfer function of sRGB (IEC 61966-2-1).
 fn grey(picture: &Picture<f32>) -> Vec<u8> {
     let encode = |v: &f32| {
         let v = v.clamp(0.0, 1.0);
@@ -25,7 +25,7 @@ pub fn write(path: &Path, picture: &Picture<f32>) -> Outcome<()> {
     image.save(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Mean FLIP of two pictures of one size (Andersson et al. 2020), at the usual distance of the eye.
+/// Mean FLIP of two pictures of equal size (Andersson et al. 2020), at FLIP's default viewing distance.
 pub fn mean_flip(a: &Picture<f32>, b: &Picture<f32>) -> f32 {
     let image = |picture: &Picture<f32>| {
         let bytes: Vec<u8> = grey(picture).into_iter().flat_map(|v| [v; 3]).collect();

@@ -15,17 +15,18 @@ use crate::scan::Scan;
 use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE, WRITE};
 use crate::{Input, Settings, bad, kernel};
 
-/// Edge of a cell in reaches of the largest ball. Of 1 a sample looks at nine runs of three cells, of 2 at four of two, of
-/// 4 at two runs or so, of more balls each; but most cells are empty, and cost their look-up.
+/// Edge of a cell, in reaches of the largest ball. With 1, a sample searches nine runs of three cells; with 2, four
+/// runs of two; with 4, about two runs, each with more balls. The largest was fastest, because most cells are empty and
+/// each costs a look-up.
 const CELL: f32 = 4.0;
-/// Edge of a group's pixels.
+/// Edge of a group in pixels.
 const TILE: u32 = 8;
-/// Rounds of a chunk's rays that are tried first, and at most.
+/// Rounds per chunk of particles: those tried first, and the most.
 const ROUNDS: [u32; 2] = [16, 256];
-/// Buckets of a row at most; cells farther out than that share one.
+/// Most buckets of a row. Cells farther out share the last one.
 const MOST_ACROSS: f32 = 65_536.0;
 
-/// All of it.
+/// Passes and buffers of the plain ray-caster.
 pub(crate) struct Plain<'d> {
     pub balls: Balls<'d>,
     count: Pass<'d>,
@@ -36,28 +37,28 @@ pub(crate) struct Plain<'d> {
     cells: Buffer<'d>,
     blocks: Buffer<'d>,
     sorted: Buffer<'d>,
-    /// Corners of the box of all balls; how many rounds have left something.
+    /// Corners of the bounding box of all balls, and the number of rounds that left unfinished rays.
     bounds: Buffer<'d>,
-    /// Where each ray goes on.
+    /// Next sample of each ray.
     rays: Buffer<'d>,
-    /// Of a frame's rays, for each chunk.
+    /// Rounds of `march` per chunk.
     rounds: u32,
-    /// Buckets where a row may begin, less 1.
+    /// Number of buckets where a row may begin, minus 1.
     mask: u32,
-    /// Buckets of a row.
+    /// Buckets per row.
     span: u32,
 }
 
 impl<'d> Plain<'d> {
     pub fn new(device: &'d Device, input: &Input<'_>, settings: &Settings) -> Result<Self, Error> {
         let tile = settings.tile.unwrap_or(TILE);
-        // Samples where those of the kernel ray-caster are.
+        // The samples lie where those of the kernel ray-caster lie.
         let samples = kernel::samples(settings);
         let mut balls = Balls::new(device, input, settings, tile, samples)?;
         let size = balls.most(input.foam.positions.len(), settings);
         balls.take(device, input, size)?;
         let starts = (2 * size as u32).next_power_of_two();
-        // A cell is no narrower than what is a least ball at its depth.
+        // At each depth, a cell is at least as wide as the least ball.
         let across = (2.0 * balls.widest_slope / balls.least_reach).ceil();
         let span = across.min(MOST_ACROSS) as u32 + 8;
         let buckets = u64::from(starts) + u64::from(span);
@@ -84,7 +85,7 @@ impl<'d> Plain<'d> {
         Ok(plain)
     }
 
-    /// As many as all rays need.
+    /// Finds how many rounds the longest ray needs.
     fn find_rounds(&mut self) -> Result<(), Error> {
         let queue = &self.balls.queue;
         for chunk in &self.balls.chunks {

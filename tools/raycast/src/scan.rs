@@ -6,10 +6,10 @@ use whitewater::headless::Device;
 use crate::balls::shader;
 use crate::vulkan::{Buffer, Frame, Pass, READ, UPDATE, WRITE};
 
-/// Numbers of a block of a scan (glsl/include/scan.glsl).
+/// Values per block (glsl/include/scan.glsl).
 const BLOCK: u64 = 2048;
 
-/// Sums of all before each (Blelloch 1990).
+/// Exclusive prefix sum (Blelloch 1990).
 pub(crate) struct Scan<'d> {
     blocks: Pass<'d>,
     sums: Pass<'d>,
@@ -17,7 +17,7 @@ pub(crate) struct Scan<'d> {
 }
 
 impl<'d> Scan<'d> {
-    /// `bricks`: numbers are marks, which are counted.
+    /// `bricks`: values are marks; each that is not 0 counts as 1.
     pub fn new(device: &'d Device, bricks: bool) -> Result<Self, Error> {
         let constants = [(0, u32::from(bricks))];
         Ok(Self {
@@ -27,7 +27,8 @@ impl<'d> Scan<'d> {
         })
     }
 
-    /// Of so many values, which shaders have written; the sum of all stands in the blocks after the last.
+    /// Records the sums of `count` values, which shaders have written. The total is stored after the sums of the
+    /// blocks.
     pub fn record(
         &self,
         frame: &mut Frame<'_>,
@@ -46,12 +47,12 @@ impl<'d> Scan<'d> {
         frame.dispatch(&self.apply, view, &[blocks, values], push, groups)
     }
 
-    /// Bytes of the blocks of so many values.
+    /// Bytes of the block sums of `count` values.
     pub fn bytes(count: u64) -> u64 {
         4 * (count.div_ceil(BLOCK) + 1)
     }
 
-    /// Which of the blocks' words is the sum of so many values.
+    /// Index of the total among the block sums of `count` values.
     pub fn sum_of(count: u64) -> u64 {
         count.div_ceil(BLOCK)
     }

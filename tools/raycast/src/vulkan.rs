@@ -8,14 +8,14 @@ use whitewater::gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, Alloca
 use whitewater::headless::Device;
 use whitewater::{Error, Timing};
 
-/// Scopes that a frame may have.
+/// Most timed scopes of a frame.
 const MOST_SCOPES: u32 = 512;
-/// Dispatches that a frame may have.
+/// Most dispatches of a frame.
 const MOST_DISPATCHES: u32 = 1024;
-/// Storage buffers of a pass at most.
+/// Most storage buffers of a pass.
 const MOST_BUFFERS: u32 = 7;
 
-/// How a buffer is used: stages and accesses.
+/// Use of a buffer: stages and accesses.
 #[derive(Clone, Copy)]
 pub struct Use(vk::PipelineStageFlags2, vk::AccessFlags2);
 
@@ -33,9 +33,9 @@ pub const UPDATE: Use = Use(
             | vk::AccessFlags2::SHADER_STORAGE_WRITE.as_raw(),
     ),
 );
-/// Filled with a number; by stage of all transfers, for that of clears alone is misjudged by validation layers.
+/// Fill with a constant. The stage is all transfers, because validation layers misjudge the stage of clears.
 pub const FILL: Use = Use(vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::TRANSFER_WRITE);
-/// Copied from.
+/// Source of a copy.
 pub const COPY: Use = Use(vk::PipelineStageFlags2::ALL_TRANSFER, vk::AccessFlags2::TRANSFER_READ);
 const HOST: Use = Use(vk::PipelineStageFlags2::HOST, vk::AccessFlags2::HOST_READ);
 
@@ -49,10 +49,10 @@ impl<T> VkContext<T> for Result<T, vk::Result> {
     }
 }
 
-/// A storage buffer; freed when dropped, which is after the work with it was waited for.
+/// A storage buffer. Dropping frees it, so wait for all work that uses it first.
 pub struct Buffer<'d> {
     device: &'d Device,
-    /// The buffer.
+    /// Vulkan's handle.
     pub handle: vk::Buffer,
     /// Its size in bytes.
     pub size: u64,
@@ -60,7 +60,7 @@ pub struct Buffer<'d> {
 }
 
 impl<'d> Buffer<'d> {
-    /// Makes one, of 16 bytes at least.
+    /// Makes a buffer of at least 16 bytes.
     pub fn new(
         device: &'d Device,
         name: &str,
@@ -101,7 +101,7 @@ impl<'d> Buffer<'d> {
         Ok(buffer)
     }
 
-    /// One that the CPU fills.
+    /// Makes a buffer with `bytes`, written by the CPU.
     pub fn with(device: &'d Device, name: &str, bytes: &[u8]) -> Result<Self, Error> {
         let mut buffer = Self::new(device, name, bytes.len() as u64, MemoryLocation::CpuToGpu)?;
         if let Some(to) = buffer.allocation.as_mut().and_then(|a| a.mapped_slice_mut()) {
@@ -123,13 +123,13 @@ impl Drop for Buffer<'_> {
         if let Some(allocation) = self.allocation.take() {
             let mut allocator =
                 self.device.allocator.lock().unwrap_or_else(PoisonError::into_inner);
-            // It fails for foreign allocations only.
+            // Freeing fails only for another allocator's memory.
             let _ = allocator.free(allocation);
         }
     }
 }
 
-/// A compute pipeline: binding 0 is the block of the picture, the others are storage buffers.
+/// A compute pipeline. Binding 0 is the picture's block, the others are storage buffers.
 pub struct Pass<'d> {
     device: &'d Device,
     pipeline: vk::Pipeline,
@@ -139,7 +139,7 @@ pub struct Pass<'d> {
 }
 
 impl<'d> Pass<'d> {
-    /// Makes one of SPIR-V, with so many storage buffers and such specialization constants.
+    /// Makes a pipeline from SPIR-V, with `buffers` storage buffers and these specialization constants.
     pub fn new(
         device: &'d Device,
         name: &'static str,
@@ -228,21 +228,21 @@ impl Drop for Pass<'_> {
     }
 }
 
-/// Commands, their times and their descriptor sets: one frame at a time.
+/// Command buffer, timestamps and descriptor sets of one frame at a time.
 pub struct Queue<'d> {
     device: &'d Device,
     pool: vk::CommandPool,
     cmd: vk::CommandBuffer,
     fence: vk::Fence,
     sets: vk::DescriptorPool,
-    /// None where the queue has no timestamps.
+    /// Null if the queue family has no timestamps.
     queries: vk::QueryPool,
     timestamp_mask: u64,
     timestamp_period: f64,
 }
 
 impl<'d> Queue<'d> {
-    /// For one frame at a time.
+    /// Makes everything for one frame at a time.
     pub fn new(device: &'d Device) -> Result<Self, Error> {
         // SAFETY: live handles.
         let (limits, families) = unsafe {
@@ -300,7 +300,7 @@ impl<'d> Queue<'d> {
         Ok(queue)
     }
 
-    /// Records, submits and waits; hands back how long each scope took.
+    /// Records, submits and waits. Returns the time of each scope.
     pub fn run(
         &self,
         record: impl FnOnce(&mut Frame<'_>) -> Result<(), Error>,
@@ -365,7 +365,7 @@ impl<'d> Queue<'d> {
         Ok(names.iter().zip(raw.chunks_exact(2)).map(timing).collect())
     }
 
-    /// Words of a buffer that shaders wrote, from one on.
+    /// Reads `count` words that shaders wrote, from word `first` on.
     pub fn read(&self, from: &Buffer<'_>, first: u64, count: usize) -> Result<Vec<u32>, Error> {
         let size = 4 * count as u64;
         let to = Buffer::new(self.device, "read back", size, MemoryLocation::GpuToCpu)?;
@@ -403,7 +403,7 @@ pub struct Frame<'q> {
 }
 
 impl Frame<'_> {
-    /// Times what is recorded in it.
+    /// Times the commands that `record` records.
     pub fn scope(
         &mut self,
         name: &'static str,
@@ -444,7 +444,7 @@ impl Frame<'_> {
         result
     }
 
-    /// Makes what one use of a buffer wrote, or has read, safe for the next.
+    /// Adds a barrier between two uses of each buffer.
     pub fn barrier(&mut self, uses: &[(&Buffer<'_>, Use, Use)]) {
         let barriers: Vec<_> = uses
             .iter()
@@ -465,7 +465,7 @@ impl Frame<'_> {
         unsafe { self.queue.device.device.cmd_pipeline_barrier2(self.queue.cmd, &info) };
     }
 
-    /// Zero in all of a buffer.
+    /// Fills a buffer with zeros.
     pub fn clear(&mut self, buffer: &Buffer<'_>) {
         // SAFETY: the command buffer is recording outside a render pass.
         unsafe {
@@ -479,7 +479,7 @@ impl Frame<'_> {
         }
     }
 
-    /// Dispatches a pass: its block, its storage buffers from binding 1 on, its push constants.
+    /// Dispatches a pass with the picture's block, storage buffers from binding 1 on, and push constants.
     pub fn dispatch(
         &mut self,
         pass: &Pass<'_>,

@@ -16,7 +16,7 @@ use twin::{Bound, Twin, U, camera};
 
 const SIZE: [u32; 2] = [64, 48];
 const RADIUS: f32 = 0.3;
-/// Whole steps of the grid's sums.
+/// Fixed-point steps per unit of thickness, in the grid's sums.
 const STEPS: f64 = 65536.0;
 
 /// A device whose messages fail the test at its end.
@@ -54,7 +54,7 @@ impl Drop for Gpu {
     }
 }
 
-/// Numbers from 0 to 1 (xorshift, Marsaglia 2003).
+/// Random numbers from 0 to 1 (xorshift, Marsaglia 2003).
 struct Random(u64);
 
 impl Random {
@@ -66,8 +66,8 @@ impl Random {
     }
 }
 
-/// Particles of all kinds, ages and sizes, from some that fill a quarter of the picture to some of a tenth of a
-/// pixel, also beside it.
+/// Particles of all kinds, ages and sizes: the largest fill a quarter of the picture, the smallest a tenth of a pixel,
+/// and some lie beside it.
 fn cloud(count: usize, seed: u64) -> Foam {
     let mut random = Random(seed);
     let mut foam = Foam::default();
@@ -105,7 +105,7 @@ fn draw(gpu: &Gpu, method: Method, foam: &Foam, scene: &SceneDepth, settings: &S
     let camera = camera(SIZE[0] as f32 / SIZE[1] as f32);
     let input = Input { foam, radius: RADIUS, camera: &camera, size: SIZE, scene };
     let caster = Caster::new(gpu, method, &input, settings).expect("it can be drawn");
-    // The second time over what the first left.
+    // The second draw runs over the data that the first one left.
     for _ in 0..2 {
         caster.draw().expect("it is drawn");
     }
@@ -114,7 +114,7 @@ fn draw(gpu: &Gpu, method: Method, foam: &Foam, scene: &SceneDepth, settings: &S
     Drawn { thickness, intensity, chunks: caster.chunk_count() }
 }
 
-/// Samples of a slab, which the twin has as the ray-casters.
+/// Samples per slab; the twin uses the same number as the ray-casters.
 fn samples(method: Method, step: f32) -> u32 {
     match method {
         Method::Kernel | Method::Plain => (32.0 / step).ceil().max(1.0) as u32,
@@ -126,7 +126,7 @@ fn twin_of(method: Method, foam: &Foam, scene: &SceneDepth, settings: &Settings)
     Twin::new(foam, RADIUS, SIZE, scene, settings, samples(method, settings.step))
 }
 
-/// What the grid's whole steps add.
+/// Adds the rounding of the grid's fixed point to a bound.
 fn bound_of(method: Method, bound: Bound) -> Bound {
     let rounding = match method {
         Method::Kernel | Method::Plain => 0.0,
@@ -183,7 +183,7 @@ fn all_are_their_twins() {
                 errors += error;
             }
             assert!(some > 1000, "only {some} pixels with foam");
-            // The bounds are narrow enough to tell.
+            // The bounds are narrow enough to show a fault.
             assert!(errors < 0.01 * sum, "{method:?} step {step}: ±{errors} of {sum}");
         }
     }
@@ -201,8 +201,8 @@ fn one_particle_has_its_sprites_thickness() {
             let drawn = draw(&gpu, method, &foam, &SceneDepth::Nothing, &settings);
             let profile = PROFILES[kind as usize];
             let size = if kind == 2 { 0.5 } else { 1.0 };
-            // Steps of a radius; the error of equal steps is no more than one times how much the kernel goes up
-            // and down: by no more than its coefficients, up and down, each.
+            // Steps in radii. With equal steps the error is at most one step times the total variation of the kernel,
+            // which is at most twice the sum of its coefficients.
             let step = f64::from(settings.step) / size;
             let most = 2.0 * step * profile.iter().map(|v| v.abs()).sum::<f64>();
             let middle: f64 = profile.iter().sum();
@@ -226,7 +226,7 @@ fn one_particle_has_its_sprites_thickness() {
     }
 }
 
-/// What is said of the profiles where they are derived.
+/// Checks the errors that the documentation states for the profiles.
 #[test]
 fn profiles_are_near_the_sprites() {
     type Shape = fn(f64) -> f64;
@@ -255,7 +255,7 @@ fn profiles_are_near_the_sprites() {
     }
 }
 
-/// Of order 3/2 all, to the integral: an eighth of the step has a 22nd of the error.
+/// All methods converge to the integral with order 3/2: an eighth of the step has a 22nd of the error.
 #[test]
 fn all_converge_to_the_integral() {
     let gpu = Gpu::new();
@@ -283,11 +283,11 @@ fn both_are_one_picture() {
     let settings = Settings { step: 1.0 / 32.0, ..WHOLE };
     let both = [Method::Kernel, Method::Grid];
     let [kernel, grid] = both.map(|m| draw(&gpu, m, &foam, &SceneDepth::Nothing, &settings));
-    // Slabs of as many samples or not: samples lie elsewhere only where steps grow, by a slab's growth.
+    // The methods may have different slabs. Samples then differ only where steps grow, by the growth within a slab.
     let twins = both.map(|m| twin_of(m, &foam, &SceneDepth::Nothing, &settings));
     for pixel in twins[0].pixels() {
         let [a, b] = [0, 1].map(|i| bound_of(both[i], twins[i].thickness(pixel.0, pixel.1)));
-        // Each is so far from the integral; their rounding is in the bounds.
+        // `most` sums each picture's distance from the integral and its rounding.
         let exact = twins[0].integral(pixel.0, pixel.1);
         let most = (a.value - exact).abs() + (b.value - exact).abs() + a.error + b.error;
         let d = (at(&kernel.thickness, pixel) - at(&grid.thickness, pixel)).abs();
@@ -296,7 +296,7 @@ fn both_are_one_picture() {
     }
 }
 
-/// Samples are the same: each is so far from the twin's sum, by rounding alone.
+/// The plain and the kernel ray-caster have the same samples, so each differs from the twin's sum by rounding alone.
 #[test]
 fn plain_is_the_kernels_picture() {
     let gpu = Gpu::new();
@@ -305,10 +305,10 @@ fn plain_is_the_kernels_picture() {
     let near = SceneDepth::Depths(near);
     for (seed, count, farther, step, cell, scene) in [
         (41, 2000, 1.0, 0.5, None, &SceneDepth::Nothing),
-        // Two buckets where rows may begin: all of them share some.
+        // One particle has only two buckets where rows may begin, so rows share them.
         (43, 1, 0.5, 0.1, Some(1.0), &SceneDepth::Nothing),
         (47, 800, 1.0, 0.07, Some(2.0), &near),
-        // Most where cells grow with the depth.
+        // Most particles lie where cells grow with the depth.
         (53, 2000, 5.0, 0.5, Some(1.0), &SceneDepth::Nothing),
         (59, 4000, 1.0, 7.0, None, &SceneDepth::Nothing),
     ] {
@@ -360,7 +360,7 @@ fn nothing_is_drawn_of_nothing() {
         let [a, b] = [&foam, &more]
             .map(|foam| draw(&gpu, method, foam, &SceneDepth::Nothing, &WHOLE).thickness.data);
         for (a, b) in a.iter().zip(&b) {
-            // Of the kernels the order is not told: at most all 300, of some samples each.
+            // The order in which kernels are summed is not defined: at most all 300 particles, with some samples each.
             let error = 3000.0 * U as f32 * a;
             assert!((a - b).abs() <= error, "{method:?}: {a}, with nothing more {b}");
         }
@@ -416,15 +416,15 @@ fn chunks_make_no_difference() {
     }
 }
 
-/// Half a step of 8 bits, where rays end early.
+/// Rays end early within half a step of 8 bits.
 #[test]
 fn rays_end_when_nothing_more_shows() {
     let gpu = Gpu::new();
-    // Dense, and deeper than a slab of both.
+    // Dense, and deeper than a slab of any method.
     let mut foam = cloud(3000, 23);
     for (i, position) in foam.positions.iter_mut().enumerate() {
         let depth = 2.0 + 0.008 * i as f32;
-        // A cone of many round one of more.
+        // A wide cone of particles around a narrow, denser one.
         let wide = depth / -position[2] * if i % 3 == 0 { 0.15 } else { 0.05 };
         *position = [-0.2 * depth + wide * position[0], wide * position[1], -depth];
         foam.kinds[i] = 0;
@@ -445,7 +445,7 @@ fn rays_end_when_nothing_more_shows() {
     }
 }
 
-/// The sprites of whitewater, of foam that is at least a pixel's half wide.
+/// The thickness converges to that of whitewater's sprites, for foam whose half-axis is at least half a pixel.
 #[test]
 fn converged_thickness_is_whitewaters() {
     let mut gpu = Gpu::new();
@@ -480,8 +480,8 @@ fn converged_thickness_is_whitewaters() {
         let ours = at(&ours, pixel);
         for (method, cast) in Method::ALL.into_iter().zip(&casts) {
             let met = f64::from(twin.thickness(pixel.0, pixel.1).met);
-            // Each: its profile is so near, equal steps so (see above; foam goes up and down once), half a whole
-            // step of whitewater's sum.
+            // Per particle: the error of the profile, the error of equal steps (see above; foam's kernel rises and
+            // falls once), and half a step of whitewater's fixed-point sum.
             let most = met * (0.0064 + 2.0 / 64.0 * 0.72 + 1.0e-4);
             let cast = at(&cast.thickness, pixel);
             assert!((cast - ours).abs() <= most, "{method:?} {pixel:?}: {cast}, ours {ours}");

@@ -1,4 +1,4 @@
-//! The program: pictures, tables, and how it ends.
+//! The program: its pictures, its tables and its exit codes.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -54,12 +54,12 @@ fn compares_all_with_whitewater() {
     };
     let apart: Vec<f64> =
         text.lines().filter_map(|line| line.split_once("mean FLIP ")?.1.parse().ok()).collect();
-    // Balls that the sea cuts: a ray has of them what is before it, a sprite all where its front is. Of few and large
-    // ones that shows; both ray-casters have the same.
+    // The sea cuts some balls. A ray counts only the part in front of it; a sprite counts in full if its front is
+    // visible. Few and large particles show that. Both ray-casters have the same difference.
     assert!(apart.len() == 2 && apart.iter().all(|flip| *flip < 0.1), "{text}");
     assert!((apart[0] - apart[1]).abs() < 0.005, "{text}");
     let ours = ["ours, intensity", "ours, total"].map(|name| row(name)[0]);
-    // As near to the converged picture as ours is; printed to four digits.
+    // As near to the converged picture as whitewater's; four digits are printed.
     let rows = [("kernel", apart[0]), ("grid", apart[1]), ("plain", apart[0])];
     let names = rows.into_iter().flat_map(|(name, near)| {
         let name = format!("ray-casting, {name}");
@@ -71,7 +71,7 @@ fn compares_all_with_whitewater() {
         };
         assert!(step > 0.0 && ms > 0.0 && flip <= most && memory > 0.0, "{text}");
         for (ratio, ours) in [(intensity, ours[0]), (total, ours[1])] {
-            // Times are printed to hundredths, as ratios are.
+            // Times and ratios are printed to hundredths.
             let (least, most) = ((ms - 0.005) / (ours + 0.005), (ms + 0.005) / (ours - 0.005));
             assert!(ratio > least - 0.0051 && (ours < 0.01 || ratio < most + 0.0051), "{text}");
         }

@@ -1,5 +1,5 @@
-//! A flood comes down a street of plain houses towards the eye, over dry paving: its front tumbles, it piles up before
-//! what stands in its way and leaves a wake behind it.
+//! A flood comes down a street of plain houses towards the eye, over dry paving. Its front tumbles; it piles up before
+//! obstacles and leaves wakes behind them.
 
 use std::sync::OnceLock;
 
@@ -26,7 +26,7 @@ pub const PLAN: Plan = Plan {
 const LOW: Vec2 = vec2(-34.0, -80.0);
 const HIGH: Vec2 = vec2(34.0, 22.0);
 
-/// Houses: middle, half their size, height.
+/// Houses: middle, half extents, height.
 const HOUSES: [(Vec2, Vec2, f32); 10] = [
     (vec2(-17.0, 12.0), vec2(7.0, 9.0), 9.0),
     (vec2(-18.0, -14.0), vec2(8.0, 10.0), 14.0),
@@ -40,7 +40,7 @@ const HOUSES: [(Vec2, Vec2, f32); 10] = [
     (vec2(-32.0, -30.0), vec2(5.0, 40.0), 16.0),
 ];
 
-/// What stands in the street: middle, half its size, height.
+/// Obstacles in the street: middle, half extents, height.
 const BLOCKS: [(Vec2, Vec2, f32); 7] = [
     (vec2(-4.2, 1.5), vec2(0.95, 2.2), 2.6),
     (vec2(4.6, -4.0), vec2(1.3, 2.8), 3.6),
@@ -55,13 +55,13 @@ fn inside(p: Vec2) -> bool {
     HOUSES.iter().chain(&BLOCKS).any(|(middle, half, _)| (p - *middle).abs().cmplt(*half).all())
 }
 
-/// How far from a box, and how far down its wake.
+/// Distance from a box, and distance down its wake.
 fn beside(p: Vec2, middle: Vec2, half: Vec2) -> (f32, f32) {
     let away = ((p - middle).abs() - half).max(Vec2::ZERO).length();
     (away, p.y - middle.y - half.y)
 }
 
-/// Where the front is: it is late along the walls.
+/// Position of the front along the street. It lags near the walls.
 fn front(x: f32) -> f32 {
     let ragged = 4.5 * (octaves(vec2(0.16 * x, 3.7), 4) - 0.5)
         + 1.2 * (octaves(vec2(0.9 * x, 9.0), 3) - 0.5);
@@ -70,7 +70,7 @@ fn front(x: f32) -> f32 {
 
 fn surface(p: Vec2) -> Vec3 {
     let s = front(p.x) - p.y;
-    // A bore, and slowly more behind it.
+    // A steep bore, and a slow rise behind it.
     let rise = smooth(-0.2, 2.6, s);
     let high = rise * (1.15 + 1.35 * smooth(0.0, 40.0, s));
     let flow = vec2(0.5 * p.x, 0.28 * p.y);
@@ -79,7 +79,7 @@ fn surface(p: Vec2) -> Vec3 {
     y += 0.55 * smooth(0.3, 1.6, s) * smooth(4.5, 1.6, s) * octaves(0.9 * p, 3);
     for (middle, half, _) in BLOCKS {
         let (away, down) = beside(p, middle, half);
-        // Piled up before it, hollow behind.
+        // The water piles up before an obstacle and is hollow behind it.
         y += rise * 0.9 * smooth(1.6, 0.0, away) * smooth(0.4, -1.0, down + 2.0 * half.y);
         y -= rise
             * 0.5
@@ -111,7 +111,7 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
         let (away, down) = beside(p, middle, half);
         let across = (p.x - middle.x).abs();
         take(1.0 * smooth(1.3, 0.2, away + 0.8 * (octaves(1.2 * p, 2) - 0.5)), 0.15);
-        // Two lines that leave its sides.
+        // Two lines of foam leave the obstacle's sides.
         let line = (across - half.x - 0.10 * down.max(0.0)).abs();
         let wide = 0.5 + 0.05 * down.max(0.0);
         take(
@@ -132,7 +132,7 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
     (amount, 0.9 + 0.9 * smooth(0.7, 0.1, amount), age)
 }
 
-/// All of it, tabled.
+/// Surface and foam, tabulated.
 fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| Table::new(LOW, HIGH, surface, cover))
@@ -144,7 +144,7 @@ fn density(p: Vec2) -> f32 {
     if amount <= 0.01 || inside(p) {
         return 0.0;
     }
-    // The stream draws it long.
+    // The stream stretches the foam.
     let q = vec2(p.x, 0.55 * p.y + 0.5 * value(0.3 * p));
     laces(q, amount, cell) * (0.25 + 0.75 * smooth(0.3, 1.0, amount))
 }
@@ -172,7 +172,7 @@ fn bubble(random: &mut Random) -> Particle {
     Particle { position, kind: BUBBLE, age: 0.6 * random.unit() }
 }
 
-/// At the front, and up the faces that the stream meets.
+/// Spray at the front, and where the stream hits obstacles.
 fn spray(random: &mut Random) -> Particle {
     if random.unit() < 0.66 {
         const CLUMPS: u32 = 700;
@@ -250,7 +250,7 @@ pub fn meshes() -> Vec<Mesh> {
         let roof =
             Material { base_color: [0.16, 0.10, 0.08], roughness: 0.8, ..Material::default() };
         add(at(high + 0.15), vec3(half.x + 0.4, 0.2, half.y + 0.4), roof);
-        // Windows to the street.
+        // Windows that face the street.
         let glass =
             || Material { base_color: [0.03, 0.04, 0.05], roughness: 0.12, ..Material::default() };
         let side = -middle.x.signum();

@@ -25,14 +25,14 @@ use whitewater::headless::scene::{Ground, Material, Scene, SunLight};
 
 use random::Random;
 
-/// A scene of the source.
+/// A scene of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sea {
     /// A wave that breaks from one end to the other.
     Wave,
-    /// A ship under way, with its bow wave and wake.
+    /// A ship under way, with bow wave and wake.
     Ship,
-    /// A lighthouse on a rock that a wave has run against.
+    /// A lighthouse on a rock that a wave has just hit.
     Lighthouse,
     /// A flood that comes down a street.
     Flood,
@@ -45,13 +45,13 @@ pub struct Foam {
     pub positions: Vec<[f32; 3]>,
     /// 0 foam, 1 spray, 2 bubble.
     pub kinds: Vec<u32>,
-    /// What of their lives has passed, 0 to 1.
+    /// Part of each particle's life that has passed, 0 to 1.
     pub ages: Vec<f32>,
-    /// Their numbers.
+    /// Ids of the particles.
     pub ids: Vec<u32>,
 }
 
-/// One of them.
+/// A single particle.
 struct Particle {
     position: Vec3,
     kind: u32,
@@ -62,29 +62,29 @@ const FOAM: u32 = 0;
 const SPRAY: u32 = 1;
 const BUBBLE: u32 = 2;
 
-/// What a module of a sea says of it.
+/// Properties of a sea, stated by its module.
 struct Plan {
-    /// Draws a particle of foam, spray and bubbles.
+    /// Functions that draw a foam, a spray and a bubble particle.
     draw: [fn(&mut Random) -> Particle; 3],
-    /// What part of all each kind is; together 1.
+    /// Fraction of each kind; the sum is 1.
     shares: [f32; 3],
-    /// Corners of a box that holds all of them.
+    /// Corners of a box that holds all particles.
     bounds: [Vec3; 2],
-    /// Radius of a particle where there are a million.
+    /// Radius of a particle if there are a million.
     radius: f32,
     eye: Vec3,
     target: Vec3,
     /// Vertical field of view, degrees.
     fov: f32,
-    /// To the sun.
+    /// Direction to the sun.
     sun: Vec3,
 }
 
 impl Sea {
-    /// All of them, in the source's order.
+    /// All seas, in the paper's order.
     pub const ALL: [Self; 4] = [Self::Wave, Self::Ship, Self::Lighthouse, Self::Flood];
 
-    /// Its name in lower case.
+    /// The sea's name in lower case.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wave => "wave",
@@ -94,12 +94,12 @@ impl Sea {
         }
     }
 
-    /// The one of a name; `None` for any other.
+    /// The sea with this name, or `None`.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|sea| sea.name() == name)
     }
 
-    /// How many particles the source's scene has at most, and the size of its picture (Table 1).
+    /// Largest particle count of the paper's scene, and the size of its picture (Table 1).
     pub fn source(self) -> (u32, (u32, u32)) {
         match self {
             Self::Wave => (820_000, (800, 600)),
@@ -118,7 +118,7 @@ impl Sea {
         }
     }
 
-    /// What part of the particles is foam, spray and bubbles.
+    /// Fractions of foam, spray and bubble particles.
     pub fn shares(self) -> [f32; 3] {
         self.plan().shares
     }
@@ -128,7 +128,7 @@ impl Sea {
         self.plan().bounds.map(|corner| corner.to_array())
     }
 
-    /// The particles of these ids, of a sea of `count`; ids from there on have none. Each goes by its id alone.
+    /// The particles with these ids, in a sea of `count`; ids from `count` on have none. Each depends on its id alone.
     pub fn foam(self, ids: Range<u32>, count: u32) -> Foam {
         let ids = ids.start..ids.end.min(count);
         let plan = self.plan();
@@ -147,13 +147,13 @@ impl Sea {
         all
     }
 
-    /// The radius with which so many particles cover as much as any other number of them, metres: for
+    /// Radius in metres at which `count` particles cover the same area as any other number of them, for
     /// [`WhitewaterSettings::radius`](whitewater::WhitewaterSettings::radius).
     pub fn radius(self, count: u32) -> f32 {
         self.plan().radius * (1.0e6 / count.max(1) as f32).sqrt()
     }
 
-    /// The water's surface as a mesh, and what stands in it.
+    /// The water's surface as a mesh, and the objects in it.
     pub fn scene(self) -> Scene {
         let meshes = match self {
             Self::Wave => wave::meshes(),
@@ -169,13 +169,13 @@ impl Sea {
         Scene { meshes, sun, ground: Some(ground), ..Scene::default() }
     }
 
-    /// From where the picture is taken, for a picture so many times as wide as high.
+    /// The camera of the sea's picture, for an aspect ratio (width / height).
     pub fn camera(self, aspect: f32) -> Camera {
         let plan = self.plan();
         self.camera_from(plan.eye.distance(plan.target), aspect)
     }
 
-    /// The same way, so many metres from what it looks at.
+    /// The same direction of view, at `distance` metres from the target.
     pub fn camera_from(self, distance: f32, aspect: f32) -> Camera {
         let plan = self.plan();
         let eye = plan.target + distance * (plan.eye - plan.target).normalize();
@@ -188,21 +188,21 @@ impl Sea {
     }
 }
 
-/// Height of the sea out to the horizon, under the troughs of the waves that are a mesh.
+/// Height of the flat sea out to the horizon, below the troughs of the meshed waves.
 const OPEN_SEA: f32 = -1.6;
 /// Albedo of clear deep water.
 const DEEP: Vec3 = vec3(0.010, 0.050, 0.070);
-/// Of water that is full of bubbles.
+/// Albedo of water that is full of bubbles.
 const MILKY: Vec3 = vec3(0.12, 0.28, 0.30);
 
-/// Albedo of water that was this, where foam covers so much of it.
+/// Albedo of water whose clear albedo is `clear`, where foam covers `amount` of it.
 fn aerated(clear: Vec3, amount: f32) -> Vec3 {
     let milky = clear.lerp(MILKY, noise::smooth(0.30, 0.85, amount));
     milky.lerp(vec3(0.42, 0.49, 0.49), 0.8 * noise::smooth(0.65, 1.1, amount))
 }
 
 fn open_sea() -> Material {
-    // Matt: a mirror that is level would show the horizon, where waves show the sky above it.
+    // Rough, because a level mirror would show the horizon, where real waves reflect the sky above it.
     Material { base_color: [0.042, 0.130, 0.200], roughness: 0.95, ..Material::default() }
 }
 

@@ -1,5 +1,5 @@
-//! A lighthouse on a rock. A wave has run against it from -x: a sheet of water stands up over the rock, what fell before
-//! runs off it, and the sea round it is white and then laced.
+//! A lighthouse on a rock. A wave has just hit it from -x: a sheet of water stands up over the rock, earlier water runs
+//! off it, and the sea around it is white near the rock and laced farther out.
 
 use std::sync::OnceLock;
 
@@ -26,7 +26,7 @@ pub const PLAN: Plan = Plan {
 const LOW: Vec2 = vec2(-110.0, -130.0);
 const HIGH: Vec2 = vec2(110.0, 62.0);
 
-/// The rock, in the height that it has above the sea's mean; far from it deep.
+/// Height of the rock over the sea's mean; it falls to deep water far away.
 fn rock(p: Vec2) -> f32 {
     let q = p * vec2(1.0, 1.25);
     let ragged = 5.0 * (octaves(0.16 * p + 40.0, 4) - 0.5);
@@ -37,7 +37,7 @@ fn rock(p: Vec2) -> f32 {
     let steps = 1.3 * (ledge / 1.3).floor() + 1.3 * smooth(0.55, 1.0, (ledge / 1.3).fract());
     let top = smooth(5.5, 3.0, p.length());
     let rough = 0.65 * steps + 0.35 * ledge + 0.5 * (octaves(1.1 * p, 3) - 0.5);
-    // Level under the tower.
+    // The rock is level under the tower.
     rough + top * (6.2 - rough)
 }
 
@@ -46,13 +46,13 @@ fn waves() -> &'static Waves {
     WAVES.get_or_init(|| Waves::new(vec2(1.0, 0.45), 38.0, 1.8, 0.042))
 }
 
-/// How far a place is from the rock's edge in the water, about.
+/// Approximate distance from the rock's edge, out in the water.
 fn offshore(p: Vec2) -> f32 {
     let q = p * vec2(1.0, 1.25);
     q.length() + 5.0 * (octaves(0.16 * p + 40.0, 4) - 0.5) - 13.2
 }
 
-/// Of the wave that has run up, 0 to 1.
+/// Height of the wave that has run up the rock, 0 to 1.
 fn mound(p: Vec2) -> f32 {
     let q = (p - vec2(-17.5, 3.0)) / vec2(7.0, 13.0);
     (-q.length_squared()).exp()
@@ -80,14 +80,14 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
             (amount, age) = (more, old);
         }
     };
-    // Surf, farther out where waves come from, and behind the rock what they have left.
+    // Surf reaches farther out on the side where waves arrive; behind the rock lies older foam.
     let lee = smooth(-10.0, 20.0, p.x);
     let surf = smooth(7.0 + 7.0 * patch, 1.0, away + 3.0 * (octaves(0.3 * p, 3) - 0.5));
     take(1.0 * surf, 0.15 + 0.2 * lee);
     take(1.05 * smooth(0.25, 0.7, mound(p) + 0.25 * (octaves(0.4 * p, 3) - 0.5)), 0.1);
     let left = smooth(40.0 + 16.0 * lee, 6.0, away) * smooth(0.40, 0.56, patch + 0.05 * lee);
     take(0.62 * left, 0.35 + 0.4 * smooth(8.0, 40.0, away));
-    // Streaks of the wind.
+    // Wind streaks.
     let streak = octaves(vec2(0.035 * (p.x + 0.45 * p.y), 0.16 * (p.y - 0.45 * p.x)) + 7.0, 4);
     take(0.36 * smooth(0.64, 0.70, streak), 0.7);
     let cap = octaves(vec2(0.10 * (p.x + 0.45 * p.y), 0.05 * (p.y - 0.45 * p.x)) + 90.0, 4);
@@ -95,7 +95,7 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
     (amount, 1.5 + 1.6 * smooth(0.7, 0.1, amount), age)
 }
 
-/// All of it, tabled.
+/// Surface and foam, tabulated.
 fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| Table::new(LOW, HIGH, surface, cover))
@@ -123,7 +123,7 @@ fn foam(random: &mut Random) -> Particle {
     Particle { position, kind: FOAM, age: age + 0.15 * random.unit() }
 }
 
-/// Water runs off the rock, in the hollows.
+/// Foam that runs off the rock along its hollows.
 fn running(random: &mut Random) -> Particle {
     let wet = |p: Vec2| -> f32 {
         let y = rock(p);
@@ -156,13 +156,13 @@ fn bubble(random: &mut Random) -> Particle {
     Particle { position, kind: BUBBLE, age: 0.6 * random.unit() }
 }
 
-/// The sheet that stands over the rock, a mist that the wind takes from it, and small splashes along the surf.
+/// Spray: the sheet over the rock, mist that the wind takes from it, and small splashes along the surf.
 fn spray(random: &mut Random) -> Particle {
     let which = random.unit();
     let (count, salt) = if which < 0.72 { (850, 0) } else { (520, 1) };
     let mut lots = Random::new(random.below(count), 3000 + salt);
     if salt == 0 {
-        // From where the wave hit: fingers, the highest in the middle.
+        // Fingers rise from where the wave hit, the highest in the middle.
         let along = lots.between(-1.0, 1.0);
         let middle = (-(2.1 * along).powi(2)).exp();
         let place = vec2(-13.5 + 3.0 * along * along + lots.between(-1.5, 1.5), 2.5 + 11.0 * along);
@@ -180,7 +180,7 @@ fn spray(random: &mut Random) -> Particle {
     }
     let turn = std::f32::consts::TAU * lots.unit();
     let mut place = Vec2::from_angle(turn) * 12.0;
-    // Out to the edge of the rock.
+    // Steps outwards to the edge of the rock.
     for _ in 0..12 {
         place *= if offshore(place) < 0.4 { 1.04 } else { 1.0 };
     }
@@ -200,7 +200,7 @@ fn spray(random: &mut Random) -> Particle {
     clump.draw(random, from.y - 0.4)
 }
 
-/// An upright part of the tower, which grows narrower; the radii below and above.
+/// An upright part of the tower that narrows upwards. `radius` holds the radii below and above.
 fn ring(y: [f32; 2], radius: [f32; 2], material: Material) -> Mesh {
     const SIDES: u32 = 48;
     let mut mesh = Mesh { name: "tower".into(), material, ..Mesh::default() };

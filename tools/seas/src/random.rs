@@ -1,4 +1,4 @@
-//! What is drawn by lot for a particle: a sequence of its own, by its id alone.
+//! Random numbers of a particle: a sequence of its own, seeded by its id alone.
 
 use std::f32::consts::TAU;
 
@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3, vec2, vec3};
 
 use crate::noise::{mix, unit};
 
-/// A particle's lots (SplitMix64, begun at its id's hash).
+/// A random sequence (SplitMix64, seeded with a hash of the id).
 pub struct Random(u64);
 
 impl Random {
@@ -14,7 +14,7 @@ impl Random {
         Self(mix(u64::from(salt) << 32 | u64::from(id)))
     }
 
-    /// In [0, 1).
+    /// A number in [0, 1).
     pub fn unit(&mut self) -> f32 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         unit(mix(self.0))
@@ -24,17 +24,18 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
-    /// One of so many.
+    /// An integer below `count`.
     pub fn below(&mut self, count: u32) -> u32 {
         ((self.unit() * count as f32) as u32).min(count.saturating_sub(1))
     }
 
-    /// Positive, of this mean, and never more than 16 times it.
+    /// An exponentially distributed number of this mean, at most 16 times the mean.
     pub fn decay(&mut self, mean: f32) -> f32 {
         -mean * (1.0 - self.unit()).max(1.0e-7).ln()
     }
 
-    /// In a ball, denser to the middle: the cube of a radius of 1 is even.
+    /// A point in the unit ball, denser towards the centre: its radius is uniform, where an even density needs a
+    /// cube root.
     pub fn ball(&mut self) -> Vec3 {
         let y = self.between(-1.0, 1.0);
         let (sin, cos) = (TAU * self.unit()).sin_cos();
@@ -43,12 +44,12 @@ impl Random {
     }
 }
 
-/// A density of 0 to 1 over a rectangle, from which places are drawn.
+/// A density of 0 to 1 over a rectangle, as a distribution of places.
 pub struct Field {
     low: Vec2,
     cell: Vec2,
     density: fn(Vec2) -> f32,
-    /// Of each cell the most there is found to be, with its neighbours, and the sum of all up to it.
+    /// For each cell, the largest density found in it and its neighbours; and the running sum of these.
     most: Vec<f32>,
     sums: Vec<f64>,
 }
@@ -84,7 +85,7 @@ impl Field {
         Self { low, cell, density, most, sums }
     }
 
-    /// A place; after many vain tries the last of them.
+    /// Draws a place by rejection. After too many rejections it returns the last candidate.
     pub fn draw(&self, random: &mut Random) -> Vec2 {
         const TRIES: u32 = 64;
         let all = self.sums.last().copied().unwrap_or(0.0);

@@ -1,5 +1,5 @@
-//! A ship under way at 10 m/s towards +x: the water that its bow throws aside, the arms of its wake, and the white band
-//! behind its screws.
+//! A ship under way at 10 m/s towards +x, with the water that its bow throws aside, the arms of its wake, and the white
+//! band behind its propellers.
 
 use std::sync::OnceLock;
 
@@ -29,7 +29,7 @@ const HIGH: Vec2 = vec2(110.0, 80.0);
 const BOW: f32 = 40.0;
 const STERN: f32 = -40.0;
 
-/// Half of the hull's breadth at a place along it and a height.
+/// Half of the hull's breadth at a position along it and a height.
 fn half_beam(x: f32, y: f32) -> f32 {
     if !(STERN..=BOW).contains(&x) {
         return 0.0;
@@ -37,7 +37,7 @@ fn half_beam(x: f32, y: f32) -> f32 {
     let t = (x - 8.0) / (BOW - 8.0);
     let fore = if t > 0.0 { 1.0 - t.powf(2.2) } else { 1.0 };
     let aft = 1.0 - 0.22 * smooth(-24.0, STERN, x);
-    // Fine at the water, flared above it.
+    // Narrow at the waterline, flared above it.
     let flare =
         1.0 + 0.10 * smooth(0.0, 7.0, y) - 0.25 * smooth(0.0, 1.0, t) * smooth(6.0, -1.0, y);
     7.0 * fore.max(0.0) * aft * flare
@@ -48,7 +48,7 @@ fn waves() -> &'static Waves {
     WAVES.get_or_init(|| Waves::new(vec2(-0.8, -0.6), 46.0, 2.2, 0.030))
 }
 
-/// Distance outwards from the crest of the bow wave, and along it from the bow.
+/// Distance outwards from the crest of the bow wave, and distance along it from the bow.
 fn arm(p: Vec2) -> (f32, f32) {
     let along = BOW - p.x;
     (p.y.abs() - (1.2 + 0.36 * along + 2.5 * smooth(0.0, 14.0, along)), along)
@@ -62,10 +62,10 @@ fn surface(p: Vec2) -> Vec3 {
         let high = 2.9 * smooth(-4.0, 5.0, along) * (-along.max(0.0) / 75.0).exp();
         let side = if out > 0.0 { out / (0.8 * wide) } else { out / (1.8 * wide) };
         y += high * (-side * side).exp();
-        // More crests of the wake inside of the first, each shorter.
+        // Further crests of the wake lie inside the first, each shorter.
         let inside = smooth(0.0, -6.0, out) * smooth(20.0, 60.0, along) * (-along / 130.0).exp();
         y += 0.55 * inside * (0.42 * (p.y.abs() * 1.35 - 0.45 * along)).sin();
-        // Waves across, behind the stern.
+        // Transverse waves behind the stern.
         let across = smooth(30.0, 90.0, along) * smooth(2.0, -10.0, out) * (-along / 160.0).exp();
         y += 0.5 * across * (0.098 * along * 1.5).cos();
     }
@@ -79,7 +79,7 @@ fn surface(p: Vec2) -> Vec3 {
     vec3(p.x, floor + edge * (y - floor), p.y)
 }
 
-/// The band behind the screws, 0 to 1.
+/// Strength of the band behind the propellers, 0 to 1.
 fn behind(p: Vec2) -> f32 {
     let away = STERN - p.x;
     if away < -3.0 {
@@ -91,7 +91,7 @@ fn behind(p: Vec2) -> f32 {
     smooth(wide + 1.2, wide - 2.0, p.y.abs()) * smooth(-3.0, 1.0, away)
 }
 
-/// How much is covered, size of the holes, how old it is.
+/// Covered fraction, size of the holes, and age of the foam.
 fn cover(p: Vec2) -> (f32, f32, f32) {
     let (out, along) = arm(p);
     let patch = octaves(0.06 * p, 3);
@@ -104,7 +104,7 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
     };
     if along > -1.5 {
         let fresh = (-along.max(0.0) / 34.0).exp();
-        // The sheet between hull and crest.
+        // The sheet of foam between hull and crest.
         let sheet = smooth(1.6 + 0.6 * patch, -0.6, out)
             * smooth(-beam - 0.6, -beam + 0.4, -2.0 * beam + p.y.abs());
         let near = smooth(42.0, 12.0, along + 10.0 * (octaves(0.22 * p, 3) - 0.5));
@@ -112,17 +112,17 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
             sheet * (0.35 + 0.7 * near) * smooth(95.0, 30.0, along),
             0.1 + 0.4 * smooth(10.0, 60.0, along),
         );
-        // Its crest breaks in pieces, the farther the fewer.
+        // The crest breaks in pieces, fewer with distance from the bow.
         let piece = octaves(vec2(0.20 * along, 0.32 * out) + 21.0, 3);
         let crest = smooth(-4.2 - 0.06 * along, -0.8, out) * smooth(1.7, 0.2, out);
         take(
             crest * (1.1 * fresh + 0.9 * smooth(0.40, 0.58, piece) * smooth(190.0, 40.0, along)),
             0.15 + 0.3 * (1.0 - fresh),
         );
-        // Along the side.
+        // Foam along the hull's side.
         let skirt = smooth(3.4, 0.3, p.y.abs() - beam) * f32::from(p.x > STERN - 2.0);
         take(skirt * (0.55 + 0.4 * patch), 0.3);
-        // What the arms leave inside.
+        // Foam that the arms leave inside the wake.
         let inside = smooth(0.0, -4.0, out) * smooth(150.0, 30.0, along) * smooth(8.0, 20.0, along);
         take(0.45 * inside * smooth(0.44, 0.56, patch), 0.5 + 0.25 * patch);
     }
@@ -137,7 +137,7 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
     (amount, 1.6 + 1.6 * smooth(0.7, 0.1, amount), age)
 }
 
-/// All of it, tabled.
+/// Surface and foam, tabulated.
 fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| Table::new(LOW, HIGH, surface, cover))
@@ -175,7 +175,7 @@ fn bubble(random: &mut Random) -> Particle {
     Particle { position, kind: BUBBLE, age: 0.6 * random.unit() }
 }
 
-/// The bow throws a sheet to both sides, which the ship leaves behind; farther back the crests throw less.
+/// Spray: the bow throws a sheet to both sides, which the ship leaves behind; farther back the crests throw less.
 fn spray(random: &mut Random) -> Particle {
     const CLUMPS: u32 = 900;
     let mut lots = Random::new(random.below(CLUMPS), 2000);
@@ -203,7 +203,8 @@ fn paint(color: [f32; 3]) -> Material {
     Material { base_color: color, roughness: 0.5, ..Material::default() }
 }
 
-/// A part of the ship from stem to stern: `at` a place along it and, from 0 to 1, across the part.
+/// A part of the ship from stem to stern. `at` gives the point at a position along the ship and a fraction across the
+/// part.
 fn strip(color: [f32; 3], rows: u32, at: impl Fn(f32, f32) -> Vec3) -> Mesh {
     const STATIONS: u32 = 72;
     let mut mesh = Mesh { name: "hull".into(), material: paint(color), ..Mesh::default() };
@@ -225,10 +226,10 @@ fn strip(color: [f32; 3], rows: u32, at: impl Fn(f32, f32) -> Vec3) -> Mesh {
     mesh
 }
 
-/// Sides in two colours, and the deck.
+/// The sides in two colours, and the deck.
 fn hull() -> Vec<Mesh> {
     let deck = |x: f32| 5.4 + 3.0 * smooth(10.0, BOW, x) + 0.5 * smooth(-20.0, STERN, x);
-    // The stem leans ahead.
+    // The stem leans forward.
     let at = |x: f32, y: f32, part: f32| {
         let ahead = 0.42 * y.max(0.0) * smooth(28.0, BOW, x);
         vec3(x + ahead, y, part * half_beam(x, y).max(0.05))
@@ -261,14 +262,14 @@ pub fn meshes() -> Vec<Mesh> {
     let mut block = |centre: [f32; 3], half: [f32; 3], material: Material| {
         meshes.push(Mesh::cuboid(centre, half, [0.0, 0.0, 0.0, 1.0], material));
     };
-    // The transom.
+    // The transom closes the stern.
     block([STERN, 1.9, 0.0], [0.25, 4.0, 5.4], paint([0.035, 0.05, 0.085]));
     block([-24.0, 7.6, 0.0], [10.0, 2.6, 5.6], white());
     block([-22.0, 11.8, 0.0], [6.0, 1.8, 5.0], white());
     block([-17.5, 14.6, 0.0], [2.6, 1.2, 6.4], white());
     block([-14.85, 14.7, 0.0], [0.08, 0.6, 5.6], paint([0.02, 0.03, 0.04]));
     block([-28.0, 15.0, 0.0], [2.0, 2.6, 1.6], paint([0.75, 0.22, 0.04]));
-    // Holds and a crane.
+    // Holds and a crane stand on the deck.
     for x in [-6.0, 6.0, 18.0] {
         block([x, 5.4, 0.0], [4.2, 0.9, 4.2], paint([0.34, 0.36, 0.36]));
     }

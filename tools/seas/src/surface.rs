@@ -1,4 +1,4 @@
-//! A sea's surface: waves of the wind, and a grid over any surface that a formula gives.
+//! A sea's surface: wind waves, and a grid over any surface that a function gives.
 
 use glam::{Vec2, Vec3, vec2};
 use std::sync::Arc;
@@ -6,14 +6,15 @@ use whitewater::headless::scene::{Material, Mesh, Texture};
 
 use crate::noise::mix;
 
-/// Waves of the wind.
+/// Wind waves, as a sum of sines.
 pub struct Waves {
     /// Wave number vector, phase, amplitude.
     all: Vec<(Vec2, f32, f32)>,
 }
 
 impl Waves {
-    /// From the longest wave on, each shorter by the same factor, turned about the wind; `steep`: slope of each.
+    /// Waves from the longest on, each shorter by a constant factor and turned about the wind's direction. `steep` is
+    /// the slope of each.
     pub fn new(wind: Vec2, longest: f32, shortest: f32, steep: f32) -> Self {
         const COUNT: u32 = 18;
         let lot = |i: u32, which: u64| crate::noise::unit(mix(u64::from(i) << 8 | which)) - 0.5;
@@ -27,7 +28,7 @@ impl Waves {
         Self { all: (0..COUNT).map(wave).collect() }
     }
 
-    /// Height over the mean; crests are sharper than troughs.
+    /// Height over the mean level. Crests are sharper than troughs.
     pub fn height(&self, p: Vec2) -> f32 {
         let each = |(number, phase, amplitude): &(Vec2, f32, f32)| {
             let s = (number.dot(p) + phase).sin();
@@ -37,8 +38,8 @@ impl Waves {
     }
 }
 
-/// A grid of `counts` cells over a surface. `place`: from 0 to 1 on both sides to where the surface is asked, so
-/// that it is finer where more is seen of it; `at`: the surface; `tint`: its colour there, linear.
+/// A grid of `counts` cells over a surface. `place` maps [0, 1]² to positions, so that cells can be finer where more is
+/// visible; `at` gives the surface there, and `tint` its linear colour.
 pub fn grid(
     name: &str,
     counts: [u32; 2],
@@ -71,7 +72,7 @@ pub fn grid(
     let texel = |i: u32| {
         let uv = (vec2((i % TEXELS) as f32, (i / TEXELS) as f32) + 0.5) / TEXELS as f32;
         let c = (tint(place(uv)) / BASE).clamp(Vec3::ZERO, Vec3::ONE);
-        // The curve that the texture is read by.
+        // Encode with gamma 2.2, near the curve by which the texture is decoded.
         let [r, g, b] = c.to_array().map(|v| (255.0 * v.powf(1.0 / 2.2) + 0.5) as u8);
         [r, g, b, 255]
     };
@@ -85,31 +86,31 @@ pub fn grid(
     mesh
 }
 
-/// What a texel's full brightness stands for.
+/// Albedo that a texel's full brightness stands for.
 const BASE: f32 = 0.5;
 
-/// What there is at a place of the water.
+/// Surface and foam at a place on the water.
 #[derive(Clone, Copy, Default)]
 pub struct Spot {
     /// The surface.
     pub position: Vec3,
-    /// How much of the water foam covers, 0 to about 1.
+    /// Fraction of the water that foam covers, 0 to about 1.
     pub amount: f32,
-    /// Size of the holes in it, metres.
+    /// Size of the holes in the foam, metres.
     pub cell: f32,
-    /// How old it is, 0 to 1.
+    /// Age of the foam, 0 to 1.
     pub age: f32,
 }
 
-/// The same of a whole rectangle, tabled: formulas of much noise are asked many times for each particle.
+/// [`Spot`]s of a rectangle, tabulated: the noise is slow, and each particle needs many evaluations.
 pub struct Table {
     low: Vec2,
     cell: Vec2,
-    /// How far ahead the surface lies, its height, amount, size of holes, age.
+    /// Forward displacement of the surface, its height, covered fraction, size of holes, age.
     texels: Vec<[f32; 5]>,
 }
 
-/// Texels on a side: 9 to 50 cm, finer than the meshes.
+/// Texels per side: 9 to 50 cm each, finer than the meshes.
 const TABLE: usize = 720;
 
 impl Table {
@@ -123,7 +124,7 @@ impl Table {
         let mut texels = vec![[0.0; 5]; TABLE * TABLE];
         let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
         let size = (TABLE / threads + 1) * TABLE;
-        // Threads of its own: one of a pool that waits for the table must not be who makes it.
+        // Threads of its own: a pool's threads may all wait for this table, and then none could fill it.
         std::thread::scope(|scope| {
             for (k, part) in texels.chunks_mut(size).enumerate() {
                 scope.spawn(move || {
@@ -139,7 +140,7 @@ impl Table {
         Self { low, cell, texels }
     }
 
-    /// At a place, or the nearest that is in the table.
+    /// Interpolated values at a place; places outside are clamped to the table.
     pub fn at(&self, p: Vec2) -> Spot {
         let most = (TABLE - 2) as f32;
         let place = ((p - self.low) / self.cell).clamp(Vec2::ZERO, Vec2::splat(most + 0.999));

@@ -9,7 +9,7 @@ fn the_same_ids_are_the_same_particles() {
     for sea in Sea::ALL {
         let all = sea.foam(0..COUNT, COUNT);
         assert_eq!(all, sea.foam(0..COUNT, COUNT), "{}", sea.name());
-        // Parts of any size, in any order, of a sea of any more.
+        // Any parts, in any order, give the particles of the whole sea.
         for part in [13_000..COUNT, 0..1, 1..6_999, 6_999..13_000] {
             let some = sea.foam(part.clone(), 3 * COUNT);
             let range = part.start as usize..part.end as usize;
@@ -18,7 +18,7 @@ fn the_same_ids_are_the_same_particles() {
             assert_eq!(some.ages[..], all.ages[range.clone()]);
             assert_eq!(some.ids[..], all.ids[range]);
         }
-        // Not past the end.
+        // Ids past the end have no particle.
         assert_eq!(sea.foam(COUNT - 2..COUNT + 5, COUNT).ids, [COUNT - 2, COUNT - 1]);
         assert_eq!(sea.foam(COUNT..COUNT + 5, COUNT), Foam::default());
     }
@@ -38,7 +38,7 @@ fn particles_are_what_is_said_of_them() {
         assert!((shares.iter().sum::<f32>() - 1.0).abs() < 1e-6, "{sea:?}");
         for (kind, share) in shares.into_iter().enumerate() {
             let found = foam.kinds.iter().filter(|k| **k as usize == kind).count() as f32;
-            // Of so many lots: five standard deviations.
+            // Five standard deviations for this number of draws.
             let count = COUNT as f32;
             let off = 5.0 * (count * share * (1.0 - share)).sqrt();
             assert!((found - count * share).abs() < off, "{sea:?}: {found} of kind {kind}");
@@ -46,7 +46,7 @@ fn particles_are_what_is_said_of_them() {
     }
 }
 
-/// Not even, and not in a few places: as foam lies.
+/// Foam is neither uniform nor in a few places: it clumps.
 #[test]
 fn foam_lies_in_clumps() {
     for sea in Sea::ALL {
@@ -58,7 +58,7 @@ fn foam_lies_in_clumps() {
             *cells.entry([p[0], p[2]].map(|x| (x / 2.0).floor() as i32)).or_default() += 1;
             count += 1;
         }
-        // Evenly spread over the cells that have any each would have the mean; the variance over it is then 1.
+        // If particles were uniform over the occupied cells, the variance of a cell's count would equal its mean.
         let mean = f64::from(count) / cells.len() as f64;
         let square = cells.values().map(|n| (f64::from(*n) - mean).powi(2)).sum::<f64>();
         let ratio = square / cells.len() as f64 / mean;
@@ -90,9 +90,9 @@ fn scenes_are_whole_and_far_enough_away() {
             let whole = mesh.positions.iter().chain(&mesh.normals).flatten();
             assert!(whole.into_iter().all(|v| v.is_finite()), "{sea:?}: {}", mesh.name);
         }
-        // The sea comes first; its normals look up.
+        // The sea is the first mesh; its normals point up.
         assert!(scene.meshes[0].normals.iter().filter(|n| n[1] > 0.0).count() > 50_000);
-        // What the picture shows lies as far away as in the source.
+        // The target is as far away as in the paper's picture.
         let plan = sea.plan();
         let away = plan.eye.distance(plan.target);
         assert!((20.0..=200.0).contains(&away), "{sea:?}: {away} m");

@@ -1,4 +1,4 @@
-//! Water that is thrown: it flies in clumps, which tear into threads behind their heads.
+//! Thrown water: it flies in clumps, which tear into threads behind their heads.
 
 use glam::Vec3;
 
@@ -7,28 +7,28 @@ use crate::{Particle, SPRAY};
 
 /// A clump of spray.
 pub struct Clump {
-    /// Where it left the water.
+    /// Position where it left the water.
     pub from: Vec3,
-    /// Metres per second, then.
+    /// Velocity when it left the water, metres per second.
     pub velocity: Vec3,
-    /// Seconds since its head left; its tail follows.
+    /// Seconds since the clump's head left; its tail left later.
     pub time: f32,
-    /// How fast it comes apart, metres per second.
+    /// Speed at which the clump spreads, metres per second.
     pub spread: f32,
-    /// What the air gives it, metres per second squared.
+    /// Acceleration by the wind, metres per second squared.
     pub wind: Vec3,
 }
 
 impl Clump {
-    /// Where what left so many seconds ago is.
+    /// Position of water that left `time` seconds ago.
     pub fn at(&self, time: f32) -> Vec3 {
         let fall = self.wind - 9.81 * Vec3::Y;
         self.from + time * self.velocity + 0.5 * time * time * fall
     }
 
-    /// A particle of it; those that would be under `floor` lie on it.
+    /// Draws a particle of the clump. One that would be under `floor` lies on it.
     pub fn draw(&self, random: &mut Random, floor: f32) -> Particle {
-        // Densest at the head.
+        // The clump is densest at its head.
         let part = 1.0 - random.unit() * random.unit();
         let time = self.time * part;
         let mut position = self.at(time) + (0.05 + self.spread * time) * random.ball();

@@ -1,5 +1,5 @@
-//! A wave that breaks from one end to the other, seen from before it: behind the lip it is white water, before it a
-//! clean face, and between them the lip falls.
+//! A wave that breaks from one end to the other, seen from the front: white water where it has broken, a clean face
+//! where it has not, and a falling lip between them.
 
 use std::sync::OnceLock;
 
@@ -23,11 +23,12 @@ pub const PLAN: Plan = Plan {
     sun: vec3(0.55, 0.62, 0.56),
 };
 
-/// The part that is a mesh, and has foam on it.
+/// The meshed part, which carries foam.
 const LOW: Vec2 = vec2(-62.0, -95.0);
 const HIGH: Vec2 = vec2(34.0, 40.0);
 
-/// How far the lip is thrown at a place along the crest, 0 to 1, and how much of the wave is white water.
+/// State of the wave at a position along its crest: how far the lip is thrown, 0 to 1, and how much of the wave is
+/// white water, 0 to 1.
 fn stage(z: f32) -> (f32, f32) {
     let broken = smooth(-2.0, -13.0, z);
     (smooth(9.0, -1.0, z) * (1.0 - broken), broken)
@@ -39,12 +40,12 @@ fn height_of_crest(z: f32) -> f32 {
     3.3 * shoulder * white * (1.0 - 0.8 * smooth(-45.0, -80.0, z))
 }
 
-/// Where the crest is.
+/// Position of the crest.
 fn crest(z: f32) -> f32 {
     0.9 * (0.11 * z + 0.4).sin() + 0.0016 * z * z + 3.0 * smooth(-4.0, -20.0, z)
 }
 
-/// The wave's form over the distance before its crest.
+/// Profile of the wave over the distance in front of its crest.
 fn form(s: f32) -> f32 {
     if s > 0.0 { (1.0 + (s / 2.3).powi(2)).powf(-1.5) } else { 1.0 / (1.0 + (s / 7.5).powi(2)) }
 }
@@ -54,18 +55,18 @@ fn waves() -> &'static Waves {
     WAVES.get_or_init(|| Waves::new(vec2(1.0, 0.35), 22.0, 1.1, 0.030))
 }
 
-/// The surface. It overhangs where the lip is: asked by where it would lie without.
+/// The surface. It overhangs at the lip, so `p` is where the point would lie without the overhang.
 fn surface(p: Vec2) -> Vec3 {
     let (lip, broken) = stage(p.y);
     let s = p.x - crest(p.y);
     let g = form(s);
     let high = height_of_crest(p.y);
     let before = smooth(-1.5, 3.0, s);
-    // The lip goes ahead and bends down.
+    // The lip moves forward and bends down.
     let top = smooth(0.45, 1.0, g) * (0.35 + 0.65 * before.max(smooth(-2.5, 0.3, s)));
     let ahead = 2.3 * lip * top;
     let trough = 0.55 * (-((s - 6.0) / 3.2).powi(2)).exp();
-    // White water tumbles.
+    // White water is rough.
     let rough = broken * g.max(0.25 * smooth(-14.0, 0.0, s) * (1.0 - before));
     let tumble = rough * 2.4 * (octaves(0.55 * p, 4) - 0.42);
     let edge = smooth(0.0, 14.0, p.x - LOW.x)
@@ -79,13 +80,13 @@ fn surface(p: Vec2) -> Vec3 {
     vec3(p.x + ahead, floor + edge * (y - floor), p.y)
 }
 
-/// How much of the water is covered, 0 to 1; size of the holes; how old the foam is.
+/// Covered fraction, 0 to 1, size of the holes, and age of the foam.
 fn cover(p: Vec2) -> (f32, f32, f32) {
     let (lip, broken) = stage(p.y);
     let s = p.x - crest(p.y);
     let g = form(s);
     let patch = octaves(0.10 * p + 1.0, 3);
-    // White water and what it leaves behind.
+    // White water, and the foam that it leaves behind.
     let front = smooth(4.6, 2.6, s + 1.6 * (octaves(0.5 * p, 3) - 0.5));
     let bore = broken * front * smooth(-22.0, -1.0, s).max(0.0);
     let behind = smooth(3.0, -16.0, p.y) * smooth(1.0, -3.0, s) * smooth(-46.0, -6.0, s);
@@ -95,7 +96,7 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
     if left > amount {
         (amount, age) = (left, 0.3 + 0.5 * smooth(-4.0, -30.0, s));
     }
-    // The lip.
+    // Foam on the lip.
     let thrown = (0.55 + 0.4 * lip) * lip * smooth(-1.6, -0.2, s) * smooth(1.5, 0.5, s);
     let crested = 0.45
         * smooth(26.0, 4.0, p.y)
@@ -103,7 +104,7 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
         * smooth(0.9, 0.2, s)
         * smooth(0.35, 0.6, octaves(0.4 * p, 2));
     amount = amount.max(thrown).max(crested * (1.0 - broken));
-    // Old foam before the wave, drawn up its face.
+    // Old foam in front of the wave, drawn up its face.
     let old = 0.46
         * smooth(0.47, 0.55, patch)
         * smooth(14.0, 8.0, s)
@@ -112,13 +113,13 @@ fn cover(p: Vec2) -> (f32, f32, f32) {
     if old > amount {
         (amount, age) = (old, 0.55 + 0.3 * patch);
     }
-    // White caps far behind.
+    // White caps far behind the wave.
     let caps =
         0.5 * smooth(-6.0, -14.0, s) * smooth(0.72, 0.86, octaves(vec2(0.16, 0.07) * p + 60.0, 3));
     (amount.max(caps), 1.1 + 1.1 * smooth(0.6, 0.1, amount), age)
 }
 
-/// All of it, tabled.
+/// Surface and foam, tabulated.
 fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| Table::new(LOW, HIGH, surface, cover))
@@ -128,11 +129,11 @@ fn table() -> &'static Table {
 fn density(p: Vec2) -> f32 {
     let Spot { amount, cell, .. } = table().at(p);
     let s = p.x - crest(p.y);
-    // Up the face it is drawn to streaks.
+    // The rising face draws foam into streaks.
     let drawn = smooth(7.0, 1.0, s) * smooth(-0.5, 0.5, s);
     let q = vec2(p.x * (1.0 - 0.6 * drawn), p.y * (1.0 + 0.35 * drawn));
     let thick = 0.45 + 0.55 * smooth(0.3, 0.95, amount);
-    // Behind the wave little of it is seen.
+    // Little is visible behind the wave.
     let seen = 1.0 - 0.7 * smooth(-2.0, -5.0, s);
     seen * laces(q, amount, cell) * thick
 }
@@ -141,7 +142,7 @@ fn foam(random: &mut Random) -> Particle {
     static FIELD: OnceLock<Field> = OnceLock::new();
     let p = FIELD.get_or_init(|| Field::new(LOW + 14.0, HIGH - 8.0, density)).draw(random);
     let Spot { mut position, amount, age, .. } = table().at(p);
-    // White water is as thick as it is rough.
+    // White water is a thick, rough layer.
     let (_, broken) = stage(p.y);
     let heap = 0.04 + 0.9 * broken * smooth(0.7, 1.0, amount) * octaves(1.3 * p, 2);
     position.y += heap * random.unit().powf(1.5) + 0.02;
@@ -160,7 +161,7 @@ fn bubble(random: &mut Random) -> Particle {
     Particle { position, kind: BUBBLE, age: 0.6 * random.unit() }
 }
 
-/// A lot that goes with a clump, not with a particle.
+/// Random numbers of a clump, shared by all its particles.
 fn lots(clump: u32, salt: u32) -> Random {
     Random::new(clump, 1000 + salt)
 }
@@ -176,11 +177,11 @@ fn spray(random: &mut Random) -> Particle {
     }
 }
 
-/// The lip comes down as a torn sheet.
+/// Spray of the lip, which falls as a torn sheet.
 fn falling(random: &mut Random) -> Particle {
     let torn = |p: Vec2| -> f32 {
         let (lip, _) = stage(p.x);
-        // p.y: seconds of fall.
+        // p.y is the time of fall in seconds.
         let threads = octaves(vec2(2.6 * p.x, 1.1 * p.y + 0.4 * p.x), 3);
         lip * smooth(0.34 + 0.2 * p.y, 0.62 + 0.2 * p.y, threads)
     };
@@ -195,7 +196,7 @@ fn falling(random: &mut Random) -> Particle {
     Particle { position, kind: crate::SPRAY, age: 0.1 + 0.4 * t * random.unit() }
 }
 
-/// Where it comes down, and where white water tumbles, water is thrown up.
+/// Spray that is thrown up where the lip lands and where white water tumbles.
 fn splash(random: &mut Random) -> Particle {
     const CLUMPS: u32 = 460;
     let mut lots = lots(random.below(CLUMPS), 1);
@@ -215,7 +216,7 @@ fn splash(random: &mut Random) -> Particle {
     clump.draw(random, from.y - 0.4)
 }
 
-/// The wind takes spray off the crest, backwards.
+/// Spray that the wind blows backwards off the crest.
 fn spindrift(random: &mut Random) -> Particle {
     const CLUMPS: u32 = 300;
     let mut lots = lots(random.below(CLUMPS), 2);
@@ -233,7 +234,7 @@ fn spindrift(random: &mut Random) -> Particle {
 
 pub fn meshes() -> Vec<Mesh> {
     let place = |uv: Vec2| {
-        // Finest at the crest and near the eye.
+        // The mesh is finest at the crest and near the eye.
         let squeeze = |t: f32, at: f32, low: f32, high: f32| {
             let side = if t < at { (at - t) / at } else { (t - at) / (1.0 - at) };
             let away = side * (0.35 + 0.65 * side);
@@ -245,7 +246,7 @@ pub fn meshes() -> Vec<Mesh> {
     let tint = |p: Vec2| {
         let (amount, _, _) = cover(p);
         let s = p.x - crest(p.y);
-        // Light comes through the thin top of the wave.
+        // Light shines through the thin top of the wave.
         let thin = smooth(0.35, 1.0, form(s)) * smooth(-1.0, 0.6, s);
         let clear = DEEP.lerp(vec3(0.03, 0.22, 0.20), 0.7 * thin);
         aerated(clear, amount)

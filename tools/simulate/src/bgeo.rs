@@ -30,8 +30,7 @@ const VECTOR: u32 = 5;
 /// The end of a classic file: the marks round the (empty) extra section.
 const EXTRA: [u8; 2] = [0x00, 0xff];
 
-/// Steps to which a frame is rounded before it is written; what they drop is noise that gzip could
-/// only store.
+/// Steps to which a frame is rounded before it is written. The dropped bits are noise that gzip cannot compress.
 const POSITION_STEP: f32 = 1.0 / 65536.0;
 const VELOCITY_STEP: f32 = 1.0 / 1024.0;
 const DENSITY_STEP: f32 = 1.0 / 16.0;
@@ -46,7 +45,7 @@ fn quantised(value: f32, step: f32) -> [u8; 4] {
 }
 
 impl Frame {
-    /// Count, fastest particle, mean and worst compression, in a line.
+    /// One line: particle count, largest speed, mean and worst compression.
     pub fn summary(&self) -> String {
         let count = self.ids.len().max(1) as f32;
         let fastest = self.velocities.iter().map(|v| v.length()).fold(0.0, f32::max);
@@ -62,7 +61,7 @@ impl Frame {
     /// Writes the frame, compressed.
     ///
     /// # Errors
-    /// What writing reports.
+    /// Writing fails.
     pub fn write(&self, to: impl Write) -> io::Result<()> {
         let count = u32::try_from(self.ids.len()).map_err(|_| invalid("too many particles"))?;
         let mut out: Vec<u8> = Vec::with_capacity(self.ids.len() * 36 + 96);
@@ -101,7 +100,7 @@ impl Frame {
     /// Reads a frame with the attributes `id`, `velocity` and `density`, in any order among others.
     ///
     /// # Errors
-    /// The file cannot be read, or is none of this form.
+    /// The file cannot be read, or has another format.
     pub fn read(path: &Path) -> io::Result<Self> {
         let mut bytes = Vec::new();
         MultiGzDecoder::new(BufReader::new(File::open(path)?)).read_to_end(&mut bytes)?;

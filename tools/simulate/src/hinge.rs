@@ -23,43 +23,42 @@ pub struct Hinge {
     pub friction: f32,
     /// The least and the largest turn from rest, radians about +z.
     pub range: [f32; 2],
-    /// The part of its speed with which it springs back from an end of its range.
+    /// Fraction of the speed that is kept when the body bounces off an end of its range.
     pub bounce: f32,
-    /// How far it has turned from rest.
+    /// Angle from rest, radians.
     pub turn: f32,
-    /// How fast it turns, rad/s.
+    /// Angular speed, rad/s.
     pub speed: f32,
-    /// The last change of the speed, rad/s².
+    /// Angular acceleration of the last step, rad/s².
     pub acceleration: f32,
 }
 
-/// Slower than this it comes to rest at the end of its range, rad/s.
+/// Speed below which it comes to rest at an end of its range, rad/s.
 const QUIET: f32 = 0.4;
 
 impl Hinge {
-    /// The velocity of the body at a place.
+    /// Velocity of the body at a point.
     pub fn velocity(&self, at: Vec3) -> Vec3 {
         let arm = at - self.axle;
         self.speed * Vec3::new(-arm.y, arm.x, 0.0)
     }
 
-    /// The arm of a force about the axle: what it is multiplied with for the torque about z.
+    /// Arm of a force about the axle: the factor that gives the torque about z.
     pub fn torque(&self, at: Vec3, force: Vec3) -> f32 {
         let arm = at - self.axle;
         arm.x * force.y - arm.y * force.x
     }
 
-    /// Turns by its speed.
+    /// Advances the angle by the speed.
     pub fn advance(&mut self, dt: f32) {
         let [low, high] = self.range;
         self.turn = (self.turn + self.speed * dt).clamp(low, high);
     }
 
-    /// Changes the speed by `impulse`, the water's angular impulse during `dt`, and by the own
-    /// weight. `carried` is the moment of inertia of the water that the body carries along. The
-    /// impulse holds that water's resistance to the acceleration of the last step, not of this
-    /// one; as long as the water weighs less than the body that is of no matter, but more of it
-    /// makes each step overshoot the last. So the carried water is moved to the body's side of the
+    /// Changes the speed by `impulse`, the water's angular impulse during `dt`, and by the body's own weight. `carried`
+    /// is the moment of inertia of the water that moves with the body. The impulse contains that water's resistance to
+    /// the last step's acceleration instead of this one's. That does no harm while the water is lighter than the body,
+    /// but with heavier water each step would overshoot. So the carried water is moved to the body's side of the
     /// equation.
     pub fn accelerate(&mut self, impulse: f32, carried: f32, dt: f32) {
         let arm = glam::Quat::from_rotation_z(self.turn) * self.lever;
@@ -126,7 +125,7 @@ mod tests {
 
     #[test]
     fn carried_water_resists_without_overshooting() {
-        // Water three times as heavy as the body, whose resistance is felt a step late.
+        // The water is three times as heavy as the body, and its resistance is felt one step late.
         let mut hinge = pendulum();
         let carried = 3.0 * hinge.inertia;
         let dt = 1e-3;

@@ -14,7 +14,7 @@ const SAMPLES: usize = 512;
 pub struct Kernel {
     support: f32,
     sigma: f32,
-    /// `∫_d^R area(t) dt` for `d` in `[0, R]`: the part of the kernel behind a wall at distance d.
+    /// `∫_d^R area(t) dt` for `d` in `[0, R]`: fraction of the kernel behind a wall at distance d.
     behind: Vec<f32>,
     /// `2π ∫_d^R W(r) r dr`: the kernel integrated over the plane at distance d.
     area: Vec<f32>,
@@ -82,8 +82,8 @@ impl Kernel {
         x * (self.sigma * slope / (self.support * r))
     }
 
-    /// The part of the kernel that lies behind a flat wall at signed distance `d`, and how fast it
-    /// shrinks as the distance grows (a positive number).
+    /// Fraction of the kernel behind a flat wall at signed distance `d`, and its rate of decrease with distance
+    /// (positive).
     pub fn half_space(&self, d: f32) -> (f32, f32) {
         let at = (d.abs() / self.support).min(1.0) * SAMPLES as f32;
         let low = (at as usize).min(SAMPLES - 1);
@@ -93,7 +93,7 @@ impl Kernel {
         (if d < 0.0 { 1.0 - behind } else { behind }, lerp(&self.area))
     }
 
-    /// The sum of `W` over a cubic lattice of this spacing, the particle itself included.
+    /// The sum of `W` over a cubic lattice of this spacing, including the particle itself.
     pub fn lattice_sum(&self, spacing: f32) -> f32 {
         let n = (self.support / spacing).ceil() as i32;
         let mut sum = 0.0;

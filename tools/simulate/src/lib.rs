@@ -1,4 +1,4 @@
-//! The scenes that whitewater is shown with, and the SPH solver that fills them with water.
+//! The demonstration scenes of whitewater, and the SPH solver that fills them with water.
 
 pub mod bgeo;
 pub mod hinge;

@@ -1,4 +1,4 @@
-//! Looks at what `whitewater simulate` has written, without a GPU.
+//! Inspects the output of `whitewater simulate` without a GPU.
 //!
 //! ```text
 //! whitewater-simulate preview FILE.bgeo... [--eye X,Y,Z --target X,Y,Z --fov DEGREES | --ortho METRES]
@@ -24,7 +24,7 @@ usage: whitewater-simulate preview FILE.bgeo... [options]
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// The command line: options with a value, and the rest.
+/// The command line: options with a value, and the other arguments.
 struct Arguments {
     options: Vec<(String, String)>,
     files: Vec<PathBuf>,
@@ -73,8 +73,7 @@ impl Arguments {
     }
 }
 
-/// The scene that a file belongs to, by its name, and how far its moving solids have turned, by the
-/// `scene.json` beside it.
+/// Scene of a file, by its name, and angle of its moving solids, from the `scene.json` beside it.
 fn scene_of(path: &Path) -> Result<(Scene, f32)> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let (name, number) = stem.rsplit_once('_').unwrap_or((&stem, ""));

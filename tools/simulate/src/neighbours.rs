@@ -1,13 +1,12 @@
-//! Which particles are near which: a uniform grid of cells as wide as the kernel's support, the
-//! particles sorted by cell. The order, and with it every sum over neighbours, depends on the
-//! particles alone, never on the number of threads.
+//! Neighbour search: a uniform grid with cells as wide as the kernel's support, and particles sorted by cell. The
+//! order, and with it every sum over neighbours, depends on the particles alone, never on the number of threads.
 
 use glam::{IVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::kernel::Kernel;
 
-/// Particles handled together by one task; also the unit in which sums are formed.
+/// Particles that one task handles together; sums are formed per block too.
 pub const BLOCK: usize = 256;
 
 /// The grid over an axis-aligned box.
@@ -15,7 +14,7 @@ pub struct Grid {
     min: Vec3,
     size: IVec3,
     cell: f32,
-    /// Where each cell's particles start, one more than there are cells.
+    /// First particle of each cell, and the number of particles at the end.
     starts: Vec<u32>,
 }
 
@@ -61,7 +60,7 @@ impl Grid {
         ((cell.z * self.size.y + cell.y) * self.size.x + cell.x) as usize
     }
 
-    /// Sorts by cell: the order in which to arrange the particles. Stable.
+    /// Sorts by cell, stably. Returns the order in which to arrange the particles.
     pub fn sort(&mut self, positions: &[Vec3]) -> Vec<u32> {
         let cells: Vec<u32> =
             positions.par_iter().map(|&at| self.index(self.cell_of(at)) as u32).collect();
@@ -82,7 +81,7 @@ impl Grid {
         order
     }
 
-    /// The neighbours of all particles, which must lie in the order of the last `sort`.
+    /// Neighbours of all particles, which must be in the order of the last `sort`.
     pub fn neighbours(
         &self,
         positions: &[Vec3],

@@ -1,5 +1,5 @@
-//! A plain picture of a frame, to judge a simulation by: particles as shaded spheres between the
-//! solids, which are found by sphere tracing (Hart 1996).
+//! A simple picture of a frame, for judging a simulation: particles as shaded spheres between the solids, which sphere
+//! tracing finds (Hart 1996).
 
 use std::fs::File;
 use std::io::{self, BufWriter};
@@ -11,12 +11,12 @@ use rayon::prelude::*;
 use crate::bgeo::Frame;
 use crate::scene::{Scene, Solid};
 
-/// Where to look from. A field of view of zero stands for a parallel projection `width` metres wide.
+/// Viewpoint. A field of view of zero means a parallel projection `width` metres wide.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// Where the camera stands.
+    /// Position of the camera.
     pub eye: Vec3,
-    /// What it looks at.
+    /// Point that it looks at.
     pub target: Vec3,
     /// The vertical field of view, degrees.
     pub fov: f32,
@@ -95,7 +95,7 @@ fn trace(scene: &Scene, solids: &[Solid], origin: Vec3, direction: Vec3) -> (f32
         if d < 1e-3 {
             return (depth, colour(base, normal));
         }
-        // The bound of a slanted cut is none of the distance behind it.
+        // Near a slanted cut the distance is only a bound, so shorten the step.
         depth += 0.9 * d / length;
         if depth > 40.0 {
             break;
@@ -104,7 +104,7 @@ fn trace(scene: &Scene, solids: &[Solid], origin: Vec3, direction: Vec3) -> (f32
     (f32::MAX, [214, 226, 238])
 }
 
-/// Draws a frame, its moving solids turned by `turn`. Slow particles are blue, fast ones white.
+/// Draws a frame, with its moving solids turned by `turn`. Slow particles are blue, fast ones white.
 ///
 /// # Errors
 /// The picture cannot be written.

@@ -1,5 +1,5 @@
-//! What a scene is made of, in one place: what the solver collides with is what `scene.json` tells
-//! a renderer to draw.
+//! The definition of a scene, in one place: the solver collides with the same solids that `scene.json` tells a renderer
+//! to draw.
 //!
 //! Metres, y up, right-handed. Solids are turned about z alone.
 
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::hinge::Hinge;
 
-/// What a solid looks like, in its own frame.
+/// Shape of a solid in its own frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// A box; `half` are its half extents.
@@ -29,9 +29,9 @@ pub enum Shape {
 /// A solid.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    /// What it is.
+    /// Name of the solid.
     pub name: &'static str,
-    /// What it is made of.
+    /// Name of its material.
     pub material: &'static str,
     /// Its shape.
     pub shape: Shape,
@@ -59,7 +59,7 @@ impl Solid {
         Self::new(name, material, Shape::Box, 0.5 * (min + max), 0.5 * (max - min), 0.0)
     }
 
-    /// An upright cylinder on its foot.
+    /// An upright cylinder, by its foot.
     pub fn standing(
         name: &'static str,
         material: &'static str,
@@ -72,7 +72,7 @@ impl Solid {
         Self::new(name, material, Shape::Cylinder, centre, half, 0.0)
     }
 
-    /// Any solid, where it stands at rest.
+    /// Any solid, in its position at rest.
     pub fn new(
         name: &'static str,
         material: &'static str,
@@ -85,18 +85,18 @@ impl Solid {
         Self { name, material, shape, centre, half, angle, collides: true, moves: false }
     }
 
-    /// The same, that water passes through.
+    /// The same solid, drawn but without collision.
     pub fn drawn_only(self) -> Self {
         Self { collides: false, ..self }
     }
 
-    /// The same, turned about an axis along z through `axle`.
+    /// The same solid, turned about an axis along z through `axle`.
     pub fn turned(&self, axle: Vec3, by: f32) -> Self {
         let arm = Quat::from_rotation_z(by) * (self.centre - axle);
         Self { centre: axle + arm, angle: self.angle + by, ..self.clone() }
     }
 
-    /// The radius of a ball about its centre that holds all of it.
+    /// Radius of a ball about its centre that contains it.
     pub fn reach(&self) -> f32 {
         let longer = match self.shape {
             Shape::Tube { slope, .. } => Vec3::Y * (slope.abs() * self.half.x),
@@ -105,7 +105,7 @@ impl Solid {
         (self.half + longer).length()
     }
 
-    /// Whether water here lies in its bore.
+    /// Whether a point lies in its bore.
     pub fn holds(&self, at: Vec3) -> bool {
         let Shape::Tube { bore, slope } = self.shape else {
             return false;
@@ -135,7 +135,7 @@ impl Solid {
         (d, Vec3::new(cos * n.x - sin * n.y, sin * n.x + cos * n.y, n.z))
     }
 
-    /// Exact for a straight cut; beyond the edge of a slanted one a little less than the distance.
+    /// Exact for a straight cut. Beyond the edge of a slanted cut it is a lower bound of the distance.
     fn tube_distance(&self, local: Vec3, bore: f32, slope: f32) -> (f32, Vec3) {
         let (length, outward) = radial(local);
         let middle = 0.5 * (self.half.x + bore);
@@ -209,7 +209,7 @@ fn box_distance(at: Vec3, half: Vec3) -> (f32, Vec3) {
     }
 }
 
-/// To a hundredth of a millimetre, so that `scene.json` says exactly what was simulated.
+/// Rounds to a hundredth of a millimetre, so that `scene.json` has exactly the simulated numbers.
 pub fn rounded(v: Vec3) -> Vec3 {
     (v * 1e5).round() / 1e5
 }
@@ -222,21 +222,21 @@ fn vector(v: Vec3) -> Value {
     Value::Array(v.to_array().map(number).to_vec())
 }
 
-/// Water that is there from the beginning.
+/// Water that exists from the beginning.
 #[derive(Clone, Copy, Debug)]
 pub enum Fill {
-    /// Between the floor and the walls of a basin, up to `max.y`.
+    /// Water between the floor and the walls of a basin, up to `max.y`.
     Basin {
         /// The corner at the floor.
         min: Vec3,
-        /// The corner opposite, at the surface.
+        /// The opposite corner, at the surface.
         max: Vec3,
     },
-    /// In a round vessel or a bore.
+    /// Water in a round vessel or a bore.
     Bore {
         /// The middle of its floor.
         foot: Vec3,
-        /// The rotation of its axis, y, about +z.
+        /// Rotation of its axis (y) about +z.
         angle: f32,
         /// Its inner radius.
         radius: f32,
@@ -247,14 +247,14 @@ pub enum Fill {
     },
 }
 
-/// The cross-section of an inlet.
+/// Cross-section of an inlet.
 #[derive(Clone, Copy, Debug)]
 pub enum Section {
-    /// Walls on both sides and a bed below.
+    /// A channel with walls on both sides and a bed below.
     Channel {
         /// Half the width along z.
         half_width: f32,
-        /// How deep the water enters.
+        /// Depth of the water that enters.
         depth: f32,
     },
     /// A pipe about the inlet's axis.
@@ -264,16 +264,16 @@ pub enum Section {
     },
 }
 
-/// Where water comes in.
+/// A place where water enters.
 #[derive(Clone, Debug)]
 pub struct Inlet {
     /// A point on the bed, or on the pipe's axis.
     pub origin: Vec3,
-    /// Downstream, unit length.
+    /// Direction downstream, unit length.
     pub along: Vec3,
-    /// Off the bed, unit length; z is across.
+    /// Normal of the bed, unit length; z is across.
     pub up: Vec3,
-    /// Where water enters, along the inlet from its origin.
+    /// Position where water enters, along the inlet from its origin.
     pub start: f32,
     /// Its cross-section.
     pub section: Section,
@@ -291,13 +291,13 @@ impl Inlet {
         (self.opens..self.closes).contains(&time)
     }
 
-    /// How fast it enters: swelling a little, as all water does.
+    /// Speed at which water enters; it swells a little.
     pub fn speed_at(&self, time: f32) -> f32 {
         let t = time - self.opens;
         self.speed * (1.0 + 0.06 * (TAU * 1.7 * t).sin() + 0.04 * (TAU * 3.9 * t + 1.0).sin())
     }
 
-    /// Whether a particle here is of the layers that still have none behind them.
+    /// Whether a particle belongs to the newest layers, which have none behind them yet.
     pub fn has_just_entered(&self, at: Vec3, spacing: f32) -> bool {
         let entered = at - self.origin;
         let (aside, up) = match self.section {
@@ -310,14 +310,14 @@ impl Inlet {
     }
 }
 
-/// A place of the moving camera.
+/// A key of the moving camera.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// The part of the sequence that has gone by then, 0 to 1.
+    /// Time of the key as a fraction of the sequence, 0 to 1.
     pub at: f32,
-    /// Where the camera stands.
+    /// Position of the camera.
     pub eye: Vec3,
-    /// What it looks at.
+    /// Point that it looks at.
     pub target: Vec3,
 }
 
@@ -326,23 +326,23 @@ pub struct Key {
 pub struct Scene {
     /// Its name on the command line and in files.
     pub name: &'static str,
-    /// What there is beside water, at rest.
+    /// Everything except water, at rest.
     pub solids: Vec<Solid>,
     /// The top of the ground.
     pub ground: f32,
-    /// What the ground is made of.
+    /// Material of the ground.
     pub ground_material: &'static str,
     /// Water at the beginning.
     pub fills: Vec<Fill>,
     /// Water that comes in.
     pub inlets: Vec<Inlet>,
-    /// What the moving solids turn about.
+    /// Hinge of the moving solids.
     pub hinge: Option<Hinge>,
-    /// The half size and the depth of the pool about the origin in which waves are set going.
+    /// Half extents and depth of the pool about the origin in which waves are started.
     pub waves: Option<Vec3>,
     /// The depth of a tiled pool at rest.
     pub pool_level: Option<f32>,
-    /// Corners of boxes: water outside of all of them has left the scene.
+    /// Corners of boxes. Water outside all of them has left the scene.
     pub kept: Vec<[Vec3; 2]>,
     /// Corners of a box round most of the water, in which neighbours are found fastest.
     pub bounds: [Vec3; 2],
@@ -393,8 +393,8 @@ impl Scene {
         self.solids.iter().map(pose).collect()
     }
 
-    /// The scene for a renderer: what to draw, the ground, a camera, and how parts move:
-    /// `turns` are those of the hinge, of frame 0 and each after it.
+    /// The scene as a renderer reads it: solids, ground, camera and moving parts. `turns` holds the hinge's angle in
+    /// frame 0 and each frame after it.
     pub fn to_json(&self, spacing: f32, rest_density: f32, turns: &[f32]) -> Value {
         let of = |boxes: bool| -> Vec<Value> {
             let of = self.solids.iter().filter(|solid| (solid.shape == Shape::Box) == boxes);
@@ -456,7 +456,7 @@ impl Scene {
     }
 }
 
-/// JSON to be read by people too: numbers that belong together stand in a line.
+/// JSON that people can read too: short arrays of numbers stay on one line.
 pub fn text(value: &Value) -> String {
     let mut out = String::new();
     print(value, 0, &mut out);
@@ -503,7 +503,7 @@ mod tests {
     fn distance_is_signed_and_its_gradient_has_unit_length() {
         for scene in all() {
             for solid in &scene.solids {
-                // The middle of a tube is free; half its wall is not.
+                // The centre of a tube is empty; the centre of its wall is not.
                 let wall = match solid.shape {
                     Shape::Tube { bore, .. } => Vec3::Z * (0.5 * (bore + solid.half.x)),
                     _ => Vec3::ZERO,
@@ -513,7 +513,7 @@ mod tests {
                 let (d, n) = solid.distance(far);
                 assert!(d > 0.0 && (n.length() - 1.0).abs() < 1e-4, "{}", solid.name);
                 let closer = solid.distance(far - n * (0.5 * d)).0;
-                // Beyond the edge of a slanted cut it is a bound.
+                // Beyond the edge of a slanted cut the distance is only a bound.
                 let slack = match solid.shape {
                     Shape::Tube { slope, .. } if slope != 0.0 => 0.3 * d,
                     _ => 1e-4,

@@ -1,13 +1,12 @@
-// A whitewater particle as a ray meets it: a ball that faces the eye, as its sprite does. Distances across the view
-// are taken at the depth of its centre, those along it are depths: the integral of the kernel along a ray is
-// then the thickness of the sprite in that pixel (src/lib.rs derives the kernels).
-// Needs view.glsl. Reads: records.
+// A whitewater particle as a ray meets it: a ball that faces the eye, as its sprite does. Distances across the view are
+// measured at the depth of its centre, and distances along it are depths, so the integral of the kernel along a ray is
+// the thickness of the sprite in that pixel (src/lib.rs derives the kernels). Needs view.glsl. Reads: records.
 
 struct Ball {
     vec3 centre;   // x and y in eye space; depth
     float radius;  // 0: not in the picture
     vec3 kernel;   // of y = 1 - q^2 at q radii from the centre: sqrt(y) (a + b y + c y^2)
-    float inverse; // of the radius
+    float inverse; // 1 / radius
 };
 
 layout(set = 0, binding = 1, std430) readonly buffer Records { vec4 records[]; };
@@ -18,8 +17,8 @@ Ball ball_of(uint i) {
     return Ball(where.xyz, where.w, what.xyz, what.w);
 }
 
-// The first and the last of the samples of a slab that lie in a ball: at t + k dt radii from its centre. There are
-// none where the ray misses it.
+// First and last index of a slab's samples that lie in a ball. Sample k lies t + k dt radii from the ball's centre
+// along the ray. The range is empty if the ray misses the ball.
 ivec2 samples_in(float rest, float t, float dt, int samples) {
     float reach = sqrt(max(rest, 0.0));
     vec2 k = clamp(vec2(ceil((-reach - t) / dt), floor((reach - t) / dt)), vec2(0.0, -1.0), vec2(samples, samples - 1));

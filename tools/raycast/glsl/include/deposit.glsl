@@ -1,5 +1,5 @@
-// Each cell that a particle may add to the samples of, to `visit`, an invocation a particle.
-// Needs view.glsl, tiles.glsl, ball.glsl, footprint.glsl, push.glsl. Reads: records, tiles, starts.
+// Calls `visit` for each cell that a particle overlaps, with one invocation per particle. Needs view.glsl, tiles.glsl,
+// ball.glsl, footprint.glsl, push.glsl. Reads: records, tiles, starts.
 
 layout(local_size_x = 64) in;
 

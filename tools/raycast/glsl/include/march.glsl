@@ -1,5 +1,6 @@
-// A ray through the cells of its tile, from the first with particles to the last, the scene, or where nothing more
-// can be seen; a group a tile. Needs view.glsl, tiles.glsl, push.glsl. Reads: tiles, starts, cells, scene depth.
+// Marches a ray through the cells of its tile, from the first cell with particles to the last one, to the scene, or
+// until the ray is opaque. One group marches one tile. Needs view.glsl, tiles.glsl, push.glsl. Reads: tiles, starts,
+// cells, scene depth.
 
 layout(local_size_x_id = 1, local_size_y_id = 1) in;
 

@@ -1,6 +1,6 @@
-// Of the passes over particles and cells.
+// Push constants of the passes over particles and cells.
 layout(push_constant, std430) uniform Push {
     uint count;    // particles
-    uint cells;    // what there is room for
-    uint capacity; // entries, or bricks
+    uint cells;    // capacity of the cell buffer
+    uint capacity; // capacity of the entries, or of the bricks
 } push;

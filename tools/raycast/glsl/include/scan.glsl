@@ -1,13 +1,14 @@
-// Sums of all that is before each of many numbers, in place: of blocks, of the blocks before each, of the numbers
-// before each (Blelloch 1990).
+// In-place prefix sum in three passes: sums of blocks, prefix sums of those, prefix sums within each block (Blelloch
+// 1990).
 // Reads: blocks. Writes: blocks.
 
 const uint GROUP = 256u;
-// Numbers of an invocation, and of a block.
+// Values per invocation, and per block.
 const uint EACH = 8u;
 const uint BLOCK = GROUP * EACH;
 
-// 1: of each number that is not 0 the sum is 1 more, its own counted; else its amount, its own not counted.
+// 1: each value counts as 0 or 1, and the sum is inclusive for values that are not 0. 0: an exclusive sum of the
+// values.
 layout(constant_id = 0) const uint BRICKS = 0;
 
 layout(push_constant, std430) uniform Push {
@@ -22,7 +23,7 @@ uint amount_of(uint value) {
 
 shared uint sums[2][GROUP];
 
-// Sum of what the invocations of the group before this one hold, and of all.
+// Sum over the invocations of the group before this one, and (`all`) over the whole group.
 uint sum_before(uint own, out uint all) {
     uint local = gl_LocalInvocationIndex;
     uint at = 0u;
@@ -35,7 +36,7 @@ uint sum_before(uint own, out uint all) {
     }
     uint before = sums[at][local] - own;
     all = sums[at][GROUP - 1u];
-    // Before they are written again.
+    // All reads end before the next call writes the sums again.
     barrier();
     return before;
 }

@@ -1,6 +1,6 @@
-// Tiles of the picture: four words of each are the first slab with particles, the one after the last, bits of the
-// farthest depth of the scene, and the slab of that. Their slabs are cells, in one row: those of a tile from `starts`
-// on. Needs view.glsl.
+// Tiles of the picture. Each has four words: the first slab with particles, the slab after the last one, the bits of
+// the farthest scene depth, and the slab of that depth. The slabs of all tiles are cells in one row; those of a tile
+// begin at its entry of `starts`. Needs view.glsl.
 
 const uint NEAR = 0u;
 const uint FAR = 1u;

@@ -1,9 +1,9 @@
-// Voxels of the density grid: a column a pixel, a voxel a sample of its ray, in bricks of a tile's slab.
-// Needs view.glsl.
+// Voxels of the density grid: one column per pixel, one voxel per ray sample. A brick holds the voxels of one slab of a
+// tile. Needs view.glsl.
 
-// Steps of a thickness of 1.
+// Fixed-point steps per unit of thickness.
 const float STEPS = 65536.0;
-// From here on nothing is added: no number of particles on one spot is too many.
+// Saturation: a voxel at this value takes no more, so that any number of particles on one spot cannot overflow.
 const uint HALF_FULL = 2147483648u;
 
 uint voxel_of(uint brick, uint k, uvec2 pixel) {

@@ -1,5 +1,5 @@
-//! CPU twin of all ray-casters: every particle at every sample of every ray, in double precision, without cells,
-//! tiles or bricks; and how far single precision may be from it.
+//! CPU twin of all ray-casters: every particle at every sample of every ray, in double precision, without cells, tiles
+//! or bricks. It also bounds the error of single precision.
 
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec3};
 use whitewater::Camera;
@@ -12,14 +12,14 @@ pub const U: f64 = 1.0 / (1 << 24) as f64;
 pub struct Ball {
     pub centre: DVec3,
     pub radius: f64,
-    /// A, B, C of its thickness.
+    /// Coefficients A, B, C of its thickness.
     pub profile: [f64; 3],
-    /// How far single precision may be from its centre, and relatively from its profile.
+    /// Error bounds of single precision: absolute for the centre, relative for the profile.
     centre_error: DVec3,
     profile_error: f64,
 }
 
-/// A picture of it all.
+/// All balls and settings of a picture.
 pub struct Twin {
     pub size: [u32; 2],
     pub balls: Vec<Ball>,
@@ -32,18 +32,18 @@ pub struct Twin {
     scene: SceneDepth,
 }
 
-/// A number, and how far from it the GPU's may be.
+/// A value with a bound on the GPU's error.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bound {
     pub value: f64,
     pub error: f64,
-    /// Samples that lie in some particle.
+    /// Number of samples that lie in some particle.
     pub hits: u32,
-    /// Particles that the ray meets.
+    /// Number of particles that the ray meets.
     pub met: u32,
 }
 
-/// Looks down −z from the origin.
+/// A camera at the origin that looks down −z.
 pub fn camera(aspect: f32) -> Camera {
     let flip = Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0));
     let lens = Mat4::perspective_infinite_reverse_rh(60_f32.to_radians(), aspect, 0.1);
@@ -102,12 +102,12 @@ impl Twin {
         let (radius, reach) = (own_radius * wider, own_reach * wider);
         let x = (reach.min_element() - 1.0).clamp(0.0, 1.0);
         let own = x * x * (3.0 - 2.0 * x);
-        // pow is exp2 of a product with log2: 3 ulp and 2^-21 beyond; a dozen roundings.
+        // pow is the exp2 of a product with a log2: 3 ulp and 2^-21 for large values, and a dozen roundings.
         let mut profile_error = 4.0e-6 + 24.0 * U;
         let mut even = 0.0;
         if own < 1.0 {
             let middle = (centre.truncate() / centre.z - self.slope[1]) / self.slope[0];
-            // Of numbers to twice the picture's size, and its own.
+            // Rounding of coordinates up to twice the picture's size, and of the size itself.
             let error = 16.0 * U * (2.0 * middle.abs().max_element() + f64::from(self.size[0]));
             let (mut sum, mut sum_error) = (0.0, 0.0);
             let (first, last) = ((middle - reach - 0.5).ceil(), (middle + reach - 0.5).floor());
@@ -123,7 +123,7 @@ impl Twin {
             }
             let mean = [1.0 - 2.0 / 4.25, 1.0 - 2.0 / 3.5, 0.5][kind];
             even = (1.0 - own) * std::f64::consts::PI * own_reach.x * own_reach.y * mean / sum;
-            // The share of its own shape changes by 1.5 a pixel of its reach.
+            // The weight `own` changes by up to 1.5 per pixel of reach.
             profile_error += sum_error / sum + 1.5 * 16.0 * U / (1.0 - own).max(1.0e-3);
         }
         let life = (1.0 - age.max(0.0).powi(2)).powf(0.4);
@@ -146,14 +146,14 @@ impl Twin {
         }
     }
 
-    /// Depth where slabs begin, by radii from the eye on; how far single precision may be from it.
+    /// Depth at `u` radii from the eye, where a slab begins, with its error bound in single precision.
     fn depth(&self, u: f64) -> (f64, f64) {
         let grown = u * self.growth;
         let depth = match grown <= 1.0 {
             true => u * self.radius,
             false => self.radius / self.growth * (grown - 1.0).exp(),
         };
-        // exp: 3 + 2 |x| ulp, of a product that is rounded itself.
+        // exp has an error of 3 + 2 |x| ulp, and its argument is a rounded product.
         (depth, depth * U * (16.0 + 16.0 * grown.max(1.0)))
     }
 
@@ -165,7 +165,7 @@ impl Twin {
         (f64::from(BAYER[(y & 3) as usize][(x & 3) as usize]) + 0.5) / 16.0
     }
 
-    /// Sum over all samples of a ray.
+    /// Sum over all samples of a ray, with its bound.
     pub fn thickness(&self, x: u32, y: u32) -> Bound {
         let (ray, end, place) = (self.ray(x, y), self.end(x, y), self.place(x, y));
         let slab = f64::from(self.samples) * self.step;
@@ -185,7 +185,7 @@ impl Twin {
                 continue;
             }
             bound.met += 1;
-            // From a slab before the ball on.
+            // Begin one slab before the ball.
             let front = (ball.centre.z - ball.radius).max(0.0);
             let radii = |z: f64| match z * self.growth <= self.radius {
                 true => z / self.radius,
@@ -198,7 +198,7 @@ impl Twin {
                 let (far, far_error) = self.depth((j + 1) as f64 * slab);
                 let dz = (far - near) / f64::from(self.samples);
                 let dz_error = (near_error + far_error) / f64::from(self.samples) + U * dz;
-                // Those in it, and some more.
+                // Samples in the ball, and a few around it.
                 let [front, back] = [-1.0, 1.0].map(|side| {
                     (ball.centre.z + side * ball.radius - near) / dz - place + 3.0 * side
                 });
@@ -221,13 +221,13 @@ impl Twin {
                     if z < end {
                         bound.value += width * kernel;
                     }
-                    // Whether it is before the scene.
+                    // `told` is false if rounding decides whether the sample lies before the scene.
                     let told = (z - end).abs() > z_error + 4.0 * U * end.min(1.0e3);
                     bound.error += if told { all } else { all + width * kernel.abs() };
                 }
             }
         }
-        // Sums in any order.
+        // The sum may be formed in any order.
         bound.error += f64::from(bound.hits) * U * bound.value;
         bound
     }
@@ -250,7 +250,7 @@ impl Twin {
     }
 }
 
-/// Kernel at a y, and how far it may be from that if y may be off so far.
+/// Kernel at `y`, with its error if `y` has an error of `error`.
 fn kernel(ball: &Ball, y: f64, error: f64) -> (f64, f64) {
     let [a, b, c] = [0, 1, 2].map(|i| ABEL[i] * ball.profile[i]);
     let most = a.abs() + b.abs() + c.abs();

@@ -13,26 +13,26 @@ use crate::scene::{Fill, Inlet, Key, Scene, Section, Shape, Solid};
 
 /// The axle.
 const AXLE: Vec3 = Vec3::new(0.0, 0.72, 0.0);
-/// How far the pipe's mouth points up at rest, and down when it has tipped, degrees.
+/// Angle of the pipe's mouth: upwards at rest, and downwards when it has tipped, degrees.
 const REST: f32 = 30.0;
 const TIPPED: f32 = -26.0;
-/// The pipe's outer and inner radius: a wall as thick as a particle.
+/// Outer and inner radius of the pipe; its wall is one particle thick.
 const RADII: [f32; 2] = [0.125, 0.1];
-/// Where the pipe begins and ends, along its axis from the axle, and how slanted its mouth is.
+/// Start and end of the pipe, along its axis from the axle, and slope of its cut mouth.
 const PIPE: [f32; 2] = [-0.5, 0.675];
 const SLANT: f32 = 1.0;
-/// The nodes that close it: below the water, and at the tail.
+/// Nodes that close the pipe: one below the water, one at the tail.
 const NODES: [[f32; 2]; 2] = [[-0.2, -0.16], [-0.5, -0.46]];
 /// The bowl: the middle of its floor, its inner radius, its wall, the height of its rim.
 const BOWL: Vec3 = Vec3::new(0.88, 0.0, 0.0);
 const BOWL_RADIUS: f32 = 0.62;
 const BOWL_WALL: f32 = 0.1;
 const BOWL_HEIGHT: f32 = 0.27;
-/// How deep the bowl is filled.
+/// Depth of the water in the bowl.
 const DEPTH: f32 = 0.17;
 /// The top of the ground.
 const GROUND: f32 = -0.07;
-/// Where the spout ends, how it slopes (degrees), its outer and inner radius, its length.
+/// End of the spout, its slope (degrees), outer and inner radius, and length.
 const SPOUT: Vec3 = Vec3::new(0.16, 1.42, 0.0);
 const SPOUT_SLOPE: f32 = 5.0;
 const SPOUT_RADII: [f32; 2] = [0.075, 0.05];
@@ -78,7 +78,7 @@ pub fn bamboo() -> Scene {
         Vec3::new(BOWL_RADIUS + BOWL_WALL, 0.5 * (BOWL_HEIGHT - GROUND), BOWL_RADIUS + BOWL_WALL);
     let foot = BOWL + Vec3::Y * GROUND;
     let bowl_shape = Shape::Tube { bore: BOWL_RADIUS, slope: 0.0 };
-    // The floor ends inside of the wall, where their faces do not fight.
+    // The floor ends inside the wall, so that their faces do not coincide.
     let floor = BOWL_RADIUS + 0.5 * BOWL_WALL;
     solids.extend([
         post("post, back", -0.2),

@@ -7,15 +7,15 @@ use glam::Vec3;
 
 use crate::scene::{Inlet, Key, Scene, Section, Shape, Solid};
 
-/// Half the inner length and half the width.
+/// Half of the inner length, and half of the width.
 const HALF: [f32; 2] = [3.6, 0.8];
 /// The thickness of the walls and the floor.
 const WALL: f32 = 0.14;
 /// The height of the walls.
 const HEIGHT: f32 = 1.3;
-/// The gate: half its width, its height, and how deep its opening goes into the wall.
+/// The gate: half of its width, its height, and the depth of its opening in the wall.
 const GATE: [f32; 3] = [0.5, 0.44, 0.5];
-/// How deep and how fast the water enters.
+/// Depth and speed of the water that enters.
 const INFLOW: [f32; 2] = [0.4, 3.0];
 /// When the gate closes, seconds.
 const CLOSES: f32 = 3.4;
@@ -28,7 +28,7 @@ pub fn corridor() -> Scene {
     let near = -x - deep;
     let block = |name, material, min, max| Solid::spanning(name, material, min, max);
     let pillar = |x, z| Solid::standing("pillar", "stone", [x, 0.0, z], 0.15, HEIGHT);
-    // A crate by the middle of its foot and its half size.
+    // A crate, by the middle of its foot and half of its size.
     let crate_at = |x: f32, z: f32, half: f32| {
         let (low, high) = ([x - half, 0.0, z - half], [x + half, 2.0 * half, z + half]);
         Solid::spanning("crate", "timber", low, high)

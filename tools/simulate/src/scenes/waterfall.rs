@@ -22,17 +22,17 @@ const GROUND: f32 = -WALL;
 
 /// The end of the chute's bed, in the plane z = 0.
 const LIP: Vec3 = Vec3::new(-0.95, 0.68, 0.0);
-/// How steeply the chute falls, degrees.
+/// Slope of the chute, degrees.
 const CHUTE_ANGLE: f32 = 12.0;
 /// The length of the chute's bed.
 const CHUTE_LENGTH: f32 = 1.9;
 /// Half the clear width of the chute.
 const CHUTE_HALF_WIDTH: f32 = 0.3;
-/// Where along the chute (from its lip, upstream) the water enters: inside the headworks.
+/// Position where water enters, upstream from the chute's lip: inside the headworks.
 const INLET: f32 = 1.7;
-/// How deep the water enters.
+/// Depth of the water that enters.
 const INLET_DEPTH: f32 = 0.2;
-/// How fast the water enters, m/s.
+/// Speed of the water that enters, m/s.
 const INLET_SPEED: f32 = 3.0;
 /// When the sluice opens, seconds.
 const INLET_OPENS: f32 = 2.0;
@@ -42,9 +42,9 @@ pub fn waterfall() -> Scene {
     let [x, z] = BASIN_HALF;
     let (ox, oz) = (x + WALL, z + WALL);
     let (sin, cos) = CHUTE_ANGLE.to_radians().sin_cos();
-    // Downstream along the bed, and off it.
+    // Direction downstream along the bed, and normal of the bed.
     let (along, up) = (Vec3::new(cos, -sin, 0.0), Vec3::new(sin, cos, 0.0));
-    // A box in the chute's frame: upstream to downstream, off the bed, across.
+    // A box in the chute's frame: from upstream to downstream, away from the bed, across.
     let on_chute = |name, material, u: [f32; 2], v: [f32; 2], w: [f32; 2]| {
         let mid = |r: [f32; 2]| 0.5 * (r[0] + r[1]);
         let half = |r: [f32; 2]| 0.5 * (r[1] - r[0]);
@@ -104,7 +104,7 @@ pub fn waterfall() -> Scene {
         pool_level: Some(POOL_DEPTH),
         kept: vec![
             [Vec3::new(-ox, GROUND, -oz), Vec3::new(ox, f32::INFINITY, oz)],
-            // On its way down the chute.
+            // This position is on the way down the chute.
             [
                 Vec3::new(f32::NEG_INFINITY, HIGH_WALL - 0.1, -w - 0.06),
                 Vec3::new(0.0, f32::INFINITY, w + 0.06),

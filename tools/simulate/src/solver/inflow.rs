@@ -1,5 +1,4 @@
-//! How water comes into the scene: what it is filled with at first, what its inlets let in, and the
-//! waves that are set going.
+//! Water that enters the scene: the first fill, the inlets, and the waves that are started.
 
 use std::f32::consts::PI;
 
@@ -8,17 +7,17 @@ use glam::{Quat, Vec3};
 use super::{CLEARANCE, Simulation, WALL_OFFSET};
 use crate::scene::{Fill, Section};
 
-/// What an inlet has let in.
+/// State of an inlet.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Inflow {
-    /// How far the last layer has left the inlet.
+    /// Distance of the last layer from the inlet.
     gap: f32,
     layers: u32,
 }
 
-/// A hash of three numbers to the unit interval: random numbers that no order of calls changes.
+/// A hash of three numbers in [0, 1): random numbers that do not depend on the order of calls.
 fn noise(seed: u32, index: u32, stream: u32) -> f32 {
-    // Multiplications and shifts that mix all bits, the constants of the finaliser of MurmurHash3.
+    // Multiplications and shifts that mix all bits, with the constants of MurmurHash3's finaliser.
     let mut h = seed ^ index.wrapping_mul(0x9e37_79b9) ^ stream.wrapping_mul(0x85eb_ca77);
     for _ in 0..2 {
         h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
@@ -42,13 +41,13 @@ impl Simulation {
         self.fresh = false;
     }
 
-    /// Fills by a lattice so jittered that it settles to a packing without visible layers.
+    /// Fills with a lattice whose jitter lets it settle to a packing without visible layers.
     pub(super) fn fill(&mut self, fill: Fill) {
         let h = self.spacing;
-        // Solids begin where the density sees them begin.
+        // Solids begin where the density calculation places them.
         let inset = WALL_OFFSET * h;
         let margin = (CLEARANCE - WALL_OFFSET) * h;
-        // What the lattice fills, in a frame of its own that is turned and moved to its place.
+        // The filled box, in a frame of its own that is rotated and moved into place.
         let (min, max, origin, turn) = match fill {
             Fill::Basin { min, max } => (min, max, Vec3::ZERO, 0.0),
             Fill::Bore { foot, angle, radius, length, .. } => {
@@ -92,8 +91,7 @@ impl Simulation {
         }
     }
 
-    /// Sets standing waves going: the velocity of the linear potential flow in a basin, as it
-    /// passes through the flat surface.
+    /// Starts standing waves: the velocity of linear potential flow in a basin at the moment when its surface is flat.
     pub(super) fn start_waves(&mut self) {
         let Some(Vec3 { x: half_x, y: depth, z: half_z }) = self.scene.waves else {
             return;
@@ -117,7 +115,7 @@ impl Simulation {
         }
     }
 
-    /// Lets in what enters during a step, layer after layer, each shifted against the last.
+    /// Adds the water that enters during a step, layer by layer, each shifted against the last.
     pub(super) fn let_in(&mut self, dt: f32) {
         let h = self.spacing;
         for index in 0..self.inflows.len() {

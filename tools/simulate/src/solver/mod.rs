@@ -31,15 +31,15 @@ use solids::Obstacle;
 
 /// The rest density of water.
 pub const REST_DENSITY: f32 = 1000.0;
-/// Kinematic viscosity, m²/s: that of the resolved scale, not of water.
+/// Kinematic viscosity, m²/s: an eddy viscosity at the resolved scale, larger than water's.
 const VISCOSITY: f32 = 0.004;
 /// The coefficient of the cohesion of Akinci et al., "Versatile Surface Tension and Adhesion for
 /// SPH Fluids" (2013).
 const COHESION: f32 = 0.4;
 /// How fast a solid slows the water that touches it, 1/s.
 const WALL_FRICTION: f32 = 0.6;
-/// How far above a solid the half-space begins that the density sees, and how close a particle may
-/// come, in spacings: particles come to rest half a spacing above a solid, as spheres lie on it.
+/// Height above a solid, in spacings, at which the density's half-space begins, and the closest distance of a particle.
+/// Particles come to rest half a spacing above a solid, as spheres lie on it.
 const WALL_OFFSET: f32 = 0.2;
 const CLEARANCE: f32 = 0.5;
 /// The relaxation of the Jacobi iteration.
@@ -48,16 +48,16 @@ const RELAXATION: f32 = 0.5;
 const DENSITY_TOLERANCE: f32 = 5e-4;
 const DIVERGENCE_TOLERANCE: f32 = 1e-3;
 const MOST_ITERATIONS: u32 = 100;
-/// With fewer neighbours a particle is spray: its divergence means nothing.
+/// Neighbour count below which a particle is spray: its divergence means nothing.
 const SPRAY_NEIGHBOURS: usize = 20;
-/// The part of a spacing that a particle may move in a step, and the longest step.
+/// Largest motion of a particle in a step, in spacings, and the longest step.
 const COURANT: f32 = 0.4;
 const LONGEST_STEP: f32 = 1.0 / 300.0;
-/// The time at the beginning in which the water settles, and how fast its motion is damped then.
+/// Duration of settling at the beginning, and damping rate of the motion during it.
 const SETTLING: f32 = 0.8;
 const SETTLING_DAMPING: f32 = 8.0;
 
-/// What the last step did.
+/// Report of the last step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StepReport {
     /// Iterations of the divergence solver.
@@ -75,23 +75,23 @@ pub struct Simulation {
     spacing: f32,
     mass: f32,
     seed: u32,
-    /// Seconds since frame 0; negative while the water settles and the scene gets going.
+    /// Seconds since frame 0. It is negative while the water settles and the scene starts.
     time: f32,
     waves_started: bool,
 
     position: Vec<Vec3>,
     velocity: Vec<Vec3>,
     id: Vec<u32>,
-    /// The density solver's impulses divided by the step, kept as its next first guess.
+    /// The density solver's impulses divided by the step, kept as the first guess of the next step.
     pressure: Vec<f32>,
 
-    // Of the present positions.
+    // Derived from the present positions; `fresh` is false once these have changed.
     fresh: bool,
     neighbours: Vec<NeighbourBlock>,
     density: Vec<f32>,
     /// `ρ₀ ∇λ`, the solids' part of the gradient of the density.
     wall: Vec<Vec3>,
-    /// The part of it that is the moving solids'.
+    /// The moving solids' part of `wall`.
     moving_wall: Vec<Vec3>,
     /// `1 / (|Σ m ∇W|² + Σ |m ∇W|²)`, solids included.
     factor: Vec<f32>,
@@ -102,7 +102,7 @@ pub struct Simulation {
     report: StepReport,
 }
 
-/// `f` for every particle, in parallel, written to `out`.
+/// Evaluates `f` for every particle in parallel, into `out`.
 fn for_each<T: Send>(
     out: &mut [T],
     neighbours: &[NeighbourBlock],
@@ -116,7 +116,7 @@ fn for_each<T: Send>(
 }
 
 impl Simulation {
-    /// The scene with its first water, before that settles.
+    /// The scene with its first water, before it settles.
     pub fn new(scene: Scene, spacing: f32, seed: u32) -> Self {
         let kernel = Kernel::new(2.0 * spacing);
         let mass = REST_DENSITY / kernel.lattice_sum(spacing);
@@ -154,7 +154,7 @@ impl Simulation {
         simulation
     }
 
-    /// Sorts the particles and finds neighbours, densities and factors of their positions.
+    /// Sorts the particles, and finds their neighbours, densities and factors.
     fn refresh(&mut self) {
         if self.fresh {
             return;
@@ -192,7 +192,7 @@ impl Simulation {
         self.fresh = true;
     }
 
-    /// The rate of change of the density, `Dρ/Dt`, for these velocities between resting solids.
+    /// The rate of change of the density, `Dρ/Dt`, for these velocities between solids at rest.
     fn density_rate(&self, velocity: &[Vec3]) -> Vec<f32> {
         let mut rate = vec![0.0; velocity.len()];
         for_each(&mut rate, &self.neighbours, |i, local, near, out| {
@@ -203,7 +203,7 @@ impl Simulation {
         rate
     }
 
-    /// The change of velocity by impulses.
+    /// Change of velocity by impulses.
     fn impulse(&self, strength: &[f32]) -> Vec<Vec3> {
         let mut change = vec![Vec3::ZERO; strength.len()];
         for_each(&mut change, &self.neighbours, |i, local, near, out| {
@@ -217,8 +217,8 @@ impl Simulation {
         change
     }
 
-    /// Finds impulses that take away the part of `source` (a rate of compression) above zero,
-    /// applies them to the velocities, and returns them with the number of iterations.
+    /// Finds impulses that remove the positive part of `source` (a rate of compression), applies them to the
+    /// velocities, and returns them with the number of iterations.
     fn project(
         &mut self,
         source: &[f32],
@@ -258,7 +258,7 @@ impl Simulation {
         (strength, iterations)
     }
 
-    /// The acceleration by gravity, viscosity, cohesion and the friction of solids.
+    /// Acceleration by gravity, viscosity, cohesion and friction at solids.
     fn accelerations(&self) -> Vec<Vec3> {
         let support = self.kernel.support();
         let viscosity = 10.0 * VISCOSITY;
@@ -282,7 +282,7 @@ impl Simulation {
                     a -= x * (cohesion * c / r);
                 }
             }
-            // A wall at half a spacing slows in full, one a spacing away not at all.
+            // Friction is full at half a spacing from a wall, and zero from one spacing on.
             let (d, moves) = self.nearest(at).unwrap_or((support, false));
             let touch = (2.0 - 2.0 * d / self.spacing).clamp(0.0, 1.0);
             let wall = match &self.scene.hinge {
@@ -294,7 +294,7 @@ impl Simulation {
         out
     }
 
-    /// Advances by at most `limit` seconds, and returns by how many.
+    /// Advances by at most `limit` seconds, and returns the step taken.
     fn step(&mut self, limit: f32) -> f32 {
         self.refresh();
         let h = self.spacing;
@@ -316,7 +316,7 @@ impl Simulation {
 
         let a = self.accelerations();
         let hinge = self.scene.hinge.as_ref();
-        // A wall that moves towards the water shortens the step as the water itself does.
+        // A wall that moves towards the water shortens the step, just as fast water does.
         let walls = hinge.map_or(0.0, |hinge| {
             let moving = self.obstacles.iter().filter(|o| o.solid.moves);
             let arms = moving.map(|o| o.solid.centre.distance(hinge.axle) + o.reach);
@@ -350,7 +350,7 @@ impl Simulation {
         torque += self.move_by(dt);
         let carried = self.scene.hinge.as_ref().map_or(0.0, |hinge| self.carried(hinge.axle));
         match &mut self.scene.hinge {
-            // Held while the water settles.
+            // The hinge is held while the water settles.
             Some(hinge) if self.time >= -self.scene.lead => {
                 hinge.accelerate(torque as f32, carried, dt);
             }
@@ -362,8 +362,8 @@ impl Simulation {
         dt
     }
 
-    /// Moves the solids and the particles, keeps them out of each other, and drops what left the
-    /// scene. Returns the angular impulse on the hinge.
+    /// Moves solids and particles, keeps them apart, and drops particles that left the scene. Returns the angular
+    /// impulse on the hinge.
     fn move_by(&mut self, dt: f32) -> f64 {
         let h = self.spacing;
         let settling = self.time < -self.scene.lead;
@@ -381,7 +381,7 @@ impl Simulation {
         let particles = self.position.par_iter_mut().zip(&mut self.velocity).zip(&mut torques);
         particles.for_each(|((at, velocity), torque)| {
             *velocity *= damping;
-            // What has just entered moves as one until the next layers stand behind it.
+            // New water moves rigidly until the next layers stand behind it.
             for (inlet, speed) in &inflows {
                 if inlet.has_just_entered(*at, h) {
                     *velocity = *speed;
@@ -430,27 +430,27 @@ impl Simulation {
         steps
     }
 
-    /// What the last step did.
+    /// Report of the last step.
     pub fn report(&self) -> StepReport {
         self.report
     }
 
-    /// How far the moving solids have turned from rest, radians about +z.
+    /// Angle of the moving solids from rest, radians about +z.
     pub fn turn(&self) -> f32 {
         self.scene.hinge.as_ref().map_or(0.0, |hinge| hinge.turn)
     }
 
-    /// The scene; its hinge where it is now.
+    /// The scene, with its hinge in the present position.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The distance of particles at rest.
+    /// Distance between particles at rest.
     pub fn spacing(&self) -> f32 {
         self.spacing
     }
 
-    /// How many particles have left the scene.
+    /// Number of particles that have left the scene.
     pub fn lost(&self) -> u32 {
         self.lost
     }

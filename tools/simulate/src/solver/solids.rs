@@ -1,19 +1,18 @@
-//! Solids: how much of the water's kernel they cover, and what the water that they push off does to
-//! those that move.
+//! Solids: the fraction of the water's kernel that they cover, and the reaction of the water on moving ones.
 
 use glam::Vec3;
 
 use super::{Simulation, WALL_OFFSET};
 use crate::scene::Solid;
 
-/// A solid that water collides with, where it is now.
+/// A solid that water collides with, in its present position.
 pub(super) struct Obstacle {
     pub solid: Solid,
     pub reach: f32,
 }
 
 impl Obstacle {
-    /// The distance, where it is less than `limit`, and the direction in which it grows.
+    /// Distance and the direction in which it grows, if the distance is less than `limit`.
     pub fn within(&self, at: Vec3, limit: f32) -> Option<(f32, Vec3)> {
         let far = self.reach + limit;
         if (at - self.solid.centre).length_squared() > far * far {
@@ -24,19 +23,19 @@ impl Obstacle {
 }
 
 impl Simulation {
-    /// Brings the moving solids to where the hinge has turned.
+    /// Turns the moving solids to the hinge's angle.
     pub(super) fn pose(&mut self) {
         let solids = self.scene.posed(self.scene.hinge.as_ref().map_or(0.0, |hinge| hinge.turn));
         let solids = solids.into_iter().filter(|solid| solid.collides);
         self.obstacles = solids.map(|solid| Obstacle { reach: solid.reach(), solid }).collect();
     }
 
-    /// The distance of the nearest solid; far ones count as one support away.
+    /// Distance of the nearest solid, at most one support radius.
     pub(super) fn nearest_solid(&self, at: Vec3) -> f32 {
         self.nearest(at).map_or(self.kernel.support(), |(d, _)| d)
     }
 
-    /// The distance of the nearest solid, and whether it moves; none is farther than a support.
+    /// Distance of the nearest solid within a support radius, and whether it moves.
     pub(super) fn nearest(&self, at: Vec3) -> Option<(f32, bool)> {
         let limit = self.kernel.support();
         let near = self.obstacles.iter().filter_map(|obstacle| {
@@ -45,10 +44,9 @@ impl Simulation {
         near.reduce(|a, b| if b.0 < a.0 { b } else { a })
     }
 
-    /// The part of the kernel at `at` that solids cover, its gradient, and the moving solids' part
-    /// of that. Solids that meet at an edge overlap; what they leave free is taken to be the
-    /// product of what each leaves free, which is exact for a particle in the corner of
-    /// perpendicular walls.
+    /// Fraction of the kernel at `at` that solids cover, its gradient, and the moving solids' part of the gradient.
+    /// Where solids meet, their covers overlap: the free fraction is taken to be the product of the free fractions of
+    /// each, which is exact in the corner of perpendicular walls.
     pub(super) fn covered(&self, at: Vec3) -> (f32, Vec3, Vec3) {
         let mut free = 1.0;
         let (mut gradient, mut moving) = (Vec3::ZERO, Vec3::ZERO);
@@ -68,7 +66,7 @@ impl Simulation {
         (1.0 - free, gradient, moving)
     }
 
-    /// The part of `Dρ/Dt` that is the moving solids' motion.
+    /// Part of `Dρ/Dt` that comes from the motion of solids.
     pub(super) fn solids_rate(&self) -> Vec<f32> {
         match &self.scene.hinge {
             Some(hinge) => {
@@ -79,12 +77,12 @@ impl Simulation {
         }
     }
 
-    /// The angular impulse on the hinge by impulses `strength` of the water.
+    /// Angular impulse on the hinge from the water's impulses `strength`.
     pub(super) fn reaction(&self, strength: &[f32]) -> f64 {
         let Some(hinge) = &self.scene.hinge else {
             return 0.0;
         };
-        // In the order of the particles, whatever the threads do.
+        // Summed in the order of the particles, independent of threads.
         let walls = self.moving_wall.iter().zip(&self.position).zip(strength);
         let impulses = walls.map(|((wall, at), strength)| {
             f64::from(hinge.torque(*at, *wall * (self.mass * strength)))
@@ -92,8 +90,7 @@ impl Simulation {
         impulses.sum()
     }
 
-    /// The moment of inertia of the water that the moving solids carry: what lies against them or
-    /// in a bore.
+    /// Moment of inertia of the water that moves with the solids: water against them or in a bore.
     pub(super) fn carried(&self, axle: Vec3) -> f32 {
         let moving: Vec<&Solid> =
             self.obstacles.iter().map(|o| &o.solid).filter(|solid| solid.moves).collect();

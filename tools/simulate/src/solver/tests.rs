@@ -1,4 +1,5 @@
-//! The solver: the same on any number of threads, water in a pipe that turns, the cover of solids.
+//! Tests of the solver: equal results for any number of threads, water in a turning pipe, and the covered fraction of
+//! solids.
 
 use glam::Quat;
 
@@ -20,8 +21,8 @@ fn the_number_of_threads_changes_nothing() {
     assert_eq!(run(1), run(3));
 }
 
-/// A tilted pipe with water in it on an axle below, in the scene 'bamboo' less all else. A
-/// counterweight has `part` of the water's moment.
+/// A tilted pipe with water, on an axle below it: the scene 'bamboo' without the rest. A counterweight has `part` of
+/// the water's moment.
 fn pipe(part: f32) -> Simulation {
     let bamboo = crate::scenes::bamboo();
     let (angle, axle) = (-60_f32.to_radians(), Vec3::ZERO);
@@ -86,7 +87,7 @@ fn a_pipe_that_turns_takes_its_water_along() {
     };
     let (turn, frame, simulation) = run(1);
     assert!(turn < -0.3, "{turn}");
-    // Through the wall there is no way; out of the mouth there is.
+    // Water can leave through the mouth, but not through the wall.
     for at in &simulation.position {
         let solid = &simulation.obstacles[0].solid;
         let local = Quat::from_rotation_z(-solid.angle) * (*at - solid.centre);

@@ -327,7 +327,7 @@ fn what_is_no_shore_is_an_error() {
         ("--shore isles --cover 0.99 --size 64x48", "--cover: expected at most"),
         ("--shore pool --cover 0.2", "applies to isles only"),
         ("--cover 0.2", "--shore"),
-        ("--shore isles --particles 64,128", "one water"),
+        ("--shore isles --particles 64,128", "one count"),
         ("--shore isles --path tiles", "draws water"),
         ("--path strip", "--shore isles"),
         ("--picture a.png", "--sea"),

@@ -225,7 +225,7 @@ fn radii_and_copies_of_particles_are_understood() {
     let said = folder.run(&format!("render mixed.csv -o m.exr {SMALL} {view}")).ok().stderr();
     for part in [
         "radius 0.025 (of the files; they go from 0.025 to 0.05, and larger",
-        "972 particles are drawn as 1728",
+        "972 particles are split into 1728",
     ] {
         assert!(said.contains(part), "{said}");
     }
@@ -242,7 +242,7 @@ fn radii_and_copies_of_particles_are_understood() {
         .run(&format!("render mixed.csv -o a.exr {SMALL} {view} --radius 0.03"))
         .ok()
         .stderr();
-    assert!(!said.contains("are drawn as"), "{said}");
+    assert!(!said.contains("are split into"), "{said}");
     let said = folder.run(&format!("render twice.csv -o t.png {SMALL}")).ok().stderr();
     let count = slope().len();
     for part in [
@@ -534,7 +534,7 @@ fn arrays_in_files_of_their_own_are_put_together() {
     let said = folder.run(&format!("{both} {SMALL}")).ok().stderr();
     assert!(said.contains(&count), "{said}");
     let said = folder.run(&format!("render run/v_0.npy -o c.png {SMALL}")).ok().stderr();
-    assert!(said.contains("by the name of the file these are velocities"), "{said}");
+    assert!(said.contains("the file's name says that these are velocities"), "{said}");
 }
 
 /// Frames of one file are drawn as those of several are.

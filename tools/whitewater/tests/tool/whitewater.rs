@@ -409,7 +409,7 @@ fn mistakes_in_making_whitewater_particles_are_named() {
     folder.text("none.toml", "[generate]\nmax_particles = 0\n");
     run("torn_1.csv --whitewater generate --settings none.toml").fails(3, &["max_particles"]);
     let over = "still.ply --whitewater generate --write-whitewater still.ply";
-    run(over).fails(2, &["still.ply is read"]);
+    run(over).fails(2, &["still.ply is an input"]);
     run("torn_1.csv --whitewater generate --settings limits.toml").fails(3, &["energy"]);
     assert!(!folder.exists("a.png"));
 }
