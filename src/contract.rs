@@ -1346,9 +1346,9 @@ pub struct Layer {
     pub view: vk::ImageView,
     /// Its format.
     pub format: vk::Format,
-    /// Its size, which may be reduced. `water.surface` and `water.iterations` have the configured level; near
-    /// water is smoothed at coarser levels, and `Diagnostics::levels` (feature
-    /// `diagnostics`) says where these and the back layer lie.
+    /// Its size in texels; some layers have less than the picture's resolution. `water.surface` and
+    /// `water.iterations` have the configured level. Near water is smoothed at coarser levels;
+    /// `Diagnostics::levels` (feature `diagnostics`) tells where those and the back layer lie in the image.
     pub extent: vk::Extent2D,
     /// Its state after `record`.
     pub access: Access,

@@ -1,4 +1,4 @@
-// A blob in a pixel of its billboard. Needs nothing. Reads: scene depth, blobs, inputs of blob.glsl.
+// Intersection of a blob with the ray of a pixel of its billboard. Needs nothing. Reads: scene depth, blobs, inputs of blob.glsl.
 
 #include "frame.glsl"
 #include "bubbles.glsl"

@@ -72,7 +72,7 @@ Seen blob_seen(Blob blob, WorldRay world) {
     return seen;
 }
 
-// The layer with the bubble that is exactly at the pixel, and its depth.
+// Corrects an approximate hit: returns the layer with the exact bubble at the pixel, and sets its exact depth.
 uint exact_layer(Blob blob, WorldRay world, uint layer, inout float depth) {
     vec2 span;
     in_blob(blob, world, span);

@@ -67,8 +67,8 @@ float past_whitewater(LightTexels t) {
     return t.inside ? 1.0 - lost : 1.0;
 }
 
-// Sunlight that blobs of bubble foam before a point let through. It penetrates some way into them, and a
-// little passes through.
+// Fraction of sunlight that blobs of bubble foam in front of a point let through. It fades with depth into a
+// blob, and a little passes right through.
 float past_soap(LightTexels t) {
     float edge = float(textureSize(light_soap, 0).x);
     float wide = frame.light_map.y * frame.light_map.x / edge; // width of a texel, metres

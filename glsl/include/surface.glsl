@@ -52,10 +52,10 @@ float smoothed_at(Level level, ivec2 texel) {
 // Weight of a rim texel in the slope, relative to complete ones. The last particle of a body of water curves away
 // within a pixel or two; with full weight it would reflect the horizon and bead every outline with white.
 const float RIM = 1.0 / 64.0;
-// Steepest slope, depth per width, where whole texels have at most 1/63 of the weight (a drop).
+// Largest slope (depth per width) of a drop, which is a place where complete texels have at most 1/63 of the weight.
 const float RIM_SLOPE = 1.5;
 
-// `front` is the depth of the pixel's own surface; if negative, the surface of the nearest texel is taken.
+// front: depth of the pixel's own surface; negative: the surface of the nearest texel.
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
     vec2 h = pixel / level.texel.z - 0.5;

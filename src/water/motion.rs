@@ -250,7 +250,7 @@ impl Motion {
         Ok(())
     }
 
-    /// The layer of a frame of a size.
+    /// The motion layer of a frame with this extent.
     pub fn layer(&self, frame: vk::Extent2D) -> Layer {
         Layer {
             name: "motion",

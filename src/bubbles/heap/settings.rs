@@ -48,7 +48,8 @@ pub struct BlobSimulationSettings {
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
     /// A blob splits in two if the blobs that it touches have less than this many times its volume, [0, 100], default
-    /// 2.5. A torn-off blob becomes a clump of four and more. Needs [`BlobSimulationConfig::max_splits`] above 0.
+    /// 2.5. A blob that was torn off thus becomes a clump of four or more. Needs [`BlobSimulationConfig::max_splits`]
+    /// above 0.
     pub split_support: f32,
     /// Time that a blob must be isolated before it splits, seconds, [0, 10], default 0.1.
     pub split_delay: f32,

@@ -146,8 +146,8 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// The origin to subtract from all positions. The first ones determine it, so that parts have the same as
-    /// the whole.
+    /// The origin to subtract from all positions. The first positions of the file determine it, so that all parts
+    /// of a file get the same one.
     pub(super) fn origin(&self) -> [f64; 3] {
         let positions: Vec<usize> = self.roles.positions.columns().collect();
         let all = || self.tracks.iter().flat_map(|track| &track.columns);

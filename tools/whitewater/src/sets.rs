@@ -172,7 +172,7 @@ fn terrace(scene: &mut Scene, place: &Place) {
         scattering: calm.scattering.map(|s| s / m),
         waves: 0.05 * m,
         length: 3.0 * m,
-        // Waves run across the line of sight; otherwise crests would be lines from side to side.
+        // Across the line of sight: crests along it, not in lines from side to side.
         towards: Vec2::from_angle(1.0).rotate(sight).to_array(),
         ..calm
     });

@@ -278,7 +278,7 @@ pub fn basin_round(
             meshes.push(mesh);
         }
         if paved {
-            // A course of darker, damp paving stones along the foot.
+            // A course of darker, damp stones in the paving, along the foot.
             let course = outer + side.sign * 0.055 * wide;
             let (from, mut to) = wall(outer, course, floor, thick + 0.055 * wide);
             to.y = floor + 0.0002 * wide;

@@ -104,7 +104,7 @@ struct Recording<'a> {
     view: View,
     /// The whole frame.
     area: vk::Rect2D,
-    /// All resources but the texture.
+    /// All but the texture.
     resources: [(u32, Resource); 5],
 }
 
