@@ -426,8 +426,8 @@ impl Survey {
         let share = self.places.share();
         let doubled = (share > DOUBLED).then(|| {
             format!(
-                "{:.0} % of the positions are those of other particles as well, up to {} at one place: pieces that \
-                 repeat each other, or particles that are not in use",
+                "{:.0} % of the particles share their position with others, up to {} at one place: files may overlap, \
+                 or hold unused particles",
                 100.0 * share,
                 self.places.most()
             )

@@ -1,4 +1,4 @@
-//! The built program, run as a user runs it, on small particle files. Needs a Vulkan 1.3 device; lavapipe will do.
+//! Runs the built program as a user runs it, on small particle files. Needs a Vulkan 1.3 device; lavapipe is enough.
 #![allow(clippy::unwrap_used)] // a test may
 
 #[path = "tool/support.rs"]

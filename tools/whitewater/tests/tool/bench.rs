@@ -1,4 +1,4 @@
-//! `bench`: what it prints, and that nothing measured is lost.
+//! `bench`: its output, and that an interruption loses no measurement.
 
 use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Read};
@@ -10,7 +10,7 @@ use super::support::Folder;
 
 const QUICK: &str = "bench --particles 64 --frames 2 --warmup 0";
 
-/// Two ways to draw, each with its passes and their sum.
+/// Checks the rows of two paths: each has its passes and their sum.
 fn check(format: &str, text: &str) {
     match format {
         "table" => {
@@ -25,7 +25,7 @@ fn check(format: &str, text: &str) {
             assert_eq!(head[..3], ["adapter", "driver", "version"]);
             let rows: Vec<Vec<_>> = lines
                 .map(|line| {
-                    // What comes before is in quotes and may have commas.
+                    // The fields before it are quoted and may contain commas.
                     let (_, rest) = line.rsplit_once('"').unwrap();
                     rest.trim_start_matches(',').split(',').collect()
                 })
@@ -48,7 +48,7 @@ fn check(format: &str, text: &str) {
     }
 }
 
-/// The pool as `render` draws a file: its passes are there, each once, and they sum to the frame.
+/// The pool as `render` draws a file: each of its passes appears once, and they sum to the frame.
 #[test]
 fn what_render_draws_is_timed() {
     let folder = Folder::new();
@@ -70,7 +70,7 @@ fn what_render_draws_is_timed() {
     assert!(rows.iter().all(|row| row["path"] == "render"), "{rows:?}");
 }
 
-/// Blobs are drawn, and moved on the GPU and on the CPU.
+/// Blobs are drawn, and simulated on the GPU and on the CPU.
 #[test]
 fn bubble_foam_is_timed() {
     let folder = Folder::new();
@@ -119,7 +119,7 @@ fn each_format_has_all_rows_also_where_it_ends_early() {
 #[test]
 fn an_interrupt_loses_nothing_measured() {
     let folder = Folder::new();
-    // The second combination takes long.
+    // The second combination is slow.
     let command = "bench --particles 64 --size 16x16,1280x720 --frames 60 --format json";
     let mut command = folder.command(command);
     let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -136,7 +136,7 @@ fn an_interrupt_loses_nothing_measured() {
     assert!(!rows.is_empty() && rows.iter().all(|row| row["width"] == 16), "{text}");
 }
 
-/// A sea instead of water: who drew what, how long a particle took and what it took of memory; and the picture.
+/// A sea instead of water: time per particle, memory and picture are reported.
 #[test]
 fn a_sea_says_what_its_foam_costs() {
     let folder = Folder::new();
@@ -151,11 +151,11 @@ fn a_sea_says_what_its_foam_costs() {
         };
         let frame = row("frame");
         assert_eq!((&frame["sea"], &frame["whitewater"]), (&"wave".into(), &20_000.into()));
-        // Positions, kinds, ages and ids, and what a device rounds up.
+        // Positions, kinds, ages and ids, and the device's rounding.
         let input = frame["inputs"].as_u64().unwrap();
         assert!((24 * 20_000..24 * 20_000 + 4096).contains(&input), "{input}");
         assert!(frame["memory"].as_u64().unwrap() > 28 * 160 * 120);
-        // The words and images of a pixel and two times a particle's streams, as bytes.rs says.
+        // Words and images of a pixel, and the particle streams read twice, as in bytes.rs.
         let bytes = row("splat")["bytes"].as_u64().unwrap() - 112 * 160 * 120;
         assert!([24, 48].contains(&(bytes / 20_000)) && bytes % 20_000 == 0, "{bytes}");
         let each = row("splat")["ns_per_whitewater"].as_f64().unwrap();
@@ -175,7 +175,7 @@ fn a_sea_says_what_its_foam_costs() {
     let cell = |name: &str| cells[head.iter().position(|h| *h == name).unwrap() - 2];
     assert_eq!([cell("sea"), cell("whitewater"), cell("occlusion")], ["wave", "20000", "fast"]);
     assert!(cell("ns_per_whitewater").parse::<f64>().unwrap() > 0.0);
-    // A look of its own, a tenth as light, and its layers.
+    // A look a tenth as bright, and its layers.
     folder.text("dim.toml", "[whitewater]\nalbedo = [0.09, 0.09, 0.09]\n");
     let table = folder.run(&format!("{quick} --settings dim.toml --picture dim.exr")).ok().stdout();
     let dim = folder.picture("dim.exr");
@@ -187,7 +187,7 @@ fn a_sea_says_what_its_foam_costs() {
     let thick: Vec<_> = intensity.iter().zip(red).filter(|(i, _)| **i > 0.7).collect();
     let mean = thick.iter().map(|(_, red)| **red).sum::<f32>() / thick.len() as f32;
     assert!(thick.len() > 20 && mean < 0.6, "{mean} of {}", thick.len());
-    // There is foam in the picture, and sea.
+    // The picture shows foam and sea.
     let picture = folder.picture("wave.png");
     assert_eq!((picture.width, picture.height), (160, 120));
     let rgb = picture.rgb().unwrap();
@@ -228,7 +228,7 @@ fn what_is_no_sea_is_an_error() {
     assert!(folder.files().is_empty(), "{:?}", folder.files());
 }
 
-/// Each cell of a CSV's rows by its column's name; adapter and driver, which may have commas, left out.
+/// Cells of a CSV's rows by column name, without adapter and driver, which may contain commas.
 fn cells(text: &str) -> Vec<HashMap<&str, &str>> {
     let mut lines = text.lines();
     let head: Vec<_> = lines.next().unwrap().split(',').skip(2).collect();
@@ -244,7 +244,7 @@ fn cells(text: &str) -> Vec<HashMap<&str, &str>> {
 
 const QUICK_MAP: &str = "[shore]\nmap = 256\ntexture_size = 64\n";
 
-/// What foam along shores covers and costs, by each of its ways, beside the water.
+/// Coverage and cost of foam along shores, for each way to find the shore, relative to the water.
 #[test]
 fn shores_say_what_their_foam_costs() {
     let folder = Folder::new();
@@ -263,21 +263,21 @@ fn shores_say_what_their_foam_costs() {
         let foam = row("foam");
         let (way, edge) = if path == "clip" { ("map", "clip") } else { ("strip", "smooth") };
         assert_eq!([&foam["shore"], &foam["way"], &foam["edge"]], ["isles", way, edge]);
-        // Foam is its passes and what the composite takes longer for it; all is told in parts of the water's frame.
+        // The cost of foam is its passes and the increase of the composite; all are relative to the water's frame.
         let coat = median("composite") - median("composite without");
         assert!((median("coat") - coat).abs() < 1e-9, "{path}: {coat}");
         let sum = coat + median("shore-tiles") + median("shoreline");
         assert!((number(foam, "median") - sum).abs() < 1e-9, "{path}: {sum}");
         assert!((number(foam, "ratio") - sum / median("water frame")).abs() < 1e-9, "{path}");
         assert!(median("shoreline") > 0.0 && median("composite without") > 0.0);
-        // As large as was asked for, and not without foam.
+        // As large as requested, and with foam.
         let shown = number(foam, "foam");
         let band = number(foam, "covered");
         assert!((band - 0.4).abs() < 0.01, "{path}: {band}");
         assert!((0.25 * band..band + 0.02).contains(&shown), "{path}: {shown} of {band}");
         assert_eq!(find("map").is_some(), way == "map", "{path}");
         if way == "map" {
-            // Which of them takes longer is for an idle machine to say.
+            // Only an idle machine could tell which is slower.
             assert!(["map", "map in part", "map again"].map(median).iter().all(|time| *time > 0.0));
         }
     }
@@ -292,12 +292,12 @@ fn shores_say_what_their_foam_costs() {
     assert_eq!([row["shore"], row["way"], row["covered"]], ["isles", "none", ""], "{text}");
     assert_eq!(number(row, "cover"), 0.2, "{text}");
     assert!(number(row, "foam") > 0.002, "{text}");
-    // Its parts are times and a difference of two, which noise may make less than nothing: what they sum to is told.
+    // Its parts are times and a difference of two times, which noise may make negative; the sum is reported as it is.
     let ratio = number(row, "median_ms") / number(water, "median_ms");
     assert!((number(row, "ratio") - ratio).abs() < 1e-3, "{text}");
 }
 
-/// Contact foam on the water itself; and the picture.
+/// Contact foam on the water itself, and its picture.
 #[test]
 fn foam_on_the_water_is_timed() {
     let folder = Folder::new();
@@ -311,7 +311,7 @@ fn foam_on_the_water_is_timed() {
     let foam = folder.picture("splash.exr");
     let some = foam.channel("contact.amount").unwrap().iter().filter(|v| **v > 0.0).count();
     assert!(some > 30, "{some} pixels");
-    // A way that the scene does not have is passed over.
+    // A path that does not apply to the scene is skipped.
     let run = folder.run(&format!("{quick} --shore splash --path strip")).ok();
     assert!(run.stderr().contains("skipped"), "{}", run.stderr());
 }

@@ -1,4 +1,4 @@
-//! Each kind of failure has its exit code, one line that says what to do, and leaves no half file.
+//! Each kind of failure has its exit code and one line that says what to do, and leaves no incomplete file.
 
 use std::os::unix::fs::{PermissionsExt, symlink};
 
@@ -108,7 +108,7 @@ fn no_device_is_code_4() {
     folder.run(&format!("{command} --device nosuch")).fails(4, &["nosuch", "there is"]);
     let nowhere = [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
     folder.run_with(&command, &nowhere).fails(4, &["mesa-vulkan-drivers"]);
-    // Where the loader looks for layers there are none.
+    // The loader finds no layers in these places.
     let bare = [("VK_LAYER_PATH", "/nonexistent"), ("VK_ADD_LAYER_PATH", "")];
     folder
         .run_with(&format!("{command} --validate"), &bare)
@@ -128,7 +128,7 @@ fn outputs_that_cannot_be_written_are_code_5() {
     std::fs::create_dir(folder.path("locked")).unwrap();
     let locked = folder.path("locked");
     std::fs::set_permissions(&locked, PermissionsExt::from_mode(0o555)).unwrap();
-    // Root may write everywhere.
+    // Root may write anywhere.
     if std::fs::write(locked.join("probe"), "").is_err() {
         folder
             .run(&format!("render a.ply -o locked/out.png {SMALL}"))
@@ -154,7 +154,7 @@ fn a_full_disk_is_code_5() {
     assert_eq!(folder.files(), ["a.ply", "a.png", "full.csv", "full.exr", "full.png"]);
 }
 
-/// Whatever prints a result: what it prints goes nowhere, or to a reader that has gone.
+/// Commands that print a result, with standard output full, or closed by its reader.
 #[test]
 fn an_output_that_is_full_is_code_5_and_one_that_is_closed_none() {
     let folder = Folder::new();
@@ -162,7 +162,7 @@ fn an_output_that_is_full_is_code_5_and_one_that_is_closed_none() {
     folder.run(&format!("render a.ply -o a.png {SMALL}")).ok();
     folder.run(&format!("render a.ply -o b.png {SMALL} --sun 1,1,1")).ok();
     let bench = "bench --particles 64 --size 64x64 --frames 1 --warmup 0 --format";
-    // A benchmark prints all its formats by one function: of them the table alone meets a reader that has gone.
+    // A benchmark prints all formats by one function, so only the table is tested with a closed reader.
     let printing = [
         "info a.ply".to_string(),
         "info a.ply --json".to_string(),
@@ -181,12 +181,12 @@ fn an_output_that_is_full_is_code_5_and_one_that_is_closed_none() {
         let closed = || std::io::pipe().unwrap().1;
         let run = folder.run_to(command, closed()).ok();
         assert!(!run.stderr().contains("panicked"), "{command}: {}", run.stderr());
-        // Nor does it matter that nobody reads the messages.
+        // A closed standard error makes no difference either.
         let mut unheard = folder.command(command);
         let status = unheard.stdout(closed()).stderr(closed()).status().unwrap();
         assert_eq!(status.code(), Some(0), "{command}");
     }
-    // The verdict stands, though nobody reads the list.
+    // The verdict is returned although nobody reads the list.
     folder.run_to("compare a.png b.png", std::io::pipe().unwrap().1).fails(1, &["RMSE"]);
 }
 
@@ -197,7 +197,7 @@ fn a_file_that_cannot_grow_leaves_nothing_half() {
     std::fs::create_dir(folder.path("out")).unwrap();
     folder.particles("in/a.ply", block(3));
     folder.text("out/a.exr", "old");
-    // The limit on the size of files stands in for a disk that fills while a picture is written.
+    // The limit on file sizes simulates a disk that fills up while a picture is written.
     let limited = |picture: &str| {
         let run = format!("trap '' XFSZ; ulimit -f 8; exec \"$0\" render in/a.ply -o {picture}");
         std::process::Command::new("sh")
@@ -243,11 +243,11 @@ fn an_interrupt_leaves_nothing_half() {
         assert!(!name.starts_with('.'), "{name}");
         folder.picture(&format!("out/{name}"));
     }
-    // A film is of the frames that were drawn, but for those in hand while it was written.
+    // A film contains the drawn frames, except those in flight when it was written.
     let drawn = names(&folder.path("out")).len() as u32;
     let (frames, _) = folder.film("film.mp4");
     assert!(frames + 2 >= drawn && frames <= drawn, "{frames} of {drawn}");
-    // What was measured is kept.
+    // The measurements are kept.
     let times = std::fs::read_to_string(folder.path("t.csv")).unwrap();
     assert!(times.lines().any(|l| l.starts_with("1,composite,")), "{times}");
     let trace = std::fs::read_to_string(folder.path("t.json")).unwrap();
@@ -255,12 +255,13 @@ fn an_interrupt_leaves_nothing_half() {
     assert!(trace["traceEvents"].as_array().is_some_and(|events| events.len() > 20));
 }
 
-/// A signal to stop takes effect when a thread leaves the kernel: one that waits for the disk may still rename a file.
+/// Waits until the child has stopped. A signal to stop takes effect when a thread leaves the kernel, so a thread that
+/// waits for the disk may still rename a file.
 #[cfg(target_os = "linux")]
 fn wait_until_stopped(child: &std::process::Child) {
     let tasks = format!("/proc/{}/task", child.id());
     let stopped = |task: std::fs::DirEntry| {
-        // The state follows the name, which may itself hold a parenthesis.
+        // The state follows the name, which may itself contain a parenthesis.
         let stat = std::fs::read_to_string(task.path().join("stat")).unwrap_or_default();
         stat.rsplit_once(") ").is_none_or(|(_, rest)| rest.starts_with(['T', 'X', 'Z']))
     };
@@ -269,15 +270,15 @@ fn wait_until_stopped(child: &std::process::Child) {
     }
 }
 
-/// Killed without a word in the midst of writing: the next run takes the half file away, but not while
-/// the first still lives.
+/// A run that is killed while it writes leaves an incomplete file. The next run removes it, but not while the first run
+/// lives.
 #[test]
 #[cfg(target_os = "linux")] // signals that stop and go on
 fn a_kill_leaves_a_file_to_the_next_run() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("out")).unwrap();
     folder.particles("a.ply", block(3));
-    // Large enough that it takes a while to write, and as small as can be where that is no matter.
+    // The size that is killed is slow to write; the other is as small as possible.
     let [render, again] = ["640x360", "96x64"]
         .map(|size| format!("render a.ply -o out/a.exr --set none --size {size}"));
     let hidden = || names(&folder.path("out")).into_iter().find(|name| name.starts_with('.'));
@@ -295,8 +296,8 @@ fn a_kill_leaves_a_file_to_the_next_run() {
             }
             signal(&child, "-STOP");
             wait_until_stopped(&child);
-            // It may have been the file that is made and removed at the start, to see that it can be. Before it is
-            // locked it is a leftover to others.
+            // It may also be the file that is created and removed at the start to test that the folder is writable.
+            // Until a file is locked, other runs treat it as a leftover.
             let locked = |name: &String| {
                 let file = std::fs::File::open(folder.path(&format!("out/{name}"))).unwrap();
                 matches!(FileExt::try_lock(&file), Err(TryLockError::WouldBlock))

@@ -31,7 +31,7 @@ fn info_tells_what_a_file_holds() {
     }
 }
 
-/// Which attribute became what, what was passed over, and what is not there.
+/// Which attributes were used and how, which were ignored, and which are missing.
 #[test]
 fn info_tells_what_became_of_attributes() {
     let folder = Folder::new();
@@ -51,7 +51,7 @@ fn info_tells_what_became_of_attributes() {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(!text.contains("missing"), "{text}");
-    // Ids that are no whole numbers are dropped.
+    // Ids that are not integers are dropped.
     folder.text("b.csv", &rows.replace("1000,", "1000,-"));
     let text = folder.run("info b.csv").ok().stdout();
     assert!(text.contains("id (number x 1): not used"), "{text}");

@@ -7,7 +7,7 @@ use super::support::Folder;
 
 const SIZE: (usize, usize) = (24, 16);
 
-/// A cross that meets itself across the borders, off the middle.
+/// An off-centre cross that wraps around the borders.
 fn cross() -> Vec<bool> {
     (0..SIZE.0 * SIZE.1).map(|i| i % SIZE.0 == 3 || i / SIZE.0 == 5).collect()
 }
@@ -54,7 +54,7 @@ fn a_pattern_becomes_its_distances() {
     let folder = Folder::new();
     png(&folder, "lines.png", &grey(&values(&cross())));
     let text = folder.run("pattern lines.png -o web.exr").ok().stdout();
-    // The farthest is 12 columns and 8 rows away: 8 texels from the row.
+    // The farthest texel is 12 columns and 8 rows away from the cross, 8 texels from its row.
     for part in ["24x16", "10.2 %", "8.00 texels", "0 from 8.00"] {
         assert!(text.contains(part), "{part}: {text}");
     }
@@ -66,7 +66,7 @@ fn a_pattern_becomes_its_distances() {
     folder.run("pattern lines.png -o web.png --reach 4.5").ok();
     let web = folder.picture("web.png");
     same(web.channel("R").unwrap(), &expected(4.5), 0.51 / 65535.0);
-    // And a texture of distances is a pattern again.
+    // A texture of distances can be a pattern again.
     folder.run("pattern web.png -o again.exr --threshold 1").ok();
     assert_eq!(folder.picture("again.exr").channel("Y").unwrap(), expected(8.0));
     assert_eq!(folder.files(), ["again.exr", "lines.png", "web.exr", "web.png"]);
@@ -87,7 +87,7 @@ fn every_kind_of_picture_is_a_pattern() {
     check("grey", "y.exr", "");
     exr(&folder, "one.exr", &layers(&[("mask", on.clone())]));
     check("one channel", "one.exr", "");
-    // Green alone is white enough, blue is not.
+    // Pure green is bright enough to count as white, pure blue is not.
     let green = |g: &[f32], b: &[f32]| {
         layers(&[("R", vec![0.0; g.len()]), ("G", g.to_vec()), ("B", b.to_vec())])
     };
@@ -97,7 +97,7 @@ fn every_kind_of_picture_is_a_pattern() {
     check("dim", "dim.exr", "--threshold 0.2");
     png(&folder, "black.png", &grey(&off));
     check("black lines", "black.png", "--invert");
-    // White on nothing, which holds white itself, and black on nothing.
+    // White on a transparent background that is itself white, and black on a transparent background.
     let color = |v: &[f32], alpha: &[f32]| {
         let mut all = grey(v);
         all.push("A", SIZE.0, SIZE.1, alpha.to_vec()).unwrap();
@@ -112,7 +112,7 @@ fn every_kind_of_picture_is_a_pattern() {
     check("black on nothing", "ink.png", "--invert");
     exr(&folder, "ink.exr", &color(&vec![0.0; on.len()], &on));
     check("black on nothing", "ink.exr", "--invert");
-    // Half there, multiplied already.
+    // Half opaque, with premultiplied alpha.
     let half: Vec<f32> = on.iter().map(|v| 0.6 * v).collect();
     exr(&folder, "half.exr", &color(&half, &half));
     check("half", "half.exr", "");

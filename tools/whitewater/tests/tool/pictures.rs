@@ -1,4 +1,4 @@
-//! What is in the pictures.
+//! The contents of pictures.
 
 use whitewater::io::particles::Particles;
 use whitewater::io::picture::{EMPTY, Layers};
@@ -37,17 +37,17 @@ fn a_block_of_water_has_all_its_layers() {
     ];
     assert_eq!(names, expected);
     let at = |name: &str, x: usize, y: usize| exr.channel(name).unwrap()[y * 96 + x];
-    // The front row of particles stands at z = 0.35, 2 from the eye; their drawn radius is 0.0656.
+    // The front row of particles is at z = 0.35, 2 from the eye; their drawn radius is 0.0656.
     let depth = at("water.depth.Z", 48, 32);
     let radius = 0.656 * SPACING;
     assert!((2.0 - radius - 1.0e-3..2.0).contains(&depth), "{depth}");
     let surface = at("water.surface.Z", 48, 32);
     assert!((surface - depth).abs() < radius, "{surface} {depth}");
     assert!(at("water.normal.Z", 48, 32) > 0.9);
-    // Eight layers of 0.1.
+    // Eight layers, 0.1 thick each.
     let thickness = at("water.thickness", 48, 32);
     assert!((0.5..1.1).contains(&thickness), "{thickness}");
-    // A block stands before no other water, and there is no foam for it to be behind.
+    // The block hides no other water, and there is no foam in front of it.
     for parts in ["water.sheet", "water.thickness"] {
         assert_eq!(at(&format!("{parts}.front"), 48, 32), thickness);
         assert_eq!(at(&format!("{parts}.back"), 48, 32), 0.0);
@@ -70,13 +70,13 @@ fn a_block_of_water_has_all_its_layers() {
     assert_eq!(folder.files(), ["a.exr", "a.ply", "a.png"]);
 }
 
-/// Water before and behind the frontmost foam (T_wf and T_wb of the thesis), which are together what there is, whether or
-/// not sheets are told apart.
+/// Water before and behind the frontmost foam (T_wf and T_wb of the thesis) sums to all water, whether or not sheets
+/// are separated.
 #[test]
 fn water_is_told_before_and_behind_foam() {
     let folder = Folder::new();
     let mut water = Particles::from_positions(block(8));
-    // Layers from the back to the front: of eight the third and the fourth behind the front are torn.
+    // Layers from the back to the front: of eight, the third and the fourth behind the front are torn.
     let layer = |p: &[f32; 3]| (p[2] / SPACING + 3.5).round() as usize;
     let torn = |p| if [4, 5].contains(&layer(p)) { [3.0, 0.0, 0.0] } else { [0.0; 3] };
     water.velocities = Some(water.positions.iter().map(torn).collect());
@@ -96,7 +96,7 @@ fn water_is_told_before_and_behind_foam() {
     }
     assert!(before_and_behind > 100, "{before_and_behind} pixels with foam in the midst of water");
     let middle = 32 * 96 + 48;
-    // Two layers before those of foam, four behind them.
+    // Two layers lie in front of the foam, four behind it.
     let share = front[middle] / all[middle];
     assert!((share - 2.0 / 6.0).abs() < 0.1, "{share} of the water is before the foam");
 }
@@ -115,7 +115,7 @@ fn layers_can_be_chosen() {
     folder.run("render a.ply -o a.exr --layers water").fails(2, &["water.depth", "'water'"]);
 }
 
-/// Columns and rows in which anything of the water is seen.
+/// Numbers of columns and rows that show water.
 fn covered(exr: &Layers) -> [usize; 2] {
     let alpha = exr.channel("A").unwrap();
     let seen = |x: usize, y: usize| alpha[y * exr.width + x] > 0.01;
@@ -124,8 +124,8 @@ fn covered(exr: &Layers) -> [usize; 2] {
     [columns.count(), rows.count()]
 }
 
-/// A block that flies to the right is drawn out by as far as it goes while the shutter is open; through a lens it is as sharp
-/// as before where it is in focus, and else as much wider as its edges are blurred.
+/// Motion blur widens a block that flies to the right by its motion while the shutter is open. A lens keeps it sharp
+/// where it is in focus, and otherwise widens it by its blurred edges.
 #[test]
 fn shutter_and_lens_blur_by_motion_and_depth() {
     let folder = Folder::new();
@@ -138,7 +138,7 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
         folder.run(&command).ok();
         covered(&folder.picture("a.exr"))
     };
-    // Pixels that a metre has where it lies: 4 m away, 80 pixels in 2 tan(15°).
+    // Pixels per metre at the block, 4 m away: 80 pixels in 2 tan(15°).
     let metre = 80.0 / (2.0 * 4.0 * 15.0_f32.to_radians().tan());
     let near = |found: usize, expected: f32| (found as f32 - expected).abs() <= 2.0;
     let [wide, high] = of("");
@@ -148,7 +148,7 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
         "{blurred} {wide}"
     );
     let sharp = of("--aperture 0.2 --samples 8");
-    // Edges are within 0.2 m of the focus: a circle of 0.2 * 0.2 / 4 m at most.
+    // Edges are within 0.2 m of the focus, so the circle of confusion is at most 0.2 * 0.2 / 4 m.
     assert!(near(sharp[0], wide as f32 + 0.01 * metre) && near(sharp[1], high as f32), "{sharp:?}");
     let circle = 0.2 * (4.0 / 2.0 - 1.0) * metre;
     let soft = of("--aperture 0.2 --focus 2 --samples 16");
@@ -158,7 +158,8 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
     );
 }
 
-/// Without spray a particle that is alone is a drop of water: nothing is lost. That of foam files is left out.
+/// Without spray a lone particle is drawn as a drop of water, so nothing is lost. Lone particles are left out if they
+/// are in whitewater files.
 #[test]
 fn without_spray_lone_particles_are_drops() {
     let folder = Folder::new();
@@ -180,7 +181,7 @@ fn without_spray_lone_particles_are_drops() {
     assert!(drop("--whitewater foam.ply") < 0.1);
 }
 
-/// Of what is drawn once nothing is averaged: EXR, sequences, and what is told not to be. A single PNG is.
+/// EXR files, sequences and pictures with `--samples 1` are drawn once, not averaged. A single PNG is averaged.
 #[test]
 fn single_pngs_are_photographs() {
     let folder = Folder::new();
@@ -204,12 +205,12 @@ fn single_pngs_are_photographs() {
     assert!(folder.picture("s_1.png").rgb().unwrap() == sharp);
 }
 
-/// Each rung differs from the one below, in the water alone. Without foam all water is before it.
+/// Each rung of the ladder differs from the one below, within the water only. Without foam all water is in front of it.
 #[test]
 fn the_ladder_has_its_rungs() {
     let folder = Folder::new();
     folder.particles("a.ply", block(8));
-    // Without walls: what stands in the water is lit through it from the second rung on.
+    // Without walls: objects in the water are lit through it from the second rung on.
     let look = "--shadows none --layers ladder,scene";
     let command = format!("render a.ply -o a.exr {GROUND} {FRONT} {look}");
     folder.run(&command).ok();
@@ -303,7 +304,7 @@ fn particles_that_are_absurdly_far_change_no_view() {
     let run = folder.run(&format!("render far.ply -o far.exr {SMALL} --validate")).ok();
     assert!(run.stderr().contains("2 of 345 positions"), "{}", run.stderr());
     folder.run("compare clean.exr far.exr").ok();
-    // So few that none is the bulk; and none that is near.
+    // So few particles that none is in the bulk, and so far apart that none has a neighbour.
     folder.particles("few.ply", vec![[0.0; 3], [0.0, 0.1, 0.0], [9.0e17, 0.0, 0.0]]);
     folder.particles("none.ply", block(4).iter().map(|p| p.map(|c| c * 1.0e18 + 2.0e18)).collect());
     for name in ["few", "none"] {
@@ -342,7 +343,7 @@ fn settings_and_environment_change_the_picture() {
     let folder = Folder::new();
     folder.particles("a.ply", block(6));
     folder.text("milk.toml", "[water]\nmedium = 'milk'\n");
-    // A panorama of one blue.
+    // A panorama of uniform blue.
     let mut sky = whitewater::io::picture::Layers::new(16, 8);
     for (name, value) in [("R", 0.1), ("G", 0.2), ("B", 1.0)] {
         sky.push(name, 16, 8, vec![value; 128]).unwrap();
@@ -364,7 +365,7 @@ fn settings_and_environment_change_the_picture() {
     assert!((sky[2] - 1.0).abs() < 0.01 && (sky[0] - 0.1).abs() < 0.01, "{sky:?}");
 }
 
-/// Curves change the PNG, and not the EXR. Stops are on top of what is found.
+/// Tone curves change the PNG, but not the EXR. Stops add to the exposure that was found.
 #[test]
 fn light_is_shown_as_asked() {
     let folder = Folder::new();
@@ -397,7 +398,7 @@ fn light_is_shown_as_asked() {
     folder.run("render a.ply -o b.png --exposure bright").fails_at_once();
 }
 
-/// Nothing but the water, over what a compositor likes: over white what it is before white.
+/// The water alone, premultiplied for compositing: over white it gives what the water looks like in front of white.
 #[test]
 fn water_alone_has_the_share_that_it_hides() {
     let folder = Folder::new();
@@ -415,7 +416,7 @@ fn water_alone_has_the_share_that_it_hides() {
     let png = folder.picture("a.png");
     let shown = png.channel("A").unwrap();
     assert!((shown[middle] - alpha[middle]).abs() <= 0.51 / 255.0 && shown[corner] == 0.0);
-    // More of it hides more.
+    // More water hides more.
     folder.text("milk.toml", "[water]\nmedium = 'milk'\n");
     folder.run(&format!("{common} -o milk.exr --settings milk.toml")).ok();
     assert!(folder.picture("milk.exr").channel("A").unwrap()[middle] > 0.95);
@@ -424,7 +425,7 @@ fn water_alone_has_the_share_that_it_hides() {
 #[test]
 fn sets_differ() {
     let folder = Folder::new();
-    // Wide, low water that fills a box.
+    // Wide, shallow water that fills a box.
     let all = block(20).into_iter().filter(|p| p[1] < 0.45).collect();
     folder.particles("a.ply", all);
     let common = format!("render a.ply {SIZE} --radius 0.05 --supersample 1");
@@ -435,14 +436,14 @@ fn sets_differ() {
     }
     for set in &sets[1..] {
         folder.run(&format!("compare pool.exr {set}.exr --tolerance 0.001")).fails(1, &["RMSE"]);
-        // The basin, in the middle, is of the same form in all of them; what is far around is not.
+        // The basin in the middle is the same in all sets; the surroundings differ.
         let middle = |name: &str| folder.picture(name).channel("scene.Z").unwrap()[48 * 96 + 48];
         assert_eq!(middle("pool.exr"), middle(&format!("{set}.exr")), "{set}");
     }
     folder.run(&format!("{common} -o b.exr --set lab --scene ground")).ok();
 }
 
-/// A tub's water is as clear as water is, a pool's is a pool's; and as it is said.
+/// Water in a tub is as clear as natural water, water in a pool as clear as a pool; and a setting overrides both.
 #[test]
 fn small_scenes_are_clear() {
     let folder = Folder::new();
@@ -464,7 +465,7 @@ fn small_scenes_are_clear() {
     assert_eq!(absorption("small", "--settings pool.toml"), 1.1);
 }
 
-/// The colour of a block of each liquid, in the light of an even grey sky: as its name says.
+/// The colour of a block of each liquid, under a uniform grey sky, fits its name.
 #[test]
 fn liquids_have_their_colours() {
     let folder = Folder::new();
@@ -485,7 +486,7 @@ fn liquids_have_their_colours() {
     assert!(r > 0.7 && g > 0.7 && b > 0.6 && r > b, "milk {r} {g} {b}");
     let [r, g, b] = colour("blood");
     assert!(r > 3.0 * g && (g / b - 1.0).abs() < 0.2, "blood {r} {g} {b}");
-    // A block of 0.8 metres, as one of 4 centimetres.
+    // A block of 0.8 metres, and one scaled to 4 centimetres.
     let [r, g, b] = colour("beer:0.05");
     assert!(r > 1.5 * g && g > 1.5 * b && r > 0.1, "beer {r} {g} {b}");
     let [deep, ..] = colour("beer");
@@ -494,7 +495,7 @@ fn liquids_have_their_colours() {
     assert!(r > 2.0 * g && g > b, "lava {r} {g} {b}");
     let [r, g, b] = colour("river:10");
     assert!(r > 1.1 * g && g > 1.2 * b, "river {r} {g} {b}");
-    // What a picture was drawn with draws it again.
+    // The settings of a picture draw it again.
     let text =
         folder.picture("a.exr").attributes.iter().find(|(k, _)| k == "settings").unwrap().1.clone();
     folder.text("again.toml", &text);
@@ -527,7 +528,7 @@ fn times_and_traces_are_written() {
     folder.run("render a.ply -o a.png --timings t.txt").fails(2, &[".csv or .json"]);
 }
 
-/// Which water is foam is found once a frame, before it is drawn, however often that is.
+/// The foam classification runs once per frame, before it is drawn, however often it is drawn.
 #[test]
 fn what_forms_foam_is_timed() {
     let folder = Folder::new();
@@ -546,7 +547,7 @@ fn rows() -> String {
     format!("x,y,z,vx,vy,vz,id\n{rows}")
 }
 
-/// The settings that stand in a picture draw it again, whatever they were.
+/// The settings that a picture stores draw it again, whatever they were.
 #[test]
 fn a_pictures_settings_draw_it_again() {
     let folder = Folder::new();
@@ -572,15 +573,14 @@ fn a_pictures_settings_draw_it_again() {
     folder.run(&format!("render a.csv -o b.exr {SMALL} --settings again.toml")).ok();
     assert_eq!(settings("b.exr"), said);
     folder.run("compare a.exr b.exr --tolerance 0").ok();
-    // It is another look than without.
+    // The look differs from the default.
     folder.run(&format!("render a.csv -o c.exr {SMALL}")).ok();
     folder.run("compare a.exr c.exr --tolerance 0.001").fails(1, &["RMSE"]);
 }
 
-/// The demo against pictures that were looked at, in mean FLIP, by the tone curve that leaves dim colours as they are.
-/// Drivers differ in the snapping of triangles, and where the refraction ends by the texels they gather: SwiftShader is
-/// 0.013 from lavapipe, which made the pictures. What must be seen is a change of the look: another sun is 0.40 (a long
-/// test: that another view is another picture is seen without one more).
+/// Compares the demo with reference pictures by mean FLIP, with the tone curve that keeps dim colours. Drivers differ
+/// in how they snap triangles, and in the texels that they gather for refraction: SwiftShader is 0.013 from lavapipe,
+/// which drew the references. A change of the look must fail: another sun gives 0.40, which only the long tests draw.
 #[test]
 fn the_demo_is_its_reference() {
     let folder = Folder::new();
@@ -593,7 +593,7 @@ fn the_demo_is_its_reference() {
         folder
             .run(&format!("demo -o {name}.png -o {name}.exr --size 320x180 --tone neutral {view}"))
             .ok();
-        // A failure leaves the picture beside its reference.
+        // On failure the picture is stored beside its reference.
         std::fs::create_dir_all(out).unwrap();
         std::fs::copy(folder.path(&format!("{name}.png")), format!("{out}/{name}-actual.png"))
             .unwrap();

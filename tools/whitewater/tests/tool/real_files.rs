@@ -1,15 +1,15 @@
-//! What people have: other axes and units, files that do not fit each other, and what is said of them.
+//! Files as users have them: with other axes and units, or that do not fit together, and the messages about them.
 
 use super::support::{Folder, SIZE, SMALL, block};
 
-/// Water that slopes from a wall on the left down to a floor, which it falls to: positions and velocities, y up.
+/// Water that slopes down from a wall on the left to a floor, and falls towards it: positions and velocities, y up.
 fn slope() -> Vec<[[f32; 3]; 2]> {
     let cells = (0..24).flat_map(|x| (0..12).flat_map(move |y| (0..10).map(move |z| (x, y, z))));
     let wet = cells.filter(|(x, y, _)| *y as f32 <= 11.0 - 0.5 * *x as f32);
     wet.map(|(x, y, z)| [[x, y, z].map(|i| 0.05 * i as f32), [2.4, -1.5, 0.0]]).collect()
 }
 
-/// As CSV, its vectors made others.
+/// CSV text of the particles, with `other` applied to all vectors.
 fn csv(particles: &[[[f32; 3]; 2]], other: impl Fn([f32; 3]) -> [f32; 3]) -> String {
     let mut rows = String::from("x,y,z,vx,vy,vz\n");
     for [p, v] in particles {
@@ -19,7 +19,8 @@ fn csv(particles: &[[[f32; 3]; 2]], other: impl Fn([f32; 3]) -> [f32; 3]) -> Str
     rows
 }
 
-/// Files in which z is up are told by how the water lies, and drawn as if it were said; what is said goes first.
+/// In files with z up the water's shape shows the axis, and they are drawn as with `--up-axis z`. The option overrides
+/// what is found.
 #[test]
 fn the_axis_that_is_up_is_found() {
     let folder = Folder::new();
@@ -45,7 +46,7 @@ fn the_axis_that_is_up_is_found() {
     assert!(text.contains("up          y, clear: the water lies"), "{text}");
 }
 
-/// Files whose up axis points down are found too, and drawn as those that stand; on its side a dam is what is said.
+/// Files whose up axis points down are detected too, and drawn the right way up. A dam on its side follows `--up-axis`.
 #[test]
 fn files_that_hang_are_turned() {
     let folder = Folder::new();
@@ -78,7 +79,8 @@ fn files_that_hang_are_turned() {
     folder.run("compare y.exr as_it_is.exr --tolerance 1e-3").fails(1, &["RMSE"]);
 }
 
-/// Millimetres are told by speeds that no water of that size has; with their unit the picture is that of metres.
+/// Files in millimetres are reported because water of that size cannot have these speeds. With `--unit` the picture
+/// equals that in metres.
 #[test]
 fn files_in_millimetres_are_told_and_drawn_in_metres() {
     let folder = Folder::new();
@@ -95,7 +97,7 @@ fn files_in_millimetres_are_told_and_drawn_in_metres() {
     for (out, more) in [("unit", "--unit mm"), ("scale", "--scale 0.001")] {
         let said = run("mm", out, more);
         assert!(!said.contains("spans"), "{said}");
-        // A thousandth of a thousand times a length is not it to the last bit.
+        // Scaling to millimetres and back rounds, so the pictures may differ slightly.
         folder.run(&format!("compare m.png {out}.png --tolerance 0.01")).ok();
     }
     folder.run("compare m.png raw.png --tolerance 0.02").fails(1, &["RMSE"]);
@@ -103,7 +105,8 @@ fn files_in_millimetres_are_told_and_drawn_in_metres() {
     folder.run("render m.csv -o a.exr --scale 0").fails_at_once();
 }
 
-/// Whitewater particles of other numbers than the water's are an error, those of some frames are told, and how many are drawn.
+/// Whitewater files whose frame numbers do not match the water's are an error. If only some are missing, a message says
+/// how many frames are drawn without.
 #[test]
 fn whitewater_files_that_do_not_fit_are_told() {
     let folder = Folder::new();
@@ -125,7 +128,7 @@ fn whitewater_files_that_do_not_fit_are_told() {
     ] {
         assert!(said.contains(part), "{part}: {said}");
     }
-    // A pattern of another program, and one that is padded as the files are not.
+    // A pattern of another program, and one with a different padding than the files.
     for (pattern, parts) in [
         ("f_{}.csv", ["no such file", "'f_%d.csv'"]),
         ("f_####.csv", ["no such file", "'f_%d.csv'"]),
@@ -136,7 +139,7 @@ fn whitewater_files_that_do_not_fit_are_told() {
     folder.run(&format!("{common} foam=b_%04d.ply -o d.png")).fails(3, &["2 files fit 'b_%d.ply'"]);
 }
 
-/// Walls in the files of the water are told, and left out by --where; the picture is then that of the water alone.
+/// Walls in the water's files are reported, and left out by --where; the picture is then that of the water alone.
 #[test]
 fn walls_are_told_and_left_out() {
     let folder = Folder::new();
@@ -183,7 +186,7 @@ fn walls_are_told_and_left_out() {
     folder.run("render all.csv -o a.png --where Type~3").fails_at_once();
 }
 
-/// Radii in the files are the particles', and what lies at one place is drawn once.
+/// Radii in the files are used, and copies of particles at one place are drawn once.
 #[test]
 fn radii_and_copies_of_particles_are_understood() {
     let folder = Folder::new();
@@ -203,7 +206,7 @@ fn radii_and_copies_of_particles_are_understood() {
     );
     let text = folder.run("info radii.csv").ok().stdout();
     assert!(text.contains("radius (number x 1): radius"), "{text}");
-    // A block of eight times the particles, half of them in one of twice the radius each.
+    // A block with eight times the particles, and half of it again as particles of twice the radius.
     let half: Vec<_> =
         (0..6 * 6 * 6).map(|i| [i % 6, i / 6 % 6, i / 36].map(|i| 0.1 * i as f32)).collect();
     let mut mixed = String::from("x,y,z,radius\n");
@@ -229,7 +232,7 @@ fn radii_and_copies_of_particles_are_understood() {
     ] {
         assert!(said.contains(part), "{said}");
     }
-    // Both halves are as thick, within the unevenness of a few copies.
+    // Both halves have equal thickness, within the noise of a few copies.
     let picture = folder.picture("m.exr");
     let thick = picture.channel("water.thickness").unwrap();
     let mean = |from: usize| {
@@ -254,7 +257,7 @@ fn radii_and_copies_of_particles_are_understood() {
     }
 }
 
-/// A sheet of particles is told, and seen from before it, whichever two axes it lies in.
+/// A flat sheet of particles is reported and seen from the front, whichever two axes it lies in.
 #[test]
 fn two_dimensions_are_told_and_seen_from_the_front() {
     let folder = Folder::new();
@@ -275,7 +278,7 @@ fn two_dimensions_are_told_and_seen_from_the_front() {
     assert!(wet > 600, "{wet} of {} pixels", depth.len());
 }
 
-/// A folder is the sequence in it, and numbers of steps are no times: frames a second are those of the files.
+/// A folder stands for the sequence in it. Step numbers are not times; the frame rate comes from the files.
 #[test]
 fn a_folder_of_steps_becomes_a_film() {
     let folder = Folder::new();
@@ -294,10 +297,10 @@ fn a_folder_of_steps_becomes_a_film() {
     let said = folder.run(&common).ok().stderr();
     assert!(said.contains("25 frames a second (found"), "{said}");
     assert_eq!(folder.film("film.mp4"), (4, 25.0));
-    // Every other frame at the rate that is said, not that which is found.
+    // Every other frame, at the rate that is given instead of the one that is found.
     folder.run(&format!("{common} --fps 12 --every 2")).ok();
     assert_eq!(folder.film("film.mp4"), (2, 6.0));
-    // Without velocities or ids times in names tell the rate.
+    // Without velocities or ids, times in file names give the rate.
     for time in ["0.32", "0.36", "0.4"] {
         folder.particles(&format!("t{time}.ply"), slope().iter().map(|[p, _]| *p).collect());
     }
@@ -312,7 +315,7 @@ fn a_folder_of_steps_becomes_a_film() {
     folder.run("render a.bi4 -o a.png").fails(3, &["a.bi4", "PartVTK"]);
 }
 
-/// A file of several frames is a sequence, at the rate of its times; files of one number are put together where told.
+/// A file of several frames is a sequence, at the rate of its times. Files of one frame number are joined on request.
 #[test]
 fn frames_in_one_file_and_files_of_one_frame() {
     let folder = Folder::new();
@@ -341,7 +344,7 @@ fn frames_in_one_file_and_files_of_one_frame() {
     for part in ["frame       2", "time        0.04", "Time [s] (number x 1): time"] {
         assert!(text.contains(part), "{part}: {text}");
     }
-    // One file of each half.
+    // One file for each half.
     let (left, right): (Vec<_>, Vec<_>) = slope().into_iter().partition(|[p, _]| p[0] < 0.5);
     folder.text("whole_1.csv", &csv(&[left.clone(), right.clone()].concat(), |p| p));
     folder.text("left_1.csv", &csv(&left, |p| p));
@@ -353,7 +356,8 @@ fn frames_in_one_file_and_files_of_one_frame() {
     folder.run("compare d.exr e.exr").ok();
 }
 
-/// Fluids are drawn each with its look: one that is all is as without it, and of two the nearer is in front, from both sides.
+/// Each fluid is drawn with its own look. A single fluid looks as without --fluid, and of two the nearer one is in
+/// front, from both sides.
 #[test]
 fn several_fluids_are_drawn_each_with_its_look() {
     let folder = Folder::new();
@@ -387,10 +391,10 @@ fn several_fluids_are_drawn_each_with_its_look() {
         let (seen, hidden) = if out == "front" { (milk, lava) } else { (lava, milk) };
         let off =
             |a: [f32; 3], b: [f32; 3]| (0..3).map(|c| (a[c] - b[c]).abs()).fold(0.0, f32::max);
-        // Both are opaque, but light comes round the other.
+        // Both are opaque, but light passes around the other.
         assert!(off(both, seen) < 0.1 * off(seen, hidden), "{out}: {both:?} {seen:?} {hidden:?}");
     }
-    // The same by files.
+    // The same with one file per fluid.
     let common =
         format!("{SMALL} {front} --target 0,0.25,0 --fov 40 --radius 0.05 --layers water.depth");
     let two = "--medium milk --where Type!=0 --fluid lava_1.csv:lava";
@@ -406,7 +410,7 @@ fn several_fluids_are_drawn_each_with_its_look() {
     folder.run(&format!("{wrong} Type=1:oil")).fails_at_once();
 }
 
-/// Where two fluids of one look touch they are seen as one; whitewater is drawn once, over both.
+/// Touching fluids of one look are seen as one. Whitewater is drawn once, over both.
 #[test]
 fn fluids_that_touch_are_seen_through() {
     let folder = Folder::new();
@@ -453,7 +457,7 @@ fn fluids_that_touch_are_seen_through() {
     );
 }
 
-/// A lone particle is a drop, not spray that nobody sees, and a frame without any is told.
+/// A lone particle is drawn as a drop, not as invisible spray, and a frame without particles is reported.
 #[test]
 fn few_particles_are_drawn_and_none_are_told() {
     let folder = Folder::new();
@@ -475,7 +479,7 @@ fn few_particles_are_drawn_and_none_are_told() {
     assert_eq!(depth("none"), 0);
 }
 
-/// What nobody can know of files is a guess that is told, once: which way up, and units in the names of columns.
+/// A guess about files is reported once: the axis that is up, and units in the names of columns.
 #[test]
 fn guesses_are_told() {
     let folder = Folder::new();
@@ -504,7 +508,7 @@ fn guesses_are_told() {
     assert!(text.contains("unit        the names of the positions say cm"), "{text}");
 }
 
-/// Positions and velocities in files of NumPy of their own are particles that move.
+/// Positions and velocities in separate NumPy files are joined to moving particles.
 #[test]
 fn arrays_in_files_of_their_own_are_put_together() {
     let folder = Folder::new();
@@ -537,7 +541,7 @@ fn arrays_in_files_of_their_own_are_put_together() {
     assert!(said.contains("the file's name says that these are velocities"), "{said}");
 }
 
-/// Frames of one file are drawn as those of several are.
+/// Frames of one file are drawn like those of several files.
 #[test]
 fn frames_in_one_file_are_drawn() {
     let folder = Folder::new();

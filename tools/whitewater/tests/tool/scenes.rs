@@ -1,4 +1,4 @@
-//! Scenes: simulated, with parts that move, under a camera that moves.
+//! Scenes: simulated ones, moving parts, and a moving camera.
 
 use super::support::{Folder, SIZE, block, names};
 
@@ -71,7 +71,7 @@ fn parts_and_the_camera_move_by_the_number_of_the_frame() {
 const TABLE: &str = r#"{"boxes":[{"name":"table","material":"timber","centre":[0,0.2,0],"half":[0.5,0.2,0.5]}],
     "ground":{"y":0,"material":"sand"}}"#;
 
-/// Blobs of a file fall on what is seen, and what is torn off splits on the way.
+/// Blobs from a file fall onto the scene, and torn-off blobs split on the way.
 #[test]
 fn blobs_fall_on_the_scene() {
     let folder = Folder::new();
@@ -86,7 +86,7 @@ fn blobs_fall_on_the_scene() {
     folder.run(&format!("render --bubbles b.json --frames 45-45 -o b_%d.exr {look}")).ok();
     let picture = folder.picture("b_45.exr");
     let z = picture.channel("bubbles.Z").unwrap();
-    // Lowest row of blobs on the left, over the table, and on the right: 64 rows are 2.18 m at a distance of 3.
+    // Lowest row of blobs on the left, over the table, and on the right. 64 rows are 2.18 m at a distance of 3 m.
     let lowest = |columns: std::ops::Range<usize>| {
         let row = (0..64).rfind(|y| columns.clone().any(|x| z[96 * y + x] < 1.0e9));
         let row = row.expect("a blob") as f32;
@@ -100,7 +100,7 @@ fn blobs_fall_on_the_scene() {
     folder.run(&format!("render a.ply --bubbles b.json -o n.png {look}")).fails(3, &[text]);
 }
 
-/// A scene stands in a set where one is named; it has its own ground and sky otherwise. Water alone has no scene.
+/// A scene stands in a set if one is named; otherwise it has its own ground and sky. Water alone has no scene.
 #[test]
 fn a_scene_stands_in_a_set() {
     let folder = Folder::new();
@@ -113,7 +113,7 @@ fn a_scene_stands_in_a_set() {
         folder.picture("a.png").rgb().unwrap()
     };
     let (own, pool, lab) = (draw(""), draw("--set pool --validate"), draw("--set lab"));
-    // The corners of the picture are ground and sky.
+    // The corners of the picture show ground and sky.
     let changed = |a: &[[f32; 3]], b: &[[f32; 3]], i: usize| {
         a[i].iter().zip(b[i]).any(|(a, b)| (a - b).abs() > 0.02)
     };

@@ -1,4 +1,4 @@
-//! Many frames: names, ranges, reruns, bad frames.
+//! Sequences: names, ranges, reruns, bad frames.
 
 use whitewater::io::picture::{EMPTY, Layers};
 
@@ -47,7 +47,7 @@ fn a_rerun_draws_only_what_is_missing() {
     assert_eq!(folder.files(), all);
 }
 
-/// A film is one file of all frames, at the rate that is asked for; its frames are those of the range.
+/// A film is one file with all frames of the range, at the requested rate.
 #[test]
 fn a_film_has_all_frames() {
     let folder = Folder::new();
@@ -56,13 +56,13 @@ fn a_film_has_all_frames() {
     let run = folder.run(&format!("{command} -o again.mp4")).ok();
     assert!(run.stderr().contains("film.mp4"), "{}", run.stderr());
     assert_eq!([folder.film("film.mp4"), folder.film("again.mp4")], [(4, 12.0); 2]);
-    // It is never there in part: drawn again, whatever there is.
+    // The film is always drawn as a whole, whatever exists already.
     folder.run(&format!("{command} --every 2")).ok();
     assert_eq!(folder.film("film.mp4"), (2, 6.0));
     folder.run(&command.replace("96x64", "95x64")).fails(2, &["--size", "96x64"]);
     folder.run(&command.replace("film", "film_%d")).fails(2, &["film_%d.mp4"]);
     assert_eq!(folder.film("film.mp4"), (2, 6.0), "the one before is kept");
-    // Without particles, too.
+    // Also without particles.
     folder
         .run(&format!("render --bubbles one --frames 0-3 --every 2 -o b.mp4 {SIZE} --fps 12"))
         .ok();
@@ -85,8 +85,8 @@ fn parts_of_a_sequence_fit_together() {
     folder.run("render f_*.ply -o c.png --frames 5-3").fails(2, &["5-3"]);
 }
 
-/// Water that is fast from the second frame on: foam needs time to come, and stays when it is slow
-/// again; which frames are drawn together does not show.
+/// Water that is fast from the second frame on: foam needs time to form, and stays when the water is slow again. The
+/// frames that are drawn make no difference to it.
 #[test]
 fn foam_comes_and_goes_whichever_frames_are_drawn() {
     let folder = Folder::new();
@@ -117,7 +117,7 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
     assert!(third > 0.0 && fourth > 0.0, "{third} {fourth}");
     folder.run(&format!("render f_4.csv -o c.exr {common}")).ok();
     assert_eq!(foam("c.exr"), 0.0, "alone it is at rest");
-    // The frames before need not be good.
+    // The earlier frames need not be valid.
     folder.text("f_2.csv", "x,y\n1,2\n");
     folder.run(&format!("render f_*.csv -o d_%d.exr {common} --frames 4")).ok();
     assert!(foam("d_4.exr") < fourth);
@@ -161,18 +161,18 @@ fn motion_is_what_moved_in_a_frame() {
         let [x, y] = ["motion.X", "motion.Y"].map(|name| motion(&picture, name));
         let mut seen = 0;
         let scene = motion(&picture, "scene.Z");
-        // A pixel at an outline has the motion of what is nearest in it.
+        // A pixel at an outline has the motion of its nearest surface.
         for (i, z) in depth.into_iter().enumerate().filter(|(i, z)| *z < scene[*i].min(EMPTY)) {
             seen += 1;
             // 64 rows are 40 degrees.
             let pixels = 32.0 / 20.0_f32.to_radians().tan() / z / fps;
             let along = if camera == "rests" { speed[0] } else { 0.0 };
             let off = [x[i] - along * pixels, y[i] + speed[1] * pixels];
-            // The smoothed surface is no farther than a few radii from the frontmost.
+            // The smoothed surface is within a few radii of the frontmost particle.
             assert!(off.iter().all(|off| off.abs() < 0.1 * 0.9 * pixels), "{camera}: {off:?}");
         }
         assert!(seen > 100, "{camera}: {seen} pixels");
-        // The ground stands still, and passes a camera that moves.
+        // The ground stands still, and moves relative to a moving camera.
         let ground = (96 * 60..96 * 64).filter(|i| scene[*i] < EMPTY);
         let passes = ground.map(|i| x[i]).fold(0.0, f32::min);
         assert_eq!(passes < -1.0, camera == "follows", "{camera}: {passes}");
@@ -189,7 +189,7 @@ fn a_bad_frame_does_not_lose_the_others() {
     folder.run(&command).fails(1, &["1 of 4", "9 (", "ends too early"]);
     let there = |frame: u32| folder.exists(&format!("out.{frame:04}.png"));
     assert!(there(8) && !there(9) && there(10) && there(11));
-    // Mended, the rerun draws the one that was missing.
+    // When the file is mended, a rerun draws the frame that was missing.
     std::fs::write(folder.path("f_9.ply"), bytes).unwrap();
     let run = folder.run(&command).ok();
     assert!(there(9) && run.stderr().contains("3 finished frames"), "{}", run.stderr());
@@ -220,11 +220,11 @@ fn a_single_picture_is_drawn_again() {
     assert_eq!(folder.picture("a.png").width, 96);
 }
 
-/// One file is drawn from all sides, as it is, and the last picture is a step before the first.
+/// One file is drawn from all sides, unmoved, and the last picture is one step before the first.
 #[test]
 fn a_turntable_goes_round_one_file() {
     let folder = Folder::new();
-    // Longer than wide, so that it shows from where it is seen.
+    // Longer than wide, so that the direction of view shows.
     let bar = block(12).into_iter().filter(|p| p[2].abs() < 0.2 && p[1] < 0.35).collect();
     folder.particles("bar_0046.ply", bar);
     let common =
@@ -241,21 +241,21 @@ fn a_turntable_goes_round_one_file() {
         wet.len() as f32
     };
     let seen: Vec<f32> = (1..=8).map(|i| pixels(&format!("t.{i:04}.exr"))).collect();
-    // A half of the way round the same bar is seen from behind; a quarter, it is not.
+    // After half a turn the bar looks the same; after a quarter it does not.
     for i in 0..4 {
         assert!((seen[i] / seen[i + 4] - 1.0).abs() < 0.05, "{seen:?}");
     }
     assert!((0..4).any(|i| (seen[i] / seen[i + 2] - 1.0).abs() > 0.1), "{seen:?}");
     folder.run("compare t.0001.exr t.0003.exr --tolerance 0.001").fails(1, &["RMSE"]);
-    // What is there is not drawn again.
+    // An existing picture is not drawn again.
     let said = folder.run(&format!("{common} -o t.exr")).ok().stderr();
     assert!(said.contains("8 finished"), "{said}");
-    // Seconds are frames of the film.
+    // A duration in seconds sets the number of frames.
     folder.run(&format!("render bar_0046.ply {SMALL} --turntable=0.25s --fps 16 -o s.mp4")).ok();
     assert_eq!(folder.film("s.mp4"), (4, 16.0));
 }
 
-/// A sequence runs while the camera goes round; a turn may be longer than it.
+/// A sequence runs while the camera turns; a turn may be longer than the sequence.
 #[test]
 fn a_turntable_goes_round_a_sequence() {
     let folder = Folder::new();
@@ -285,7 +285,7 @@ fn a_turntable_goes_round_a_sequence() {
         x.abs() < 1.0e-4 && (z - 2.35).abs() < 1.0e-4,
         "begins with the first that is drawn: {x} {z}"
     );
-    // What cannot be gone round.
+    // Combinations that a turntable refuses.
     folder.text("keys.json", r#"{"keys":[{"frame":0,"eye":[0,0,5],"target":[0,0,0]}]}"#);
     folder
         .run(&format!("render f_0.ply -o c.png {SMALL} --turntable --camera keys.json"))
@@ -295,7 +295,7 @@ fn a_turntable_goes_round_a_sequence() {
     folder.run("render f_0.ply -o c.png --turntable=0.01s").fails(2, &["2 to 100000"]);
 }
 
-/// What files lack, and what that costs, is said once.
+/// Missing data in files and their effect are reported once.
 #[test]
 fn what_is_missing_is_told() {
     let folder = Folder::new();
@@ -303,10 +303,10 @@ fn what_is_missing_is_told() {
     let said = |command: &str| folder.run(&format!("render {command} {SMALL}")).ok().stderr();
     let text = said("a.ply -o a.png");
     assert_eq!(text.matches("no velocities and no ids: no foam").count(), 1, "{text}");
-    // Where no foam is wanted nothing is amiss.
+    // If no foam is wanted, nothing is reported.
     let text = said("a.ply -o a.png --surface-foam none");
     assert!(!text.contains("velocities"), "{text}");
-    // Of a sequence whose order changes none are found.
+    // In a sequence whose particle order changes, velocities cannot be found.
     for frame in 1..=3_usize {
         let mut positions = block(6);
         (0..216).for_each(|i| positions.swap(i, (i * 61 * frame + 31) % 216));
@@ -316,7 +316,7 @@ fn what_is_missing_is_told() {
     assert_eq!(text.matches("do not keep their order: no foam").count(), 1, "{text}");
 }
 
-/// One frame of four has neither velocities nor ids: it is told, and foams as the others do.
+/// One frame of four has neither velocities nor ids: this is reported, and it foams like the others.
 #[test]
 fn a_frame_that_lacks_what_others_have_is_told() {
     let folder = Folder::new();
@@ -349,7 +349,7 @@ fn a_frame_that_lacks_what_others_have_is_told() {
     folder.run("compare a_3.exr b_3.exr").ok();
 }
 
-/// The same warning of each frame is said of the first, and how many it was at the end.
+/// A warning that is the same for each frame is printed for the first one, with a count at the end.
 #[test]
 fn a_warning_of_many_frames_is_said_once() {
     let folder = Folder::new();

@@ -4,7 +4,7 @@ use whitewater::io::picture::{Layers, write_png_values};
 
 use super::support::{FRONT, Folder, SIZE, block};
 
-/// A hill that stands in the sea.
+/// A hill in the sea.
 const HILL: &str =
     r#"{"spheres":[{"name":"hill","material":"sand","centre":[0,-3,0],"radius":5}]}"#;
 
@@ -21,7 +21,7 @@ fn foam_goes_round_a_hill_of_ones_own() {
     folder.run(&format!("{common} --validate -o map.exr")).ok();
     let picture = folder.picture("map.exr");
     let foam = picture.channel("shore.amount").unwrap();
-    // The shore is a circle of radius 4 about the middle of the picture: on it, off it, inside.
+    // The shore is a circle of radius 4 about the middle of the picture: samples on it, out at sea, inland.
     let amount = |rows: std::ops::Range<usize>| {
         let all = rows.clone().map(|y| foam[96 * y + 48]).sum::<f32>();
         all / rows.len() as f32
@@ -29,7 +29,7 @@ fn foam_goes_round_a_hill_of_ones_own() {
     assert!(foam.iter().any(|v| *v > 0.9), "no foam");
     assert_eq!(amount(30..34), 0.0, "on the land");
     assert!(picture.channel("contact.amount").unwrap().iter().all(|v| *v == 0.0));
-    // Half a second later it has moved; the colour shows it.
+    // Half a second later the foam has moved, which the colour shows.
     folder.run(&format!("{common} --frames 13 -o later.exr")).ok();
     folder.run("compare map.exr later.exr").fails(1, &[]);
     folder.run(&format!("{common} --level 9 -o none.png")).fails(3, &["no shore at 9", "--level"]);
@@ -41,7 +41,7 @@ fn foam_goes_round_a_hill_of_ones_own() {
     assert!(!folder.exists("none.png"));
 }
 
-/// A ring about a hill whose shore is a circle of radius 4, from 7 out in the sea to 3 on the land, in an OBJ.
+/// A ring as OBJ, about a hill whose shore is a circle of radius 4: from 7 out at sea to 3 on land.
 fn ring(with_v: bool) -> String {
     let mut text = String::new();
     let corner = |i: usize, radius: f32| {
@@ -68,7 +68,7 @@ fn ring(with_v: bool) -> String {
     text
 }
 
-/// A strip of the user's, from a file of its own: foam where it lies, and as v says.
+/// A user's strip, from its own file: foam lies on it, and follows its v.
 #[test]
 fn a_strip_of_ones_own() {
     let folder = Folder::new();
@@ -84,7 +84,7 @@ fn a_strip_of_ones_own() {
     draw("map.exr", "map = 256").ok();
     let [strip, map] = ["strip.exr", "map.exr"].map(|name| folder.picture(name));
     let [strip, map] = [&strip, &map].map(|picture| picture.channel("shore.amount").unwrap());
-    // Both know the same v, the one from the ring's corners, the other from the hill.
+    // Both have the same v, one from the ring's vertices, the other from the hill.
     let off = strip.iter().zip(map).map(|(a, b)| (a - b).abs()).sum::<f32>();
     let all = map.iter().sum::<f32>();
     assert!(all > 100.0 && off < 0.25 * all, "{off} of {all}");
@@ -96,7 +96,7 @@ fn a_strip_of_ones_own() {
     folder.run(&json).fails(3, &["hill.json", "'hill'", "TEXCOORD_0"]);
 }
 
-/// A web of the user's is what is seen.
+/// A user's web is used.
 #[test]
 fn a_web_of_ones_own() {
     let folder = Folder::new();
@@ -117,7 +117,7 @@ fn a_web_of_ones_own() {
     folder.run(&gone).fails(3, &["gone.png"]);
 }
 
-/// A mask of the user's lies over the view: where it is black there is no contact foam.
+/// A user's mask lies over the view: there is no contact foam where it is black.
 #[test]
 fn a_mask_of_ones_own() {
     let folder = Folder::new();
@@ -140,7 +140,7 @@ fn a_mask_of_ones_own() {
     folder.run(&format!("{pool} -o n.png")).fails(3, &["gone.png"]);
 }
 
-/// Foam where particles' water meets what stands in it.
+/// Foam where particle water meets objects.
 #[test]
 fn contact_foam_on_particles() {
     let folder = Folder::new();
@@ -161,7 +161,7 @@ fn contact_foam_on_particles() {
     let [a, b] = [&on, &off].map(|picture| picture.channel("G").unwrap());
     assert!(foam.iter().any(|v| *v > 0.5), "no foam");
     let bad = foam.iter().zip(a.iter().zip(b)).filter(|(f, (a, b))| **f == 0.0 && a != b).count();
-    // Refraction sees none of it: it lies on the water.
+    // Refracted rays do not see it, because it lies on the water.
     assert_eq!(bad, 0, "pixels without foam are as they were");
     let both = folder.run(&format!("render a.ply --shore pool {FRONT} -o n.png"));
     assert_eq!(both.0.status.code(), Some(2), "either particles or a scene with a sea");
@@ -173,11 +173,11 @@ fn built_in_scenes_are_drawn() {
     folder.text("s.toml", "[shore]\nmap = 128\n");
     let common =
         |scene: &str| format!("render --shore {scene} {SIZE} --supersample 1 --settings s.toml");
-    // The pool is in `a_mask_of_ones_own`.
+    // `a_mask_of_ones_own` tests the pool.
     folder.run(&format!("{} -o lava.exr", common("lava"))).ok();
     let picture = folder.picture("lava.exr");
     assert!(picture.channel("contact.amount").unwrap().iter().any(|v| *v > 0.3));
-    // One island drifts, and its map goes with it: a cut sequence shows the same.
+    // One island drifts, and its map moves with it, so part of a sequence shows the same.
     let islands = common("archipelago");
     folder.run(&format!("{islands} --frames 1-81 --every 80 -o a_%d.exr")).ok();
     folder.run(&format!("{islands} --frames 81 -o b.exr")).ok();

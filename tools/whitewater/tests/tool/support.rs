@@ -1,4 +1,4 @@
-//! A folder, some water in it, and the program.
+//! A folder, particles to draw, and the program.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -9,7 +9,7 @@ use whitewater::io::picture::{self, Layers};
 /// Rest spacing of [`block`].
 pub const SPACING: f32 = 0.1;
 
-/// A folder of a test's own, removed at its end.
+/// A test's own folder, which is removed at its end.
 pub struct Folder(tempfile::TempDir);
 
 impl Folder {
@@ -21,7 +21,7 @@ impl Folder {
         self.0.path().join(name)
     }
 
-    /// The program with these arguments, in this folder.
+    /// Runs the program with these arguments in this folder.
     pub fn run(&self, arguments: &str) -> Run {
         self.run_with(arguments, &[])
     }
@@ -30,7 +30,7 @@ impl Folder {
         Run(self.command(arguments).envs(variables.iter().copied()).output().unwrap())
     }
 
-    /// The same, its standard output somewhere else.
+    /// The same, with standard output redirected.
     pub fn run_to(&self, arguments: &str, to: impl Into<Stdio>) -> Run {
         let child = self.command(arguments).stdout(to).stderr(Stdio::piped()).spawn();
         Run(child.unwrap().wait_with_output().unwrap())
@@ -47,7 +47,7 @@ impl Folder {
         self.write(name, &Particles::from_positions(positions));
     }
 
-    /// The same with all they have, as what the name says.
+    /// The same with all attributes, in the format of the name.
     pub fn write(&self, name: &str, particles: &Particles) {
         let path = self.path(name);
         particles::write(&path, particles, WriteFormat::from_path(&path).unwrap()).unwrap();
@@ -65,10 +65,10 @@ impl Folder {
         self.path(name).exists()
     }
 
-    /// Frames of a film and how many a second, by its tables (ISO 14496-12: `stsz`, `mdhd`, `stts`).
+    /// Frame count and frame rate of a film, from its boxes (ISO 14496-12: `stsz`, `mdhd`, `stts`).
     pub fn film(&self, name: &str) -> (u32, f32) {
         let bytes = std::fs::read(self.path(name)).unwrap();
-        // The word so many behind the name of a box, its version and flags.
+        // The word at an index after the name of a box, its version and flags.
         let word = |kind: &[u8], at: usize| {
             let found = bytes.windows(kind.len()).position(|w| w == kind).unwrap();
             let from = found + 8 + 4 * at;
@@ -82,7 +82,7 @@ impl Folder {
         (count, (1000.0 * rate).round() / 1000.0)
     }
 
-    /// Names of all files, hidden ones too.
+    /// Names of all files, including hidden ones.
     pub fn files(&self) -> Vec<String> {
         names(self.0.path())
     }
@@ -97,7 +97,7 @@ pub fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// What the program did.
+/// Output of the program.
 pub struct Run(pub Output);
 
 impl Run {
@@ -121,7 +121,7 @@ impl Run {
         assert_eq!(self.0.status.code(), Some(2), "{}{}", self.stdout(), self.stderr());
     }
 
-    /// Ended with this code, and its last line has these parts.
+    /// Asserts this exit code, and that the last line has these parts.
     #[track_caller]
     pub fn fails(self, code: i32, parts: &[&str]) -> Self {
         let text = self.stderr();
@@ -135,7 +135,7 @@ impl Run {
     }
 }
 
-/// Whether the long tests are asked for.
+/// Whether long tests are enabled.
 pub fn slow() -> bool {
     std::env::var_os("WHITEWATER_SLOW").is_some_and(|value| value == "1")
 }
@@ -151,12 +151,12 @@ pub fn block(n: usize) -> Vec<[f32; 3]> {
         .collect()
 }
 
-/// Small and quick: a single picture is no mean of several, nothing is behind the water, and it is one sheet. However small a
-/// picture is, setting up takes as long: that of a set, whose light is found, as long as all the rest.
+/// Small and fast: one sample per picture, no set, one sheet. The cost of setting up does not depend on the picture's
+/// size, and a set costs as much as all else, because its light must be computed.
 pub const SMALL: &str = "--size 96x64 --samples 1 --set none --sheets 1";
-/// The same with all layers, over a ground.
+/// The same with all layers, on a ground.
 pub const GROUND: &str = "--size 96x64 --samples 1 --scene ground";
-/// The same where a scene is said, or the set is what matters.
+/// The same for tests that name a scene or test the set.
 pub const SIZE: &str = "--size 96x64 --samples 1";
-/// From 2 in front of the middle of `block(8)`, straight on.
+/// A view from 2 in front of the middle of `block(8)`, straight on.
 pub const FRONT: &str = "--eye 0,0.35,2.35 --target 0,0.35,0 --fov 40 --radius 0.05";

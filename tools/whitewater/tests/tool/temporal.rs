@@ -1,5 +1,5 @@
-//! Foam from frame to frame: of water that drifts, and of a simulation where `WHITEWATER_DATA` names the folder of
-//! published caches.
+//! Temporal stability of foam: on drifting water, and in a simulation if `WHITEWATER_DATA` names the folder of public
+//! caches.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ fn display(v: f32) -> f32 {
     if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// A value between the middles of pixels.
+/// Bilinear sample between pixel centres.
 fn bilinear(data: &[f32], x: f32, y: f32) -> f32 {
     let at = |x: f32, y: f32| {
         let x = x.clamp(0.0, WIDTH as f32 - 1.0) as usize;
@@ -29,8 +29,8 @@ fn bilinear(data: &[f32], x: f32, y: f32) -> f32 {
     row(j) * (1.0 - v) + row(j + 1.0) * v
 }
 
-/// Mean changes of foam since the frame before: of its thickness and of the picture on a display, after the
-/// frame before was moved by the vectors, and as it stands.
+/// Mean changes of foam since the previous frame, in thickness and in the displayed picture: after the previous frame
+/// was moved by the motion vectors, and without moving it.
 fn changes(now: &Layers, before: &Layers) -> ([f32; 4], usize) {
     let channel = |of: &Layers, name: &str| of.channel(name).unwrap().to_vec();
     let [x_by, y_by] = ["motion.X", "motion.Y"].map(|name| channel(now, name));
@@ -58,7 +58,7 @@ fn changes(now: &Layers, before: &Layers) -> ([f32; 4], usize) {
     (sums.map(|sum| sum / count.max(1) as f32), count)
 }
 
-/// Most of the change of foam is its motion, and no frame stands out.
+/// Motion explains most of the change of foam, and no frame stands out.
 #[test]
 fn foam_of_a_simulation_does_not_flicker() {
     let Some(data) = std::env::var_os("WHITEWATER_DATA").map(PathBuf::from) else {
@@ -76,16 +76,16 @@ fn foam_of_a_simulation_does_not_flicker() {
     let folder = Folder::new();
     let spray =
         "[spray]\nall_spray_density = 0.6\nfull_water_density = 0.7\nno_spray_density = 0.85\n";
-    // Droplets at an instant are sharp, and no foam.
+    // Droplets at an instant have no motion blur, and are no foam.
     let streaks = "[spray]\nexposure = 0.0167\n";
     folder.text(
         "speed.toml",
         &format!("{RELIEF}{WHITE}by = 'speed'\n{spray}exposure = 0.0167\n{STRAIGHT}"),
     );
-    // A plain set: what stands still behind the holes of foam is no foam either.
+    // A uniform set, because its static details behind the holes of foam are not foam either.
     let view = "--eye 2.871,2.567,5.094 --target 0.193,1.177,0.058 --set studio";
     let told = does_not_flicker(&folder, &format!("{files} --settings speed.toml {view}"), 0.85);
-    // And where nothing is said of the foam, whose threads are thinner: of the change that its motion leaves no more is seen.
+    // With the default foam, whose threads are thinner, motion leaves no more of the change either.
     folder.text("straight.toml", &format!("{STRAIGHT}{streaks}"));
     let usual = format!("{files} --settings straight.toml --set studio --overwrite");
     for (usual, told) in does_not_flicker(&folder, &usual, 0.9).iter().zip(&told) {
@@ -93,15 +93,16 @@ fn foam_of_a_simulation_does_not_flicker() {
     }
 }
 
-/// What is seen through the holes of foam and beside it stays where it is: refracted twice, or by ellipsoids that turn, it moves
-/// by laws of its own, which are no motion of the foam.
+/// Keeps the background behind the foam still. With two refractions, or with ellipsoids that turn, it would move by
+/// other laws than the foam does.
 const STRAIGHT: &str = "[water]\nexit = 'straight'\nkernels = 'spheres'\n";
 
-/// As much shape as a change can be told by, and white threads that are wide enough: how foam moves is asked, not how it looks.
+/// Just enough relief to detect a change, and threads that are wide enough: the test is about the motion of foam, not
+/// its look.
 const RELIEF: &str = "[surface_foam]\nnormal_strength = 0.35\n";
 const WHITE: &str = "back_color = [0.78, 0.78, 0.78]\nfront_extinction = 10.0\nlace_size = 2.5\n";
 
-/// A slab of water that drifts past at four metres a second, all of it foam: what is seen of it drifts along.
+/// A slab of water, all foam, that drifts past at four metres a second: its foam drifts with it.
 #[test]
 fn foam_of_water_that_drifts_does_not_flicker() {
     const VELOCITY: [f32; 3] = [4.0, 0.0, -1.0];
@@ -122,8 +123,8 @@ fn foam_of_water_that_drifts_does_not_flicker() {
     does_not_flicker(&folder, &format!("drifts_*.csv {view} --settings look.toml"), 0.85);
 }
 
-/// Draws frames 52 to 57 at 50 a second of what is rendered. Of the picture's change from frame to frame the part that is left
-/// where motion is taken off is less than `most`; returns what is left, frame by frame.
+/// Draws frames 52 to 57 at 50 frames per second. Fails if the change between motion-compensated frames, relative to
+/// the uncompensated change, is `most` or more. Returns the remaining change of each frame.
 fn does_not_flicker(folder: &Folder, what: &str, most: f32) -> Vec<f32> {
     folder
         .run(&format!(
@@ -144,11 +145,11 @@ fn does_not_flicker(folder: &Folder, what: &str, most: f32) -> Vec<f32> {
     for (n, (found, count)) in all.iter().enumerate() {
         assert!(*count > 2000, "frame {}: {count} pixels of foam", 53 + n);
         let [thickness, color, thickness_there, color_there] = *found;
-        // Measured: 0.57 to 0.7 of the picture's change; of the thickness, whose sprites are as small as its
-        // texels here, and which foam that comes and goes changes as well, 0.81 to 1.03.
+        // Measured: 0.57 to 0.7 of the picture's change remains. For the thickness it is 0.81 to 1.03, because its
+        // sprites are as small as its texels here, and because foam also forms and decays.
         let moved = thickness < 1.15 * thickness_there && color < most * color_there;
         assert!(moved, "frame {}: {found:?}", 53 + n);
-        // The middle one of its neighbours', itself left out.
+        // Median of the neighbouring frames, without the frame itself.
         let near = n.saturating_sub(2)..(n + 3).min(all.len());
         for i in 0..2 {
             let mut beside: Vec<_> =

@@ -1,16 +1,16 @@
-//! Whitewater particles beside the fluid's.
+//! Whitewater particles together with the fluid's.
 
 use whitewater::io::particles::{Particles, read};
 
 use super::support::{FRONT, Folder, GROUND, SMALL, block};
 
-/// Foam before the block's middle, a bubble in it; one that is gone.
+/// Foam in front of the block's middle, a bubble in it, and one particle whose life has ended.
 const FOAM: &str =
     "x,y,z,type,lifetime,id\n0,0.35,0.5,0,2,7\n0.2,0.35,0.2,2,1,8\n-0.2,0.35,0.5,1,-1,9\n";
-/// Particles as large as a few pixels.
+/// Particles a few pixels wide.
 const LOOK: &str = "[whitewater]\nradius = 0.1\nhalf_intensity_thickness = 0.3\n";
 
-/// Foam near the eye as blobs; bubbles in the water stay what they are.
+/// Foam near the eye becomes blobs; bubbles in the water do not change.
 #[test]
 fn near_foam_becomes_blobs() {
     let folder = Folder::new();
@@ -51,10 +51,10 @@ fn whitewater_particles_are_drawn_before_and_in_the_water() {
     ] {
         assert!(with.channel(name).is_some(), "{name}");
     }
-    // They take the place of the water's own.
+    // Whitewater particles replace the water's own spray.
     assert!(without.channel("water.spray").is_some() && with.channel("water.spray").is_none());
     let at = |name: &str, x: usize| with.channel(name).unwrap()[32 * 96 + x];
-    // An id of 7 makes it a third as large.
+    // An id of 7 divides the radius by three.
     assert!((1.81..1.82).contains(&at("whitewater.Z", 48)), "{}", at("whitewater.Z", 48));
     assert!(at("whitewater.thickness", 48) > 0.5 && at("whitewater.submerged", 48) == 0.0);
     let row = |name: &str| -> Vec<f32> { (0..96).map(|x| at(name, x)).collect() };
@@ -88,8 +88,9 @@ fn files_of_one_kind_are_that_kind() {
     assert!(folder.picture("a_1.exr").channel("water.spray").is_some(), "as it was asked for");
 }
 
-/// Foam that fills a box, by few particles and by many: it is drawn as thick as radii say that are found by how many there
-/// are, and hides what is behind it. What a picture was drawn with draws it again; what the file of settings says holds.
+/// Foam that fills a box, as few particles and as many. Their radii, derived from the count, make it opaque enough to
+/// hide what is behind it. The settings that a picture stores draw it again, and a settings file overrides the derived
+/// ones.
 #[test]
 fn few_particles_and_many_read_as_foam() {
     let folder = Folder::new();
@@ -117,8 +118,8 @@ fn few_particles_and_many_read_as_foam() {
         let table = text.parse::<toml::Table>().unwrap();
         table["whitewater"].as_table().unwrap().get(key).cloned()
     };
-    // Discs of the longest radius, ten a column of which 0.293 is the mean square of 1 to 1/5, cover 1 - exp(-0.57) = 0.44;
-    // their rims hide less. Many small ones are a field, of which Sizes speaks.
+    // Ten discs per column with the longest radius, and a mean square of 0.293 for radii of 1 to 1/5, cover 1 -
+    // exp(-0.57) = 0.44; their rims hide less. Many small ones form a continuous field, as `Sizes` describes.
     for (name, hides) in [("few", 0.33), ("many", 0.7)] {
         let run =
             folder.run(&format!("{common} -o {name}.exr --whitewater {name}.ply --validate")).ok();
@@ -126,9 +127,9 @@ fn few_particles_and_many_read_as_foam() {
         let exr = format!("{name}.exr");
         let intensity = middle(&exr, "whitewater.intensity");
         assert!(intensity > hides, "{name}: {intensity}");
-        // The mean over the discs that Sizes goes by, of what is seen from 1.85 to 2.85 away; a few at the borders.
+        // The mean over the drawn discs, seen from 1.85 to 2.85 away; a few lie at the borders.
         let radius = setting(&exr, "radii").unwrap()[0].as_float().unwrap() as f32;
-        // Few are drawn as six each, so that there are sixty a column.
+        // With few particles each is drawn as six, which makes sixty per column.
         let n = if name == "few" { 60.0 } else { 1000.0 };
         let expected = 0.486_7 * n * (radius / 0.1).powi(2);
         let thickness = middle(&exr, "whitewater.thickness") + middle(&exr, "whitewater.submerged");
@@ -149,8 +150,8 @@ fn few_particles_and_many_read_as_foam() {
     }
 }
 
-/// More than a part of them, in formats that are read in parts and in one that is not: the same pictures. One of the
-/// files has no ids, or all have, and the kinds are those of the files or of their names.
+/// More particles than fit in one part, in formats that are read in parts and in one that is not: the pictures are the
+/// same. One file or all have no ids, and kinds come from the files or from their names.
 #[test]
 fn what_is_read_in_parts_is_what_is_read_at_once() {
     let folder = Folder::new();
@@ -257,7 +258,7 @@ fn a_bad_whitewater_file_loses_its_frame_alone() {
     assert!(folder.exists("a_1.png") && !folder.exists("a_2.png"));
 }
 
-/// A block of water whose upper half goes over the lower one; frames of a thirtieth of a second.
+/// A block of water whose upper half slides over the lower one, in frames of a thirtieth of a second.
 fn torn(folder: &Folder, frames: u32) {
     torn_at(folder, frames, 4.0);
 }
@@ -294,28 +295,28 @@ fn whitewater_particles_are_made_of_the_water() {
     };
     let amounts = [1, 2, 3, 4].map(|frame| amount(&format!("a_{frame}.exr")));
     assert!(amounts.iter().all(|amount| *amount > 0.0), "{amounts:?} {}", run.stderr());
-    // However the sequence is cut it is the same, and so it is read again.
+    // Cutting the sequence makes no difference, and the written files give the same result.
     folder.run(&format!("{common} {made} --frames 4 -o b_%d.png")).ok();
     let file = |name: &str| std::fs::read(folder.path(name)).unwrap();
     assert_eq!(file("a_4.png"), file("b_4.png"));
     folder.run(&format!("{common} --whitewater made_%d.bgeo.gz --frames 4 -o c_%d.exr")).ok();
     let (made, read) = (amount("a_4.exr"), amount("c_4.exr"));
     assert!((made / read - 1.0).abs() < 1.0e-3, "{made} {read}");
-    // Pictures that are there are not all that was asked for.
+    // Existing pictures do not suffice if whitewater files are requested too.
     let keep = "--whitewater generate --write-whitewater kept_%d.ply -o b_%d.png --frames 4";
     let again = common.replace("--overwrite", "");
     folder.run(&format!("{again} {keep}")).ok();
     assert!(folder.exists("kept_4.ply"));
-    // What there is no room for is told, once.
+    // A message says once how many particles did not fit.
     let rates = "[generate]\nmax_particles = 50\nrates = [4000.0, 4000.0]\n";
     folder.text("full.toml", rates);
     let full = common.replace("look.toml", "full.toml");
     let run = folder.run(&format!("{full} --whitewater generate -o f_%d.png")).ok();
     assert_eq!(run.stderr().matches("there is room for 50 whitewater particles").count(), 1);
-    // A frame by itself.
+    // A single frame.
     let alone = format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate");
     let run = folder.run(&format!("{alone} -o d.exr")).ok();
-    // How large and how opaque they are is found by how many there are, where it is not said.
+    // Without a setting, size and opacity follow the number of particles.
     assert!(
         run.stderr().contains(" of whitewater particles (found; table [whitewater]"),
         "{}",
@@ -326,11 +327,12 @@ fn whitewater_particles_are_made_of_the_water() {
     assert!(amount("d.exr") > 2.0 * amount("e.exr") && amount("e.exr") > 0.0);
 }
 
-/// At the same rates a frame by itself has what its water brings, beside what the first of a sequence makes in a moment.
+/// At equal rates a single frame has the whitewater that its water brings, in addition to the emission of a first
+/// frame.
 #[test]
 fn a_frame_by_itself_has_foam_of_before() {
     let folder = Folder::new();
-    // Slow: what was in the water a moment ago still is.
+    // The water is slow, but whitewater of a moment ago still exists.
     torn_at(&folder, 2, 0.5);
     let limits = "trapped_air = [0.1, 1.0]\nwave_crest = [1.0, 4.0]\nenergy = [0.01, 0.1]";
     folder.text("look.toml", &format!("[generate]\n{limits}\nrates = [200.0, 200.0]\n"));
@@ -345,8 +347,8 @@ fn a_frame_by_itself_has_foam_of_before() {
     assert!(first > 500 && 2 * alone > 3 * first, "{first} {alone}");
 }
 
-/// The same water without its velocities, with its ids or in its order: they are found, and what is made of it is
-/// much the same.
+/// The same water without velocities, but with ids or in constant order: velocities are found, and give nearly the same
+/// whitewater.
 #[test]
 fn velocities_are_found_from_frame_to_frame() {
     let folder = Folder::new();
@@ -363,7 +365,7 @@ fn velocities_are_found_from_frame_to_frame() {
         folder.text(&format!("id_{frame}.csv"), &columns(&[0, 1, 2, 6]));
         folder.text(&format!("order_{frame}.csv"), &columns(&[0, 1, 2]));
     }
-    // A speed up that is not in the positions counts little.
+    // An upward speed that does not appear in the positions has little effect.
     let limits = "trapped_air = [1.0, 10.0]\nwave_crest = [1.0, 4.0]\nenergy = [1.0, 8.0]";
     folder.text(
         "look.toml",
@@ -385,7 +387,7 @@ fn velocities_are_found_from_frame_to_frame() {
     let [own, by_id, by_order] = ["torn", "id", "order"].map(amount);
     assert!(own > 0.0 && (by_id / own - 1.0).abs() < 0.5, "{own} {by_id}");
     assert!((by_order / by_id - 1.0).abs() < 0.1, "{by_id} {by_order}");
-    // One that is alone has none.
+    // A single frame has no velocities.
     folder
         .run(&format!("render id_1.csv {SMALL} --whitewater generate -o alone.png"))
         .fails(3, &["velocities", "ids"]);
