@@ -107,7 +107,7 @@ pub fn image([before, after, rect]: [&'static str; 3], image: &HostImage) -> Res
     Err(Error::bad(
         rect,
         format!(
-            "{}x{} at ({}, {}) is no part of an image of {}x{}",
+            "{}x{} at ({}, {}) is not inside an image of {}x{}",
             extent.width,
             extent.height,
             offset.x,
@@ -131,7 +131,7 @@ fn shore(
     range("Frame.shore.bias", shore.bias, 0.0, 1000.0)?;
     let surface = crate::shore::surface_of(shore);
     if surface.is_some_and(|image| image.image == frame.scene_depth.image) {
-        return bad("Frame.shore.surface", "is the scene's depth: another image expected");
+        return bad("Frame.shore.surface", "expected another image than the scene's depth");
     }
     if let Some(Surface::Level(level)) = shore.surface {
         range("Frame.shore.surface", level, -1.0e9, 1.0e9)?;
@@ -143,12 +143,13 @@ fn shore(
             let fields = [positions, indices, "Frame.shore.shoreline.triangles"];
             strip.triangles.check(fields, limits)?;
             let vertices = strip.triangles.vertices;
-            let most = ("what the device binds", limits.max_storage_buffer_range / vertices.max(1));
+            let most = ("the device's limit", limits.max_storage_buffer_range / vertices.max(1));
             strip.coordinates.check("Frame.shore.shoreline.coordinates", 4, vertices, most)
         }
-        Some(_) if shore.surface.is_none() => {
-            bad("Frame.shore.surface", "none, but Frame.shore.shoreline is no strip: it needs one")
-        }
+        Some(_) if shore.surface.is_none() => bad(
+            "Frame.shore.surface",
+            "none, but Frame.shore.shoreline needs it, unless it is a strip",
+        ),
         _ => Ok(()),
     }
 }
@@ -213,7 +214,7 @@ fn whitewater(
     if particles.fluid_depth.is_some_and(|image| image.image == frame.scene_depth.image) {
         return Err(Error::bad(
             "Frame.whitewater.fluid_depth",
-            "is the scene's depth: another image expected",
+            "expected another image than the scene's depth",
         ));
     }
     particles.positions.check("Frame.whitewater.positions", 12, count, most)?;
@@ -252,7 +253,7 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     let count = count(fields, blobs.count, most, limits)?;
     // All blobs are bound at once.
     let stride = (limits.max_storage_buffer_range / config.max_blobs) & !3;
-    let most = ("what the device binds of Config.bubbles.max_blobs", stride);
+    let most = ("the device's limit for Config.bubbles.max_blobs", stride);
     blobs.spheres.check("Frame.bubbles.spheres", 16, count, most)?;
     if let Some(turns) = &blobs.rotations {
         turns.check("Frame.bubbles.rotations", 16, count, most)?;
@@ -285,11 +286,11 @@ pub fn step(
     dt: f32,
 ) -> Result<(), Error> {
     if slot.0 as usize >= slots {
-        let why = format!("{} of {slots} frames in flight", slot.0);
+        let why = format!("expected less than {slots} (the frames in flight), found {}", slot.0);
         return Err(Error::bad(slot_field, why));
     }
     if !dt.is_finite() || dt < 0.0 {
-        return Err(Error::bad(dt_field, format!("{dt}: seconds expected")));
+        return Err(Error::bad(dt_field, format!("expected seconds, found {dt}")));
     }
     Ok(())
 }
@@ -304,7 +305,7 @@ fn aligned(
     if offset.is_multiple_of(to) {
         return Ok(());
     }
-    Err(Error::bad(field, format!("{offset} is no multiple of the device's {to}")))
+    Err(Error::bad(field, format!("{offset} is not a multiple of the device's {to}")))
 }
 
 fn previous(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
@@ -352,7 +353,7 @@ fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
             if finite && region.radius.is_finite() && region.radius > 0.0 {
                 Ok(())
             } else {
-                bad("Frame.light_volume", "a finite centre and a radius over 0 expected")
+                bad("Frame.light_volume", "expected a finite centre and a radius above 0")
             }
         }
         (None, None) => Ok(()),
@@ -369,25 +370,37 @@ pub fn config(config: &Config) -> Result<(), Error> {
         return bad("Config.max_particles", "zero; it sizes the buffers".into());
     }
     if config.max_stride < 4 || !config.max_stride.is_multiple_of(4) {
-        return bad("Config.max_stride", format!("{} is no multiple of 4", config.max_stride));
+        return bad("Config.max_stride", format!("{} is not a multiple of 4", config.max_stride));
     }
     if config.smoothing_level > 2 {
-        return bad("Config.smoothing_level", format!("{} of 0, 1, 2", config.smoothing_level));
+        return bad(
+            "Config.smoothing_level",
+            format!("expected 0, 1 or 2, found {}", config.smoothing_level),
+        );
     }
     if config.thickness_level > 3 {
-        return bad("Config.thickness_level", format!("{} of 0 to 3", config.thickness_level));
+        return bad(
+            "Config.thickness_level",
+            format!("expected 0 to 3, found {}", config.thickness_level),
+        );
     }
     if !(1..=256).contains(&config.max_iterations) {
-        return bad("Config.max_iterations", format!("{} of 1 to 256", config.max_iterations));
+        return bad(
+            "Config.max_iterations",
+            format!("expected 1 to 256, found {}", config.max_iterations),
+        );
     }
     if config.coarsening > MOST_COARSENING {
-        return bad("Config.coarsening", format!("{} of 0 to 3", config.coarsening));
+        return bad("Config.coarsening", format!("expected 0 to 3, found {}", config.coarsening));
     }
     if config.mirror_steps > 64 {
-        return bad("Config.mirror_steps", format!("{} of 0 to 64", config.mirror_steps));
+        return bad(
+            "Config.mirror_steps",
+            format!("expected 0 to 64, found {}", config.mirror_steps),
+        );
     }
     if !(1..=2).contains(&config.sheets) {
-        return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
+        return bad("Config.sheets", format!("expected 1 or 2, found {}", config.sheets));
     }
     if let Some(Shadows::Convolution(convolution)) = config.shadow {
         convolution.check()?;
@@ -407,19 +420,19 @@ pub fn config(config: &Config) -> Result<(), Error> {
     if let Some(level) = config.noise
         && level > 3
     {
-        return bad("Config.noise", format!("{level} of 0 to 3"));
+        return bad("Config.noise", format!("expected 0 to 3, found {level}"));
     }
     if let Some(edge) = config.light_map_size
         && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))
     {
-        let why = format!("{edge}: a multiple of 16 from 16 to 4096 expected");
+        let why = format!("expected a multiple of 16 from 16 to 4096, found {edge}");
         return bad("Config.light_map_size", why);
     }
     let size = config.environment_size;
     if !size.is_power_of_two() || !(16..=2048).contains(&size) {
         return bad(
             "Config.environment_size",
-            format!("{size}: a power of two from 16 to 2048 expected"),
+            format!("expected a power of two from 16 to 2048, found {size}"),
         );
     }
     Ok(())

@@ -415,7 +415,7 @@ impl Stream {
         let Self { size, offset, stride, .. } = *self;
         if !stride.is_multiple_of(4) || u64::from(stride) < bytes || !offset.is_multiple_of(4) {
             let why = format!(
-                "stride {stride} and offset {offset}: multiples of 4 expected, stride at least {bytes}"
+                "expected multiples of 4 and a stride of at least {bytes}, found stride {stride} and offset {offset}"
             );
             return Err(Error::bad(field, why));
         }
@@ -773,13 +773,13 @@ impl Triangles {
     ) -> Result<(), Error> {
         // Bound as a whole.
         let most =
-            |count: u32| ("what the device binds", limits.max_storage_buffer_range / count.max(1));
+            |count: u32| ("the device's limit", limits.max_storage_buffer_range / count.max(1));
         self.positions.check(positions, 12, self.vertices, most(self.vertices))?;
         if let Some((stream, n)) = &self.indices {
             stream.check(indices, 4, *n, most(*n))?;
         }
         if !self.drawn().is_multiple_of(3) {
-            let why = format!("{}: three for each triangle expected", self.drawn());
+            let why = format!("expected three for each triangle, found {}", self.drawn());
             return Err(Error::bad(count, why));
         }
         Ok(())

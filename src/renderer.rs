@@ -591,7 +591,10 @@ impl Renderer {
         } else {
             Err(Error::bad(
                 "Frame.slot",
-                format!("{index} of {} frames in flight", self.slots.len()),
+                format!(
+                    "expected less than {} (the frames in flight), found {index}",
+                    self.slots.len()
+                ),
             ))
         }
     }

@@ -65,7 +65,7 @@ impl SurfaceFoamState {
             ));
         }
         if config.max_stride < 4 || !config.max_stride.is_multiple_of(4) {
-            let why = format!("{} is no multiple of 4", config.max_stride);
+            let why = format!("{} is not a multiple of 4", config.max_stride);
             return Err(Error::bad("SurfaceFoamStateConfig.max_stride", why));
         }
         let gpu = Gpu::new(context);

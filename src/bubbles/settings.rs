@@ -88,7 +88,7 @@ impl BubbleConfig {
         within("Config.bubbles.bubbles", self.bubbles, *BUBBLES.start(), *BUBBLES.end())?;
         within("Config.bubbles.map_size", self.map_size, 8, 512)?;
         if !self.map_size.is_multiple_of(4) {
-            let why = format!("{}: a multiple of 4 expected", self.map_size);
+            let why = format!("expected a multiple of 4, found {}", self.map_size);
             return Err(Error::bad("Config.bubbles.map_size", why));
         }
         within("Config.bubbles.steps", self.steps, 1, 64)?;

@@ -31,7 +31,7 @@ impl Buffer {
             return Err(Error::Missing {
                 what: format!("a buffer of {size} bytes, for {name}"),
                 why: format!(
-                    "the device makes them of {} at most: fewer particles, or a smaller extent",
+                    "the device's limit is {} bytes; choose fewer particles or a smaller extent",
                     gpu.max_buffer_size
                 ),
             });

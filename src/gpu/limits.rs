@@ -37,7 +37,7 @@ impl Limit {
         Err(Error::Missing {
             what: format!("{name} of {needed} (the device has {offered})"),
             why: format!(
-                "the shader {shader} needs it; choose another device, or leave off what it is for"
+                "the shader {shader} needs it; choose another device, or a configuration without this shader"
             ),
         })
     }

@@ -100,8 +100,8 @@ pub fn of_instance(instance: &ash::Instance) -> bool {
 fn missing<T>(function: &str) -> Result<T, Error> {
     Err(Error::Missing {
         what: format!("the function {function}"),
-        why: "Host.instance and Host.device do not hold it: make the instance for Vulkan 1.2 or \
-              newer (VkApplicationInfo::apiVersion), and enable on the device what Host.enabled says"
+        why: "Host.instance and Host.device do not have it: create the instance for Vulkan 1.2 or newer \
+              (VkApplicationInfo::apiVersion), and enable on the device the features that Host.enabled states"
             .into(),
     })
 }

@@ -53,33 +53,37 @@ pub fn requirements() -> Requirements {
         optional: &[
             Requirement {
                 what: "synchronization2",
-                why: "barriers of one stage each; without it those of Vulkan 1.0",
+                why: "for precise barriers; without it those of Vulkan 1.0 are used",
             },
             Requirement {
                 what: "shaderStorageImageWriteWithoutFormat",
-                why: "below Vulkan 1.3 alone: Config.surface_foam, Config.motion, Shadows::Convolution, Shading::Compute",
+                why: "needed only below Vulkan 1.3, for Config.surface_foam, Config.motion, Shadows::Convolution, \
+                      Shading::Compute",
             },
             Requirement {
                 what: "VK_EXT_conditional_rendering, conditionalRendering",
-                why: "Smoothing::Query(Gate::Predicate); without it the other gates",
+                why: "for Smoothing::Query(Gate::Predicate); without it the other gates work",
             },
             Requirement {
                 what: "drawIndirectCount",
-                why: "Smoothing::Query(Gate::DrawCount); without it the other gates",
+                why: "for Smoothing::Query(Gate::DrawCount); without it the other gates work",
             },
             Requirement {
                 what: "occlusionQueryPrecise",
-                why: "exact sample counts; without it zero and non-zero, which is enough to stop",
+                why: "for exact sample counts; without it they are zero or non-zero, which is enough to stop",
             },
             Requirement {
                 what: "largePoints",
-                why: "sprites as points; without it all sprites are quads",
+                why: "for sprites as points; without it all sprites are quads",
             },
             Requirement {
                 what: "shaderBufferInt64Atomics, shaderInt64",
-                why: "whitewater in one pass, WhitewaterSplat::Compute64; without them in two",
+                why: "for whitewater in one pass (WhitewaterSplat::Compute64); without them it takes two",
             },
-            Requirement { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
+            Requirement {
+                what: "VK_EXT_debug_utils",
+                why: "for names and labels; without it there are none",
+            },
         ],
         optional_extensions: &[
             ash::ext::conditional_rendering::NAME,
@@ -339,7 +343,8 @@ impl DeviceSupport {
                 (convolution.extent(), self.limits.max_image_dimension2_d);
             if width.max(height) > most {
                 let why = format!(
-                    "an image of {width}x{height}, over the device's {most}: fewer texels or terms"
+                    "an image of {width}x{height} is larger than the device's limit of {most}; choose fewer texels or \
+                     terms"
                 );
                 return Err(Error::bad("Config.shadow", why));
             }
@@ -352,12 +357,15 @@ impl DeviceSupport {
         }
         match config.smoothing {
             Some(Smoothing::Query(Gate::DrawCount)) if !self.optional.draw_indirect_count => {
-                return missing("drawIndirectCount".into(), "Gate::DrawCount; choose another gate");
+                return missing(
+                    "drawIndirectCount".into(),
+                    "Gate::DrawCount needs it; choose another gate",
+                );
             }
             Some(Smoothing::Query(Gate::Predicate)) if !self.optional.conditional_rendering => {
                 return missing(
                     "VK_EXT_conditional_rendering".into(),
-                    "Gate::Predicate; choose another gate",
+                    "Gate::Predicate needs it; choose another gate",
                 );
             }
             _ => {}
@@ -368,7 +376,7 @@ impl DeviceSupport {
             return Err(Error::bad(
                 "Config.max_stride",
                 format!(
-                    "{}: {least} particles are more than the device binds at once",
+                    "{}: {least} particles exceed the device's limit for a buffer",
                     config.max_stride
                 ),
             ));
@@ -377,7 +385,7 @@ impl DeviceSupport {
         for (field, bytes, instead) in bound_whole(config) {
             if bytes > range {
                 let why = format!(
-                    "{} takes {bytes} bytes, over the {range} that the device binds at once: {instead}",
+                    "{} takes {bytes} bytes, more than the device's limit of {range} for a buffer; choose {instead}",
                     named(config.extent)
                 );
                 return Err(Error::bad(field, why));
@@ -386,8 +394,8 @@ impl DeviceSupport {
         let shapes = shape_bytes(config);
         if shapes > range {
             let why = format!(
-                "the ellipsoids of {} particles take {shapes} bytes, over the {range} that the device binds at once: \
-                 fewer particles, or Kernels::Spheres",
+                "the ellipsoids of {} particles take {shapes} bytes, more than the device's limit of {range} for a \
+                 buffer; choose fewer particles or Kernels::Spheres",
                 config.max_particles
             );
             return Err(Error::bad("Config.max_particles", why));
@@ -396,7 +404,7 @@ impl DeviceSupport {
         let over = |extent: vk::Extent2D| extent.width > most.width || extent.height > most.height;
         if over(config.extent) {
             let why = format!(
-                "{} is larger than the device's images ({})",
+                "{} is larger than the device's limit for images ({})",
                 named(config.extent),
                 named(most)
             );
@@ -405,8 +413,8 @@ impl DeviceSupport {
         let levels = smoothing_extent(config, &self.limits);
         if over(levels) {
             let why = format!(
-                "{} takes an image of {} for the levels of its smoothing, larger than the device's ({}): a smaller \
-                 extent, a higher Config.smoothing_level, or a coarsening of 0 and one sheet",
+                "{} needs an image of {} for its smoothing levels, larger than the device's limit ({}); choose a \
+                 smaller extent, a higher Config.smoothing_level, or a coarsening of 0 and one sheet",
                 named(config.extent),
                 named(levels),
                 named(most)

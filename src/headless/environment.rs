@@ -74,7 +74,7 @@ impl Headless {
     ) -> Result<(), Error> {
         if pixels.len() != without_sun.len() {
             let (expected, found) = (pixels.len(), without_sun.len());
-            let why = format!("expected {expected} texels as the other picture, found {found}");
+            let why = format!("expected {expected} texels like the other picture, found {found}");
             return Err(Error::bad("Equirectangular.without_sun", why));
         }
         self.pictures(extent, pixels, Some(without_sun), (scale, turn))

@@ -187,7 +187,7 @@ impl WhitewaterParts<'_> {
         }
         let left = self.count - self.written;
         let Some(length) = u32::try_from(length).ok().filter(|length| *length <= left) else {
-            let why = format!("{length} particles in a part, of all there are {left} left");
+            let why = format!("expected at most {left} more particles, found a part of {length}");
             return Err(Error::bad("whitewater", why));
         };
         let (buffers, staging) = match &mut self.made {
@@ -206,7 +206,10 @@ impl WhitewaterParts<'_> {
         };
         let to = [&buffers.kinds, &buffers.radii, &buffers.ages, &buffers.ids];
         if to.map(Option::is_some) != part.attributes() {
-            return Err(Error::bad("whitewater", "other attributes than in the part before"));
+            return Err(Error::bad(
+                "whitewater",
+                "its attributes differ from those of the previous part",
+            ));
         }
         let first = u64::from(self.written);
         let positions = bytemuck::cast_slice(part.positions);
@@ -229,7 +232,7 @@ impl WhitewaterParts<'_> {
     /// Fewer particles than announced, or no memory. After an error there are no whitewater particles.
     pub fn finish(mut self) -> Result<(), Error> {
         if self.written < self.count {
-            let why = format!("{} particles expected, found {}", self.count, self.written);
+            let why = format!("expected {} particles, found {}", self.count, self.written);
             return Err(Error::bad("whitewater", why));
         }
         self.headless.whitewater = match self.made.take() {

@@ -73,13 +73,13 @@ impl Convolution {
         let Self { terms, texels, bits } = *self;
         let bad = |why: String| Err(Error::bad("Config.shadow", why));
         if ![4, 8, 16].contains(&terms) {
-            return bad(format!("{terms} terms of 4, 8, 16"));
+            return bad(format!("expected 4, 8 or 16 terms, found {terms}"));
         }
         if !(16..=4096).contains(&texels) {
-            return bad(format!("{texels} texels: 16 to 4096 expected"));
+            return bad(format!("expected 16 to 4096 texels, found {texels}"));
         }
         if ![8, 16].contains(&bits) {
-            return bad(format!("{bits} bits of 8, 16"));
+            return bad(format!("expected 8 or 16 bits, found {bits}"));
         }
         Ok(())
     }

@@ -139,7 +139,7 @@ impl Area {
     fn check(&self) -> Result<(), Error> {
         let up = Vec3::from(self.up);
         if !up.is_finite() || (up.length() - 1.0).abs() > 1.0e-3 {
-            return Err(Error::bad("Area.up", "a direction of unit length expected"));
+            return Err(Error::bad("Area.up", "expected a direction of unit length"));
         }
         range("Area.center[0]", self.center[0], -1.0e9, 1.0e9)?;
         range("Area.center[1]", self.center[1], -1.0e9, 1.0e9)?;
@@ -272,7 +272,7 @@ impl ShoreMap {
     pub fn new(context: &Context, config: &ShoreMapConfig) -> Result<Self, Error> {
         let size = config.size;
         if !size.is_multiple_of(16) || !(16..=4096).contains(&size) {
-            let why = format!("{size}: a multiple of 16 from 16 to 4096 expected");
+            let why = format!("expected a multiple of 16 from 16 to 4096, found {size}");
             return Err(Error::bad("ShoreMapConfig.size", why));
         }
         if config.max_meshes > 65_536 {
@@ -492,7 +492,8 @@ impl ShoreMap {
         if let Some([least, most]) = step.changed
             && !least.iter().zip(&most).all(|(a, b)| a.is_finite() && b.is_finite() && a <= b)
         {
-            let why = format!("{least:?} to {most:?}: the least and the greatest corner expected");
+            let why =
+                format!("expected the least and the greatest corner, found {least:?} to {most:?}");
             return Err(Error::bad("ShoreMapStep.changed", why));
         }
         match &step.heights {

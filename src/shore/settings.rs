@@ -40,7 +40,7 @@ impl ShoreConfig {
         if size.is_power_of_two() && (16..=2048).contains(&size) {
             return Ok(());
         }
-        let why = format!("{size}: a power of two from 16 to 2048 expected");
+        let why = format!("expected a power of two from 16 to 2048, found {size}");
         Err(Error::bad("Config.shore.texture_size", why))
     }
 }

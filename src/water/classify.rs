@@ -151,7 +151,7 @@ impl Classify {
         let range = gpu.limits.max_storage_buffer_range;
         let parts = Parts::new(max_particles, range).ok_or_else(|| {
             let why =
-                format!("{max_particles}: more than a table has rows for, 2.8 thousand millions");
+                format!("{max_particles} is more than the 2.8 thousand million rows of a table");
             Error::bad("SurfaceFoamStateConfig.max_particles", why)
         })?;
         type Usage = vk::BufferUsageFlags;

@@ -567,7 +567,7 @@ impl WeberSettings {
             ("WeberSettings.rest_density", self.rest_density),
         ] {
             if !value.is_finite() || value <= 0.0 {
-                return bad(field, format!("more than 0 expected, found {value}"));
+                return bad(field, format!("expected more than 0, found {value}"));
             }
         }
         if !self.air.iter().all(|v| v.is_finite()) {

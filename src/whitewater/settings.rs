@@ -55,7 +55,7 @@ impl WhitewaterConfig {
             ));
         }
         if self.max_stride < 12 || !self.max_stride.is_multiple_of(4) {
-            let why = format!("{}: a multiple of 4 from 12 on expected", self.max_stride);
+            let why = format!("expected a multiple of 4 of at least 12, found {}", self.max_stride);
             return Err(Error::bad("Config.whitewater.max_stride", why));
         }
         Ok(())

@@ -267,7 +267,7 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
     error(
         "time,x1,y1,z1,x2,y2,z2\n0,1,2,3,4,5,6\n",
         Extension::Csv,
-        &["a particle in each three columns", "time,x,y,z"],
+        &["three columns for each particle", "time,x,y,z"],
     );
     // Vectors in a cell are named.
     for row in ["7,\"(0.1, 0.2, 0.3)\"", "7,\"[0.1 0.2 0.3]\""] {
@@ -384,7 +384,7 @@ fn extended_xyz() {
 #[test]
 fn several_frames_of_xyz_are_refused() {
     let frame = "2\nframe\nO 1 2 3\nO 4 5 6\n";
-    error(&frame.repeat(3), Extension::Xyz, &["several frames", "line 5", "a file for each frame"]);
+    error(&frame.repeat(3), Extension::Xyz, &["several frames", "line 5", "one file per frame"]);
     let error =
         error("2\n\nO 1 2 3\nO 4 5 6\nO 7 8 9\n", Extension::Xyz, &["expected 2", "found 3"]);
     assert!(!error.contains("damaged"), "{error}");
@@ -499,7 +499,7 @@ fn doubles_far_from_the_origin_lose_nothing() {
             assert_eq!(there, at(i, moved), "the grid of 32-bit floats has all of these");
         }
         assert_eq!(p.warnings.len(), 1, "{:?}", p.warnings);
-        assert!(p.warnings[0].contains("taken off"), "{:?}", p.warnings);
+        assert!(p.warnings[0].contains("is subtracted from"), "{:?}", p.warnings);
     }
     assert_eq!(first.origin, second.origin, "one for a sequence");
     let mut moved = first.clone();

@@ -22,15 +22,15 @@ impl DistanceField {
     pub(super) fn check(&self) -> Result<(), Error> {
         let bad = |why: String| Err(Error::bad("DistanceField", why));
         if !self.points.iter().all(|n| (2..=1024).contains(n)) {
-            return bad(format!("{:?} points: 2 to 1024 each way expected", self.points));
+            return bad(format!("expected 2 to 1024 points per axis, found {:?}", self.points));
         }
         let count = self.points.iter().map(|n| *n as usize).product::<usize>();
         if self.distances.len() != count {
-            return bad(format!("{} distances of {count} points", self.distances.len()));
+            return bad(format!("expected {count} distances, found {}", self.distances.len()));
         }
         let whole = self.corner.iter().chain(&self.distances).all(|v| v.is_finite());
         if !whole || !self.edge.is_finite() || self.edge <= 0.0 {
-            return bad("not finite, or an edge that is not above 0".into());
+            return bad("expected finite values and an edge above 0".into());
         }
         Ok(())
     }
@@ -42,7 +42,7 @@ impl DistanceField {
             return Ok(());
         }
         let why = format!(
-            "{:?} points are {bytes} bytes, the device binds {most}: a longer edge",
+            "{:?} points take {bytes} bytes, more than the device's limit of {most}; choose a longer edge",
             self.points
         );
         Err(Error::bad("DistanceField", why))
@@ -59,16 +59,16 @@ impl DistanceField {
         let bad = |why: &str| Err(Error::bad("DistanceField", why));
         let corners = || triangles.iter().flatten().map(|c| Vec3::from(*c));
         if triangles.is_empty() || !corners().all(|c| c.is_finite()) {
-            return bad("triangles with finite corners expected");
+            return bad("expected triangles with finite corners");
         }
         if !(edge.is_finite() && edge > 0.0 && margin.is_finite() && margin >= 0.0) {
-            return bad("an edge above 0 and a margin expected");
+            return bad("expected an edge above 0 and a margin");
         }
         let low = corners().reduce(Vec3::min).unwrap_or_default() - margin;
         let high = corners().reduce(Vec3::max).unwrap_or_default() + margin;
         let span = ((high - low) / edge).ceil();
         if span.max_element() > 1023.0 {
-            return bad("more than 1024 points in a row: a longer edge expected");
+            return bad("more than 1024 points along an axis; choose a longer edge");
         }
         let points = span.to_array().map(|n| n as u32 + 2);
         let mut distances = Vec::with_capacity(points.iter().map(|n| *n as usize).product());

@@ -281,7 +281,7 @@ impl BlobSimulation {
                 "Count::Gpu, expected Count::Cpu: the CPU sizes the simulation",
             ));
         }
-        let most = ("what the device binds of all blobs", self.stride());
+        let most = ("the device's limit for all blobs", self.stride());
         blobs.spheres.check("Blobs.spheres", 16, count, most)?;
         blobs.rotations.map_or(Ok(()), |turns| turns.check("Blobs.rotations", 16, count, most))?;
         blobs.ids.map_or(Ok(()), |ids| ids.check("Blobs.ids", 4, count, most))?;
@@ -289,7 +289,7 @@ impl BlobSimulation {
         if !(largest.is_finite() && largest > 0.0) {
             return Err(Error::bad(
                 "largest",
-                format!("a radius above 0 expected, found {largest}"),
+                format!("expected a radius above 0, found {largest}"),
             ));
         }
         self.count = count;

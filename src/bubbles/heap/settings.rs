@@ -162,7 +162,7 @@ impl Solid {
         if good {
             return Ok(());
         }
-        let why = format!("{self:?}: finite, with a unit normal or turn expected");
+        let why = format!("expected finite values and a unit normal or rotation, found {self:?}");
         Err(Error::bad("BlobSimulationStep.solids", why))
     }
 

@@ -552,8 +552,7 @@ impl Roles {
         // `x1 x2 x3` would be a position by itself.
         if several('1') && several('2') {
             return Err(ReadError::Unsupported {
-                what: "a table with a particle in each three columns (x1 y1 z1 x2 y2 z2 ...)"
-                    .into(),
+                what: "a table with three columns for each particle (x1 y1 z1 x2 y2 z2 ...)".into(),
                 advice: "write a line for each particle, with columns time,x,y,z",
             });
         }

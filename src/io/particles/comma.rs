@@ -109,7 +109,7 @@ pub(super) fn unnamed(i: usize) -> String {
 
 /// Warning about lines above the table.
 pub(super) fn passed_over(lines: u64) -> Option<String> {
-    (lines > 0).then(|| format!("{lines} lines above the names and numbers are passed over"))
+    (lines > 0).then(|| format!("{lines} lines above the names and numbers are skipped"))
 }
 
 struct Records<'a> {
@@ -147,7 +147,7 @@ impl Records<'_> {
         if self.numbered == Some(true) && !self.begins_with_number() {
             return ReadError::Unsupported {
                 what: format!("a table of several parts (another one begins{})", self.place()),
-                advice: "write a file for each frame, numbered by it",
+                advice: "write one file per frame, with the frame's number in its name",
             };
         }
         ReadError::table(expected, found, self.place())

@@ -168,7 +168,7 @@ impl File {
 fn several(count: usize) -> ReadError {
     ReadError::Unsupported {
         what: format!("an HDF5 file of {count} frames, of which none is named,"),
-        advice: "write a file for each frame, numbered by it",
+        advice: "write one file per frame, with the frame's number in its name",
     }
 }
 
@@ -391,7 +391,7 @@ impl Frame {
         if several {
             let names: Vec<_> = parts.iter().map(|part| part.name.as_str()).collect();
             table.warnings.push(format!(
-                "{} groups are put together: {}; where some of them are walls, give the file of the water alone",
+                "{} groups are joined: {}; if some of them are walls, give the file of the water alone",
                 names.len(),
                 names.join(", ")
             ));
@@ -671,7 +671,7 @@ fn of_others(root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
     }
     let told = (!passed.is_empty()).then(|| {
         let some: Vec<_> = passed.iter().take(24).map(String::as_str).collect();
-        format!("groups that are no fluid are not read: {}", some.join(", "))
+        format!("groups that are not fluid are not read: {}", some.join(", "))
     });
     let tell = |frames: &mut [Frame]| {
         let parts = frames.iter_mut().filter_map(|frame| frame.parts.first_mut());

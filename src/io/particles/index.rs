@@ -85,7 +85,7 @@ impl Pieces {
         let mut warnings = Vec::new();
         if self.blocks.len() > 1 {
             warnings.push(format!(
-                "{} blocks are put together: {}; where some of them are walls, name the file of the water alone",
+                "{} blocks are joined: {}; if some of them are walls, name the file of the water alone",
                 self.blocks.len(),
                 self.blocks.join(", ")
             ));

@@ -33,14 +33,11 @@ pub(super) fn append(to: &mut Particles, mut other: Particles) {
     if had_ids && repeats {
         to.ids = None;
         to.warnings.push(
-            "ids are dropped: the files that are put together have the same ones for other particles"
-                .into(),
+            "ids are dropped: different particles of the joined files have the same ids".into(),
         );
     }
     for meaning in missing {
-        to.warnings.push(format!(
-            "{meaning} is dropped: not all of the files that are put together have it"
-        ));
+        to.warnings.push(format!("{meaning} is dropped: not all of the joined files have it"));
     }
     let fill = |count: usize| vec![f64::NAN; count];
     for extra in &mut to.extras {

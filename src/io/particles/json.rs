@@ -249,7 +249,7 @@ fn vectors(name: &str, components: usize, data: Data) -> Result<(usize, Data), R
         2 | 3 => Ok((components, data)),
         1 if data.len() == 0 || data.len().is_multiple_of(3) => Ok((3, data)),
         1 => Err(ReadError::Unsupported {
-            what: format!("a flat list `{name}` of {} numbers, which are no triples,", data.len()),
+            what: format!("a flat list `{name}` of {} numbers that are not triples", data.len()),
             advice: "write a list of [x, y, z] for each particle",
         }),
         _ => Err(shape(name, "three numbers for each particle", components)),
@@ -265,7 +265,7 @@ fn several_frames(rows: &[Value], what: &str) -> Result<(), ReadError> {
                 "a file of several frames ({what} has {} lists of particles)",
                 rows.len()
             ),
-            advice: "write a file for each frame, numbered by it",
+            advice: "write one file per frame, with the frame's number in its name",
         });
     }
     Ok(())
@@ -278,7 +278,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
         if let Some((name, _)) = first.iter().find(|(_, value)| is_list_of_particles(value)) {
             return Err(ReadError::Unsupported {
                 what: format!("a file of {} frames (a list `{name}` in each)", rows.len()),
-                advice: "write a file for each frame, numbered by it",
+                advice: "write one file per frame, with the frame's number in its name",
             });
         }
         for (name, value) in first {
@@ -292,7 +292,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     for (i, row) in rows.into_iter().enumerate() {
         let Value::Object(mut row) = row else {
             return Err(ReadError::json(
-                "an object for each particle, as the first is one",
+                "an object for each particle, like the first",
                 show(row.to_string().as_bytes()),
             ));
         };
@@ -418,7 +418,7 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
             (_, None) => values.push(number(row)?),
             (None, Some(_)) => {
                 return Err(ReadError::json(
-                    format!("arrays in `{name}`, as the first is one"),
+                    format!("arrays in `{name}`, like the first"),
                     show(row.to_string().as_bytes()),
                 ));
             }

@@ -309,7 +309,7 @@ fn shapes<'a>(track: &'a Track<'_>) -> impl Iterator<Item = Shape<'a>> {
 
 /// Error: the file has changed since the survey.
 pub(super) fn changed() -> ReadError {
-    let expected = "the numbers that were there a moment ago";
+    let expected = "the numbers of the first reading";
     ReadError::malformed(expected, "others", Place::Unknown)
 }
 

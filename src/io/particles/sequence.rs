@@ -359,7 +359,8 @@ fn advice(first: &Path, second: &Path) -> String {
     let (a, b) = (name(first).unwrap_or_default(), name(second).unwrap_or_default());
     let text = |name: &str| name.chars().filter(|c| !c.is_ascii_digit()).collect::<String>();
     if text(&a) == text(&b) {
-        let index = "name the file that lists them (.pvtu, .pvtp, .pvd), have them put together (--join of the tool), or narrow the pattern to one sequence";
+        let index = "name the file that lists them (.pvtu, .pvtp, .pvd), join them (--join of the tool), or narrow \
+                     the pattern to one sequence";
         return format!("if these are pieces of one frame, {index}");
     }
     // The frame's number is usually the last in the name.
@@ -367,7 +368,7 @@ fn advice(first: &Path, second: &Path) -> String {
     let (head, tail) = a.split_at_checked(end).unwrap_or_default();
     let pattern = format!("{}*{tail}", head.trim_end_matches(|c: char| c.is_ascii_digit()));
     format!(
-        "narrow the pattern to one sequence, such as '{}', or have them put together (--join of the tool)",
+        "narrow the pattern to one sequence, such as '{}', or join them (--join of the tool)",
         first.with_file_name(pattern).display()
     )
 }

@@ -390,13 +390,13 @@ impl Survey {
         let origin = (self.origin != [0.0; 3]).then(|| {
             let [x, y, z] = self.origin;
             format!(
-                "the particles lie far from the origin: {x} {y} {z} is taken off their positions, which 32-bit floats \
-                 would not tell apart there; scenes, and cameras in files, are relative to that"
+                "the particles lie far from the origin, where 32-bit floats cannot resolve them: {x} {y} {z} is \
+                 subtracted from their positions; scenes, and cameras in files, are relative to that"
             )
         });
         let ghosts = (self.ghosts > 0).then(|| {
             format!(
-                "{} of {} particles are ghosts, copies of those of other pieces; they are left out",
+                "{} of {} particles are ghosts, which are copies of particles of other pieces; they are left out",
                 self.ghosts, self.seen
             )
         });
@@ -412,13 +412,13 @@ impl Survey {
         let dropped = dropped.filter_map(|(dropped, limits)| {
             let Dropped { attribute, value, particle } = dropped.as_ref()?;
             Some(format!(
-                "attribute `{attribute}` is dropped: value {value} of particle {particle} is no whole number{limits}"
+                "attribute `{attribute}` is dropped: value {value} of particle {particle} is not a whole number{limits}"
             ))
         });
         let repeated = (self.ids.is_none() && self.repeated_ids()).then(|| {
             format!(
-                "attribute `{}` is dropped: {:.0} % of its values are those of other particles as well, so it tells no \
-                 particle from another",
+                "attribute `{}` is dropped: {:.0} % of its values occur in several particles, so it does not identify \
+                 them",
                 self.numbered.as_deref().unwrap_or("id"),
                 100.0 * self.numbers.share()
             )
@@ -478,7 +478,7 @@ impl Survey {
                 "a file of {count} frames (`{}` goes from {first} to {last})",
                 steps.name
             ),
-            advice: "write a file for each frame, numbered by it, as \
+            advice: "write one file per frame, with the frame's number in its name, as \
                      `for i, (t, rows) in enumerate(data.groupby('time')): rows.to_csv(f'frame_{i:04d}.csv')` of pandas does",
         })
     }

@@ -258,7 +258,7 @@ pub(super) fn open<'a>(
     }
     let zone = (titles.len() > 1).then(|| {
         about.warnings.push(format!(
-            "{} zones are put together: {}; where some of them are walls, leave them out by their number, from 0 on \
+            "{} zones are joined: {}; if some of them are walls, leave them out by their number, from 0 on \
              (--where 'zone=0')",
             titles.len(),
             titles.join(", ")

@@ -201,7 +201,7 @@ impl<'a> Reader<'a> {
             if !reader.section(&line)? {
                 let place = reader.words(&line).place;
                 reader.warnings.push(format!(
-                    "legacy VTK: unknown section {}{place}; it and what follows is not read",
+                    "legacy VTK: unknown section {}{place}; it and all that follows are not read",
                     show(&line)
                 ));
                 break;

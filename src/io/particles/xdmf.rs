@@ -109,7 +109,7 @@ fn of_document(
         None if count > 1 => {
             return Err(ReadError::Unsupported {
                 what: format!("an XDMF file of {count} frames, of which none is named,"),
-                advice: "write a file for each frame, numbered by it",
+                advice: "write one file per frame, with the frame's number in its name",
             });
         }
         None => 0,
@@ -238,7 +238,11 @@ impl<'d> Reader<'d, '_, '_> {
                 node.attribute("Name") == Some(name) && node.attribute("Reference").is_none()
             })
             .ok_or_else(|| {
-                ReadError::malformed("the DataItem that one refers to", path.trim(), Place::Unknown)
+                ReadError::malformed(
+                    "the DataItem that another one refers to",
+                    path.trim(),
+                    Place::Unknown,
+                )
             })
     }
 

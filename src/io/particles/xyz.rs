@@ -445,7 +445,8 @@ impl RowReader for Lines<'_> {
 pub(super) fn several_frames(line: u64) -> ReadError {
     ReadError::Unsupported {
         what: format!("a file of several frames (the second begins in line {line})"),
-        advice: "write a file for each frame, numbered by it, or cut this one: split -d -l LINES FILE frame_",
+        advice: "write one file per frame, with the frame's number in its name, or cut this one: split -d -l LINES \
+                 FILE frame_",
     }
 }
 

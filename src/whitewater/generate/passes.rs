@@ -334,7 +334,7 @@ impl Passes {
             ("GeneratorConfig.max_particles", config.max_particles),
         ] {
             if 16 * u64::from(value) > range {
-                let why = format!("{value}: the device binds {} at most", range / 16);
+                let why = format!("{value} is more than the device's limit of {}", range / 16);
                 return Err(Error::bad(field, why));
             }
         }

@@ -34,7 +34,7 @@ impl GeneratorConfig {
             }
         }
         if self.max_stride < 12 || !self.max_stride.is_multiple_of(4) {
-            let why = format!("{}: a multiple of 4 from 12 on expected", self.max_stride);
+            let why = format!("expected a multiple of 4 of at least 12, found {}", self.max_stride);
             return Err(Error::bad("GeneratorConfig.max_stride", why));
         }
         Ok(())
@@ -131,7 +131,9 @@ impl GeneratorSettings {
         ] {
             let PotentialRange { min: least, max: most } = limits;
             if !(least >= 0.0 && most > least && most.is_finite() && (most - least) > 1.0e-30) {
-                let why = format!("{least} to {most}: from 0 on, the second more than the first");
+                let why = format!(
+                    "expected values from 0 on, the second above the first, found {least} to {most}"
+                );
                 return Err(Error::bad(field, why));
             }
         }
@@ -139,7 +141,9 @@ impl GeneratorSettings {
         range("GeneratorSettings.wave_crest_rate", self.wave_crest_rate, 0.0, most)?;
         let (short, long) = (self.min_lifetime, self.max_lifetime);
         if !(short > 0.0 && long >= short && long <= GREATEST) {
-            let why = format!("{short} to {long}: seconds expected, the second no less");
+            let why = format!(
+                "expected seconds, the second no less than the first, found {short} to {long}"
+            );
             return Err(Error::bad("GeneratorSettings.max_lifetime", why));
         }
         range("GeneratorSettings.buoyancy", self.buoyancy, 0.0, 64.0)?;
@@ -151,7 +155,7 @@ impl GeneratorSettings {
         if let Some([low, high]) = self.bounds
             && !low.iter().zip(high).all(|(low, high)| *low <= high)
         {
-            let why = format!("{low:?} to {high:?}: the least corner first");
+            let why = format!("expected the least corner first, found {low:?} to {high:?}");
             return Err(Error::bad("GeneratorSettings.bounds", why));
         }
         Ok(())

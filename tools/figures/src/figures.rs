@@ -166,7 +166,7 @@ fn found_threshold(layers: &Layers) -> Outcome<f32> {
     let mut found = lines.filter_map(|line| line.strip_prefix("threshold = "));
     // Table [surface_foam] stands before [shoreline], which has a `threshold` too.
     let number = found.next().and_then(|number| number.parse().ok());
-    number.ok_or_else(|| "the frame does not say from which Weber number on it foams".into())
+    number.ok_or_else(|| "the settings of the frame hold no Weber number".into())
 }
 
 /// Figures 4.7 and 4.11: curvature of the spheres and of the smoothed surface; the lower row is at close range.

@@ -15,7 +15,7 @@ use whitewater_simulate::{Frame, Scene, preview};
 
 const USAGE: &str = "\
 usage: whitewater-simulate preview FILE.bgeo... [options]
-         draws FILE.png; beside what has moving parts stands its scene.json
+         draws FILE.png; a scene with moving parts needs its scene.json beside it
          --eye X,Y,Z --target X,Y,Z --fov DEGREES
          --ortho METRES    parallel projection of this width
          --spacing METRES  of the particles, unless the scene's own
