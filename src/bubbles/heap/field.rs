@@ -62,7 +62,7 @@ impl DistanceField {
             return bad("expected triangles with finite corners");
         }
         if !(edge.is_finite() && edge > 0.0 && margin.is_finite() && margin >= 0.0) {
-            return bad("expected an edge above 0 and a margin");
+            return bad("expected an edge above 0 and a margin of at least 0");
         }
         let low = corners().reduce(Vec3::min).unwrap_or_default() - margin;
         let high = corners().reduce(Vec3::max).unwrap_or_default() + margin;
