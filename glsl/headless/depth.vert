@@ -1,5 +1,5 @@
 #version 460
-// Pass `scene`: depth alone, of the eye or of the sun.
+// Pass `scene`: depth only, seen from the eye or from the sun.
 // Reads: vertices. Writes: depth.
 
 layout(location = 0) in vec3 position;

@@ -28,7 +28,7 @@ void main() {
         vec3 d = cube_direction(texel, SIZE);
         float weight = pow(1.0 + dot(uv, uv), -1.5);
         vec3 c = textureLod(environment, d, max(lod, 0.0)).rgb;
-        // What the ground hides is part of the baked light.
+        // The baked light already contains how much the ground hides.
         c *= scene.sun_direction.w > 0.5 ? smoothstep(-0.1, 0.1, d.y) : 1.0;
         float y[9] = float[9](
             0.282095,

@@ -1,5 +1,5 @@
-// What shines on a place of pass `scene`: the sky's irradiance and the environment, both without the sun.
-// Needs scene.glsl. Reads: environment, irradiance.
+// Sources of light of pass `scene`: the sky's irradiance and the environment, both without the sun. Needs scene.glsl.
+// Reads: environment, irradiance.
 
 layout(set = 0, binding = 2) uniform samplerCube environment;
 layout(set = 0, binding = 3, std430) readonly buffer Irradiance { vec4 irradiance[9]; };

@@ -1,9 +1,9 @@
 #version 460
-// Pass `scene`: opaque meshes under sun and sky. Lambert and GGX (Walter et al. 2007, visibility
-// of Hammon 2017); the sun through a shadow map; the sky's irradiance by spherical harmonics times
-// the baked visibility; light off other surfaces as baked per vertex.
-// Patterns are procedural, from the place in the mesh's own frame, and filtered by the footprint
-// of the pixel: lines by their exact share of it, noise by leaving out what it cannot show.
+// Pass `scene`: shades opaque meshes under sky and sun. Materials are Lambert and GGX (Walter et al. 2007, visibility
+// of Hammon 2017). The sun is visible by a shadow map; the sky's irradiance, from spherical harmonics, is multiplied by
+// its baked visibility; light from other surfaces is baked per vertex. Patterns are procedural in the mesh's own frame,
+// and filtered by the footprint of the pixel: lines by the exact fraction that they cover, noise by omitting octaves
+// that are too fine.
 // Reads: shadow map, environment, irradiance, texture. Writes: scene colour.
 
 #include "../headless/scene.glsl"
@@ -149,7 +149,7 @@ Surface concrete(vec3 p, vec3 n, float width) {
 // Dressed stone in courses, warm and cool veins.
 Surface stone(vec3 p, vec3 n, vec2 footprint, float width) {
     float size = push.pattern.x;
-    // Of blocks: courses from the ground up, in each the upright joints where the next has none.
+    // Blocks lie in courses from the ground up, and the vertical joints of each course are offset from the next.
     bool blocks = push.pattern.w > 0.5;
     float row = p.y - (blocks && scene.shadow_texel.w > -1.0e8 ? scene.air.y * scene.shadow_texel.w : 0.0);
     float course = floor(row / size);
@@ -378,8 +378,7 @@ vec3 lava_light(vec2 place, float sky_seen) {
 void main() {
     vec3 to_eye = scene.eye.xyz - position;
     vec3 v = normalize(to_eye);
-    // Derivatives come before any branch. The winding is not reliable: the face is taken to look towards the
-    // eye.
+    // Derivatives come before any branch. The winding is not reliable, so the normal is turned towards the eye.
     vec3 px = dFdx(position);
     vec3 py = dFdy(position);
     vec3 face = cross(px, py);

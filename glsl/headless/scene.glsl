@@ -1,4 +1,5 @@
-// What all shaders of pass `scene`, the stand-in scene, share: the view, the sun, the shadow map's place, the sea.
+// Data that all shaders of pass `scene`, the stand-in scene, share: the view, the sun, the transform to the shadow map,
+// the sea.
 // Reads: the scene's block (src/headless/scene/mod.rs writes it).
 
 const float PI = 3.14159265;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `scene`: opaque meshes; their vertices are in world space already.
-// Reads: vertices. Writes: corners, with all that scene.frag asks of a vertex.
+// Pass `scene`: vertices of opaque meshes, which are in world space already.
+// Reads: vertices. Writes: corners, with the attributes for scene.frag.
 
 #include "../headless/scene.glsl"
 

@@ -1,8 +1,8 @@
 #version 460
-// Pass `scene`: the sky where no mesh is: what is shown of the environment along the pixel's ray, and the sun where that
-// is not in it: the built-in sky does not hold the disc, which would be a few texels of huge radiance there.
-// A sea reaches to the horizon, and has no floor where no mesh is.
-// Reads: environment, what is shown of it, irradiance. Writes: scene colour.
+// Pass `scene`: the sky where there is no mesh: the displayed environment along the pixel's ray. The sun's disc is
+// added for the built-in sky, which omits it because it would be a few texels of huge radiance. A sea extends to the
+// horizon, and has no floor where there is no mesh.
+// Reads: environment, displayed environment, irradiance. Writes: scene colour.
 
 #include "../headless/scene.glsl"
 #include "../headless/noise.glsl"
@@ -20,7 +20,7 @@ void main() {
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     int wet = over_sea() && d.y < 0.0 ? 1 : 0;
     for (int i = 0; i < wet; ++i) {
-        // Without a bottom.
+        // The sea has no floor here.
         c = sea_over(c, 1.0e6, sky_irradiance(vec3(0.0, 1.0, 0.0)), surf());
     }
     // Thin high clouds in streaks, and the band of haze below them.
@@ -31,7 +31,7 @@ void main() {
         // The air over the sea is clean: bluer than over land.
         c *= mix(vec3(1.0), vec3(0.68, 0.95, 1.30), scene.air.z * smoothstep(0.0, 0.2, d.y));
         vec2 warp = vec2(octaves(vec3(q, 2.0), 0.35, 3, width), octaves(vec3(q, 9.0), 0.35, 3, width));
-        // Along the wind they are drawn out.
+        // The wind stretches the clouds along its direction.
         vec2 along = vec2(0.28 * (q.x + 0.6 * q.y), q.y - 0.6 * q.x) + 1.5 * warp;
         float patchy = 0.5 + octaves(vec3(0.22 * q, 5.0), 0.6, 3, width);
         float fibres = 0.5 + octaves(vec3(along, 0.0), 0.55, 5, width);

@@ -1,5 +1,5 @@
 #version 460
-// Pass `scene`: the sky, one triangle over everything, as far away as depth can say.
+// Pass `scene`: the sky, one triangle that covers the view at the farthest depth.
 // Reads: the view. Writes: corners with their rays.
 
 #include "../headless/scene.glsl"

@@ -8,7 +8,7 @@
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, surface_foam_texels.glsl, beside.glsl, sunlight.glsl,
 // shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
 
-// Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
+// Resolution of the thickness: 0: full, 1: that of the smoothing, 2: another.
 layout(constant_id = 0) const uint THICKNESS = 1;
 // 1: coarser levels of the smoothing may show. It is a specialization constant, because a CPU would run both
 // sides of a branch.
@@ -232,8 +232,8 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
 #include "bed.glsl"
 #include "met_water.glsl"
 
-// ripple: surface noise, and its slope per pixel. marched: reflections of the scene are searched, if they are
-// enabled.
+// `ripple` is the surface noise and its slope per pixel. `marched` allows a search for reflections of the scene, if
+// that is enabled.
 Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
@@ -284,7 +284,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     sheet.mirror = w * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
     if (MIRROR > 0u && marched) {
-        // The scene on the reflected ray, in any direction.
+        // A march finds the scene on the reflected ray, which may point in any direction.
         bool asked = sheet.mirror > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
         Met met = march(position, to, asked ? int(MIRROR) : 0);
         float free = (1.0 - met.share) * sky;
@@ -314,7 +314,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     return sheet;
 }
 
-// Without the parts that the target leaves out.
+// The sheet without the parts that a target of the ladder leaves out.
 Sheet on_ladder(Sheet sheet) {
     float whole = frame.target.z >= WHOLE ? 1.0 : 0.0;
     sheet.mirror *= whole;
@@ -564,7 +564,7 @@ Foam with_submerged(Foam foam, ivec2 pixel, float front) {
 // before it: otherwise a thin veil would lift foam from deep below to the surface, with its outline. In the
 // thesis all foam lies at the frontmost.
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
-    // Particle foam before the surface lies over it.
+    // Particle foam in front of the surface lies over it.
     float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
     first = by_source() ? 1.0 : first;
     // Foam before the surface has no water before it. Distances below four spacings do not count: within the

@@ -17,6 +17,7 @@ const int BLOCK_BITS = 4;
 
 // The boundary at a full-resolution pixel.
 float boundary_at(ivec2 pixel) {
-    // A shift, because a float division may round down, and CPUs have no vector division of integers.
+    // A shift divides by the texel's edge: a float division may round down, and CPUs have no vector division of
+    // integers.
     return boundary_of(pixel >> findMSB(int(frame.thick_extent.z)));
 }
