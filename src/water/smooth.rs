@@ -136,8 +136,8 @@ impl Smooth {
         Ok(())
     }
 
-    /// Both images are in the state in which `reduce` left them, GENERAL, before. `a` is sampled by fragment
-    /// shaders after.
+    /// Records the smoothing. Before it, both images are in the state in which `reduce` leaves them (layout GENERAL);
+    /// after it, fragment shaders can sample `a`.
     pub fn record(&self, r: &mut Recording<'_>, work: &Work<'_>) -> Result<(), Error> {
         let scope = r.begin(c"smooth");
         match &self.form {

@@ -548,7 +548,7 @@ impl Steps {
         let dataset = steps.dataset("Values").map_err(failed)?;
         let data = numbers(&dataset, type_of(&dataset), &Rows::All, limit)?;
         let values: Vec<f64> = (0..data.len()).filter_map(|i| data.f64(i)).collect();
-        // In a collection the blocks have the steps.
+        // In a collection each block has its own steps.
         let own = block.group("Steps").unwrap_or_else(|_| steps.clone());
         let mut arrays = Vec::new();
         if let Ok(group) = own.group("PointDataOffsets") {
