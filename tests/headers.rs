@@ -1,5 +1,5 @@
-//! The first comment of each shader names its pass, what it reads and what it writes; that of each
-//! include says what it is and what it needs.
+//! The first comment of each shader names its pass, what it reads and what it writes. That of each include describes it
+//! and names the includes that it needs.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ fn shaders(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(files).collect()
 }
 
-/// The comment that a file begins with, after its version.
+/// The first comment of a file, after its version.
 fn header(text: &str) -> String {
     let lines = text.lines().skip_while(|line| line.starts_with("#version"));
     let comment: Vec<_> = lines.map_while(|line| line.strip_prefix("//")).collect();

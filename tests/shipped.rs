@@ -1,5 +1,5 @@
-//! The SPIR-V under `spirv/`, which hosts without a shader compiler build with, is what the GLSL
-//! compiles to. To renew it: `WHITEWATER_SPIRV_OUT=$PWD/spirv cargo build`.
+//! The SPIR-V under `spirv/`, which hosts without a shader compiler use, equals the compiled GLSL. To renew it:
+//! `WHITEWATER_SPIRV_OUT=$PWD/spirv cargo build`.
 #![cfg(feature = "shaderc")]
 
 use std::collections::BTreeMap;

@@ -11,23 +11,23 @@ const LAYERS: i32 = 4;
 /// Height of the visible surface over the centres of the top layer, in spacings.
 const SURFACE: f32 = 0.5;
 
-/// How the particles of a bed lie.
+/// Arrangement of a bed's particles.
 #[derive(Clone, Copy, Debug)]
 pub struct Bed {
     /// Length of its sides, in spacings.
     pub side: f32,
-    /// Each particle is moved by up to so many spacings along each axis.
+    /// Largest displacement of a particle along each axis, in spacings.
     pub jitter: f32,
-    /// Particles stand right above each other; else every other layer is moved by half a spacing.
-    /// Upright, one looks through between four particles.
+    /// Whether particles stand right above each other; otherwise every other layer is shifted by half a spacing. In an
+    /// upright bed gaps between four particles extend downwards.
     pub upright: bool,
-    /// Degrees between the lattice and the rows of the image; by chance if none.
+    /// Degrees between the lattice and the rows of the image; random if `None`.
     pub turn: Option<f32>,
 }
 
 impl Bed {
-    /// The particles: a jittered lattice that is moved and turned by chance against the pixels.
-    /// Its surface is the plane z = 0, seen from +z.
+    /// The particles: a jittered lattice, randomly shifted and rotated against the pixels. Its surface is the plane z =
+    /// 0, seen from +z.
     pub fn particles(&self, seed: u64) -> Vec<[f32; 3]> {
         let mut random = Random(seed);
         let half = (self.side / 2.0).ceil() as i32;
@@ -65,7 +65,7 @@ impl Random {
     }
 }
 
-/// A lens: vertical field of view in degrees.
+/// A projection with a vertical field of view in degrees.
 pub fn projection(field: f32, extent: vk::Extent2D) -> Mat4 {
     let aspect = extent.width as f32 / extent.height as f32;
     let lens = Mat4::perspective_infinite_reverse_rh(field.to_radians(), aspect, 0.01);

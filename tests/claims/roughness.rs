@@ -1,21 +1,21 @@
-//! Roughness of the smoothed surface in the world: its pixels back-projected, a plane fitted by
-//! least squares, the RMS of what is left along the plane's normal.
+//! World-space roughness of the smoothed surface: its pixels are back-projected and a plane is fitted by least squares;
+//! the roughness is the RMS of the residuals along the plane's normal.
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use whitewater::Camera;
 use whitewater::headless::Picture;
 
-/// Deeper is no surface.
+/// Depth beyond which there is no surface.
 const EMPTY: f32 = 1.0e9;
 
-/// A rectangle around the middle of the plane z = 0, half its sides.
+/// A rectangle around the middle of the plane z = 0, by half of its sides.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
     pub x: f64,
     pub y: f64,
 }
 
-/// What was found in a window.
+/// Results in a window.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     /// Mean square of the distances from the fitted plane.
@@ -47,7 +47,7 @@ pub fn measure(
     for y in 0..surface.height {
         for x in 0..surface.width {
             let ray = ray(&projection, surface, x, y);
-            // The window is cut out of the plane, not of the rough surface.
+            // The window is cut out of the ideal plane, not of the rough surface.
             let (eye, along) = (world.w_axis.truncate(), world.transform_vector3(ray));
             let t = -eye.z / along.z;
             let q = eye + t * along;
@@ -64,7 +64,7 @@ pub fn measure(
         }
     }
     assert!(points.len() > 64, "{} pixels in the window", points.len());
-    // A hole is a silhouette: what is measured must be the bed.
+    // A hole is a silhouette, but only the bed is to be measured.
     assert!(empty * 50 < points.len(), "{empty} of {} pixels are empty", points.len());
     let iterations = iterations / points.len() as f64;
     Found { variance: detrended(&points), iterations }
@@ -100,15 +100,15 @@ fn detrended(points: &[(DVec3, f64)]) -> f64 {
     squares / total / (1.0 + plane.y.powi(2) + plane.z.powi(2))
 }
 
-/// A number with its standard error.
+/// A value with its standard error.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
     pub value: f64,
     pub error: f64,
 }
 
-/// A function of sums over beds, and its standard error by leaving each bed out in turn
-/// (jackknife): right for ratios of views of the same beds, too.
+/// A function of sums over beds, with its standard error by leaving out each bed in turn (jackknife). It is also valid
+/// for ratios between views of the same beds.
 pub fn jackknife(beds: usize, of: impl Fn(&dyn Fn(usize) -> bool) -> f64) -> Estimate {
     let value = of(&|_| true);
     let left: Vec<f64> = (0..beds).map(|out| of(&|bed| bed != out)).collect();
@@ -117,7 +117,7 @@ pub fn jackknife(beds: usize, of: impl Fn(&dyn Fn(usize) -> bool) -> f64) -> Est
     Estimate { value, error: (spread * (beds as f64 - 1.0) / beds as f64).sqrt() }
 }
 
-/// A tilted plane with a known wave on it, as a camera would have it.
+/// A tilted plane with a known wave, as a camera would see it.
 #[test]
 fn the_measure_finds_a_known_roughness() {
     use super::bed;
@@ -144,7 +144,7 @@ fn the_measure_finds_a_known_roughness() {
                 surface.data[y * 256 + x] = t as f32;
             }
         }
-        // Whole periods of the wave.
+        // The window holds whole periods of the wave.
         let side = 2.0 * std::f64::consts::PI / 40.0;
         let found = measure(&camera, &surface, &surface, Window { x: side, y: side });
         let rms = found.variance.sqrt();

@@ -12,37 +12,37 @@ use whitewater::{Camera, Config, Error, Settings};
 use super::bed::{self, Bed, SPACING};
 use super::roughness::{self, Estimate, Found, Window};
 
-/// Distances, in the nearest.
+/// Distances of the views, relative to the nearest.
 const TIMES: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
-/// The claim: the roughest of the views over the smoothest.
+/// The claim: upper limit of the ratio of the roughest to the smoothest view.
 const CLAIM: f64 = 1.15;
 
-/// Iterations planned facing the water for a width of σ pixels: `PER_VARIANCE` σ² + `MORE`, rounded
-/// up (`glsl/water/reduce.comp`).
+/// Iterations for water seen face on, with a smoothing width of σ pixels: `PER_VARIANCE` σ² + `MORE`, rounded up
+/// (`glsl/water/reduce.comp`).
 const PER_VARIANCE: f32 = 2.0;
 const MORE: f32 = 2.0;
 
-/// A line of the table.
+/// A row of the table.
 #[derive(Clone, Debug)]
 struct Row {
     name: &'static str,
     rule: Rule,
-    /// Resolution of the smoothing.
+    /// Level of the smoothing's resolution.
     level: u32,
-    /// Resolution for which the nearest view is placed.
+    /// Level of the resolution for which the nearest view is placed.
     placed: u32,
     /// Iterations planned at the centre of the nearest view.
     nearest: f32,
-    /// Degrees off the normal of the bed.
+    /// Angle to the normal of the bed, degrees.
     slant: f32,
     /// Vertical field of view in degrees.
     field: f32,
     bed: Bed,
-    /// Times nearer than where the first view would be; the patch is as much smaller.
+    /// Factor by which all views are nearer; the patch is smaller by the same factor.
     zoom: f32,
-    /// Levels that the smoothing may go coarser.
+    /// Number of coarser levels that the smoothing may use.
     coarsening: u32,
-    /// Width of the smoothing in drawn radii; that of the nearest view's placing is the default.
+    /// Width of the smoothing in drawn radii; the nearest view is placed for the default.
     width: f32,
 }
 
@@ -63,7 +63,7 @@ impl Row {
         }
     }
 
-    /// As it is by default: near views are smoothed at coarser levels.
+    /// The default: near views are smoothed at coarser levels.
     fn near(name: &'static str, zoom: f32) -> Self {
         let coarsening = Config::new(SMALL.extent, vk::Format::UNDEFINED, 1).coarsening;
         Self { zoom, coarsening, ..Self::new(name, Rule::ConstantWidth) }
@@ -77,16 +77,16 @@ impl Row {
         water.spacing = SPACING;
         let wanted = water.smoothing_width * water.radius();
         let projection = bed::projection(self.field, extent);
-        // World size of a pixel per depth.
+        // World size of a pixel per unit of depth.
         let texel = 2.0 * (1 << self.placed) as f32;
         let pixel = texel / (extent.width as f32 * projection.x_axis.x);
-        // The distance at which that many are planned at the image's centre.
+        // The distance at which this number is planned at the image's centre.
         let near = wanted / (pixel * ((self.nearest - MORE - 0.5) / PER_VARIANCE).sqrt());
         (projection, near)
     }
 }
 
-/// How much is measured: size of the image, which sets that of the patch, and number of beds.
+/// Effort of a measurement: size of the image, which determines the size of the patch, and number of beds.
 #[derive(Clone, Copy)]
 struct Effort {
     extent: vk::Extent2D,
@@ -97,15 +97,14 @@ const SMALL: Effort = Effort { extent: vk::Extent2D { width: 320, height: 240 },
 const LARGE: Effort = Effort { extent: vk::Extent2D { width: 640, height: 480 }, beds: 12 };
 
 impl Effort {
-    /// The patch, as large as fits the nearest view at any slant: 11.2 by 8.4 spacings for the small
-    /// image.
+    /// The patch, as large as fits into the nearest view at any slant: 11.2 by 8.4 spacings for the small image.
     fn window(self) -> Window {
         let spacings = |pixels: u32| f64::from(pixels) * 5.6 / 320.0 * f64::from(SPACING);
         Window { x: spacings(self.extent.width), y: spacings(self.extent.height) }
     }
 }
 
-/// What a row gave: for each distance the views of each bed.
+/// Results of a row: for each distance, the views of all beds.
 struct Measured {
     views: Vec<Vec<Found>>,
 }
@@ -123,7 +122,7 @@ impl Measured {
         roughness::jackknife(self.views[view].len(), |keep| self.rms(view, keep))
     }
 
-    /// The roughest view over the smoothest.
+    /// Ratio of the roughest to the smoothest view.
     fn spread(&self) -> Estimate {
         roughness::jackknife(self.views[0].len(), |keep| {
             let all: Vec<f64> = (0..TIMES.len()).map(|view| self.rms(view, keep)).collect();
@@ -135,7 +134,7 @@ impl Measured {
         self.spread().value <= CLAIM
     }
 
-    /// Mean of the iterations planned in the patch.
+    /// Mean number of iterations planned in the patch.
     fn iterations(&self, view: usize) -> f64 {
         let views = &self.views[view];
         views.iter().map(|found| found.iterations).sum::<f64>() / views.len() as f64
@@ -172,10 +171,10 @@ fn device() -> Device {
     device
 }
 
-/// Draws the beds of a row from its distances; gives the device back.
+/// Draws the beds of a row from all its distances, and returns the device.
 fn measure(device: Device, row: &Row, effort: Effort) -> (Device, Measured) {
     let Window { x, y } = effort.window();
-    // At the image's edge the flow has one side only: of a small patch that is a large part.
+    // At the image's edge the flow is one-sided, which affects a large part of a small patch.
     let edge = if row.zoom > 1.0 { 1.5 * f64::from(SPACING) } else { 0.0 };
     let within = |size: f64| size / f64::from(row.zoom) - edge;
     let window = Window { x: within(x), y: within(y) };
@@ -183,7 +182,7 @@ fn measure(device: Device, row: &Row, effort: Effort) -> (Device, Measured) {
     settings.water.spacing = SPACING;
     settings.water.smoothing_width = row.width;
     let (projection, near) = row.placing(effort.extent);
-    // A margin of six spacings all round, however the bed is turned.
+    // A margin of six spacings on all sides, for any rotation of the bed.
     let side = 2.0 * (window.x.hypot(window.y) as f32 / SPACING + 6.0);
     let config = Config::new(effort.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16).with(|it| {
         it.smoothing_level = row.level;
@@ -215,19 +214,19 @@ fn constant_width_keeps_its_roughness() {
     let row = Row::new("constant width", Rule::ConstantWidth);
     let (_, measured) = measure(device(), &row, SMALL);
     eprintln!("{}", measured.line(row.name));
-    // The views are where they are said to be.
+    // Check that the views are at the intended distances.
     for (view, planned) in [256.0, 64.0, 16.0, 4.0].into_iter().enumerate() {
         let found = measured.iterations(view);
         assert!((found - planned).abs() < 3.0 + 0.03 * planned, "{found} planned at {view}");
     }
-    // The beds are enough to tell.
+    // Check that there are enough beds.
     let spread = measured.spread();
     assert!(spread.error < 0.05, "{spread:?}");
     assert!(measured.holds(), "{spread:?}");
 }
 
-/// Where the cap would bind, the smoothing goes coarser: twice as near the claim still holds, and
-/// without the coarser level it does not.
+/// Where the iteration limit would apply, the smoothing uses a coarser level. At half the distance the claim still
+/// holds, and without the coarser level it does not.
 #[test]
 fn near_views_keep_it_too() {
     let row = Row::near("constant width, by default, twice as near", 2.0);
@@ -239,8 +238,8 @@ fn near_views_keep_it_too() {
     assert!(!capped.holds(), "{:?}", capped.spread());
 }
 
-/// From afar the lattice at 45° to the pixels is nearly a checkerboard of them, which the largest
-/// stable step turns over and does not damp.
+/// From far away, a lattice at 45° to the pixels is nearly a checkerboard of pixels, which the largest stable step
+/// inverts without damping.
 #[test]
 fn a_checkerboard_dies_out() {
     let row = Row::new("constant width, lattice at 45° to the pixels", Rule::ConstantWidth);
@@ -250,7 +249,7 @@ fn a_checkerboard_dies_out() {
     assert!(measured.holds(), "{:?}", measured.spread());
 }
 
-/// The check can fail: a fixed count smooths far water too much and near water too little.
+/// The check can fail: a fixed count smooths distant water too much and near water too little.
 #[test]
 fn a_fixed_count_does_not_keep_it() {
     let row = Row::new("fixed count of 40", Rule::Fixed(40));
@@ -262,7 +261,7 @@ fn a_fixed_count_does_not_keep_it() {
     }
 }
 
-/// Everything beside the claim; prints the table of `docs/smoothing.md`.
+/// Prints the table of `docs/smoothing.md`, with all rows besides the claim's.
 #[test]
 fn table() {
     if std::env::var_os("WHITEWATER_SLOW").is_none_or(|value| value != "1") {
@@ -318,12 +317,12 @@ fn table() {
     assert!(!claimed[4] && !claimed[5], "the other rules pass: the measure is blind");
 }
 
-/// Waves on the bed of the picture: its heights in spacings.
+/// Heights of the waves on the picture's bed, in spacings.
 fn wave(x: f32, y: f32) -> f32 {
     0.4 * (x / 2.3 + 0.4 * y).sin() + 0.3 * (0.35 * x - y / 1.9 + 1.0).sin()
 }
 
-/// The surface by light that grazes it, as a screen shows it.
+/// The surface under grazing light, as sRGB.
 fn shaded(surface: &Picture<f32>, camera: &Camera) -> Vec<[u8; 3]> {
     let (projection, world) =
         (camera.projection_matrix().as_dmat4(), camera.view_matrix().as_dmat4().inverse());
@@ -348,8 +347,8 @@ fn shaded(surface: &Picture<f32>, camera: &Camera) -> Vec<[u8; 3]> {
     rows.map(|(x, y)| pixel(x, y)).collect()
 }
 
-/// The picture of `docs/smoothing.md`, where `WHITEWATER_PICTURE` names a file for it: a wavy bed from 45°,
-/// below from eight times as far; the rules side by side.
+/// The picture of `docs/smoothing.md`, written to the file that `WHITEWATER_PICTURE` names: a wavy bed seen at 45°, in
+/// the lower row from eight times as far; the rules side by side.
 #[test]
 fn picture() {
     let Some(path) = std::env::var_os("WHITEWATER_PICTURE") else {

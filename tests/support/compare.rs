@@ -1,5 +1,5 @@
-//! Comparisons. A failing one writes actual, expected and difference as EXR files and a census
-//! under `test-output/`, then says how many pixels fail, by how much, and where.
+//! Comparisons. A failing comparison writes the actual and expected image and their difference as EXR files, and
+//! statistics, to `test-output/`. Then it reports how many pixels fail, by how much, and where.
 
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ fn write(name: &str, image: &Image<[f32; 4]>) {
     }
 }
 
-/// Writes the triple of a failed comparison; returns where it lies.
+/// Writes the three images of a failed comparison, and returns their path.
 fn triple(
     name: &str,
     actual: &Image<[f32; 4]>,
@@ -48,8 +48,8 @@ fn grey(image: &Image<f32>) -> Image<[f32; 4]> {
     image.map(|v| [*v, *v, *v, 1.0])
 }
 
-/// Asserts that no pixel is further from the twin than its tolerance, and that no more than
-/// `coverage` pixels are empty in one image only.
+/// Asserts that no pixel differs from the twin's by more than its tolerance, and that at most `coverage` pixels are
+/// empty in only one of the images.
 pub fn close(
     name: &str,
     actual: &Image<f32>,
@@ -66,7 +66,7 @@ pub fn close(
     census
 }
 
-/// Asserts that every pixel lies in its bounds.
+/// Asserts that every pixel lies within its bounds.
 pub fn between(name: &str, actual: &Image<f32>, bounds: &Between) {
     assert_eq!((actual.width, actual.height), (bounds.low.width, bounds.low.height), "{name}");
     let mut census = String::new();
@@ -76,7 +76,7 @@ pub fn between(name: &str, actual: &Image<f32>, bounds: &Between) {
         let (low, high) = (bounds.low.data[i], bounds.high.data[i]);
         let value = f64::from(*value);
         surfaces += usize::from(value < 1e9);
-        // Empty is what single precision makes of it.
+        // EMPTY is rounded to single precision.
         if !(value >= low.min(1e10) && value <= high.max(low)) {
             failed += 1;
             if failed <= 8 {
@@ -94,12 +94,12 @@ pub fn between(name: &str, actual: &Image<f32>, bounds: &Between) {
     }
 }
 
-/// Asserts that two images are the same bit for bit.
+/// Asserts that two images are equal bit for bit.
 pub fn same(name: &str, actual: &Image<f32>, expected: &Image<f32>) {
     same_color(name, &grey(actual), &grey(expected));
 }
 
-/// Asserts that two pictures are the same bit for bit.
+/// Asserts that two pictures are equal bit for bit.
 pub fn same_color(name: &str, actual: &Image<[f32; 4]>, expected: &Image<[f32; 4]>) {
     assert_eq!((actual.width, actual.height), (expected.width, expected.height), "{name}");
     let bits = |c: &[f32; 4]| c.map(f32::to_bits);
@@ -128,7 +128,7 @@ pub fn same_but_rounded(name: &str, actual: &Image<[f32; 4]>, expected: &Image<[
     assert_eq!((actual.width, actual.height), (expected.width, expected.height), "{name}");
     let off = |i: usize| {
         let parts = actual.data[i].iter().zip(&expected.data[i]);
-        // What is no number in both is the same.
+        // NaN equals NaN.
         parts.fold(0.0_f64, |most, (a, b)| match a.to_bits() == b.to_bits() {
             true => most,
             false => {

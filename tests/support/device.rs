@@ -1,6 +1,6 @@
-//! The device under test. A device has one test at a time, so that a validation message belongs to the
-//! test that is running; each ends by asserting that there was none. There are a few, so that tests run side
-//! by side: compiling shaders is most of the work, on the test's thread.
+//! The devices under test. Only one test uses a device at a time, so that a validation message belongs to the running
+//! test; each test ends with the assertion that there was none. There are several devices, so that tests run in
+//! parallel: compiling shaders is most of the work, on the test's thread.
 
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
@@ -16,18 +16,18 @@ use crate::reference::shore::texture::filters_in_halves;
 
 const MOST_SHARED: usize = 4;
 
-/// Tests that one context serves. With the pipelines of all of them alive Mesa 22.3 once in three runs jumped to memory
-/// that held no code: it keeps so many compiled variants and frees the oldest.
+/// Number of tests that share a context. With the pipelines of all tests alive, Mesa 22.3 jumped to freed code in one
+/// of three runs: it keeps a limited number of compiled variants and frees the oldest.
 const TESTS_OF_A_CONTEXT: u32 = 8;
 static SHARED: [Shared; MOST_SHARED] = [const { Shared::new() }; MOST_SHARED];
 
-/// What spies count, and what a device is said to claim, is the process'.
+/// The counts of spies and the claims about the device are global to the process.
 static SPIED: Mutex<()> = Mutex::new(());
 
-/// A device that tests share, one after the other.
+/// A device that tests use one after another.
 struct Shared {
     device: OnceLock<Device>,
-    /// Its pipelines are those of so many tests.
+    /// The context, and the number of tests that have used it.
     context: Mutex<(Option<Context>, u32)>,
     one_at_a_time: Mutex<()>,
 }
@@ -38,11 +38,11 @@ pub struct Gpu {
     /// Functions and allocator handed to the library; a spy replaces them.
     pub functions: ash::Device,
     pub allocator: Arc<Mutex<Allocator>>,
-    /// What is handed in its place.
+    /// The allocator that is handed to the library instead of the device's own.
     pub other_allocator: Option<Arc<dyn Allocate>>,
-    /// The instance's functions that are handed to the library, where they are not its own.
+    /// Instance functions that are handed to the library instead of the instance's own.
     pub claims: Option<ash::Instance>,
-    /// The test leaves objects behind on purpose.
+    /// Whether the test leaks objects on purpose.
     pub leaks: bool,
     _lock: Option<MutexGuard<'static, ()>>,
     _watch: Arc<Watch>,
@@ -72,9 +72,9 @@ pub fn validates() -> bool {
     })
 }
 
-/// The validation layer's version, by its manifest.
+/// Version of the validation layer, from its manifest.
 pub fn layer_version() -> u32 {
-    // SAFETY: the loader stays loaded: the devices of the tests have it.
+    // SAFETY: the loader stays loaded because the tests' devices hold it.
     let layers =
         unsafe { ash::Entry::load().expect("a loader").enumerate_instance_layer_properties() };
     let named = |layer: &vk::LayerProperties| {
@@ -83,7 +83,8 @@ pub fn layer_version() -> u32 {
     layers.expect("layers").iter().find(|layer| named(layer)).map_or(0, |layer| layer.spec_version)
 }
 
-/// Whether it looks at what shaders do with storage: since 1.4 by a switch of the environment alone, which tools/test sets.
+/// Whether the validation layer checks the shaders' storage accesses: since 1.4 only with an environment variable,
+/// which tools/test sets.
 pub fn sees_storage() -> bool {
     let switch = std::env::var_os("VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC");
     validates()
@@ -112,7 +113,7 @@ impl Shared {
         }
     }
 
-    /// For the next test: another context after some.
+    /// Replaces the context after a number of tests.
     fn renew_context(&self) {
         let mut context = self.context.lock().unwrap_or_else(PoisonError::into_inner);
         context.1 += 1;
@@ -121,7 +122,7 @@ impl Shared {
         }
     }
 
-    /// The first that no test has, else the one that comes free.
+    /// The first device that no test uses, or else the next one that becomes free.
     fn take() -> (Held, MutexGuard<'static, ()>) {
         let all = &SHARED[..available_parallelism().map_or(1, |n| n.get().min(MOST_SHARED))];
         let free = |shared: &'static Self| match shared.one_at_a_time.try_lock() {
@@ -163,7 +164,7 @@ impl Gpu {
             _lock: lock,
             _watch: Watch::begin(),
         };
-        // SAFETY: the physical device is of the instance.
+        // SAFETY: the physical device belongs to the instance.
         let properties = unsafe { gpu.instance.get_physical_device_properties(gpu.physical) };
         filters_in_halves(properties.device_type != vk::PhysicalDeviceType::CPU);
         gpu
@@ -177,7 +178,7 @@ impl Gpu {
         gpu
     }
 
-    /// A device of the test's own: everything made from it must be gone at the end.
+    /// A device of the test's own. Everything made from it must be gone at the end.
     pub fn own() -> Self {
         Self::own_with(&DeviceOptions::default())
     }
@@ -187,7 +188,7 @@ impl Gpu {
         Self::new(None, Held::Own(Box::new(make(options))))
     }
 
-    /// A device of the test's own, for a spy or for claims: one at a time.
+    /// A device of the test's own for a spy or for claims; only one exists at a time.
     pub fn spied() -> Self {
         let lock = SPIED.lock().unwrap_or_else(PoisonError::into_inner);
         Self::new(Some(lock), Held::Own(Box::new(make(&DeviceOptions::default()))))
@@ -209,9 +210,9 @@ impl Gpu {
         })
     }
 
-    /// What a host makes of it: one for several tests of a shared device, a new one where it is the test's own.
+    /// A host's context. Tests on a shared device share one; a test with its own device gets a new one.
     pub fn context(&self, frames_in_flight: u32) -> Context {
-        // SAFETY: tests keep their device until all is destroyed that was made from it.
+        // SAFETY: tests keep their device until everything made from it has been destroyed.
         let new = || unsafe { Context::new(&self.host(frames_in_flight)) }.expect("a context");
         match &self.device {
             Some(Held::Shared(_, shared)) => {
@@ -223,7 +224,7 @@ impl Gpu {
         }
     }
 
-    /// Takes a device of the test's own out of it; the lock stays.
+    /// Moves the device out, for tests with their own device; the lock is kept.
     pub fn take_device(&mut self) -> Device {
         match self.device.take() {
             Some(Held::Own(device)) => *device,
@@ -231,12 +232,12 @@ impl Gpu {
         }
     }
 
-    /// The messages so far, which then do not fail the test.
+    /// Returns the messages so far, which then do not fail the test.
     pub fn expect_messages(&self) -> Vec<String> {
         messages_of(self)
     }
 
-    /// Names of what the allocator still holds.
+    /// Names of live allocations.
     pub fn allocations(&self) -> Vec<String> {
         let allocator = self.allocator.lock().unwrap_or_else(PoisonError::into_inner);
         allocator.generate_report().allocations.into_iter().map(|a| a.name).collect()
@@ -262,8 +263,8 @@ impl Gpu {
             .optimal_tiling_features
     }
 
-    /// By how much of their bytes images of an extent, and of its halves, are larger: a device's tiles are rows and columns
-    /// that are whole (720 rows are 768 where they are 128 high).
+    /// Overhead of images of this extent and of its halves, as a fraction of their bytes: devices round rows and
+    /// columns up to whole tiles (720 rows take 768 if a tile is 128 high).
     pub fn padding(&self, extent: vk::Extent2D) -> f64 {
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::STORAGE;
         let part = |(level, format, bytes): (u32, vk::Format, u64)| {
@@ -278,7 +279,7 @@ impl Gpu {
                 .usage(usage);
             let asked = vk::DeviceImageMemoryRequirements::default().create_info(&info);
             let mut needs = vk::MemoryRequirements2::default();
-            // SAFETY: valid create info, of Vulkan 1.3.
+            // SAFETY: valid create info for Vulkan 1.3.
             unsafe { self.functions.get_device_image_memory_requirements(&asked, &mut needs) };
             let needed = bytes * u64::from(width) * u64::from(height);
             needs.memory_requirements.size as f64 / needed as f64 - 1.0
@@ -318,7 +319,7 @@ impl Drop for Gpu {
         let mut messages = messages_of(self);
         if let Some(Held::Own(device)) = self.device.take() {
             if !failed && !self.leaks {
-                // The blocks must go before the device does.
+                // The allocator's blocks must go before the device.
                 let spied = self.allocator.clone();
                 let real = device.allocator.clone();
                 for (allocator, functions) in [(spied, &self.functions), (real, &device.device)] {
@@ -334,8 +335,7 @@ impl Drop for Gpu {
                         *allocator.lock().unwrap_or_else(PoisonError::into_inner) = empty;
                     }
                 }
-                // SAFETY: the test is over and its renderers are gone: what is left is a leak that
-                // the layer reports here.
+                // SAFETY: the test is over and its renderers are gone; the layer reports anything left as a leak.
                 unsafe {
                     let _ = device.device.device_wait_idle();
                     device.device.destroy_device(None);

@@ -1,5 +1,5 @@
-//! A host's side of the contract: its own images, buffers, command buffers, barriers and slots.
-//! Nothing of the library's is used here.
+//! The host's side of the contract: its own images, buffers, command buffers, barriers and slots. It uses nothing of
+//! the library.
 
 use ash::vk;
 use whitewater::{Access, HostImage};
@@ -10,19 +10,19 @@ use super::watchdog;
 type Stage = vk::PipelineStageFlags2;
 type Mask = vk::AccessFlags2;
 
-/// Written or read by a copy of the host's.
+/// Destination of a copy by the host.
 pub const COPIED_TO: Access =
     Access::new(Stage::COPY, Mask::TRANSFER_WRITE, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
-/// Read by a copy of the host's.
+/// Source of a copy by the host.
 pub const COPIED_FROM: Access =
     Access::new(Stage::COPY, Mask::TRANSFER_READ, vk::ImageLayout::TRANSFER_SRC_OPTIMAL);
-/// The scene's colour between the host's own passes.
+/// The scene's colour image between the host's own passes.
 pub const COLOR: Access = Access::new(
     Stage::COLOR_ATTACHMENT_OUTPUT,
     Mask::from_raw(Mask::COLOR_ATTACHMENT_READ.as_raw() | Mask::COLOR_ATTACHMENT_WRITE.as_raw()),
     vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
 );
-/// The scene's depth between the host's own passes.
+/// The scene's depth image between the host's own passes.
 pub const DEPTH: Access = Access::new(
     Stage::from_raw(Stage::EARLY_FRAGMENT_TESTS.as_raw() | Stage::LATE_FRAGMENT_TESTS.as_raw()),
     Mask::from_raw(
@@ -31,14 +31,14 @@ pub const DEPTH: Access = Access::new(
     ),
     vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
 );
-/// Buffers the CPU writes.
+/// Buffers that the CPU writes.
 pub const HOST_WRITE: Access = Access::new(Stage::HOST, Mask::HOST_WRITE, vk::ImageLayout::GENERAL);
-/// Buffers the CPU reads.
+/// Buffers that the CPU reads.
 pub const HOST_READ: Access = Access::new(Stage::HOST, Mask::HOST_READ, vk::ImageLayout::GENERAL);
-/// Nothing before.
+/// No earlier use.
 pub const NOTHING: Access = Access::new(Stage::NONE, Mask::NONE, vk::ImageLayout::UNDEFINED);
 
-/// An image of the host's and the state its own commands left it in.
+/// An image of the host, and the state in which its own commands left it.
 pub struct Texture {
     device: ash::Device,
     pub image: vk::Image,
@@ -51,7 +51,7 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// The image as handed to a record, which takes it over from `state` and hands it back so.
+    /// The image as handed to a record, which receives and returns it in `state`.
     pub fn host_image(&self) -> HostImage {
         HostImage::new(self.image, self.view, self.format, self.extent, self.state)
     }
@@ -59,7 +59,7 @@ impl Texture {
 
 impl Drop for Texture {
     fn drop(&mut self) {
-        // SAFETY: the tests wait for their work before they drop its images.
+        // SAFETY: the tests wait for all work before they drop its images.
         unsafe {
             self.device.destroy_image_view(self.view, None);
             self.device.destroy_image(self.image, None);
@@ -68,7 +68,7 @@ impl Drop for Texture {
     }
 }
 
-/// A mapped buffer of the host's.
+/// A mapped buffer of the host.
 pub struct Data {
     device: ash::Device,
     pub buffer: vk::Buffer,
@@ -80,7 +80,7 @@ pub struct Data {
 impl Data {
     /// Its bytes.
     pub fn bytes(&self) -> &[u8] {
-        // SAFETY: mapped for good, `size` bytes.
+        // SAFETY: it stays mapped, with `size` bytes.
         unsafe { std::slice::from_raw_parts(self.pointer, self.size as usize) }
     }
 
@@ -92,7 +92,7 @@ impl Data {
     /// Overwrites bytes from an offset on.
     pub fn write_at(&mut self, offset: u64, bytes: &[u8]) {
         assert!(offset + bytes.len() as u64 <= self.size);
-        // SAFETY: mapped for good, large enough, no other reference while `self` is borrowed.
+        // SAFETY: it stays mapped and is large enough; there is no other reference while `self` is borrowed.
         unsafe {
             let to = self.pointer.add(offset as usize);
             std::ptr::copy_nonoverlapping(bytes.as_ptr(), to, bytes.len());
@@ -110,10 +110,10 @@ impl Drop for Data {
     }
 }
 
-/// Command buffers and fences, one of each a slot.
+/// Command buffers and fences, one of each per slot.
 pub struct Stub {
     device: ash::Device,
-    /// The device has synchronization2.
+    /// Whether the device has synchronization2.
     second: bool,
     queue: vk::Queue,
     memory_types: vk::PhysicalDeviceMemoryProperties,
@@ -122,7 +122,7 @@ pub struct Stub {
     utility: vk::CommandBuffer,
 }
 
-/// Bytes of a texel of the formats used here (depth-stencil: of what a copy of the depth takes).
+/// Bytes per texel of the formats used here; for depth-stencil formats, those of a copy of the depth.
 pub fn texel_size(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32G32B32A32_SFLOAT => 16,
@@ -132,7 +132,7 @@ pub fn texel_size(format: vk::Format) -> u64 {
     }
 }
 
-/// The aspect that copies and views take.
+/// The aspect for copies and views.
 fn copy_aspect(aspect: vk::ImageAspectFlags) -> vk::ImageAspectFlags {
     match aspect.contains(vk::ImageAspectFlags::DEPTH) {
         true => vk::ImageAspectFlags::DEPTH,
@@ -234,7 +234,7 @@ impl Stub {
         data
     }
 
-    /// A mapped buffer of a size.
+    /// A mapped buffer of this size.
     pub fn sized(&self, size: u64, usage: vk::BufferUsageFlags) -> Data {
         let info = vk::BufferCreateInfo::default().size(size).usage(usage);
         let flags = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
@@ -302,7 +302,7 @@ impl Stub {
 
     /// Ends a slot's command buffer that is never submitted.
     pub fn throw_away(&mut self, slot: u32) {
-        // SAFETY: it is recording.
+        // SAFETY: the command buffer is recording.
         unsafe { self.device.end_command_buffer(self.slots[slot as usize].0) }.expect("end");
     }
 
@@ -397,7 +397,7 @@ impl Stub {
         unsafe { self.device.cmd_pipeline_barrier2(cmd, &info) };
     }
 
-    /// Copies bytes into a whole image, which is left in a state.
+    /// Copies bytes into a whole image, and leaves it in state `after`.
     pub fn upload(&self, texture: &mut Texture, bytes: &[u8], after: Access) {
         let texels = u64::from(texture.extent.width) * u64::from(texture.extent.height);
         assert_eq!(bytes.len() as u64, texels * texel_size(texture.format));
@@ -434,7 +434,7 @@ impl Stub {
         texture
     }
 
-    /// The bytes of an image; it is back in its state afterwards.
+    /// Reads the bytes of an image, and returns it to its state.
     pub fn download(
         &self,
         image: vk::Image,
@@ -449,7 +449,7 @@ impl Stub {
         back.bytes().to_vec()
     }
 
-    /// The bytes of every mip of a cube of `size`, face by face; it is back in its state afterwards.
+    /// Reads the bytes of every mip of a cube of edge `size`, face by face, and returns it to its state.
     pub fn download_cube(
         &self,
         image: vk::Image,
@@ -516,12 +516,12 @@ impl Stub {
         );
         let region = [vk::BufferCopy::default().size(back.size)];
         self.buffer_barrier(cmd, from, written, COPIED_FROM);
-        // SAFETY: cmd is recording; both buffers are alive and that large.
+        // SAFETY: cmd is recording; both buffers are alive and large enough.
         unsafe { self.device.cmd_copy_buffer(cmd, from, back.buffer, &region) };
         self.buffer_barrier(cmd, back.buffer, COPIED_TO, HOST_READ);
     }
 
-    /// The functions, for commands that a test records itself.
+    /// The device's functions, for commands that a test records itself.
     pub fn functions(&self) -> &ash::Device {
         &self.device
     }
@@ -529,7 +529,7 @@ impl Stub {
 
 impl Drop for Stub {
     fn drop(&mut self) {
-        // SAFETY: idle before anything goes.
+        // SAFETY: the queue is idle before anything is destroyed.
         unsafe {
             let _ = self.device.device_wait_idle();
             for (_, fence, _) in &self.slots {

@@ -1,5 +1,5 @@
-//! A device that claims other limits than it has, stricter ones: a stand-in in the instance's
-//! function table. One at a time, as the tests.
+//! A device that claims stricter limits than it has, by stand-ins in the instance's function table. Only one test uses
+//! this at a time.
 
 use std::sync::Mutex;
 
@@ -7,18 +7,18 @@ use ash::vk;
 
 use super::device::Gpu;
 
-/// What is claimed; none: the truth.
+/// The claims; `None`: the truth.
 #[derive(Clone, Copy, Default)]
 pub struct Claims {
-    /// Of offsets of storage and of uniform buffers.
+    /// Offset alignment of storage and of uniform buffers.
     pub offset_alignment: Option<u64>,
     pub max_storage_buffer_range: Option<u32>,
-    /// Of all queue families.
+    /// Timestamp bits of all queue families.
     pub timestamp_valid_bits: Option<u32>,
     pub timestamp_period: Option<f32>,
-    /// It is no blended colour attachment.
+    /// A format that cannot be a blended colour attachment.
     pub unblended: Option<vk::Format>,
-    /// All that the others do not say.
+    /// All other limits.
     pub limits: Option<vk::PhysicalDeviceLimits>,
 }
 
@@ -59,7 +59,7 @@ unsafe extern "system" fn properties(
         &mut (*found).limits
     };
     *limits = claims.limits.unwrap_or(*limits);
-    // Never less strict than the truth.
+    // Claims are never less strict than the truth.
     let alignment = claims.offset_alignment.unwrap_or(1);
     let (storage, uniform) =
         (limits.min_storage_buffer_offset_alignment, limits.min_uniform_buffer_offset_alignment);
@@ -107,7 +107,7 @@ unsafe extern "system" fn formats(
     }
 }
 
-/// The instance the library is given makes these claims.
+/// Makes the instance that the library gets report these claims.
 pub fn claim(gpu: &mut Gpu, claims: Claims) {
     gpu.assert_spied();
     let instance = &gpu.instance;

@@ -1,5 +1,5 @@
-//! What the GPU tests stand on: a device with its messages, a host stub, a spy on the device's
-//! function table, comparisons that leave pictures behind, rounding bounds and scenes.
+//! Foundations of the GPU tests: a device with its validation messages, a host stub, a spy in the device's function
+//! table, comparisons that write pictures, rounding bounds and scenes.
 
 pub mod compare;
 pub mod device;
@@ -14,7 +14,7 @@ pub mod spy;
 pub mod tolerance;
 pub mod watchdog;
 
-/// Whether the long tests are asked for.
+/// Whether long tests are enabled.
 pub fn slow() -> bool {
     std::env::var_os("WHITEWATER_SLOW").is_some_and(|value| value == "1")
 }

@@ -1,19 +1,19 @@
-//! Running error analysis: a number with a bound of how far single precision may be off it, through
-//! the operations of a shader. What an operation may add is what Vulkan allows ("Precision of
-//! Individual Operations"); u is half an ulp at most, an ulp 2u.
+//! Running error analysis: a number with a bound on the error of single precision, carried through a shader's
+//! operations. Each operation adds the error that Vulkan allows ("Precision of Individual Operations"). u is half an
+//! ulp.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::tolerance::U;
 
-/// A number and the bound of its error.
+/// A number and the bound on its error.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounded {
     pub v: f64,
     pub e: f64,
 }
 
-/// A number that single precision holds.
+/// A number that single precision represents exactly.
 pub fn exact(v: f64) -> Rounded {
     Rounded { v, e: 0.0 }
 }
@@ -54,7 +54,7 @@ impl Mul for Rounded {
     }
 }
 
-/// 2.5 ulp.
+/// Error: 2.5 ulp.
 impl Div for Rounded {
     type Output = Self;
     fn div(self, other: Self) -> Self {
@@ -65,20 +65,20 @@ impl Div for Rounded {
 }
 
 impl Rounded {
-    /// 3 + 2 |x| ulp.
+    /// Error: 3 + 2 |x| ulp.
     pub fn exp(self) -> Self {
         let v = self.v.exp();
         Self { v, e: v * (self.e.exp_m1() + U * (6.0 + 4.0 * self.v.abs())) }
     }
 
-    /// The same to the base 2.
+    /// The same for base 2.
     pub fn exp2(self) -> Self {
         let v = self.v.exp2();
         let from = self.e * std::f64::consts::LN_2;
         Self { v, e: v * (from.exp_m1() + U * (6.0 + 4.0 * self.v.abs())) }
     }
 
-    /// 2^-21 from a half to 2, 3 ulp elsewhere.
+    /// Error: 2^-21 for x from 0.5 to 2, 3 ulp elsewhere.
     pub fn log2(self) -> Self {
         let v = self.v.log2();
         let least = (self.v - self.e).max(f64::MIN_POSITIVE);
@@ -86,7 +86,7 @@ impl Rounded {
         Self { v, e: self.e / least / std::f64::consts::LN_2 + own * U }
     }
 
-    /// As `exp2(y log2 x)`, for y above 0; never more than what the largest x gives.
+    /// Computed as `exp2(y log2 x)`, for y above 0; at most the value for the largest x.
     pub fn pow(self, y: Self) -> Self {
         let v = self.v.max(0.0).powf(y.v);
         let most = (self.v + self.e).max(0.0).powf(y.v) * 1.01;
@@ -94,7 +94,7 @@ impl Rounded {
         Self { v, e: if e < most { e } else { most } }
     }
 
-    /// By `1 / inversesqrt`: 2 ulp and 2.5 of the quotient.
+    /// Computed as `1 / inversesqrt`: 2 ulp, and 2.5 for the quotient.
     pub fn sqrt(self) -> Self {
         let v = self.v.sqrt();
         let least = (self.v - self.e).max(0.0).sqrt();
@@ -103,7 +103,7 @@ impl Rounded {
 
     pub fn clamp(self, low: f64, high: f64) -> Self {
         let v = self.v.clamp(low, high);
-        // What lies further out than its error is cut to the same.
+        // A value farther outside than its error is clamped exactly.
         let e = if self.v + self.e < low || self.v - self.e > high { 0.0 } else { self.e };
         Self { v, e }
     }
@@ -126,7 +126,7 @@ pub fn normalize(v: [Rounded; 3]) -> [Rounded; 3] {
     v.map(|c| Rounded { v: c.v / length, e: turned + 16.0 * U * (c.v / length).abs() })
 }
 
-/// `a (1 - t) + b t`: the error of t counts by what it moves.
+/// `a (1 - t) + b t`: the error of t counts times the distance of a and b.
 pub fn mix(a: Rounded, b: Rounded, t: Rounded) -> Rounded {
     let v = a.v + (b.v - a.v) * t.v;
     let from = a.e * (1.0 - t.v).abs() + b.e * t.v.abs() + (b.v - a.v).abs() * t.e;
@@ -145,7 +145,7 @@ pub fn smoothstep(low: Rounded, high: Rounded, x: Rounded) -> Rounded {
 mod tests {
     use super::*;
 
-    /// Single precision itself, over numbers of all sizes, stays inside; half the bound does not.
+    /// Single precision stays within the bound for numbers of all sizes, and exceeds half the bound.
     #[test]
     fn the_bounds_hold_and_are_not_idle() {
         let mut random = crate::support::scenes::Random(5);
@@ -170,7 +170,7 @@ mod tests {
                 *worst = worst.max(if error == 0.0 { 0.0 } else { error / expected.e });
             }
         }
-        // The libraries of the host are better than Vulkan asks for.
+        // The host's math library is more precise than Vulkan requires.
         let least = [0.5, 0.03, 0.1, 0.02];
         for (worst, least) in worst.into_iter().zip(least) {
             assert!(worst <= 1.0 && worst > least, "{worst}");

@@ -1,4 +1,4 @@
-//! Cameras of every convention, and particles that are the same in every run.
+//! Cameras of every convention, and particles that are equal in every run.
 
 use ash::vk;
 use glam::{DMat4, DVec4, Mat4, Vec3, vec3};
@@ -18,7 +18,7 @@ pub enum Lens {
     LeftHanded,
 }
 
-/// All of them.
+/// All lenses.
 pub const LENSES: [Lens; 7] = [
     Lens::Standard,
     Lens::Reversed,
@@ -31,14 +31,14 @@ pub const LENSES: [Lens; 7] = [
 
 /// Eye depth of the near plane of every lens.
 pub const NEAR: f32 = 0.1;
-/// Eye depth of the far plane of those that have one.
+/// Eye depth of the far plane, for lenses with one.
 pub const FAR: f32 = 100.0;
 
 fn extent_f(extent: vk::Extent2D) -> (f32, f32) {
     (extent.width as f32, extent.height as f32)
 }
 
-/// The projection of a lens, 60 degrees high, with square pixels.
+/// Projection of a lens with a field of view of 60 degrees and square pixels.
 pub fn projection(lens: Lens, extent: vk::Extent2D) -> Mat4 {
     let (width, height) = extent_f(extent);
     let (fov, aspect) = (60.0_f32.to_radians(), width / height);
@@ -86,7 +86,7 @@ pub fn twin(camera: &Camera, extent: vk::Extent2D) -> View {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// World-space points of eye-space points (x, y, depth).
+/// Transforms eye-space points (x, y, depth) to world space.
 pub fn world(camera: &Camera, points: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let forward = if camera.projection_matrix().z_axis.w > 0.0 { 1.0 } else { -1.0 };
     let back = camera.view_matrix().as_dmat4().inverse();
@@ -99,7 +99,7 @@ pub fn world(camera: &Camera, points: &[[f32; 3]]) -> Vec<[f32; 3]> {
         .collect()
 }
 
-/// Numbers that look random and are not (SplitMix64).
+/// Pseudo-random numbers (SplitMix64).
 pub struct Random(pub u64);
 
 impl Random {
@@ -111,12 +111,12 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// In low..high.
+    /// A number in low..high.
     pub fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * ((self.bits() >> 40) as f32 / (1u64 << 24) as f32)
     }
 
-    /// An order of 0..n.
+    /// A permutation of 0..n.
     pub fn order(&mut self, n: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..n).collect();
         for i in (1..n).rev() {
@@ -126,7 +126,7 @@ impl Random {
     }
 }
 
-/// Points in the view: (x, y, depth) with depths in a range, some of them beyond its edges.
+/// Points in the view: (x, y, depth) with depths in a range; some lie beyond the view's edges.
 pub fn cloud(seed: u64, count: usize, near: f32, far: f32) -> Vec<[f32; 3]> {
     let mut random = Random(seed);
     (0..count)
@@ -137,7 +137,7 @@ pub fn cloud(seed: u64, count: usize, near: f32, far: f32) -> Vec<[f32; 3]> {
         .collect()
 }
 
-/// A block of particles on a jittered lattice, as a fluid has them: (x, y, depth) of eye space.
+/// A block of particles on a jittered lattice, as in a fluid: eye-space (x, y, depth).
 pub fn block(seed: u64, spacing: f32, size: [usize; 3], corner: [f32; 3]) -> Vec<[f32; 3]> {
     let mut random = Random(seed);
     let mut points = Vec::new();
@@ -154,7 +154,7 @@ pub fn block(seed: u64, spacing: f32, size: [usize; 3], corner: [f32; 3]) -> Vec
     points
 }
 
-/// Settings for a drawn radius, in a light under which nothing is far from 1.
+/// Settings for a drawn radius, with light in which all colours are near 1.
 pub fn settings(radius: f32) -> Settings {
     let mut settings = Settings::default();
     settings.water.spacing = radius / 0.656;

@@ -1,4 +1,4 @@
-//! How far `composite` may be off its twin: running error analysis of the shader's operations, pixel
+//! Bounds on the difference between `composite` and its twin: running error analysis of the shader's operations, pixel
 //! by pixel, from the surface and the background that the twin found.
 
 use glam::{DVec2, DVec3};
@@ -13,28 +13,28 @@ use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
 use crate::reference::{View, is_surface};
 
-/// What filtering may do to what is looked up.
+/// Errors of texture filtering.
 #[derive(Clone, Copy)]
 pub struct Filter {
-    /// Positions in a texel are known to 2^-bits.
+    /// Positions within a texel are precise to 2^-bits.
     pub bits: u32,
-    /// Of the environment: the most that a channel changes per unit of direction.
+    /// Largest change of the environment's channels per unit of direction.
     pub sky_slope: f64,
-    /// And what its texels and the interpolation between them are off.
+    /// Error of the environment's texels and of the interpolation between them.
     pub sky_error: f64,
 }
 
 /// A pixel's colour in the shader's order of operations, with its bounds.
 pub struct Shaded {
     pub color: [Rounded; 3],
-    /// By how many pixels the look-up of the background may be off.
+    /// Error of the background look-up, in pixels.
     pub moved: f64,
-    /// What of the scene is mirrored, and whether rounding may not meet something else.
+    /// Mirrored part of the scene, and whether rounding might make the march meet something else.
     pub met: Met,
     pub sure: bool,
 }
 
-/// The most that a channel of the scene changes from texel to texel round a position, x and y.
+/// Largest change of the scene's channels from texel to texel around a position, along x and y.
 fn changes(inputs: &Inputs<'_>, at: DVec2) -> [[f64; 3]; 2] {
     let base = (at - 0.5).floor();
     let (x, y) = (base.x as isize, base.y as isize);
@@ -61,7 +61,8 @@ fn slope(surface: &Surface, axis: usize, drop: Rounded) -> Rounded {
     mix(smooth, sphere, drop)
 }
 
-/// A channel of what comes through water of a path, below a surface that is so bright in the sun, over level ground.
+/// A channel of the light from water with a path length, under a surface with a brightness in the sun, over level
+/// ground.
 pub fn through(
     medium: &Medium,
     behind: Rounded,
@@ -77,7 +78,7 @@ pub fn through(
             behind * kept + exact(ambient[i]) * albedo * (exact(1.0) - kept)
         }
         Medium::Turbid { extinction, own, share, shade } => {
-            // Of sums, a root, products and quotients on the host.
+            // Sums, a root, products and quotients on the CPU.
             let kept = (-off(extinction[i], 1.0) * path).exp();
             let (share, shade) = (off(*share, 40.0), off(shade[i], 5.0));
             let lit = mix(exact(1.0), mix(sunlit, exact(1.0), shade), share);
@@ -90,33 +91,33 @@ pub fn through(
     }
 }
 
-/// What a surface is in a pixel, rounded.
+/// The surface of a pixel, with rounding.
 struct Lit {
     z: Rounded,
     path: Rounded,
-    /// As a matte surface is lit by the sun, over level ground.
+    /// Brightness as a matte surface in the sun, over level ground.
     sunlit: Rounded,
-    /// By which the look-up is displaced.
+    /// Displacement of the look-up.
     offset: [Rounded; 2],
-    /// Of what is mirrored, with the error of its direction, and of the sun's highlight.
+    /// Share of the reflection, with the error of its direction, and of the sun's highlight.
     share: Rounded,
-    /// How much of it there is where the scene is not met.
+    /// Share of the environment where the scene is not met.
     sky: Rounded,
     turned: f64,
     shine: Rounded,
-    /// Of the baseline's foam.
+    /// Colour of the baseline's foam.
     foam: [Rounded; 3],
-    /// How much of the scene lies under it, and metres of water above that, upright.
+    /// Share of the scene under the water, and vertical metres of water above it.
     wet: Rounded,
     down: Rounded,
     /// Metres of water along z.
     thick: Rounded,
 }
 
-/// How much of the room before the scene water fills, as a share of the scene under it.
+/// Share of the scene that touches the water, from how much of the room in front of the scene the water fills.
 fn wet(t: Rounded, room: Rounded, limited: bool) -> Rounded {
     if limited || room.v == 0.0 {
-        // The same number over itself, or no room; rounding may take either.
+        // Either a number divided by itself, or no room; rounding may choose either.
         let v = f64::from(u8::from(room.v > 0.0));
         return Rounded { v, e: if room.v <= room.e { room.e.min(1.0).ceil() } else { 0.0 } };
     }
@@ -127,9 +128,9 @@ fn wet(t: Rounded, room: Rounded, limited: bool) -> Rounded {
     smoothstep(off(0.5, 1.0), off(0.7, 1.0), t / room)
 }
 
-/// The bent way to the eye over the straight one.
+/// Ratio of the refracted path to the eye to the straight one.
 fn bent_way(bed: &Bed, n: [Rounded; 3], v: [Rounded; 3], up: [Rounded; 3]) -> Rounded {
-    // A root and two quotients.
+    // The error of a root and two quotients.
     let ratio = off(bed.index.recip(), 8.0);
     let facing = dot(n, v).clamp(0.0, f64::MAX);
     let inside = (exact(1.0) - ratio * ratio * (exact(1.0) - facing * facing)).sqrt();
@@ -143,10 +144,10 @@ fn bent_way(bed: &Bed, n: [Rounded; 3], v: [Rounded; 3], up: [Rounded; 3]) -> Ro
     mix(exact(1.0), bent, level)
 }
 
-/// The colour of what lies under water, of which a part is there.
+/// Colour of the scene under water, of which a part is visible.
 fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3]) -> [Rounded; 3] {
     let Some(bed) = settings.bed.filter(|_| lit.wet.v + lit.wet.e > 0.0) else { return dry };
-    // Sums and products of a few numbers that were rounded, and their quotients; a power.
+    // Sums and products of a few rounded numbers, their quotients, and a power.
     let leaves = off(bed.comes_in / bed.index.powi(2), 16.0);
     let (sky_way, sun_way) = (off(bed.sky_way, 16.0), off(bed.sun_way, 16.0));
     let one = exact(1.0);
@@ -170,14 +171,14 @@ fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3])
     })
 }
 
-/// By how many pixels the look-up may be off. What brings the offset below the farthest does not
-/// stretch its error; it and the place add 16u of the picture.
+/// Error of the look-up in pixels. Limiting the offset does not increase its error; the offset and the position add 16u
+/// of the picture.
 fn moved(offset: [Rounded; 2], view: &View) -> f64 {
     offset[0].e.hypot(offset[1].e) + 16.0 * U * view.extent().max_element()
 }
 
-/// A normal that the noise turns. Its rises are weighted means as a slope's, and a product more; the
-/// height of 1 is two products.
+/// A normal tilted by the noise. Its differences are weighted means like those of a slope, with one more product; the
+/// height of 1 takes two products.
 fn turned(n: [Rounded; 3], px: [Rounded; 3], py: [Rounded; 3], ripple: &Ripple) -> [Rounded; 3] {
     let height = |i: usize| {
         let (v, rises) = (ripple.height[i], ripple.rises[i]);
@@ -190,7 +191,7 @@ fn turned(n: [Rounded; 3], px: [Rounded; 3], py: [Rounded; 3], ripple: &Ripple) 
     normalize([0, 1, 2].map(|i| area * n[i] - by(i)))
 }
 
-/// A surface of an image of so many pixels a texel, of a thickness, of whose mirror image a part shows.
+/// Shades a surface with a number of pixels per texel, a thickness, and a visible part of its reflection.
 fn lit(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -202,22 +203,22 @@ fn lit(
 ) -> Lit {
     let radius = off(settings.radius, 2.0);
     let spacing = off(settings.radius / 0.656, 1.0);
-    // Weighted means: four products, three sums, weights of 9u; the mean of two of them as much more.
+    // Weighted means: four products, three sums, weights of 9u; the mean of two of them adds the same again.
     let means = if surface.parts.case == Case::Whole { 4.0 } else { 13.0 };
     let means = if surface.parts.mixed > 0.0 { means + 26.0 } else { means };
     let z = off(-surface.position.z, means);
     let (low, high) = (off(0.6, 1.0) * spacing, off(0.9, 1.0) * spacing);
-    // What has no slope of its own is no drop.
+    // Without a slope of its own the pixel is not a drop.
     let drop = match surface.parts.drop {
         0.0 => exact(0.0),
         _ => exact(1.0) - smoothstep(low, high, t),
     };
     let (dx, dy) = (slope(surface, 0, drop), slope(surface, 1, drop));
-    // The scene's depth: a rounded quotient of what two numbers of the projection are off.
+    // The scene's depth is a rounded quotient of two projection entries.
     let room = (off(inputs.scene(x, y), 8.0) - z).clamp(0.0, f64::MAX);
     let (own, limited) = (t.e, surface.thickness < surface.parts.full);
     let t = if limited { room } else { t };
-    // Rounding may take either.
+    // Rounding may choose either case.
     let near = room.e.is_finite() && (surface.parts.full - room.v).abs() <= own + room.e;
     let t = if near { Rounded { e: own.max(room.e), ..t } } else { t };
 
@@ -240,7 +241,7 @@ fn lit(
     }
     let ripple = &surface.ripple;
     if ripple.height != DVec2::ZERO {
-        // Of the tangents a full pixel apart.
+        // Tangents that span a full pixel.
         let part = exact(1.0 / texel);
         n = turned(n, px.map(|c| c * part), py.map(|c| c * part), ripple);
     }
@@ -265,7 +266,7 @@ fn lit(
     let cosine = dot(n, v);
     let twice = exact(2.0) * cosine;
     let reflected = [0, 1, 2].map(|i| twice * n[i] - v[i]);
-    // The inverse of the view: 16u of its entries, at most 1.
+    // The inverse of the view has an error of 16u of its entries, which are at most 1.
     let world = view.view.inverse();
     let world = |row: usize| [0, 1, 2].map(|i| Rounded { v: world.col(i)[row], e: 16.0 * U });
     let reflected = [0, 1, 2].map(|row| dot(world(row), reflected));
@@ -288,9 +289,9 @@ fn lit(
     let sunlit = dot(n, sun).clamp(0.0, f64::MAX) / Rounded { v: level, e: 40.0 * U };
     let half = normalize([0, 1, 2].map(|i| v[i] + sun[i]));
     let facing = dot(n, half);
-    // The shader cuts at 2^-100.
+    // The shader cuts the base at 2^-100.
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
-    // Of the mean's weights 13u, a product; the radiance is two products and a constant.
+    // The weights of the mean have an error of 13u, plus a product; the radiance is two products and a constant.
     let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
     Lit {
         z,
@@ -308,7 +309,7 @@ fn lit(
     }
 }
 
-/// What a surface makes of the colour behind it.
+/// Light that a surface passes on from the colour behind it.
 fn over(
     settings: &Settings,
     lit: &Lit,
@@ -333,7 +334,7 @@ fn over(
     })
 }
 
-/// What of the scene the front surface mirrors: how much, and its colour; and what the march found.
+/// The scene's reflection in the front surface: its share, its colour, and the result of the march.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 fn mirrored(
     inputs: &Inputs<'_>,
@@ -348,7 +349,7 @@ fn mirrored(
     if settings.mirror_steps == 0 || surface.thickness == 0.0 && lit.share.e == 0.0 {
         return (NOTHING, Met::default(), true);
     }
-    // The direction in the world is off by as much as that in eye space, and the turn.
+    // The direction in the world has the error of that in eye space, and of the rotation.
     let off_by = (4.0 * lit.turned, 4.0 * (lit.z.e / lit.z.v + 16.0 * U));
     let (met, moved, sure) = met_about(inputs, settings, surface, view, off_by);
     if met.share == 0.0 {
@@ -405,7 +406,7 @@ fn met_water(
     })
 }
 
-/// The scene's colour where it is looked up, which may be so many pixels off.
+/// The scene's colour at the look-up, which has an error in pixels.
 fn scene(
     inputs: &Inputs<'_>,
     at: DVec2,
@@ -436,7 +437,7 @@ pub fn shaded(
     let mut lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
     let mut moved = moved(lit.offset, view);
-    // Before nothing there is no bed.
+    // Without a scene there is no bed.
     let bed = lit.wet.v + lit.wet.e > 0.0 && is_surface(inputs.scene(x, y));
     if let Some(index) = settings.exit.filter(|_| bed) {
         let by = (index, 4.0 * lit.turned, 4.0 * (lit.z.e / lit.z.v + 16.0 * U));
@@ -451,10 +452,10 @@ pub fn shaded(
         mirrored(inputs, None, settings, surface, &lit, view, env, filter);
     let mut behind = behind;
     if settings.exit.is_some() && surface.thickness > 0.0 {
-        // Of an even environment: what is mirrored of it is the same in all directions.
+        // A uniform environment: its reflection is the same in all directions.
         let color = DVec3::from(behind.map(|c| c.v));
-        // Four times what normals are off by; the thickness' slope is a difference of numbers that are no more than all of
-        // it, over the width of a pixel.
+        // Four times the error of normals. The slope of the thickness is a difference of numbers no larger than the
+        // thickness, over the width of a pixel.
         let width = view.slope_step().abs().min_element() * lit.z.v;
         let around = surface.parts.full.max(surface.thickness) + settings.radius;
         let turned = 4.0 * (lit.turned + 16.0 * U * (1.0 + around / width));
@@ -484,7 +485,7 @@ pub fn shaded(
     Shaded { color: over(settings, &lit, behind, env, of_scene, filter), moved, met, sure }
 }
 
-/// Thickness of the front sheet, T2 and `apart`, as rounded as they are.
+/// Thickness of the front sheet, T2 and `apart`, with their rounding.
 fn sheets(
     inputs: &Inputs<'_>,
     behind: &Behind<'_>,
@@ -492,7 +493,7 @@ fn sheets(
     shown: &Shown,
     f: f64,
 ) -> [Rounded; 3] {
-    // The mean's sums and the quotient of its weights.
+    // The sums of the mean, and the quotient of its weights.
     let weight = |w: f64| off(w, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
     let mut sums = [exact(0.0); 3];
     let spacing = off(settings.radius / 0.656, 2.0);
@@ -512,7 +513,7 @@ fn sheets(
         sums[2] = sums[2] + weight(w) * air;
     }
     let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) else { return sums };
-    // Depths are means of 13u, mixed once more.
+    // Depths are means with an error of 13u, mixed once more.
     let z = |surface: &Surface| off(-surface.position.z, 39.0);
     let [t, t2, apart] = sums;
     let gap = (z(&back.surface) - z(&shown.front) - t) / spacing;
@@ -520,7 +521,7 @@ fn sheets(
     [t + (exact(1.0) - open) * t2, t2 * open, apart * open]
 }
 
-/// The same of a pixel that may show two sheets; `envs`: of the front one and the back one.
+/// The same for a pixel that may show two sheets; `envs` holds the environment for the front one and the back one.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 pub fn shaded_both(
     inputs: &Inputs<'_>,

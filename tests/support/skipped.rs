@@ -1,8 +1,9 @@
-//! Says that a test did not run.
+//! Reports that a test did not run.
 
 use std::io::Write;
 
-/// Past the harness, which keeps what passing tests print: a reader sees it. A test that runs alone has the harness's name.
+/// Writes past the test harness, which swallows the output of passing tests. A test that runs alone has the harness's
+/// name.
 pub fn skipped(why: &str) {
     let thread = std::thread::current();
     let test = thread.name().unwrap_or("a test");

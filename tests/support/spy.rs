@@ -1,5 +1,5 @@
-//! A spy in the device's function table: counts calls, follows what is made and destroyed, and lets
-//! a call fail; keeps in what order commands use buffers, and leaves a barrier out. One at a time, as the tests.
+//! A spy in the device's function table. It counts calls, tracks created and destroyed objects, and lets a call fail.
+//! It also records the order in which commands use buffers, and can drop a barrier. Only one test uses it at a time.
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_void};
@@ -10,15 +10,15 @@ use ash::vk::{self, Handle};
 
 use super::device::Gpu;
 
-/// What the spy knows of one function.
+/// State of one function.
 pub struct Function {
     pub name: &'static CStr,
     real: AtomicPtr<c_void>,
     calls: AtomicU32,
-    /// Calls until it fails; 0: it does not.
+    /// Number of calls until it fails; 0: it does not.
     fails_in: AtomicU32,
     result: AtomicI32,
-    /// Objects it made, less those that its counterpart destroyed.
+    /// Objects that it created, minus those that its counterpart destroyed.
     live: AtomicI64,
 }
 
@@ -39,13 +39,13 @@ impl Function {
         self.calls.load(SeqCst)
     }
 
-    /// Lets the `nth` call from now on fail (1 is the next), once.
+    /// Lets the `nth` call from now on fail once (1 is the next).
     pub fn fail(&self, nth: u32, result: vk::Result) {
         self.result.store(result.as_raw(), SeqCst);
         self.fails_in.store(nth, SeqCst);
     }
 
-    /// Whether the failure asked for is still to come.
+    /// Whether the requested failure has not happened yet.
     pub fn pending(&self) -> bool {
         self.fails_in.load(SeqCst) > 0
     }
@@ -61,7 +61,7 @@ impl Function {
     }
 }
 
-/// Functions with a result: the spy's stand-ins. `made`: how many objects a success makes.
+/// Functions with a result: the spy's stand-ins. `made` is the number of objects that a success creates.
 macro_rules! spied {
     ($(
         $id:ident $name:literal ($($arg:ident: $type:ty),*) made $made:expr $(, notes $note:expr)?;
@@ -129,7 +129,7 @@ spied! {
         notes held(&SETS).clear();
 }
 
-/// Commands, which return nothing, and what destroys.
+/// Commands, which return nothing, and functions that destroy.
 macro_rules! spied_void {
     ($(
         $id:ident $name:literal ($($arg:ident: $type:ty),*)
@@ -205,12 +205,12 @@ spied_void! {
     DESTROY_FENCE c"vkDestroyFence" (d: vk::Device, h: u64, a: P) undoes CREATE_FENCE if h;
     DESTROY_QUERY_POOL c"vkDestroyQueryPool" (d: vk::Device, h: u64, a: P)
         undoes CREATE_QUERY_POOL if h;
-    // Compute pipelines are booked with the graphics ones.
+    // Compute pipelines are counted with the graphics ones.
     DESTROY_PIPELINE c"vkDestroyPipeline" (d: vk::Device, h: u64, a: P)
         undoes CREATE_GRAPHICS_PIPELINES if h;
 }
 
-/// Everything that waits, submits, allocates or compiles: what a record must not do.
+/// Everything that waits, submits, allocates or compiles, which a record must not do.
 pub static NOT_IN_A_RECORD: [&Function; 12] = [
     &QUEUE_SUBMIT,
     &QUEUE_SUBMIT2,
@@ -226,7 +226,7 @@ pub static NOT_IN_A_RECORD: [&Function; 12] = [
     &FREE_MEMORY,
 ];
 
-/// Everything that makes something and can fail.
+/// Everything that creates objects and can fail.
 pub static MAKERS: [&Function; 19] = [
     &ALLOCATE_MEMORY,
     &BIND_BUFFER_MEMORY,
@@ -249,7 +249,7 @@ pub static MAKERS: [&Function; 19] = [
     &CREATE_COMPUTE_PIPELINES,
 ];
 
-/// The commands that are watched.
+/// The watched commands.
 pub static COMMANDS: [&Function; 8] = [
     &CMD_BARRIER,
     &CMD_BIND_PIPELINE,
@@ -261,9 +261,9 @@ pub static COMMANDS: [&Function; 8] = [
     &CMD_TIMESTAMP,
 ];
 
-/// Made by hand: it keeps what the pool has room for.
+/// Written by hand, because it stores the capacity of the pool.
 pub static CREATE_DESCRIPTOR_POOL: Function = Function::new(c"vkCreateDescriptorPool");
-/// Sets that the pool made last has room for.
+/// Capacity of the last pool, in sets.
 pub static MAX_SETS: AtomicU32 = AtomicU32::new(0);
 
 unsafe extern "system" fn create_descriptor_pool(d: vk::Device, i: P, a: P, o: P) -> vk::Result {
@@ -282,16 +282,16 @@ unsafe extern "system" fn create_descriptor_pool(d: vk::Device, i: P, a: P, o: P
     result
 }
 
-/// What uses a buffer.
+/// The kind of command that uses a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// A fill or an update.
     Transfer,
-    /// A dispatch whose descriptor set has it.
+    /// A dispatch whose descriptor set contains it.
     Compute,
-    /// An indirect draw whose set has it.
+    /// An indirect draw whose descriptor set contains it.
     Graphics,
-    /// A draw or a dispatch whose arguments it has.
+    /// A draw or a dispatch that reads its arguments from it.
     Indirect,
 }
 
@@ -302,7 +302,7 @@ pub enum Event {
         buffer: vk::Buffer,
         by: By,
     },
-    /// Of all buffers where it says none.
+    /// A barrier for one buffer, or for all if none is given.
     Barrier {
         buffer: Option<vk::Buffer>,
         before: Scope,
@@ -313,21 +313,21 @@ pub enum Event {
 /// Stages and accesses of a barrier.
 pub type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
 
-/// While they are watched.
+/// Events, while buffers are watched.
 static EVENTS: Mutex<Option<Vec<Event>>> = Mutex::new(None);
-/// Storage buffers of the sets since a pool was reset, by set and binding: a set is bound as it is made.
+/// Storage buffers of the sets since a pool was reset, by set and binding. A set is bound right after it is made.
 static SETS: Mutex<BTreeMap<(u64, u32), vk::Buffer>> = Mutex::new(BTreeMap::new());
-/// Of compute and of graphics.
+/// Bound sets of compute and of graphics.
 static BOUND_SETS: [AtomicU64; 2] = [AtomicU64::new(0), AtomicU64::new(0)];
-/// Which of a buffer's barriers is left out.
+/// The buffer and the index of the barrier to drop.
 static LEFT_OUT: Mutex<Option<(vk::Buffer, usize)>> = Mutex::new(None);
 
-/// Watches uses of buffers by fills, updates, dispatches and indirect draws, and all barriers of them.
+/// Starts to watch uses of buffers by fills, updates, dispatches and indirect draws, and all their barriers.
 pub fn watch() {
     *held(&EVENTS) = Some(Vec::new());
 }
 
-/// Those since then, of which no more are watched.
+/// Stops watching, and returns the events.
 pub fn take_events() -> Vec<Event> {
     held(&EVENTS).take().expect("watched")
 }
@@ -338,13 +338,13 @@ fn note(event: Event) {
     }
 }
 
-/// Buffers of the library's of a size.
+/// The library's buffers of a size.
 pub fn buffers_of_size(bytes: u64) -> Vec<vk::Buffer> {
     let sizes = held(&SIZES);
     sizes.iter().filter(|(_, size)| **size == bytes).map(|b| vk::Buffer::from_raw(*b.0)).collect()
 }
 
-/// Buffers that are in a set with another.
+/// Buffers that share a descriptor set with another buffer.
 pub fn buffers_beside(buffer: vk::Buffer) -> Vec<vk::Buffer> {
     let sets = held(&SETS);
     let with = sets.iter().filter(|(_, other)| **other == buffer).map(|(at, _)| at.0);
@@ -352,7 +352,7 @@ pub fn buffers_beside(buffer: vk::Buffer) -> Vec<vk::Buffer> {
     sets.iter().filter(|(at, _)| with.contains(&at.0)).map(|(_, other)| *other).collect()
 }
 
-/// Neither the driver nor a layer gets the `nth` barrier of a buffer that is watched next, from 0.
+/// Drops the `nth` barrier of a buffer, from 0, in the next watch: neither the driver nor a layer sees it.
 pub fn leave_out(buffer: vk::Buffer, nth: usize) {
     *held(&LEFT_OUT) = Some((buffer, nth));
 }
@@ -370,11 +370,11 @@ fn use_bound(by: By) {
 fn bind(point: i32, count: u32, sets: P) {
     let graphics = point == vk::PipelineBindPoint::GRAPHICS.as_raw();
     assert_eq!(count, 1, "sets at once");
-    // SAFETY: so many handles.
+    // SAFETY: the caller passed this number of handles.
     BOUND_SETS[usize::from(graphics)].store(unsafe { *sets.cast::<u64>() }, SeqCst);
 }
 
-/// Whether a buffer's barrier is to be left out.
+/// Whether this barrier of the buffer is to be dropped.
 fn is_left_out(buffer: vk::Buffer) -> bool {
     let events = held(&EVENTS);
     let Some(events) = &*events else { return false };
@@ -384,7 +384,7 @@ fn is_left_out(buffer: vk::Buffer) -> bool {
     held(&LEFT_OUT).take_if(|which| *which == (buffer, before)).is_some()
 }
 
-/// Made by hand: it keeps the barriers.
+/// Written by hand, because it records the barriers.
 pub static CMD_BARRIER: Function = Function::new(c"vkCmdPipelineBarrier2");
 /// The image of each image barrier since the last reset.
 static IMAGE_BARRIERS: Mutex<Vec<vk::Image>> = Mutex::new(Vec::new());
@@ -430,12 +430,12 @@ unsafe extern "system" fn cmd_barrier(c: vk::CommandBuffer, i: P) {
     }
 }
 
-/// Made by hand: it keeps the cube.
+/// Written by hand, because it remembers the cube.
 pub static CREATE_IMAGE: Function = Function::new(c"vkCreateImage");
-/// The image of six layers and mips that was made last: the environment, which no layer of a frame shows.
+/// The last image created with six layers and mips: the environment, which is in no layer of a frame.
 static CUBE: AtomicU64 = AtomicU64::new(0);
 
-/// The environment of the renderer that was made last.
+/// The environment of the last renderer.
 pub fn cube() -> vk::Image {
     vk::Image::from_raw(CUBE.load(SeqCst))
 }
@@ -460,7 +460,7 @@ unsafe extern "system" fn create_image(d: vk::Device, i: P, a: P, o: P) -> vk::R
     result
 }
 
-/// Made by hand: it keeps the sizes.
+/// Written by hand, because it stores the sizes.
 pub static CREATE_BUFFER: Function = Function::new(c"vkCreateBuffer");
 /// Sizes of the library's buffers.
 static SIZES: Mutex<BTreeMap<u64, u64>> = Mutex::new(BTreeMap::new());
@@ -487,7 +487,7 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Made by hand: it keeps what is bound.
+/// Written by hand, because it stores the bindings.
 pub static UPDATE_SETS: Function = Function::new(c"vkUpdateDescriptorSets");
 static BOUND: Mutex<Vec<Bound>> = Mutex::new(Vec::new());
 
@@ -501,7 +501,7 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// How many bytes are bound; `host`: sizes of the host's buffers.
+    /// Number of bound bytes. `host` has the sizes of the host's buffers.
     pub fn bytes(&self, host: &[(vk::Buffer, u64)]) -> u64 {
         if self.range != vk::WHOLE_SIZE {
             return self.range;
@@ -538,14 +538,14 @@ unsafe extern "system" fn update_sets(d: vk::Device, n: u32, w: P, copies: u32, 
     }
 }
 
-/// Made by hand: it changes timestamps.
+/// Written by hand, because it replaces timestamps.
 pub static QUERY_RESULTS: Function = Function::new(c"vkGetQueryPoolResults");
 static STAMPS: Mutex<Option<Stamps>> = Mutex::new(None);
 
 /// A timestamp for each query.
 pub type Stamps = Box<dyn Fn(usize) -> u64 + Send>;
 
-/// Answers of the queries from now on, by their number; none: the driver's.
+/// Answers to queries from now on, by their number; `None`: the driver's.
 pub fn answer(stamps: Option<Stamps>) {
     *held(&STAMPS) = stamps;
 }
@@ -600,7 +600,7 @@ fn all() -> impl Iterator<Item = &'static (&'static Function, *const c_void)> {
     WITH_RESULT.iter().chain(WITHOUT_RESULT).chain(BY_HAND)
 }
 
-/// The device's functions with the spy among them.
+/// The device's functions with the spy in front.
 pub fn functions(gpu: &Gpu) -> ash::Device {
     gpu.assert_spied();
     let handle = gpu.device.handle();
@@ -629,14 +629,14 @@ pub fn install(gpu: &mut Gpu) {
     reset();
 }
 
-/// Forgets what is alive.
+/// Forgets live objects.
 pub fn forget() {
     for (function, _) in all() {
         function.live.store(0, SeqCst);
     }
 }
 
-/// Forgets the calls and the failures asked for.
+/// Forgets calls and requested failures.
 pub fn reset() {
     for (function, _) in all() {
         function.calls.store(0, SeqCst);
@@ -645,7 +645,7 @@ pub fn reset() {
     held(&IMAGE_BARRIERS).clear();
 }
 
-/// Objects that are made and not destroyed, device memory apart (the allocator keeps blocks).
+/// Objects that were created and not destroyed, except device memory (the allocator keeps blocks).
 pub fn live() -> Vec<String> {
     let pipelines = [&CREATE_GRAPHICS_PIPELINES, &CREATE_COMPUTE_PIPELINES];
     let mut found: Vec<(&CStr, i64)> = all()

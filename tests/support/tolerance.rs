@@ -13,21 +13,21 @@ use crate::reference::{EMPTY, Image, Sphere, View};
 /// Relative error of one rounded operation of single precision.
 pub const U: f64 = 1.0 / (1u64 << 24) as f64;
 
-/// An image is known to lie between two.
+/// Lower and upper bound of an image.
 pub struct Between {
     pub low: Image<f64>,
     pub high: Image<f64>,
 }
 
-/// Largest |slope| of the image's rays in x and y, as a length: what a slope's rounding goes by.
+/// Length of the largest |slope| of the image's rays in x and y, to which a slope's rounding is proportional.
 pub fn reach(view: &View) -> f64 {
     let corners = [(0, 0), (view.width - 1, 0), (0, view.height - 1)];
     let all = corners.map(|(x, y)| view.ray(x, y).truncate().length());
     all.into_iter().fold(0.0, f64::max)
 }
 
-/// How far off a centre's coordinate in eye space may be: the product with the view matrix, 4
-/// products and 3 sums an axis, 7u of |p| + |t| (world and eye positions bound it).
+/// Error of a centre's eye-space coordinate: the product with the view matrix takes 4 products and 3 sums per axis, 7u
+/// of |p| + |t| (world and eye positions bound it).
 pub fn eye_space(center: DVec3, view: &View) -> f64 {
     let eye = view.view.inverse().w_axis.truncate().length();
     7.0 * U * 2.0 * (center.length() + eye)
@@ -64,7 +64,7 @@ pub fn depth(spheres: &[Sphere], view: &View) -> Between {
     depth_where(spheres, view, |_, _, _| (true, true))
 }
 
-/// The same of those spheres that count at a pixel: surely, maybe.
+/// The same for spheres that count at a pixel: certainly, or possibly.
 pub fn depth_where(
     spheres: &[Sphere],
     view: &View,
@@ -93,7 +93,7 @@ pub fn depth_where(
                 let ray = view.ray(x, y);
                 let Some(nearest) = hit(ray, &larger).map(|t| t - slack) else { continue };
                 let farthest = hit(ray, &smaller).map(|t| t + slack);
-                // Without a sure hit it may lie anywhere up to the silhouette.
+                // Without a certain hit it may lie anywhere up to the silhouette.
                 let latest =
                     farthest.unwrap_or_else(|| ray.dot(center) / ray.length_squared() + slack);
                 if latest >= near * (1.0 - 8.0 * U) {
@@ -158,7 +158,7 @@ fn smoothing_round(
         let above = c_y * half(d.x, d.xx, c_y2) + c_x * half(d.y, d.yy, c_x2);
         32.0 * U * above / (big * big.sqrt())
     };
-    // Differences this near to the falloff may be cut here and not there.
+    // A difference this near to the falloff may be cut here and kept there.
     let slack = 2.0 * error + 4.0 * U * here;
     let side =
         |falloff: f64| rate(z, px, py, view, rule, &Params { depth_falloff: falloff, ..*params });
@@ -209,22 +209,23 @@ pub fn smoothing(
     (z, error)
 }
 
-/// Parts of a whole particle's amplitude that sums in fixed point count in.
+/// Steps of the fixed-point sums per amplitude of a whole particle.
 pub const UNITS: f64 = 16_777_216.0;
 
-/// How the sums of the thickness are made.
+/// How the sums of the thickness are formed.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Sum {
-    /// One rounding of the sum an addend.
+    /// In floating point: each addition rounds the sum.
     Float,
-    /// Each addend to a multiple of 2^-24 of a whole particle's amplitude; one conversion.
+    /// In fixed point: each addend is rounded to a multiple of 2^-24 of a whole particle's amplitude; the sum is
+    /// converted once.
     Fixed,
-    /// What one such sum is more than another.
+    /// The difference of two such sums.
     FixedRest,
 }
 
 impl Sum {
-    /// Half units that an addend is rounded by.
+    /// Rounding error of an addend in half units.
     fn halves(self) -> f64 {
         match self {
             Self::Float => 0.0,
@@ -234,20 +235,20 @@ impl Sum {
     }
 }
 
-/// What an image of the thickness is summed of.
+/// Input of a thickness image.
 pub struct Splats<'a> {
-    /// In eye space.
+    /// Spheres in eye space.
     pub spheres: &'a [Sphere],
-    /// The output's view, whose frustum culls by two radii.
+    /// View of the output, whose frustum culls with a margin of two radii.
     pub full: View,
-    /// Times that the image is halved.
+    /// Number of times that the image is halved.
     pub level: u32,
-    /// Eye depth of the scene at the image's resolution; its rounding is 8u.
+    /// Eye depth of the scene at the image's resolution, with an error of 8u.
     pub scene: Image<f64>,
-    /// Of a whole particle, world units: its volume and its drawn radius.
+    /// Volume of a whole particle, and its drawn radius, in world units.
     pub volume: f64,
     pub radius: f64,
-    /// How it is summed.
+    /// How the sums are formed.
     pub sum: Sum,
 }
 
@@ -258,8 +259,8 @@ pub fn thickness(splats: &Splats<'_>) -> Between {
     thickness_where(splats, |_, _, _| (1.0, 1.0))
 }
 
-/// The same of the share of each sphere that counts at a texel: least and greatest. Where a share is
-/// none no addend is made.
+/// The same for the share of each sphere that counts at a texel, as a lower and an upper bound. A share of zero adds
+/// nothing.
 pub fn thickness_where(
     splats: &Splats<'_>,
     share: impl Fn(usize, usize, &Sphere) -> (f64, f64),
@@ -281,7 +282,7 @@ pub fn thickness_where(
         if d < near * (1.0 - 8.0 * U) - uncertain {
             continue;
         }
-        // How far it is inside the frustum, less what rounding may make of it.
+        // Distance inside the frustum, minus its possible rounding.
         let inside = |p: &DVec4| p.dot(sphere.center.extend(1.0)) + whole;
         let inside = planes.iter().map(inside).fold(f64::INFINITY, f64::min);
         if inside < -uncertain {

@@ -1,4 +1,4 @@
-//! Ends the run where a test hangs: a shader that does not end would keep the driver, and all tests, for ever.
+//! Ends the run if a test hangs: an endless shader would block the driver, and with it all tests, for ever.
 
 use std::cell::RefCell;
 use std::io::Write;
@@ -12,7 +12,7 @@ thread_local! {
     static OWN: RefCell<Weak<Watch>> = const { RefCell::new(Weak::new()) };
 }
 
-/// Held by a test while it is watched.
+/// A test holds this while it is watched.
 pub struct Watch {
     test: String,
     begun: Instant,
@@ -20,7 +20,7 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Watches the test of this thread.
+    /// Watches the test on this thread.
     pub fn begin() -> Arc<Self> {
         let test = thread::current().name().unwrap_or("a test").to_owned();
         let watch = Arc::new(Self { test, begun: Instant::now(), waits: Mutex::new(None) });
@@ -38,7 +38,7 @@ impl Watch {
     }
 }
 
-/// Waits for the GPU, watched.
+/// Waits for the GPU under watch.
 pub fn waiting<T>(wait: impl FnOnce() -> T) -> T {
     let own = OWN.with_borrow(Weak::upgrade);
     if let Some(watch) = &own {
@@ -51,7 +51,7 @@ pub fn waiting<T>(wait: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Ends the process: nothing less frees a thread that waits for the driver.
+/// Ends the process if a test hangs; nothing less frees a thread that waits for the driver.
 fn look() {
     let seconds = std::env::var("WHITEWATER_WATCHDOG").ok().and_then(|s| s.parse().ok());
     let most = Duration::from_secs(seconds.unwrap_or(60));
@@ -63,11 +63,11 @@ fn look() {
         };
         for watch in all {
             let waits = *watch.waits.lock().unwrap_or_else(PoisonError::into_inner);
-            // Waits inside the library are not seen: the whole test, then.
+            // Waits inside the library are not visible here, so the whole test is timed.
             let hangs = waits.is_some_and(|since| since.elapsed() > most)
                 || watch.begun.elapsed() > 10 * most;
             if hangs {
-                // Past the capture of a test's output.
+                // Writes past the capture of the test's output.
                 let _ = writeln!(
                     std::io::stderr().lock(),
                     "\nwatchdog: {} waits for the GPU for more than {} s: a shader that does not end? \

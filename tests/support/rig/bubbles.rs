@@ -1,4 +1,4 @@
-//! Bubble foam as the host has it, and what a frame gave of it.
+//! Bubble foam as the host stores it, and the results of a frame with it.
 
 use ash::vk;
 use whitewater::headless::Bubble;
@@ -8,22 +8,22 @@ use super::{Rig, Shot, stream};
 use crate::reference::Image;
 use crate::support::host::{Data, HOST_WRITE};
 
-/// What a frame with bubble foam gave besides.
+/// Additional results of a frame with bubble foam.
 #[derive(Clone)]
 pub struct Soaped {
-    /// Of the frontmost.
+    /// Depth of the frontmost bubble foam.
     pub depth: Image<f32>,
-    /// Premultiplied, and how much it covers.
+    /// Premultiplied colour, and opacity.
     pub color: Image<[f32; 4]>,
-    /// Reflectance of films: cosines across, thicknesses down.
+    /// Reflectance of films: cosines in columns, thicknesses in rows.
     pub film: Image<[f32; 4]>,
-    /// Of each pixel its layers, and the most opacity.
+    /// Layers of each pixel, and the largest opacity.
     pub layers: Vec<Vec<u32>>,
-    /// What became of them: [`whitewater::Diagnostics::blobs`].
+    /// Statistics of the blobs: [`whitewater::Diagnostics::blobs`].
     pub range: [u32; 5],
 }
 
-/// What was uploaded, and how many.
+/// Uploaded blobs, and their number.
 pub struct Foamed(Data, u32);
 
 impl Rig<'_> {

@@ -1,4 +1,4 @@
-//! Whitewater particles as the host has them, and as the twin takes them.
+//! Whitewater particles as the host stores them, and as the twin uses them.
 
 use ash::vk;
 use glam::Vec3;
@@ -10,7 +10,7 @@ use super::{Rig, stream};
 use crate::reference::whitewater::{Attenuation, Kind, Particle};
 use crate::support::host::{Data, HOST_WRITE};
 
-/// Their buffers, packed.
+/// Buffers of the particles, tightly packed.
 pub struct WhitewaterCloud {
     positions: Data,
     /// Kinds, radii, ages, ids.
@@ -64,7 +64,7 @@ pub fn twins(all: &Whitewater<'_>) -> Vec<Particle> {
     all.positions.iter().enumerate().map(particle).collect()
 }
 
-/// What becomes of particles behind the surface.
+/// Attenuation of particles behind the surface.
 pub fn attenuation(submerged: Submerged) -> Attenuation {
     match submerged {
         Submerged::Water => Attenuation::Water,

@@ -1,4 +1,4 @@
-//! What a frame gave: the picture and every kept layer, read back.
+//! Results of a frame: the picture and every kept layer, read back.
 
 use ash::vk;
 use whitewater::{HostImage, Layer, Recorded, SmoothingLevel, SmoothingLevels};
@@ -7,32 +7,32 @@ use super::{Rig, Shot, Soaped};
 use crate::reference::{Image, surface_foam};
 use crate::support::host;
 
-/// What a frame gave.
+/// Results of a frame.
 #[derive(Clone)]
 pub struct Drawn {
     pub output: Image<[f32; 4]>,
-    /// The output's image with what lies beside the view.
+    /// The output image, including its margin around the view.
     pub whole: Image<[f32; 4]>,
     pub depth: Image<f32>,
-    /// Of the configured level.
+    /// Surface at the configured level.
     pub surface: Image<f32>,
     pub plan: Image<u32>,
-    /// Of the front sheet's coarser ones, in order.
+    /// Surfaces and plans of the front sheet's coarser levels, in order.
     pub coarser: Vec<(Image<f32>, Image<u32>)>,
     pub levels: SmoothingLevels,
-    /// Of all water.
+    /// Thickness of all water.
     pub thickness: Image<f32>,
-    /// With two sheets.
+    /// Set with two sheets.
     pub sheets: Option<Sheets>,
-    /// With foam.
+    /// Set with foam.
     pub foam: Option<Foaming>,
-    /// Optical depth, with spray.
+    /// Optical depth of spray; set with spray.
     pub spray: Option<Image<f32>>,
-    /// What of it the sun lights.
+    /// Sunlit part of that; set with spray.
     pub lit_spray: Option<Image<f32>>,
-    /// With motion vectors.
+    /// Set with motion vectors.
     pub motion: Option<Image<[f32; 2]>>,
-    /// Height of the surface noise, where it is drawn.
+    /// Height of the surface noise, if it is drawn.
     pub noise: Option<Image<f32>>,
     /// The light's maps: metres along the light to the first fluid; metres of water and foam, and both
     /// times where they lie; light over what comes without water.
@@ -43,22 +43,22 @@ pub struct Drawn {
     pub light_whitewater: Option<Image<[f32; 4]>>,
     /// As above.
     pub caustics: Option<Image<f32>>,
-    /// With whitewater particles.
+    /// Set with whitewater particles.
     pub whitewater: Option<DrawnWhitewater>,
-    /// With bubble foam.
+    /// Set with bubble foam.
     pub soap: Option<Soaped>,
-    /// With shoreline and contact foam: along shores, at contacts on the host's surface, what of the sun's light does not
-    /// come there, on the particles' water.
+    /// Set with shoreline and contact foam: foam along shores, contact foam on the host's surface, lost fraction of
+    /// sunlight, contact foam on particle water.
     pub shore: Option<Image<[u8; 4]>>,
-    /// The host's shadow map as a Fourier basis, all pages.
+    /// All pages of the host's shadow map as a Fourier basis.
     pub shadow_basis: Option<Image<[f32; 4]>>,
-    /// Words of the particles with their shapes, of ellipsoids.
+    /// Words of the particles with their ellipsoids.
     pub shapes: Option<Vec<u32>>,
     pub work: Work,
 }
 
 impl Drawn {
-    /// What a frame gives of which nothing was read.
+    /// Empty results, of a frame from which nothing was read.
     pub fn empty() -> Self {
         let empty = || Image::new(0, 0, 0.0);
         Self {
@@ -90,37 +90,37 @@ impl Drawn {
     }
 }
 
-/// What a frame worked on.
+/// Amount of work in a frame.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
-    /// Particles on the screen, and those of them that can show.
+    /// Number of particles on the screen, and of those that can be visible.
     pub visible: u32,
     pub front: u32,
-    /// Particles dropped for their positions, and set aside as spray.
+    /// Number of particles dropped for their positions, and of those classified as spray.
     pub dropped: u32,
     pub set_aside: u32,
-    /// Tiles with water; then those that iteration 1, 2, … runs over.
+    /// Number of tiles with water, then of tiles in iteration 1, 2, …
     pub tiles: Vec<u32>,
 }
 
-/// What a frame with foam gave besides.
+/// Additional results of a frame with foam.
 #[derive(Clone)]
 pub struct Foaming {
     pub depth: Image<f32>,
-    /// Of all foam, and of what lies right behind the frontmost.
+    /// Thickness of all foam, and of foam right behind the frontmost.
     pub thickness: Image<[f32; 2]>,
-    /// What of the second the sun lights.
+    /// Sunlit part of the second.
     pub lit: Image<f32>,
-    /// The first, times how far behind the frontmost it lies.
+    /// Thickness of all foam times its mean distance behind the frontmost.
     pub far: Image<f32>,
-    /// Of the water before the frontmost.
+    /// Thickness of the water before the frontmost foam.
     pub before: Image<f32>,
-    /// Times that all are halved.
+    /// Number of times that all images are halved.
     pub level: u32,
 }
 
 impl Foaming {
-    /// What each pixel shows of it: depth, and both thicknesses.
+    /// Foam that each pixel shows: its depth, and both thicknesses.
     pub fn seen(&self, shot: &Shot) -> Image<(f64, [f64; 2])> {
         let (scene, layers) = (shot.scene_at(shot.size, 0), (&self.depth, &self.thickness));
         let spacing = f64::from(shot.settings.water.spacing);
@@ -130,34 +130,34 @@ impl Foaming {
     }
 }
 
-/// What a frame with whitewater particles gave besides.
+/// Additional results of a frame with whitewater particles.
 #[derive(Clone)]
 pub struct DrawnWhitewater {
-    /// Depth of the frontmost, intensity of all, depths of fluid and scene.
+    /// Depth of the frontmost particle, intensity of all, depths of fluid and scene.
     pub occluders: Image<[f32; 4]>,
-    /// Thickness before the fluid, behind it, the second by how far.
+    /// Thickness before the fluid, thickness behind it, and the latter times its distance.
     pub thickness: Image<[f32; 4]>,
-    /// World normal of the frontmost, its search radius.
+    /// World-space normal of the frontmost particle, and its search radius.
     pub normal: Image<[f32; 4]>,
-    /// Light gathered, shadow.
+    /// Gathered light, and shadow.
     pub light: Image<[f32; 4]>,
 }
 
-/// What a frame with two sheets gave besides.
+/// Additional results of a frame with two sheets.
 #[derive(Clone)]
 pub struct Sheets {
-    /// Depth between them, for each texel of the thickness.
+    /// Depth between the sheets, for each texel of the thickness.
     pub boundaries: Image<f32>,
-    /// Thickness of the front one, of the back one and of the window between them.
+    /// Thicknesses of the front sheet, of the back sheet and of the window between them.
     pub thickness: Image<[f32; 3]>,
-    /// Surface and plan of the back one, at its first level and the coarser ones.
+    /// Surface and plan of the back sheet, at its first level and the coarser ones.
     pub surface: Image<f32>,
     pub plan: Image<u32>,
     pub coarser: Vec<(Image<f32>, Image<u32>)>,
 }
 
 impl Rig<'_> {
-    /// Reads the output and the kept layers.
+    /// Reads back the output and the kept layers.
     pub fn read(&self, output: &HostImage, recorded: &Recorded) -> Drawn {
         let bytes = self.stub.download(
             output.image,
@@ -322,7 +322,7 @@ impl Rig<'_> {
         drawn
     }
 
-    /// The boundary of each texel of a frame's thickness.
+    /// Boundary of each thickness texel in a frame.
     fn boundaries(&self, buffer: vk::Buffer, frame: vk::Extent2D) -> Image<f32> {
         let texels = |pixels: u32| pixels.div_ceil(1 << self.config.thickness_level) as usize;
         let (width, height) = (texels(frame.width), texels(frame.height));
@@ -408,7 +408,7 @@ fn crop(whole: &Image<[f32; 4]>, part: vk::Rect2D) -> Image<[f32; 4]> {
     Image { width, height, data: rows.flat_map(|row| row[x..x + width].to_vec()).collect() }
 }
 
-/// Where a level lies.
+/// Rectangle of a level.
 fn area(level: &SmoothingLevel) -> vk::Rect2D {
     let [x, y, width, height] = level.rect;
     let extent = vk::Extent2D { width: width as u32, height: height as u32 };

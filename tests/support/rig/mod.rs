@@ -23,17 +23,17 @@ pub use drawn::{Drawn, DrawnWhitewater, Foaming, Sheets};
 use shot::AROUND;
 pub use shot::{Shot, is_around};
 
-/// Format of the outputs: its rounding is that of the shaders.
+/// Format of the outputs: single precision, so that it adds no rounding to the shaders'.
 pub const OUTPUT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
-/// A size.
+/// An extent.
 pub fn extent(width: u32, height: u32) -> vk::Extent2D {
     vk::Extent2D { width, height }
 }
 
-/// A configuration for tests: small environment, layers kept, sums whose order is no matter, and all
-/// water in one sheet, as most twins have it. Smoothing at one level but in the long tests: half of what a renderer takes
-/// to make is the composite of tiles with several, which few tests have.
+/// A configuration for tests: a small environment, kept layers, sums that do not depend on the order, and all water in
+/// one sheet, because most twins have one. The smoothing has one level except in the long tests: the composite of tiles
+/// with several levels takes half of the time to make a renderer, and few tests need it.
 pub fn config(size: vk::Extent2D) -> Config {
     Config::new(size, OUTPUT, 4096).with(|it| {
         it.environment_size = 16;
@@ -41,7 +41,7 @@ pub fn config(size: vk::Extent2D) -> Config {
         it.depth_splat = Some(Splat::Compute);
         it.thickness_splat = Some(Splat::Compute);
         it.sheets = 1;
-        // Most twins see no more of the scene than what is behind.
+        // Most twins see only the scene right behind a pixel.
         it.mirror_steps = 0;
         it.exit = Exit::Straight;
         it.kernels = Kernels::Spheres;
@@ -49,7 +49,7 @@ pub fn config(size: vk::Extent2D) -> Config {
     })
 }
 
-/// The same, smoothed at several levels where water is near.
+/// The same, with coarser levels where water is near.
 pub fn coarsening(config: Config) -> Config {
     config.with(|it| it.coarsening = Config::new(config.extent, OUTPUT, 1).coarsening)
 }
@@ -59,7 +59,7 @@ pub fn headless(size: vk::Extent2D) -> Headless {
     Headless::new(Gpu::own().take_device(), &config(size)).expect("headless")
 }
 
-/// Its end: no word from validation.
+/// Ends it, and asserts that validation was silent.
 pub fn finish(headless: Headless) {
     let device = headless.finish().expect("finish");
     assert_eq!(device.take_messages(), Vec::<String>::new());
@@ -85,13 +85,13 @@ impl<'g> Rig<'g> {
     pub fn try_new(gpu: &'g Gpu, config: &Config, slots: u32) -> Result<Self, Error> {
         let stub = Stub::new(gpu, slots);
         let mut renderer = Renderer::new(&gpu.context(slots), config)?;
-        // SAFETY: submitted before any record.
+        // SAFETY: the set-up is submitted before any other record.
         stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
-        // SAFETY: as above; nothing else was recorded with the slot.
+        // SAFETY: as above; nothing else was recorded with this slot.
         stub.run(|cmd| unsafe {
             renderer.record_environment(cmd, Slot(0), &EnvironmentSource::Black)
         })?;
-        // SAFETY: it was waited for.
+        // SAFETY: its work was waited for.
         unsafe { renderer.collect(Slot(0)) };
         Ok(Self { gpu, stub, config: *config, renderer: Some(renderer) })
     }
@@ -100,27 +100,27 @@ impl<'g> Rig<'g> {
         self.renderer.as_mut().expect("only drop takes it")
     }
 
-    /// The slot has come back.
+    /// Reports that the slot's work is done.
     pub fn collect(&mut self, slot: Slot) {
-        // SAFETY: tests wait for a slot before they say so.
+        // SAFETY: tests wait for a slot before they report it.
         unsafe { self.renderer().collect(slot) };
     }
 
-    /// What was recorded with the slot was thrown away.
+    /// Reports that what was recorded with the slot is never submitted.
     pub fn abandon(&mut self, slot: Slot) {
-        // SAFETY: tests never submit what they throw away, and wait for what was recorded before it.
+        // SAFETY: tests never submit abandoned work, and wait for earlier work.
         unsafe { self.renderer().abandon(slot) };
     }
 
-    /// Records the set-up again: after a reconfigure that made the environment anew.
+    /// Records the set-up again, after a reconfigure that replaced the environment.
     pub fn set_up(&mut self) {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
-        // SAFETY: submitted before any record.
+        // SAFETY: the set-up is submitted before any other record.
         self.stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
         self.any_environment(&EnvironmentSource::Black);
     }
 
-    /// Leaves the renderer to a plain drop: it leaks.
+    /// Drops the renderer plainly, which leaks it.
     pub fn leak(mut self) {
         drop(self.renderer.take());
     }
@@ -130,12 +130,12 @@ impl<'g> Rig<'g> {
         self.config.extent = size;
     }
 
-    /// An environment of an equirectangular image.
+    /// Sets an environment from an equirectangular image.
     pub fn environment(&mut self, size: vk::Extent2D, texels: &[[f32; 4]]) {
         self.turned_environment(size, texels, 1.0, 0.0);
     }
 
-    /// The same, brighter and turned.
+    /// The same, brighter and rotated.
     pub fn turned_environment(
         &mut self,
         size: vk::Extent2D,
@@ -155,7 +155,7 @@ impl<'g> Rig<'g> {
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
-    /// The same of a map that shows the sun, and of the map without it.
+    /// The same from a map with the sun and a map without it.
     pub fn environment_with_sun(
         &mut self,
         size: vk::Extent2D,
@@ -182,16 +182,17 @@ impl<'g> Rig<'g> {
         self.stub.uploaded(OUTPUT, size, usage, bytemuck::cast_slice(texels), after)
     }
 
-    /// A renderer in an environment from 0 to 1. (Where it was only cleared, SwiftShader prepares it
-    /// for draws alone: compute reads garbage at the seams of the cube.)
+    /// A renderer with an environment of values from 0 to 1. (If the environment were only cleared, SwiftShader would
+    /// prepare it for draws alone, and compute shaders would read garbage at the seams of the cube.)
     pub fn lit(gpu: &'g Gpu, config: &Config, slots: u32) -> Self {
         let mut rig = Self::with_slots(gpu, config, slots);
         rig.light();
         rig
     }
 
-    /// That environment. Grey for films where a driver has one mip level for a group of pixels (SwiftShader: an explicit
-    /// level is that of one lane, also of one that has ended): there the same ray of two draws has two colours.
+    /// Sets that environment. With films it is grey where a driver has one mip level per group of pixels: in
+    /// SwiftShader an explicit level is that of one lane, even one that has ended, so the same ray could have two
+    /// colours in two draws.
     pub fn light(&mut self) {
         let expected = std::env::var("WHITEWATER_EXPECT_ADAPTER").unwrap_or_default();
         let grey = self.config.bubbles.is_some() && expected.contains("SwiftShader");
@@ -201,7 +202,7 @@ impl<'g> Rig<'g> {
         self.environment(extent(16, 8), &texels);
     }
 
-    /// An environment of any kind, whose images live to the end of this.
+    /// Sets an environment of any kind, whose images must live until this returns.
     pub fn any_environment(&mut self, source: &EnvironmentSource) {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
         // SAFETY: cmd is recording; the slot's work is done.
@@ -211,7 +212,7 @@ impl<'g> Rig<'g> {
         self.collect(Slot(0));
     }
 
-    /// Usage of outputs: as between the host's own passes, and what the composite's way needs.
+    /// Usage of outputs: for the host's own passes, and for the path of the composite.
     fn output_usage(&self) -> vk::ImageUsageFlags {
         let host = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         match self.config.composite {
@@ -220,7 +221,7 @@ impl<'g> Rig<'g> {
         }
     }
 
-    /// The images of a frame as its host has them: colour and depth of the scene, filled.
+    /// Colour and depth images of the scene as the host has them, filled.
     pub fn scene(&self, shot: &Shot) -> (Texture, Texture) {
         let color = self.stub.uploaded(
             self.config.output_format,
@@ -234,14 +235,14 @@ impl<'g> Rig<'g> {
             shot.depth_format,
             shot.with_margin(shot.depth_extent).0,
             usage,
-            // Nearer than all water.
+            // The margin is nearer than all water.
             &depth_bytes(shot.depth_format, &shot.pad(shot.depth_extent, &shot.depth, 0.5)),
             DEPTH,
         );
         (color, depth)
     }
 
-    /// Buffers of packed particles.
+    /// Tightly packed buffers of the shot's particles.
     pub fn particles(&self, shot: &Shot) -> Cloud {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Cloud {
@@ -261,7 +262,7 @@ impl<'g> Rig<'g> {
         self.draw_particles(shot, &particles)
     }
 
-    /// Draws a shot with other particles than its own.
+    /// Draws a shot with other particles.
     pub fn draw_particles(&mut self, shot: &Shot, particles: &Particles) -> Drawn {
         self.draw_whitewater(shot, particles, None)
     }
@@ -276,7 +277,7 @@ impl<'g> Rig<'g> {
         self.try_draw(shot, particles, whitewater).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// What is said of a shot that can't be drawn.
+    /// Message of the error for a shot that cannot be drawn.
     pub fn refused(&mut self, shot: &Shot, whitewater: Option<WhitewaterParticles>) -> String {
         let cloud = self.particles(shot);
         let result = self.try_draw(shot, &cloud.particles(), whitewater);
@@ -309,7 +310,7 @@ impl<'g> Rig<'g> {
         });
         let cmd = self.stub.begin(0);
         let renderer = self.renderer.as_mut().expect("only drop takes it");
-        // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+        // SAFETY: cmd is recording; the slot was waited for; the handles live until this returns.
         let recorded = unsafe { renderer.record(cmd, &frame) };
         self.stub.end(0);
         self.stub.wait(0);
@@ -331,7 +332,7 @@ impl Drop for Rig<'_> {
     }
 }
 
-/// Packed particles of the host's.
+/// Tightly packed particles of the host.
 pub struct Cloud {
     pub positions: Data,
     pub densities: Option<Data>,

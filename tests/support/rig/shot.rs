@@ -1,4 +1,4 @@
-//! What a frame shows: its camera, particles, scene and settings.
+//! Contents of a frame: camera, particles, scene and settings.
 
 use ash::vk;
 use whitewater::headless::Bubble;
@@ -11,44 +11,44 @@ use crate::reference::{Image, Sphere, View};
 use crate::support::scenes;
 use crate::support::tolerance::{Splats, Sum};
 
-/// Colour beside a view: a filter that touches it, be it with weight 0, spoils what it reads.
+/// Colour of the margin around a view. A filter that reads it, even with weight 0, spoils its result.
 pub const AROUND: [f32; 4] = [f32::NAN, f32::INFINITY, 25.0, 0.5];
 
 pub fn is_around(texel: &[f32; 4]) -> bool {
     texel[0].is_nan() && texel[1..] == AROUND[1..]
 }
 
-/// What a frame shows.
+/// Contents of a frame.
 #[derive(Clone)]
 pub struct Shot {
-    /// Of the view.
+    /// Extent of the view.
     pub size: vk::Extent2D,
-    /// Columns before and behind the view, rows above and below it, in all images of the host's.
+    /// Margin around the view in all images of the host: columns left and right, rows above and below.
     pub margin: [u32; 4],
     pub camera: Camera,
-    /// Where the sun does not come.
+    /// Shadow map of the sun.
     pub shadow: Option<Shadow>,
-    /// The sphere that casts and receives.
+    /// Sphere that contains all casters and receivers.
     pub light_volume: Option<LightVolume>,
-    /// The frame before.
+    /// State of the previous frame.
     pub previous: Option<Previous>,
     pub settings: Settings,
     pub positions: Vec<[f32; 3]>,
     pub densities: Option<Vec<f32>>,
-    /// Drawn where a renderer draws bubble foam.
+    /// Blobs, drawn if the renderer draws bubble foam.
     pub blobs: Vec<Bubble>,
-    /// Shoreline and contact foam; what it is of outlives the draw.
+    /// Shoreline and contact foam; its images outlive the draw.
     pub shore: Option<Shore>,
-    /// The scene's colour, of the output's size.
+    /// Colour of the scene, with the output's extent.
     pub color: Vec<[f32; 4]>,
-    /// The scene's device depth and its size.
+    /// Device depth of the scene, with its extent.
     pub depth: Vec<f32>,
     pub depth_extent: vk::Extent2D,
     pub depth_format: vk::Format,
 }
 
 impl Shot {
-    /// Particles (eye space x, y, depth) of a radius before a far, coloured scene.
+    /// Particles (eye space x, y, depth) of one radius in front of a distant, coloured scene.
     pub fn new(size: vk::Extent2D, lens: scenes::Lens, radius: f32, points: &[[f32; 3]]) -> Self {
         let camera = scenes::camera(lens, size);
         let mut shot = Self {
@@ -73,12 +73,12 @@ impl Shot {
         shot
     }
 
-    /// The farthest apart that two depths of one surface are, as the renderer rounds it.
+    /// Largest depth difference within one surface, as rounded by the renderer.
     pub fn falloff(&self) -> f32 {
         self.settings.water.depth_falloff * self.settings.water.radius()
     }
 
-    /// A frame of it over its own scene, with slot 0.
+    /// A frame of the shot over its own scene, with slot 0.
     pub fn frame(&self, output: HostImage, depth: HostImage, particles: Particles) -> Frame<'_> {
         Frame::new(Slot(0), output, depth, particles, self.camera, &self.settings).with(|it| {
             it.shore = self.shore;
@@ -87,7 +87,7 @@ impl Shot {
         })
     }
 
-    /// Size of an image round a view of a size, and where the view lies in it.
+    /// Extent of an image with the margin, and rectangle of the view in it.
     pub fn with_margin(&self, view: vk::Extent2D) -> (vk::Extent2D, vk::Rect2D) {
         let [left, right, above, below] = self.margin;
         let whole = extent(left + view.width + right, above + view.height + below);
@@ -95,7 +95,7 @@ impl Shot {
         (whole, vk::Rect2D { offset, extent: view })
     }
 
-    /// The texels of such an image.
+    /// The texels of such an image, with `around` in the margin.
     pub fn pad<T: Copy>(&self, view: vk::Extent2D, texels: &[T], around: T) -> Vec<T> {
         let (whole, rect) = self.with_margin(view);
         let mut padded = vec![around; (whole.width * whole.height) as usize];
@@ -106,17 +106,17 @@ impl Shot {
         padded
     }
 
-    /// The twins' camera.
+    /// The camera for the twins.
     pub fn view(&self, size: vk::Extent2D) -> View {
         scenes::twin(&self.camera, size)
     }
 
-    /// World to the twins' eye space.
+    /// Transform from world space to the twins' eye space.
     pub fn camera_view(&self) -> glam::DMat4 {
         self.view(self.depth_extent).view
     }
 
-    /// Fills the scene's depth: eye depth of each of its texels; none: nothing there.
+    /// Fills the scene's depth from an eye depth per texel; `None` is no scene.
     pub fn scene_depth(&mut self, eye: impl Fn(u32, u32) -> Option<f64>) {
         let view = self.view(self.depth_extent);
         let far = view.far().map_or_else(
@@ -136,7 +136,7 @@ impl Shot {
             .collect();
     }
 
-    /// The eye depth of the scene as the depth image has it, for the twins; one value a texel.
+    /// Eye depth of the scene as stored in the depth image, for the twins, one value per texel.
     pub fn scene_eye(&self) -> Image<f64> {
         let view = self.view(self.depth_extent);
         let eye = |z: &f32| {
@@ -152,7 +152,7 @@ impl Shot {
 }
 
 impl Shot {
-    /// The scene's eye depth at the pixels of the output halved `level` times: the nearest texel.
+    /// Eye depth of the scene at pixels of the output halved `level` times, by the nearest texel.
     pub fn scene_at(&self, size: vk::Extent2D, level: u32) -> Image<f64> {
         let eye = self.scene_eye();
         let block = 1_usize << level;
@@ -166,7 +166,7 @@ impl Shot {
         })
     }
 
-    /// What the thickness of spheres is summed of, its image halved `level` times.
+    /// Input of the thickness sums of spheres, for an image halved `level` times.
     pub fn splats<'a>(&self, spheres: &'a [Sphere], level: u32, sum: Sum) -> Splats<'a> {
         let water = &self.settings.water;
         Splats {
@@ -181,7 +181,7 @@ impl Shot {
     }
 }
 
-/// A scene's colour that differs from pixel to pixel, smoothly.
+/// A scene colour that varies smoothly from pixel to pixel.
 pub fn gradient(size: vk::Extent2D) -> Vec<[f32; 4]> {
     (0..size.height)
         .flat_map(|y| (0..size.width).map(move |x| (x as f32, y as f32)))
