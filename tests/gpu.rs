@@ -1,5 +1,5 @@
-//! Conformance on a Vulkan device, by the public API alone: every pass against its CPU twin, the
-//! promises of the contract, and proof that each checker can fail.
+//! Conformance on a Vulkan device through the public API alone: every pass against its CPU twin, the guarantees of the
+//! contract, and proof that each check can fail.
 //!
 //! `WHITEWATER_EXPECT_ADAPTER`: part of the name of adapter or driver, asserted. `WHITEWATER_REQUIRE_VALIDATION=1`:
 //! fails without the validation layer. `WHITEWATER_SLOW=1`: the long tests too. `WHITEWATER_WATCHDOG=SECONDS`: the

@@ -1,4 +1,4 @@
-//! Counts what each thread allocates, to prove that headers that lie cost nothing.
+//! Counts the allocations of each thread, to prove that false sizes in headers cost no memory.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

@@ -1,4 +1,4 @@
-//! Arrays of NumPy and JSON in the shapes that people save.
+//! NumPy and JSON arrays in the shapes that users save.
 
 use super::samples::{self, floats, npz};
 use whitewater::io::particles::{Extension, Format, Particles, Parts, read_bytes};

@@ -1,4 +1,4 @@
-//! Bad input: an error that says what is wrong, never a panic, never memory for a header that lies.
+//! Bad input gives an error that says what is wrong: never a panic, and no allocation for a false size in a header.
 
 use std::path::Path;
 

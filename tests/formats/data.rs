@@ -1,4 +1,4 @@
-//! Published caches, where `WHITEWATER_DATA` names their folder; and frames of the project's own, always.
+//! Published caches, if `WHITEWATER_DATA` names their folder, and frames of the project's own, always.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! The same particles as programs that people have spell them and lay them out.
+//! The same particles in the layouts and spellings of common programs.
 
 use whitewater::io::particles::{Extension, Format, Particles, read_bytes};
 

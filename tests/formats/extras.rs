@@ -1,4 +1,4 @@
-//! Attributes that are asked for by name, and what became of the others.
+//! Attributes that are requested by name, and reports about the others.
 
 use std::path::PathBuf;
 

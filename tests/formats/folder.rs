@@ -1,4 +1,4 @@
-//! A folder of files that goes away at the end of a test.
+//! A folder of files that is removed at the end of a test.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! HDF5 and XDMF, as their real writers make them: `hdf5/make.py`.
+//! HDF5 and XDMF files, as written by the original libraries: `hdf5/make.py`.
 
 use std::path::{Path, PathBuf};
 

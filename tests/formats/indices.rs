@@ -1,4 +1,4 @@
-//! Files that name others, pieces of a frame, ghosts among them, and what is said of meshes and of time.
+//! Files that list other files, pieces of a frame, ghost particles among them, and messages about meshes and times.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Files that are read in parts: put together they are what reading at once gives, faults and all, and no more than
-//! a part is in memory.
+//! Files that are read in parts: the parts together equal reading at once, errors included, and at most one part is in
+//! memory.
 
 use std::fmt::Write;
 

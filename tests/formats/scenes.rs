@@ -1,4 +1,4 @@
-//! Scenes: files that are damaged are errors or scenes, never a panic, never memory for a count that lies.
+//! Damaged scene files give an error or a scene: never a panic, and no allocation for a false count.
 
 use whitewater::headless::scene::Scene;
 

@@ -1,4 +1,4 @@
-//! Inputs to numbered frames.
+//! Input arguments become numbered frames.
 
 use super::folder::Folder;
 use whitewater::io::particles::sequence::{SequenceError, expand, expand_joined, parse_range};

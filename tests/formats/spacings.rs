@@ -1,4 +1,4 @@
-//! The guesses at the rest spacing and at densities where the answer is known.
+//! Estimates of rest spacing and densities, where the answer is known.
 
 use whitewater::io::particles::{estimate_densities, estimate_spacing};
 

@@ -1,4 +1,4 @@
-//! Files that hold several frames, and frames that are several files.
+//! Files with several frames, and frames in several files.
 
 use std::path::Path;
 

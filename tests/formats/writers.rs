@@ -1,4 +1,4 @@
-//! What is written is read back the same.
+//! Written files read back the same.
 
 use super::samples;
 use whitewater::io::particles::{Particles, WriteError, WriteFormat, read, write};

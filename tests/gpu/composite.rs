@@ -1,4 +1,4 @@
-//! Pass `composite`: against the twin, on the layers read back.
+//! Pass `composite` against the twin, on the layers read back.
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;

@@ -1,5 +1,5 @@
-//! Pass `convolution`: the basis against the twin, the picture against what the basis says, and what a
-//! comparison of depths must be whatever way it is filtered.
+//! Pass `convolution`: the basis against the twin, the picture against the basis, and properties that every filtered
+//! depth comparison has.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! Pass `environment`: the cube of a map and of the sky against their twins, and its mips.
+//! Pass `environment`: the cubes of a map and of the sky against their twins, and their mips.
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};

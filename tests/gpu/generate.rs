@@ -1,4 +1,4 @@
-//! The generator of whitewater particles, against the twin, over steps of a torn sea.
+//! The generator of whitewater particles against the twin, over steps of a torn sea.
 
 use std::collections::HashMap;
 

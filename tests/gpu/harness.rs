@@ -1,4 +1,4 @@
-//! The checkers themselves: each is given a planted fault that it must see.
+//! Tests of the checks themselves: each must detect a planted fault.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};

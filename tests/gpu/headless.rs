@@ -1,5 +1,5 @@
-//! The headless renderer and its stand-in scene behind a spy: whichever call fails, nothing is left
-//! behind, and the next attempt is good.
+//! The headless renderer and its stand-in scene behind a spy: whichever call fails, nothing leaks, and the next attempt
+//! succeeds.
 
 use std::sync::{Arc, Mutex};
 

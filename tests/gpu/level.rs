@@ -1,4 +1,4 @@
-//! The levels of the smoothing: what is near is smoothed and shown coarser, each pixel by its own distance.
+//! Levels of the smoothing: near water is smoothed and shown at coarser levels, each pixel by its own distance.
 
 use whitewater::Config;
 use whitewater::water::{Fresnel, Gate, Rule, Shading, Smoothing};

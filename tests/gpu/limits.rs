@@ -1,5 +1,5 @@
-//! On a device that claims stricter limits than it has: alignment of offsets, the longest binding,
-//! and timestamps of few bits.
+//! A device that claims stricter limits than it has: alignment of offsets, the longest binding, and timestamps with few
+//! bits.
 
 use ash::vk;
 use whitewater::bubbles::{BlobSimulation, BlobSimulationConfig, BubbleConfig, DistanceField};

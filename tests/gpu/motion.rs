@@ -1,5 +1,5 @@
-//! Pass `motion`: vectors against the twin, against answers known in closed form, and what they are
-//! for: to find a pixel in the frame before.
+//! Pass `motion`: vectors against the twin and against closed forms, and their use: finding a pixel in the previous
+//! frame.
 
 use ash::vk;
 use glam::{DMat4, DVec2, DVec3, Mat4, Quat, Vec3};

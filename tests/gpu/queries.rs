@@ -1,4 +1,4 @@
-//! The occlusion queries that end the smoothing: what they count, and the host's look at them.
+//! The occlusion queries that end the smoothing: their counts, and the host's reading of them.
 
 use glam::{Mat4, Vec3};
 use whitewater::ash::vk;

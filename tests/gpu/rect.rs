@@ -1,4 +1,4 @@
-//! Views that are a part of the host's images, and frames smaller than the renderer was made for.
+//! Views that are a part of the host's images, and frames smaller than the renderer's size.
 
 use whitewater::Config;
 use whitewater::water::{Gate, Shading, Smoothing, Splat};

@@ -1,4 +1,4 @@
-//! Pass `reduce`: occlusion by the scene, nearest of each block, and the plan of the smoothing.
+//! Pass `reduce`: occlusion by the scene, nearest surface of each block, and the plan of the smoothing.
 
 use whitewater::water::Rule;
 

@@ -1,5 +1,4 @@
-//! Pass `smooth`: curvature flow against the twin on the same input and plan, and all forms of it
-//! against each other.
+//! Pass `smooth`: curvature flow against the twin on the same input and plan, and all its forms against each other.
 
 use whitewater::water::{Gate, Rule, Smoothing};
 

@@ -1,4 +1,4 @@
-//! Behind a spy in the function table: a record only records, memory is steady, and every call that
+//! Behind a spy in the function table: a record makes no forbidden calls, memory use is constant, and every call that
 //! can fail does so cleanly.
 
 use std::mem;

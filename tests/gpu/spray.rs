@@ -1,4 +1,4 @@
-//! Pass `spray`: droplets against the twin, and the picture with them.
+//! Pass `spray`: droplets against the twin, and the picture that contains them.
 
 use std::cell::RefCell;
 use std::collections::HashMap;

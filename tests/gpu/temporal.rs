@@ -1,4 +1,4 @@
-//! Foam from frame to frame: no pixel changes by more than motion and phases explain.
+//! Temporal stability of foam: no pixel changes by more than motion and phases explain.
 //!
 //! A frame is laid over the one before by its own vectors, and what is left is a change of display values
 //! (sRGB, 0 to 1), of pixels that are well inside what the vectors are of. Sequences are drawn at two time

@@ -1,4 +1,4 @@
-//! Another direction than +y is up: a world that is turned, with all that is said of it, gives the same picture.
+//! Up directions other than +y: a scene that is rotated together with all of its directions gives the same picture.
 
 use glam::{Mat4, Quat, Vec3};
 use whitewater::WhitewaterConfig;

@@ -1,4 +1,4 @@
-//! Whitewater particles uploaded in parts: the picture of the same particles at once, and what goes wrong on the way.
+//! Whitewater particles uploaded in parts: the picture equals that of a single upload; and errors on the way.
 
 use whitewater::WhitewaterConfig;
 use whitewater::headless::{Background, Device, Headless, Picture, Whitewater};

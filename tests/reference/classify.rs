@@ -1,5 +1,5 @@
-//! Twin of the foam phases (Bagar 2010, thesis, Sec. 3.2, "Foam formation"): a particle turns to
-//! foam and back by its Weber number, each time after a random while of its own.
+//! Twin of the foam phases (Bagar 2010, thesis, Sec. 3.2, "Foam formation"): a particle turns to foam and back by its
+//! Weber number, each time after a random delay of its own.
 //!
 //! Unlike the other twins all is in `f32`, each operation rounded by itself in the order written,
 //! so that the phases are the GPU's bit for bit.

@@ -1,5 +1,5 @@
-//! Pass `convolution`: a shadow map's Fourier basis, and what is rebuilt from it (Annen et al. 2007, with
-//! what the pass' header says differs).
+//! Pass `convolution`: the Fourier basis of a shadow map, and its reconstruction (Annen et al. 2007, with the
+//! differences that the pass's header lists).
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;

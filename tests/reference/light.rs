@@ -1,5 +1,4 @@
-//! Twin of the sunlight: the light's maps, the caustics made of them, and what they leave of the
-//! scene's light.
+//! Twin of the sunlight: the light maps, the caustics computed from them, and the light that reaches the scene.
 //!
 //! The light's space is (u, v, d): place in the maps of a ball's silhouette, metres along the
 //! light.

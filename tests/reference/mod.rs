@@ -1,5 +1,4 @@
-//! CPU twins: each water pass written out in plain `f64` from its equations, to check the GPU's
-//! images against.
+//! CPU twins: each water pass computed in plain `f64` from its equations, to check the GPU's images.
 //!
 //! Conventions. Eye space is right-handed, the camera looks down -z, y is up; a depth is the
 //! positive eye depth `d = -z`, [`EMPTY`] where nothing is seen. Clip space is Vulkan's: row 0 of

@@ -1,4 +1,4 @@
-//! Twin of the motion vectors: from where what a pixel shows was in the frame before to where it is.
+//! Twin of the motion vectors: from a visible point's position in the previous frame to its present one.
 //!
 //! A point P of the eye space of now, that has come by m since, was at `V' V^-1 (P - m)` in that of
 //! then, and is seen there where its lens has it. m is nothing of the scene, which stands still; what

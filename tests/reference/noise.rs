@@ -1,4 +1,4 @@
-//! Twin of the baseline's surface noise, and of what it does to the surface.
+//! Twin of the baseline's surface noise, and its effect on the surface.
 //!
 //! With c a particle's centre at the depth D, r the drawn radius, a the half-axis, s = (s_x, s_y) a
 //! texel's slope and d the depth of the water's surface in the pixel that its middle lies in:

@@ -1,4 +1,4 @@
-//! BGEO, binary, and GEO.
+//! BGEO (binary) and GEO.
 
 use whitewater::io::particles::Particles;
 

@@ -1,5 +1,4 @@
-//! One small cloud in every format and encoding, byte by byte: the cloud, how it is checked, and the
-//! list of all samples.
+//! One small cloud in every format and encoding, byte by byte: the cloud, its check, and the list of all samples.
 
 mod houdini;
 mod plain;

@@ -1,4 +1,4 @@
-//! PLY, NPY and NPZ, and tables as text.
+//! PLY, NPY, NPZ, and text tables.
 
 use std::io::Write;
 use whitewater::io::particles::{Extension, Format, Particles};

@@ -1,4 +1,4 @@
-//! Blobs as the sun sees them: what they leave of its light on the scene.
+//! Blobs as the sun sees them: the light that they leave to the scene.
 
 use glam::{DVec3, Vec3};
 use whitewater::LightVolume;

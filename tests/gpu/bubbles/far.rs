@@ -1,4 +1,4 @@
-//! Blobs too small to be seen one by one: which are left of them, and what they look like together.
+//! Blobs too small to be seen one by one: which of them are kept, and their combined look.
 
 use glam::DVec3;
 use whitewater::bubbles::BubbleConfig;

@@ -1,4 +1,4 @@
-//! The film's table against all the light in a film added up, and that against what is known of films.
+//! The film's table against a sum of all light inside a film, and that sum against known properties of films.
 
 use whitewater::bubbles::{BubbleConfig, Film, FilmFresnel, Spectrum};
 

@@ -1,4 +1,4 @@
-//! Blobs that move, against the twin, and what has to hold of a heap whatever happens.
+//! Moving blobs against the twin, and invariants of any heap.
 
 use ash::vk;
 use glam::{DVec3, Vec3};

@@ -1,4 +1,4 @@
-//! What a ray meets of a blob by its impostors, against all of its bubbles.
+//! Intersections of rays with a blob's impostors, against all of its bubbles.
 
 use glam::{DVec3, Quat, Vec3};
 use whitewater::bubbles::{Blob, BubbleConfig, BubbleSort, Impostor};

@@ -1,4 +1,4 @@
-//! Bubble foam when a renderer's size and configuration change.
+//! Bubble foam across changes of a renderer's size and configuration.
 
 use whitewater::bubbles::{BubbleConfig, BubbleSort, Film, Impostor};
 

@@ -1,4 +1,4 @@
-//! Whitewater foam that becomes blobs near the eye.
+//! Whitewater foam that becomes blobs near the camera.
 
 use glam::{DVec3, Vec3, Vec4};
 use whitewater::WhitewaterConfig;

@@ -1,4 +1,4 @@
-//! Pass `soap` against its twin, in an environment of one colour and in one that grows lighter to a side, without a sun.
+//! Pass `soap` against its twin, in a uniform environment and in one with a gradient to one side, without a sun.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;

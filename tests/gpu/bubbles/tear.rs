@@ -1,4 +1,4 @@
-//! Blobs that split where they are torn off.
+//! Blobs that split when they are torn off.
 
 use std::collections::HashMap;
 

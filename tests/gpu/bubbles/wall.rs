@@ -1,4 +1,5 @@
-//! The walls' construction: it passes through the common circle, and its tangent there halves the angle.
+//! Construction of the walls: a wall passes through the common circle of two bubbles, and its tangent there bisects the
+//! angle.
 
 use glam::DVec3;
 

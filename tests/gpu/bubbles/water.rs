@@ -1,4 +1,4 @@
-//! Blobs in the particles' water and before it.
+//! Blobs inside particle water and in front of it.
 
 use glam::DVec3;
 use whitewater::Config;

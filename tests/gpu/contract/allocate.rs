@@ -1,4 +1,4 @@
-//! An allocator of the host's own: one `vkAllocateMemory` per object, as the simplest engine has it.
+//! The host's own allocator: one `vkAllocateMemory` per object, as in the simplest engine.
 
 use std::collections::HashMap;
 use std::error::Error as AnyError;

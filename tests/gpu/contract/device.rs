@@ -1,4 +1,4 @@
-//! What a device lacks or has room for, the memory that is used and the passes that are timed, as documented.
+//! Missing features and limits of a device, memory use and timed passes, as documented.
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};

@@ -1,4 +1,4 @@
-//! Frames in flight: slots, records between read-backs, two renderers on a device.
+//! Frames in flight: slots, records between read-backs, two renderers on one device.
 
 use whitewater::water::{Convolution, Shading, Shadows};
 use whitewater::{Frame, Recorded, Slot};

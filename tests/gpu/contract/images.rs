@@ -1,4 +1,4 @@
-//! Every kind of host image: formats of the scene's depth, in place and apart, any layout and access.
+//! Every kind of host image: depth formats of the scene, in place and separate, any layout and access.
 
 use ash::vk;
 use whitewater::water::{Kernels, Shading};

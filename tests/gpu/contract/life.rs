@@ -1,4 +1,4 @@
-//! A renderer's life: resize, reconfigure, an abandoned frame, a plain drop and `destroy`.
+//! Lifetime of a renderer: resize, reconfigure, an abandoned frame, a plain drop and `destroy`.
 
 use ash::vk;
 use whitewater::water::{Convolution, Rule, Shading, Shadows, Smoothing, Splat};

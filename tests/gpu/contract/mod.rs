@@ -1,5 +1,5 @@
-//! The contract: frames in flight, resize, retired objects, bad input, abandoned frames, every kind of
-//! host image, and what the renderer says of itself.
+//! The contract: frames in flight, resize, retired objects, bad input, abandoned frames, every kind of host image, and
+//! what the renderer reports about itself.
 
 mod allocate;
 mod bad;

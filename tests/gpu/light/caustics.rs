@@ -1,4 +1,4 @@
-//! The caustics against the twin, and the closed form of a flat pool.
+//! The caustics against the twin, and against the closed form of a flat pool.
 
 use glam::{DVec2, DVec3, Vec3};
 use whitewater::water::Shadows;

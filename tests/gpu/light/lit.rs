@@ -1,4 +1,4 @@
-//! The scene behind the water and the highlights on it are lit by what the maps let pass.
+//! The maps' transmitted light illuminates the scene behind the water and the highlights on it.
 
 use glam::{DVec3, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};

@@ -1,4 +1,4 @@
-//! The light's front and thickness against the twin.
+//! The light's front depth and thickness against the twin.
 
 use whitewater::{Config, LightVolume};
 

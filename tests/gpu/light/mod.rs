@@ -1,5 +1,5 @@
-//! Passes `light`, `caustics` and `lit`: the light's maps against the twin, and the picture against
-//! what the maps say. Here the scenes, and what the twin takes of them.
+//! Passes `light`, `caustics` and `lit`: the light maps against the twin, and the picture against the maps. This module
+//! has the scenes and their input for the twin.
 
 mod caustics;
 mod lit;

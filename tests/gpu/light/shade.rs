@@ -1,4 +1,4 @@
-//! Foam in the shade: of the host's mask and map, and its own.
+//! Foam in shadow: of the host's mask and map, and of foam itself.
 
 use ash::vk;
 use glam::{DVec3, Mat4, Vec3};

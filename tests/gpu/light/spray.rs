@@ -1,4 +1,4 @@
-//! Spray in the sun and in the shade.
+//! Spray in sunlight and in shadow.
 
 use crate::reference::spray::Sums;
 use crate::support::compare;

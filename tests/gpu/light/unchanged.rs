@@ -1,4 +1,4 @@
-//! What must not change the light: the particles' order, the frame's size.
+//! Changes that must not affect the light: order of the particles, size of the frame.
 
 use whitewater::LightVolume;
 use whitewater::water::Shading;

@@ -1,5 +1,5 @@
-//! Shadows of whitewater particles: their map against the twin, and what they take of the sun on the scene, on
-//! water and on each other.
+//! Shadows of whitewater particles: their map against the twin, and the sunlight that they block on the scene, on water
+//! and on each other.
 
 use ash::vk;
 use glam::Vec3;

@@ -1,4 +1,4 @@
-//! The picture of two sheets against the twin, and the faults that its check must see.
+//! The picture of two sheets against the twin, and planted faults that the check must detect.
 
 use ash::vk;
 use glam::{DVec2, DVec3, Mat4, Vec3};

@@ -1,4 +1,4 @@
-//! The thickness of each sheet against the twin, and boundaries where there is nothing to tell apart.
+//! The thickness of each sheet against the twin, and boundaries where there is only one sheet.
 
 use whitewater::water::Splat;
 

@@ -1,4 +1,4 @@
-//! Water on a bed, seen through water before it, with two interfaces.
+//! Water on a bed, seen through water in front of it, with two interfaces.
 
 use whitewater::Config;
 use whitewater::water::{Exit, Medium};

@@ -1,4 +1,4 @@
-//! Foam of shores and contacts in the picture: a coat on the scene, under the particles' water as over it.
+//! Shoreline and contact foam in the picture: a coat on the scene, under the particles' water and without it.
 
 use ash::vk;
 use glam::{DVec2, DVec3};

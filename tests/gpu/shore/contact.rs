@@ -1,4 +1,4 @@
-//! Contact foam on a level surface of the host's and on the particles' water, against the twin.
+//! Contact foam on the host's level surface and on the particles' water, against the twin.
 
 use ash::vk;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Frames in flight that show a map of distances, which changes between them.
+//! Frames in flight that show a distance map which changes between them.
 
 use glam::{DVec2, Mat4};
 use whitewater::shore::{Area, Edge, Heights, ShoreMapStep};

@@ -1,4 +1,5 @@
-//! Shoreline and contact foam when a renderer's size and configuration change, its web, its memory; what is bad.
+//! Shoreline and contact foam across changes of a renderer's size and configuration; its web, its memory and its
+//! errors.
 
 use ash::vk;
 use glam::DVec2;

@@ -1,4 +1,4 @@
-//! Pass `map`: seeds, jumps and distances against the exact nearest of the same seeds, the shore's line and closed forms.
+//! Pass `map`: seeds, jumps and distances against the exact nearest seed, the shoreline and closed forms.
 
 use ash::vk;
 use glam::{DVec2, Mat4, Vec3};

@@ -1,4 +1,4 @@
-//! Shoreline foam, contact foam and the map of distances, against twins and closed forms.
+//! Shoreline foam, contact foam and the distance map, against twins and closed forms.
 
 mod composite;
 mod contact;

@@ -1,5 +1,5 @@
-//! What orders the passes of shoreline foam by its buffers, of which a validation layer sees a part: a log of all barriers,
-//! and each left out in turn.
+//! Ordering of the shoreline passes by barriers on its buffers, of which a validation layer checks only a part: all
+//! barriers are logged, and each is left out in turn.
 
 use ash::vk;
 use whitewater::shore::Edge;

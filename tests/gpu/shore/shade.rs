@@ -1,4 +1,4 @@
-//! Foam of shores and contacts in the shade of the host's scene.
+//! Shoreline and contact foam in the shadow of the host's scene.
 
 use ash::vk;
 use glam::{DVec3, Mat4, Vec3};

@@ -1,4 +1,4 @@
-//! Pass `shoreline`: how much foam a pixel has along shores, against the twin.
+//! Pass `shoreline`: the amount of foam per pixel along shores, against the twin.
 
 use ash::vk;
 use glam::{DVec2, DVec3, Mat4, Vec3};

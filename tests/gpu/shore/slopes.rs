@@ -1,4 +1,4 @@
-//! The web's slopes where pixels are much longer than wide: they are those of a web that is turned.
+//! Slopes of the web where pixels are much longer than wide: they equal those of a rotated web.
 
 use glam::{Mat4, Vec3};
 use whitewater::shore::{Area, Edge, ShoreSettings, TextureLayer};

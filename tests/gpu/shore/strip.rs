@@ -1,4 +1,4 @@
-//! Shoreline foam of a strip of the host's and by the scene's depth alone.
+//! Shoreline foam from the host's strip and from the scene's depth alone.
 
 use ash::vk;
 use glam::DVec3;

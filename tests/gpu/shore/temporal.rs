@@ -1,4 +1,4 @@
-//! Foam from frame to frame: a camera that moves by fractions of a pixel, and one that flies low.
+//! Temporal stability: a camera that moves by fractions of a pixel, and one that flies low.
 
 use glam::{DVec2, DVec3, Mat4, Vec3};
 use whitewater::shore::Edge;

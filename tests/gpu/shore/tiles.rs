@@ -1,4 +1,4 @@
-//! Which tiles are shaded: all that have foam, from wherever the surface is seen and whatever stands in it.
+//! The shaded tiles: all tiles with foam, wherever the surface is seen from and whatever stands in it.
 
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::shore::{Edge, Measure, TextureLayer};

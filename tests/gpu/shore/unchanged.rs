@@ -1,4 +1,4 @@
-//! Where there is no sea a renderer that may draw foam on one draws what one draws that may not, bit for bit.
+//! Without a sea, a renderer that may draw foam on one draws the same, bit for bit, as a renderer that may not.
 
 use glam::{DVec2, Mat4};
 use whitewater::headless::scene::{Material, Mesh, Scene};

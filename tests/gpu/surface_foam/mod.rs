@@ -1,4 +1,4 @@
-//! Pass `surface_foam`: sprites against the twin, and what is foam is no water.
+//! Pass `surface_foam`: sprites against the twin, and that foam is not drawn as water.
 
 mod picture;
 mod source;

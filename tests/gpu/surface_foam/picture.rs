@@ -1,4 +1,4 @@
-//! The picture with foam, by hand from its layers.
+//! The picture with foam, computed from its layers.
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;

@@ -1,4 +1,4 @@
-//! The picture as the source composes it, against its twin, on the layers read back.
+//! The picture as the thesis composes it, against its twin, on the layers read back.
 
 use glam::DVec3;
 use whitewater::water::{Compositing, Fresnel, Medium, Shading};

@@ -1,4 +1,4 @@
-//! Pass `blur` where it is wide.
+//! Pass `blur` with wide kernels.
 
 use glam::DVec2;
 use whitewater::{Occlusion as Occluding, WhitewaterConfig};

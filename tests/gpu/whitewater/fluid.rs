@@ -1,4 +1,4 @@
-//! The fluid that whitewater particles are before or behind, and that shades them.
+//! The fluid in front of or behind whitewater particles, which also occludes them.
 
 use whitewater::Submerged;
 

@@ -1,4 +1,5 @@
-//! Particles heaped on one spot, dead ones parked at the origin say: their sums fill up, end, and lose nothing else.
+//! Many particles on one spot, such as dead ones parked at the origin: their sums saturate, the frame ends, and nothing
+//! else is lost.
 
 use whitewater::{WhitewaterConfig, WhitewaterSplat};
 

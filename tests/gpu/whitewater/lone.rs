@@ -1,4 +1,4 @@
-//! Foam that is alone, a pixel or a few: no neighbour's points help its light to be right and steady.
+//! Isolated foam of one or a few pixels: its light must be right and steady without neighbours' samples.
 
 use glam::{DVec2, DVec3};
 use whitewater::Settings;

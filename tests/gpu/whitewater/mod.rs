@@ -1,4 +1,5 @@
-//! Passes `splat`, `radiance` and `blur`: foam of whitewater particles against the twin, and the picture with it.
+//! Passes `splat`, `radiance` and `blur`: foam of whitewater particles against the twin, and the picture that contains
+//! it.
 
 mod blur;
 mod fluid;

@@ -1,4 +1,5 @@
-//! The host's packets of whitewater particles: what they pass over does not show, what is in none is not there.
+//! The host's packets of whitewater particles: culled packets make no visible difference, and particles in no packet
+//! are not drawn.
 
 use ash::vk;
 use whitewater::WhitewaterSplat;

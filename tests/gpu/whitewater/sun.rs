@@ -1,4 +1,4 @@
-//! The sun of a map, which the light tells of as well.
+//! A sun that is in the environment map and also a light.
 
 use whitewater::{EnvironmentSource, Equirectangular, Recorded, Slot};
 

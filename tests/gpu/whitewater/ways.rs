@@ -1,4 +1,5 @@
-//! The ways to draw whitewater particles: alike, for streams of any shape, after changes, in stated memory.
+//! All paths that draw whitewater particles: they agree, for streams of any layout, after changes, within the stated
+//! memory.
 
 use ash::vk;
 use whitewater::{Count, Renderer, WhitewaterParticles};

@@ -1,4 +1,5 @@
-//! Pass `core`: the picture of small bubbles inside a blob, cells round scattered points on the sphere (Worley 1996).
+//! Pass `core`: the picture of small bubbles inside a blob, as cells around scattered points on the sphere (Worley
+//! 1996).
 
 use glam::{DVec2, DVec3, IVec3};
 

@@ -1,4 +1,4 @@
-//! A soap film in air: all the light that goes back and forth in it, added up with its phase.
+//! A soap film in air: the sum of all light reflected inside it, with its phase.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};

@@ -1,4 +1,4 @@
-//! Blobs that move: forces of pairs and of planes, one part of a step after the other, and the energy that there is.
+//! Moving blobs: forces of pairs and of planes, the parts of a step in order, and the energy.
 
 use glam::DVec3;
 use whitewater::bubbles::BlobSimulationSettings;

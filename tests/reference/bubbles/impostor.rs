@@ -1,4 +1,4 @@
-//! A blob on a ray by brute force: all its bubbles.
+//! Intersection of a ray with a blob by brute force, over all its bubbles.
 
 use glam::{DQuat, DVec3};
 

@@ -1,4 +1,4 @@
-//! Which blobs are left of those too small to be seen, and how large (Cook, Halstead, Planck, Ryu 2007).
+//! Which of the blobs too small to be seen are kept, and with which size (Cook, Halstead, Planck, Ryu 2007).
 
 use crate::reference::classify::pcg;
 

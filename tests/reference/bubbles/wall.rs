@@ -1,4 +1,4 @@
-//! The wall between two bubbles by the construction of the source, as `layered` corrected: by the sphere's centre.
+//! The wall between two bubbles by the source's construction, with its centre corrected as `layered` does.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Closed forms of the composite's twin.
+//! The composite's twin against closed forms.
 
 use super::super::EMPTY;
 use super::super::surface::Case;

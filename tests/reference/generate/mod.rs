@@ -1,5 +1,5 @@
-//! Twin of the whitewater particles: spray, foam and bubbles made from a particle fluid, after
-//! "Unified spray, foam and air bubbles for particle-based fluids" (Ihmsen et al. 2012).
+//! Twin of the whitewater particles: spray, foam and bubbles emitted by a particle fluid, after "Unified spray, foam
+//! and air bubbles for particle-based fluids" (Ihmsen et al. 2012).
 //!
 //! Metres and seconds, ids and random numbers as on the GPU. h = 2 s is the support of all sums,
 //! with s the fluid's spacing; `W = 1 - d/h`. The GPU sums whole steps, [`unit`] or [`STEP`], so

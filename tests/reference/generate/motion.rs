@@ -1,4 +1,4 @@
-//! What a whitewater particle does in a step.
+//! Motion of a whitewater particle in a step.
 
 use super::water::{Fluid, Near, near};
 use super::{BUBBLE, MOST_STEPS, Particle, SPRAY, STEP, Settings, kind_of, uniform_of, unit};

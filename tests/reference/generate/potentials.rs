@@ -1,4 +1,4 @@
-//! What makes whitewater particles: trapped air, wave crests and energy.
+//! Potentials that emit whitewater particles: trapped air, wave crests and energy.
 
 use super::water::{Fluid, Grid, Near, Part};
 use super::{MOST_STEPS, STEP, support, unit};

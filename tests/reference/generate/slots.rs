@@ -1,4 +1,4 @@
-//! Where the particles are kept.
+//! Storage slots of the particles.
 
 use super::motion::{carried_by, moved_in};
 use super::water::{Fluid, Grid};

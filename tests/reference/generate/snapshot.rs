@@ -1,4 +1,4 @@
-//! Twin of the snapshot: whitewater particles of a single frame, without those of the frame before.
+//! Twin of the snapshot: whitewater particles of a single frame, without those of the previous frame.
 //!
 //! Each fluid particle looks back along the water's way in 15 stages, and makes what the water
 //! made there and still lives.

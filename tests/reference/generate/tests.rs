@@ -1,4 +1,4 @@
-//! Closed forms of the generator, and its random numbers worked out apart.
+//! The generator against closed forms, and its random numbers computed separately.
 
 use super::motion::carried_by;
 use super::water::{Grid, near};

@@ -1,4 +1,4 @@
-//! The fluid's particles that take part, and which of them are near a place.
+//! Fluid particles that take part, and the search for those near a point.
 
 use super::support;
 use glam::DVec3;

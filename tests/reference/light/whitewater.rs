@@ -1,5 +1,4 @@
-//! Twin of the sun's map of whitewater particles: between what it must lie where all is single precision
-//! and what is added are whole steps.
+//! Twin of the sun's map of whitewater particles: bounds for single precision and fixed-point sums.
 //!
 //! Of each particle a disc of the map, as on the screen, with the far end of its sphere as its place
 //! along the light, a whole number of texels k. A texel has of all of them `a`, how much, with k: what

@@ -1,4 +1,4 @@
-//! What is made by the boundaries: the thickness of each sheet and the depth of the back one.
+//! Results of the boundaries: the thickness of each sheet and the depth of the back one.
 
 use super::super::depth::splat_where;
 use super::super::thickness::{self, Amplitude};

@@ -1,4 +1,4 @@
-//! Closed forms of the twin of the sheets.
+//! The twin of the sheets against closed forms.
 
 use super::super::tests::view;
 use super::super::thickness::{self, Amplitude};

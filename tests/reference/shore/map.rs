@@ -1,4 +1,4 @@
-//! The signed distance from the shore over a grid of heights.
+//! The signed distance to the shore over a grid of heights.
 //!
 //! A texel of which a neighbour lies on the other side has a seed: the point on the way to it where the height is
 //! 0, of all such the one with the least part of the way, to 1/16 texel. What a texel gets is the distance from

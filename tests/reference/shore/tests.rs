@@ -1,4 +1,4 @@
-//! Closed forms of the twin, and its bounds held against single precision.
+//! The twin against closed forms, and its bounds against single precision.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,4 @@
-//! A square texture on a torus, its levels in half precision, filtered linearly within the nearest of them.
+//! A square periodic texture, its mip levels in half precision, filtered bilinearly within the nearest level.
 //!
 //! A filter knows a place and a level to 1/256: half a step is 2^-9 of the differences between the texels
 //! involved. A place that is off by so many texels adds as many of the largest difference of neighbours that it

@@ -1,4 +1,4 @@
-//! Between what the images of foam must lie in single precision.
+//! Bounds of the foam images in single precision.
 
 use super::super::thickness::kernel;
 use super::super::{EMPTY, Image, View, is_surface};

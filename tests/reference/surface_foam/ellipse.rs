@@ -1,4 +1,4 @@
-//! How a sprite's ellipse lies, and where a ray meets it.
+//! Orientation of a sprite's ellipse, and its intersection with a ray.
 
 use super::super::thickness::J;
 use super::super::{View, smoothstep};

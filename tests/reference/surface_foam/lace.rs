@@ -1,4 +1,4 @@
-//! Twin of the lace that thin foam is torn into: walls between bubbles of unlike sizes.
+//! Twin of the lace of thin foam: walls between bubbles of different sizes.
 //!
 //! A place belongs to the bubble of the largest power `r^2 - |x - c|^2`, if any is above 0; how far its power lies above
 //! the next or above 0 is how far inside of it the place is, of the largest radius squared. Cells hold a bubble each. Of

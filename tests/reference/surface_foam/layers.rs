@@ -1,4 +1,4 @@
-//! The images of foam and what a pixel shows of them.
+//! The foam images, and the foam that a pixel shows.
 
 use super::super::thickness::kernel;
 use super::super::{EMPTY, Image, View, is_surface};

@@ -1,4 +1,4 @@
-//! The ellipses that rounding may make of a sprite.
+//! The ellipses that a sprite may have after rounding.
 
 use super::super::View;
 use super::super::thickness::J;

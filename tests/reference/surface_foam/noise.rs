@@ -1,4 +1,4 @@
-//! The noise that tears a sprite, and what it is at most.
+//! The noise that tears a sprite, and its maximum.
 
 use super::super::classify::pcg;
 use super::SPREAD;

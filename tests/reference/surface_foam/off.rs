@@ -1,4 +1,4 @@
-//! Vectors of single precision: each with the length of the error that it may have.
+//! Vectors in single precision, each with a bound on the length of its error.
 
 use super::super::View;
 use crate::support::rounded::Rounded;

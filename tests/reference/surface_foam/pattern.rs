@@ -1,4 +1,4 @@
-//! Twin of the pattern that foam carries along.
+//! Twin of the pattern that moves with the foam.
 //!
 //! A noise in space, looked up where foam would be halfway through a period if it went on as it goes: for a phase with
 //! the part p of its period gone, at `x - v (p - 1/2) T`. Of two phases half a period apart each has the weight

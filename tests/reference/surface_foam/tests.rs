@@ -1,4 +1,4 @@
-//! Closed forms of the twin of the foam, and its bounds held against single precision.
+//! The twin of the foam against closed forms, and its bounds against single precision.
 
 use super::super::tests::view;
 use super::super::{EMPTY, Image, View, is_surface};

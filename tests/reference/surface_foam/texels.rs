@@ -1,4 +1,4 @@
-//! The texels of foam's images: how wide they are, which see a place, what hides it from them.
+//! The texels of the foam images: their width, which of them see a point, and occlusion.
 
 use super::super::{Image, View};
 use glam::{DVec2, DVec3};

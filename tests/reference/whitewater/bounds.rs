@@ -1,5 +1,4 @@
-//! Between what the images of foam must lie where all is single precision and what is added are
-//! whole steps.
+//! Bounds of the foam images for single precision and fixed-point sums.
 
 use super::super::surface_foam::Off;
 use super::super::{EMPTY, Image, View};

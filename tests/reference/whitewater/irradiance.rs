@@ -1,4 +1,4 @@
-//! The light that foam gets: samples of the environment on the side of its normal.
+//! Irradiance of foam: samples of the environment on the side of its normal.
 
 use super::super::{Image, View};
 use super::{Occlusion, Seen, points};

@@ -1,4 +1,4 @@
-//! The images of foam: the nearest and the sums of all.
+//! The foam images: the nearest particle, and sums over all.
 
 use super::super::{Image, View};
 use super::sprite::Sprite;

@@ -1,4 +1,4 @@
-//! The discs that rounding may make of a particle.
+//! The discs that a particle may have after rounding.
 
 use super::super::View;
 use super::super::surface_foam::Off;

@@ -1,5 +1,4 @@
-//! What of the space about the nearest foam lies behind something: samples of spheres of several
-//! radii, each looked up in the picture.
+//! Ambient occlusion of the nearest foam: samples in spheres of several radii, each compared with the picture's depth.
 
 use super::super::surface_foam::ray_off;
 use super::super::{Image, View, smoothstep};

@@ -1,4 +1,4 @@
-//! Intensity, and foam over a picture.
+//! Intensity, and foam composited over a picture.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Foam in single precision on the host, each operation rounded: to hold the bounds against.
+//! Foam in single precision on the CPU, with each operation rounded, to check the bounds.
 
 use super::super::{Image, View, is_surface};
 use super::{

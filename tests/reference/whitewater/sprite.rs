@@ -1,4 +1,4 @@
-//! The disc that a particle is in the picture.
+//! The disc of a particle in the picture.
 
 use super::super::{View, smoothstep};
 use super::{Kind, LEAST, Look, Particle, Settings, TOLD};

@@ -1,4 +1,4 @@
-//! The definition against what is known of it otherwise.
+//! The definition against known results.
 
 use super::super::{EMPTY, Image, View};
 use super::*;

@@ -1,4 +1,4 @@
-//! Closed forms of the snapshot.
+//! The snapshot against closed forms.
 
 use super::super::BUBBLE;
 use super::super::tests::{SPACING, close, close_all, fluid, random_fluid, settings};
