@@ -367,8 +367,8 @@ const NOTHING: (Rounded, [Rounded; 3]) =
 /// The most that a wet bed changes for a change of its colour when dry: 1/q, with the 0.53 of water.
 const WET: f64 = 1.9;
 
-/// The colour where a ray meets the scene, with the water that lies on it. The place may be some pixels off and the direction
-/// turned: as far as the colours there are from it, besides what filtering does to the dry one.
+/// The colour where a ray meets the scene, with the water that lies on it. Its error is the largest change of that colour
+/// within the errors of the position (pixels) and of the direction, plus the error of filtering the dry scene.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 fn met_water(
     inputs: &Inputs<'_>,
