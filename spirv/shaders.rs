@@ -425,7 +425,7 @@ pub const HEADLESS_IRRADIANCE_COMP: Shader = Shader {
     shared: 9216,
     outputs: 0,
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "sea", 272), ("Scene", "absorption", 288), ("Scene", "scattering", 304), ("Scene", "lava", 320), ("Scene", "flow", 336), ("Scene", "waves", 352), ("Irradiance", "irradiance", 0), ],
+    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "splashed", 272), ("Scene", "sea", 288), ("Scene", "absorption", 304), ("Scene", "scattering", 320), ("Scene", "lava", 336), ("Scene", "flow", 352), ("Scene", "waves", 368), ("Scene", "shifts", 816), ("Irradiance", "irradiance", 0), ],
 };
 /// `headless/scene.frag`
 pub const HEADLESS_SCENE_FRAG: Shader = Shader {
@@ -435,8 +435,8 @@ pub const HEADLESS_SCENE_FRAG: Shader = Shader {
     local_size: [1, 1, 1],
     shared: 0,
     outputs: 1,
-    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
-    members: &[("Irradiance", "irradiance", 0), ("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "sea", 272), ("Scene", "absorption", 288), ("Scene", "scattering", 304), ("Scene", "lava", 320), ("Scene", "flow", 336), ("Scene", "waves", 352), ("Push", "turn", 0), ("Push", "origin", 16), ("Push", "color", 32), ("Push", "pattern", 48), ],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (6, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Irradiance", "irradiance", 0), ("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "splashed", 272), ("Scene", "sea", 288), ("Scene", "absorption", 304), ("Scene", "scattering", 320), ("Scene", "lava", 336), ("Scene", "flow", 352), ("Scene", "waves", 368), ("Scene", "shifts", 816), ("Push", "turn", 0), ("Push", "origin", 16), ("Push", "color", 32), ("Push", "pattern", 48), ],
 };
 /// `headless/scene.vert`
 pub const HEADLESS_SCENE_VERT: Shader = Shader {
@@ -447,7 +447,7 @@ pub const HEADLESS_SCENE_VERT: Shader = Shader {
     shared: 0,
     outputs: 5,
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "sea", 272), ("Scene", "absorption", 288), ("Scene", "scattering", 304), ("Scene", "lava", 320), ("Scene", "flow", 336), ("Scene", "waves", 352), ],
+    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "splashed", 272), ("Scene", "sea", 288), ("Scene", "absorption", 304), ("Scene", "scattering", 320), ("Scene", "lava", 336), ("Scene", "flow", 352), ("Scene", "waves", 368), ("Scene", "shifts", 816), ],
 };
 /// `headless/sky.frag`
 pub const HEADLESS_SKY_FRAG: Shader = Shader {
@@ -458,7 +458,7 @@ pub const HEADLESS_SKY_FRAG: Shader = Shader {
     shared: 0,
     outputs: 1,
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
-    members: &[("Irradiance", "irradiance", 0), ("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "sea", 272), ("Scene", "absorption", 288), ("Scene", "scattering", 304), ("Scene", "lava", 320), ("Scene", "flow", 336), ("Scene", "waves", 352), ],
+    members: &[("Irradiance", "irradiance", 0), ("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "splashed", 272), ("Scene", "sea", 288), ("Scene", "absorption", 304), ("Scene", "scattering", 320), ("Scene", "lava", 336), ("Scene", "flow", 352), ("Scene", "waves", 368), ("Scene", "shifts", 816), ],
 };
 /// `headless/sky.vert`
 pub const HEADLESS_SKY_VERT: Shader = Shader {
@@ -469,7 +469,7 @@ pub const HEADLESS_SKY_VERT: Shader = Shader {
     shared: 0,
     outputs: 1,
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "sea", 272), ("Scene", "absorption", 288), ("Scene", "scattering", 304), ("Scene", "lava", 320), ("Scene", "flow", 336), ("Scene", "waves", 352), ],
+    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Scene", "air", 256), ("Scene", "splashed", 272), ("Scene", "sea", 288), ("Scene", "absorption", 304), ("Scene", "scattering", 320), ("Scene", "lava", 336), ("Scene", "flow", 352), ("Scene", "waves", 368), ("Scene", "shifts", 816), ],
 };
 /// `light/caustics.comp`
 pub const LIGHT_CAUSTICS_COMP: Shader = Shader {

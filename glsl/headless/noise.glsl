@@ -23,6 +23,17 @@ float noise(vec3 p) {
     return 2.0 * mix(y.x, y.y, f.x) - 1.0;
 }
 
+// The same on a plane.
+float noise(vec2 p, int seed) {
+    ivec2 i = ivec2(floor(p));
+    vec2 f = fract(p);
+    f = f * f * (3.0 - 2.0 * f);
+    vec2 low = vec2(hash(ivec3(i, seed)), hash(ivec3(i + ivec2(1, 0), seed)));
+    vec2 high = vec2(hash(ivec3(i + ivec2(0, 1), seed)), hash(ivec3(i + ivec2(1, 1), seed)));
+    vec2 y = mix(low, high, f.y);
+    return 2.0 * mix(y.x, y.y, f.x) - 1.0;
+}
+
 // Amplitude of a wave with this frequency after filtering with a footprint of this width.
 float kept(float width, float frequency) {
     return 1.0 - smoothstep(0.25, 0.9, width * frequency);

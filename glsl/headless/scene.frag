@@ -34,6 +34,7 @@ layout(constant_id = 1) const uint PART = MESH;
 layout(constant_id = 2) const uint TEXTURED = 0;
 
 layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = 6) uniform sampler2D shadow_depth; // the same, without comparison
 layout(set = 0, binding = 4) uniform sampler2D base_texture;
 layout(push_constant, std430) uniform Push {
     vec4 turn;      // rotation of the mesh's frame (quaternion)
@@ -185,6 +186,43 @@ Surface sand(vec3 p, float width) {
     return s;
 }
 
+// How wet what was splashed on is at a place, metres: 0 dry, 1 under a film of water. Patches, ever fewer with the
+// distance from the basin, and single splashes.
+float wetness(vec3 at, float width) {
+    vec4 box = scene.splashed;
+    vec2 out_of = max(max(box.xy - at.xz, at.xz - box.zw), 0.0);
+    float away = scene.air.y * length(out_of);
+    int near = box.x <= box.z && away < 3.0 ? 1 : 0;
+    float wet = 0.0;
+    for (int k = 0; k < near; ++k) {
+        vec3 p = scene.air.y * at;
+        float patchy = octaves(p + 13.0, 0.55, 3, width) + 0.5 * octaves(p + 29.0, 2.7, 3, width);
+        wet = smoothstep(0.0, 0.45, 0.45 - 0.8 * away + 1.15 * patchy);
+        // A splash in some of the cells.
+        vec2 q = p.xz * 7.0;
+        ivec3 cell = ivec3(floor(q), 5);
+        vec2 middle = 0.3 + 0.4 * vec2(hash(cell), hash(cell + 57));
+        float size = 0.04 + 0.22 * pow(hash(cell + 91), 4.0);
+        float round = distance(fract(q), middle) + 0.12 * noise(q * 5.0, 3);
+        float drop = step(hash(cell + 131), 0.30 * exp(-1.1 * away)) * (1.0 - smoothstep(size - 0.05, size + 0.03 + 7.0 * width, round));
+        wet = max(wet, 0.5 * drop);
+    }
+    return wet;
+}
+
+// Wets a stone: light is lost to reflections from within the film (Lekner and Dorf 1988, of a film of water: 0.07 of the
+// light is reflected going in, 0.47 of the diffuse light coming out), and films are smooth.
+Surface wetted(Surface s, float wet, float level) {
+    vec3 under = 0.93 * 0.53 * s.albedo / (1.0 - 0.47 * s.albedo);
+    float damp = min(1.1 * wet, 0.75);
+    // From edges it runs off.
+    float film = smoothstep(0.55, 1.0, wet) * smoothstep(0.96, 0.99, level);
+    s.albedo = mix(s.albedo, under, damp);
+    s.roughness = mix(mix(s.roughness, 0.5, damp), 0.16, film);
+    s.tilt *= 1.0 - 0.85 * film;
+    return s;
+}
+
 // Slabs in a running bond, worn, with sandy joints.
 Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
     float size = push.pattern.x;
@@ -196,22 +234,27 @@ Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
     footprint.x /= 1.5;
     float gap = 1.0 - (1.0 - lines(q.x, joint / 1.5, footprint.x)) * (1.0 - lines(q.y, joint, footprint.y));
     float one = kept(max(footprint.x, footprint.y), 0.7);
-    float seed = hash(ivec3(int(floor(q.x)), int(row), 13)) - 0.5;
-    float warm = hash(ivec3(int(floor(q.x)), int(row), 17)) - 0.5;
-    float large = octaves(p, 0.5, 3, width);
+    ivec3 slab = ivec3(int(floor(q.x)), int(row), 13);
+    float seed = hash(slab) - 0.5;
+    float warm = hash(slab + ivec3(0, 0, 4)) - 0.5;
+    float large = octaves(p, 0.22, 4, width);
     float cloud = octaves(p + 9.0 * seed, 6.0, 3, width);
     float grain = octaves(p, 90.0, 2, width);
-    // Some were laid later, or come from another bed; what dripped and was trodden in stays as stains.
-    float other = step(0.86, hash(ivec3(int(floor(q.x)), int(row), 23)));
-    float stain = smoothstep(0.05, 0.45, octaves(p + 71.0, 0.8, 4, width));
+    // Some were laid later, or come from another bed; veins and beds run through each its own way; what dripped and was
+    // trodden in stays as stains, and dirt in the joints and beside them.
+    float other = step(0.84, hash(slab + ivec3(0, 0, 10)));
+    float turn = 6.28 * hash(slab + ivec3(0, 0, 21));
+    vec2 along = vec2(cos(turn) * p.x + sin(turn) * p.z, cos(turn) * p.z - sin(turn) * p.x);
+    float veins = one * octaves(vec3(1.3 * along.x, 7.0 * along.y, 30.0 * seed), 1.0, 3, width);
+    float stain = smoothstep(0.0, 0.5, octaves(p + 71.0, 0.8, 4, width));
     vec2 rim = abs(fract(q) - 0.5) * 2.0;
-    float worn = pow(max(rim.x, rim.y), 9.0);
-    vec3 tone = push.color.rgb * (1.0 + one * (0.26 * seed - 0.12 * other) + 0.20 * large + 0.20 * cloud + 0.18 * grain);
-    tone *= 1.0 - 0.20 * stain - 0.14 * one * worn * (0.7 + cloud);
-    tone *= 1.0 + one * vec3(0.07, 0.0, -0.09) * warm;
+    float worn = pow(max(rim.x, rim.y), 12.0);
+    vec3 tone = push.color.rgb * (1.0 + one * (0.34 * seed - 0.16 * other) + 0.30 * large + 0.18 * cloud + 0.12 * veins + 0.18 * grain);
+    tone *= 1.0 - vec3(0.24, 0.25, 0.27) * stain - 0.22 * one * worn * (0.6 + cloud);
+    tone *= 1.0 + one * vec3(0.09, 0.0, -0.12) * warm;
     Surface s;
-    s.albedo = mix(tone, push.color.rgb * vec3(0.62, 0.58, 0.52), 0.75 * gap);
-    s.roughness = mix(push.color.a, 0.95, gap);
+    s.albedo = mix(tone, push.color.rgb * vec3(0.46, 0.43, 0.38), 0.8 * gap);
+    s.roughness = mix(push.color.a - 0.12 * one * hash(slab + ivec3(0, 0, 33)), 0.95, gap);
     s.tilt = vec3(0.02 * one * seed + 0.03 * grain, 0.0, 0.02 * one * warm + 0.03 * cloud);
     return s;
 }
@@ -337,8 +380,24 @@ Surface island(vec3 p, vec3 n, float width, float height) {
     return s;
 }
 
+// Of sunlight through thin clouds the part that comes from round the disc, and the angular radius of that glow (Buie,
+// Monger and Dey 2003: circumsolar ratios reach 0.5 and more, of a glow of 43.6 mrad).
+const float GLOWING = 0.5;
+const float GLOW = 0.0436;
+// Texels of the shadow map, at most, and places that are looked at.
+const float WIDEST = 12.0;
+const int TAPS = 16;
+
+// Places evenly over a unit disc (Vogel 1979).
+vec2 tap(int i) {
+    float turn = 2.3999632 * float(i);
+    return sqrt((float(i) + 0.5) / float(TAPS)) * vec2(cos(turn), sin(turn));
+}
+
 // Visibility of the sun: a 5×5 tent filter with nine bilinear comparisons (Castaño 2013, as in The Witness),
 // about as wide as the sun's penumbra a metre behind an edge. It is smooth and needs no noise.
+// Behind thin clouds a part of the sun's light comes from a glow round the disc, whose penumbra is several times as wide:
+// its width from the mean distance of what hides the sun there (Fernando 2005).
 float sunlight(vec3 at, vec3 facing) {
     float slope = 1.0 - max(dot(facing, scene.sun_direction.xyz), 0.0);
     vec3 lifted = at + facing * scene.shadow_texel.z * (1.0 + 2.5 * slope);
@@ -346,6 +405,7 @@ float sunlight(vec3 at, vec3 facing) {
     // Beyond all shadow casters the depth ends; the border is lit.
     float depth = min(s.z, 1.0);
     vec2 uv = s.xy / scene.shadow_texel.xy;
+    vec2 middle = s.xy;
     vec2 base = floor(uv + 0.5);
     vec2 st = uv + 0.5 - base;
     base = (base - 0.5) * scene.shadow_texel.xy;
@@ -364,7 +424,40 @@ float sunlight(vec3 at, vec3 facing) {
               + w0.x * w2.y * texture(shadow_map, vec3(base + vec2(o0.x, o2.y), depth))
               + w1 * w2.y * texture(shadow_map, vec3(base + vec2(o1.x, o2.y), depth))
               + w2.x * w2.y * texture(shadow_map, vec3(base + o2, depth));
-    return sum / 144.0;
+    float lit = sum / 144.0;
+
+    // Depth in the map along the surface, so that it does not shadow itself.
+    vec3 along_x = cross(facing, abs(facing.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
+    vec3 a = mat3(scene.shadow) * along_x;
+    vec3 b = mat3(scene.shadow) * cross(facing, along_x);
+    float determinant = a.x * b.y - a.y * b.x;
+    vec2 rise = vec2(a.z * b.y - b.z * a.y, a.x * b.z - b.x * a.z) / (abs(determinant) > 1.0e-12 ? determinant : 1.0e-12);
+    float deep = 1.0 / length(vec3(scene.shadow[0].z, scene.shadow[1].z, scene.shadow[2].z));
+    // Of a slope along the sun's rays there is no such.
+    int glows = scene.air.z > 0.0 && slope < 0.95 && all(greaterThan(middle, vec2(0.0))) && all(lessThan(middle, vec2(1.0))) ? 1 : 0;
+    ivec2 last = textureSize(shadow_depth, 0) - 1;
+    for (int k = 0; k < glows; ++k) {
+        float gaps = 0.0;
+        float count = 0.0;
+        for (int i = 0; i < TAPS; ++i) {
+            vec2 off = WIDEST * tap(i) * scene.shadow_texel.xy;
+            float there = texelFetch(shadow_depth, clamp(ivec2((middle + off) / scene.shadow_texel.xy), ivec2(0), last), 0).x;
+            float gap = depth + dot(rise, off) - there;
+            count += gap > 0.0 ? 1.0 : 0.0;
+            gaps += max(gap, 0.0);
+        }
+        int partly = count > 0.0 ? 1 : 0;
+        for (int j = 0; j < partly; ++j) {
+            float wide = clamp(gaps / count * deep * GLOW / scene.shadow_texel.z, 1.0, WIDEST);
+            float open = 0.0;
+            for (int i = 0; i < TAPS; ++i) {
+                vec2 off = wide * tap(i) * scene.shadow_texel.xy;
+                open += texture(shadow_map, vec3(middle + off, min(depth + dot(rise, off), 1.0)));
+            }
+            lit = mix(lit, open / float(TAPS), GLOWING * scene.air.z);
+        }
+    }
+    return lit;
 }
 
 // Irradiance on the sea at a point: sun, and a fraction of the sky.
@@ -440,6 +533,10 @@ void main() {
     } else if (PATTERN == RIPPLES) {
         s = ripples(p, width);
     }
+    if (PATTERN == PAVING || PATTERN == STONE) {
+        s.albedo = clamp(s.albedo, 0.0, 0.95);
+        s = wetted(s, n.y > 0.5 ? wetness(position, width) : 0.0, n.y);
+    }
     if (TEXTURED == 1u) {
         s.albedo *= texture(base_texture, uv).rgb;
     }
@@ -469,10 +566,11 @@ void main() {
     // below zero.
     float sky_seen = clamp(light.x, 0.0, 1.0);
     // Thin clouds scatter some of the sun's light down.
-    vec3 clouds = 0.09 * scene.air.z * (0.5 + 0.5 * n.y) * scene.sun_color.rgb;
+    vec3 cloudy = 0.16 * scene.air.z * scene.sun_color.rgb;
+    vec3 clouds = (0.5 + 0.5 * n.y) * cloudy;
     vec3 sky = sky_seen * (sky_irradiance(n) + clouds);
     // Surrounding surfaces see about half of the sky themselves.
-    vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around.rgb, 0.0) * up;
+    vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around.rgb, 0.0) * (up + cloudy);
     for (int i = 0; SEA == WATER && i < wet; ++i) {
         sun *= sun_under(position, depth);
         sky *= sky_under(depth);
@@ -497,7 +595,7 @@ void main() {
     float lod = s.roughness * (log2(float(textureSize(environment, 0).x)) - 2.0);
     float f = 0.04 + (max(1.0 - s.roughness, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
     vec3 mirrored = reflect(-v, n);
-    vec3 seen = mix(c, textureLod(environment, mirrored, lod).rgb, sky_seen * sky_seen);
+    vec3 seen = mix(c, with_band(textureLod(environment, mirrored, lod).rgb, mirrored.y), sky_seen * sky_seen);
     // At grazing angles leaves and blades turn away and hide one another.
     float gloss = PATTERN == FOLIAGE || PATTERN == LAWN ? 0.2 : 1.0;
     c += gloss * f * (1.0 - 0.5 * s.roughness) * seen;

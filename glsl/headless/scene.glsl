@@ -3,7 +3,7 @@
 // Reads: the scene's block (src/headless/scene/mod.rs writes it).
 
 const float PI = 3.14159265;
-const int WAVES = 18;
+const int WAVES = 28;
 
 layout(set = 0, binding = 0, std140) uniform Scene {
     mat4 clip;          // world to clip space
@@ -18,10 +18,12 @@ layout(set = 0, binding = 0, std140) uniform Scene {
     vec4 ground;        // centre x and z, distances at which the ground begins and ends to fade into the sky
     vec4 air;           // 1 / length of the haze, 0: clear; metres per world unit for procedural surfaces;
                         // clouds and band over the horizon, 0 to 1
+    vec4 splashed;      // least x and z, greatest x and z of what splashes on the paving round it; least over greatest: none
     vec4 sea;           // level, length of the largest waves or of a plate of lava, unused, path of sunlight per metre of depth
     vec4 absorption;    // of water, 1/m; w: variance of the slopes of all waves
     vec4 scattering;    // of water, 1/m; w: fraction of the loop that has passed (lava)
     vec4 lava;          // radiance of the hottest parts; w: 1 if it loops
     vec4 flow;          // of lava: direction x and z; distance flown, and the same one loop before or after
     vec4 waves[WAVES];  // of water: wave number along x and z in rad/m, amplitude, phase
+    vec4 shifts[WAVES]; // of each wave: how it is shifted by unrest(), variance of the slopes from it on
 } scene;

@@ -1,6 +1,8 @@
 // The sea of pass `scene`: a level sheet of water or lava, found by the pixel's ray alone, so that no depth knows of it.
 // Its normal is of a sum of sines, each of which loses what the pixel's footprint cannot show; what is lost widens the
-// sun's glint and the mirror image (Cox and Munk 1954; Bruneton et al. 2010 for the mean of Fresnel's law).
+// sun's glint and the mirror image. Slopes are normally distributed (Cox and Munk 1954), and weighted by how much of a
+// facet the eye sees (Ross, Dion and Potvin 2005): in closed form their mean, towards which the environment is mirrored.
+// The mean of Fresnel's law is the fit of Bruneton, Neyret and Holzschuch 2010. Gusts make short waves higher in patches.
 // Light is absorbed and scattered along the ray as it goes on when bent, but what is seen lies where the ray goes on
 // straight; patterns alone waver with the waves. The sun's light gathers on the floor by how the waves bend a bundle of
 // it. Only the environment is mirrored.
@@ -13,6 +15,8 @@ layout(constant_id = 3) const uint SEA = 0;
 
 const float REFRACTION = 1.333;
 const float MIRRORED = 0.02037; // reflectance at normal incidence
+const float FINER = 0.2;           // variance of slopes of ripples too short for the sum of waves, over that of the sum
+const float CLOUDED = 0.256;       // mean opacity of the clouds of sky.frag
 const float WHITEWATER = 1.2;      // mean path of skylight per metre of depth under water
 
 // Whether the eye is above the sea; from below it is not drawn.
@@ -49,8 +53,8 @@ float shown(vec2 wave, Place place, float deviation) {
 }
 
 // A sum of few sines looks like a lattice. Slow sines, each displaced by those before, shift the phase of
-// each wave differently, which makes patches of rough and of smooth water.
-vec3 unrest(vec2 at) {
+// each wave differently.
+vec2 unrest(vec2 at) {
     vec2 q = at / scene.sea.y;
     vec2 way = vec2(0.94, 0.34);
     vec2 sum = vec2(0.0);
@@ -63,17 +67,35 @@ vec3 unrest(vec2 at) {
         number *= 2.3;
         height *= 0.62;
     }
-    float gust = sin(0.23 * q.x + 0.11 * q.y + 0.5 * sum.x) + sin(0.19 * q.y - 0.13 * q.x + 0.5 * sum.y);
-    return vec3(sum, 1.0 + 0.3 * gust);
+    return sum;
+}
+
+// By how much gusts make short waves steeper or flatter: patches of all sizes from many to few of the largest waves.
+// `width`: of the footprint, in lengths of the largest wave.
+float gusts(vec2 at, float width) {
+    vec2 q = at / scene.sea.y;
+    vec2 towards = scene.flow.xy;
+    // Along the wind they are drawn out.
+    q = vec2(0.55 * dot(q, towards), dot(q, vec2(-towards.y, towards.x)));
+    float sum = 0.0;
+    float frequency = 0.008;
+    float height = 0.9;
+    for (int i = 0; i < 6; ++i) {
+        float share = kept(width, frequency);
+        if (share <= 0.0) {
+            break;
+        }
+        sum += height * share * noise(q * frequency + float(i) * 17.3, 61);
+        frequency *= 2.6;
+        height *= 0.8;
+    }
+    return exp2(clamp(sum, -1.6, 1.1));
 }
 
 // Phase of a wave at a point.
-float phase(int i, vec2 at, vec3 unrest) {
+float phase(int i, vec2 at, vec2 unrest) {
     vec4 wave = scene.waves[i];
-    float turn = 2.1 * float(i);
-    // Short waves are shifted as much relative to their length.
-    float more = 1.0 + 0.5 * float(i);
-    return dot(wave.xy, at) + wave.w + more * (unrest.x * cos(turn) + unrest.y * sin(turn));
+    return dot(wave.xy, at) + wave.w + dot(scene.shifts[i].xy, unrest);
 }
 
 // The surface at a pixel: its ray and the intersection; the filtered slope; and the variance of the slopes
@@ -93,18 +115,22 @@ Surf surf() {
     s.slope = vec2(0.0);
     s.hidden = vec3(0.0);
     if (SEA == WATER) {
-        vec3 unrest = unrest(s.place.at);
-        // Waves shorter than the footprint's short axis are not visible.
+        vec2 unrest = unrest(s.place.at);
         vec3 square = vec3(dot(s.place.across, s.place.across), dot(s.place.down, s.place.down), dot(s.place.across, s.place.down));
         float least = max(0.5 * (square.x + square.y) - length(vec2(0.5 * (square.x - square.y), square.z)), 0.0);
+        float most = square.x + square.y - least;
+        float gust = gusts(s.place.at, 1.2 * sqrt(sqrt(least * most)) / scene.sea.y);
+        // Ripples too short for the sum.
+        s.hidden.xy += 0.5 * FINER * scene.absorption.w * gust * gust;
         for (int i = 0; i < WAVES; ++i) {
             vec4 wave = scene.waves[i];
+            // Waves shorter than the footprint's short axis are not visible.
             if (dot(wave.xy, wave.xy) * least > 30.0) {
-                s.hidden.xy += 0.5 * max(scene.absorption.w - s.hidden.x - s.hidden.y, 0.0);
+                s.hidden.xy += 0.5 * scene.shifts[i].z * gust * gust;
                 break;
             }
             float kept = shown(wave.xy, s.place, 0.7);
-            vec2 rise = wave.xy * wave.z * mix(1.0, unrest.z, min(0.25 * float(i), 1.0));
+            vec2 rise = wave.xy * wave.z * mix(1.0, gust, min(0.2 * float(i), 1.0));
             s.slope += rise * kept * cos(phase(i, s.place.at, unrest));
             s.hidden += 0.5 * (1.0 - kept * kept) * vec3(rise * rise, rise.x * rise.y);
         }
@@ -118,10 +144,11 @@ vec3 wobble(Surf s, float depth) {
     return vec3(aside.x, 0.0, aside.y);
 }
 
-// Transmittance of hazy air over a distance. Over the sea mostly molecules scatter, by the wavelength to the power of -4,
-// so blue light is lost first.
+// Transmittance of hazy air over a distance. Over the sea salt and smoke scatter more than the air itself, by the
+// wavelength to the power of -1.3 (atmosphere.glsl), so blue light is lost first.
 vec3 clear_air(float distant) {
-    vec3 rate = SEA == WATER ? vec3(0.60, 0.90, 2.1) : vec3(1.0);
+    // Not a choice between vectors: of such a specialization lavapipe 22.3 chooses the first component alone.
+    vec3 rate = mix(vec3(1.0), vec3(0.80, 1.0, 1.39), SEA == WATER ? 1.0 : 0.0);
     return exp(-distant * scene.air.x * rate);
 }
 
@@ -129,6 +156,17 @@ vec3 clear_air(float distant) {
 vec3 with_band(vec3 sky, float up) {
     vec3 bright = scene.sun_color.rgb * vec3(0.124, 0.144, 0.170);
     return mix(sky, max(bright, sky), min(scene.air.z, 1.0) * 0.8 * exp(-max(up, 0.0) / 0.07));
+}
+
+// Air over the sea is cleaner, and bluer than over land.
+vec3 over_the_sea(vec3 sky, float up) {
+    return sky * mix(vec3(1.0), vec3(0.68, 0.95, 1.30), scene.air.z * smoothstep(0.0, 0.2, up));
+}
+
+// Thin clouds before the sky, of which `thick` is opaque.
+vec3 with_clouds(vec3 sky, float up, float thick) {
+    vec3 lit = scene.sun_color.rgb * vec3(0.172, 0.185, 0.205);
+    return mix(sky, max(lit, sky), scene.air.z * 0.75 * thick * smoothstep(0.0, 0.05, up));
 }
 
 float fresnel(float cosine) {
@@ -156,7 +194,8 @@ float caustics(vec3 at, float depth) {
     // Where the sunlight that arrives here passed the surface.
     place.at = at.xz + depth * scene.sea.w / REFRACTION * scene.sun_direction.xz;
     float bent = depth * (1.0 - 1.0 / REFRACTION);
-    vec3 unrest = unrest(place.at);
+    vec2 unrest = unrest(place.at);
+    float gust = gusts(place.at, sqrt(length(place.across) * length(place.down)) / scene.sea.y);
     vec3 bend = vec3(0.0);
     float variance = 0.0;
     for (int i = 0; i < WAVES; ++i) {
@@ -168,7 +207,7 @@ float caustics(vec3 at, float depth) {
         // The shortest waves are faded out: the last few would look like a lattice.
         blurred *= 1.0 - smoothstep(0.4, 1.0, float(i) / float(WAVES));
         float kept = shown(wave.xy, place, 1.2) * blurred;
-        float part = bent * wave.z * kept * unrest.z;
+        float part = bent * wave.z * kept * gust;
         bend -= part * sin(phase(i, place.at, unrest)) * vec3(wave.xy * wave.xy, wave.x * wave.y);
         variance += 0.5 * part * part * square * square;
     }
@@ -186,16 +225,32 @@ vec3 sky_under(float depth) {
     return exp(-extinction() * depth * WHITEWATER);
 }
 
-// Reflected environment, from above the horizon.
-vec3 mirror(vec3 n, vec3 v, float variance) {
-    // Of the slopes too fine for the pixel, those towards the eye are more visible.
-    float lean = variance / max(v.y, 2.0 * sqrt(variance) + 1.0e-4);
-    n = normalize(n + lean * normalize(vec3(v.x, 1.0e-4, v.z)));
+// Mean slope of the facets that are seen from a direction, over that of the surface itself, and the variance of the
+// slopes along the line of sight. Of a normal distribution with the covariance C the facet of slope z is seen by
+// t + z·e, with t the tangent of the eye's height and e the level direction to it: the mean of z times that over the
+// mean of that is C e / s · F(a) / (a F(a) + f(a)), with s² = e·C e, a = t / s and F, f the normal distribution.
+vec3 seen_slope(vec3 hidden, vec3 n, vec3 v) {
+    vec2 e = normalize(v.xz + vec2(1.0e-6, 0.0));
+    vec2 spread = vec2(dot(hidden.xz, e), dot(hidden.zy, e));
+    float variance = dot(spread, e);
+    float s = sqrt(max(variance, 1.0e-12));
+    float sine = clamp(dot(n, v), 0.0, 1.0);
+    float a = min(sine / (sqrt(max(1.0 - sine * sine, 1.0e-6)) * s), 12.0);
+    // Page 1977.
+    float below = 0.5 + 0.5 * tanh(0.79788 * (a + 0.044715 * a * a * a));
+    float at = 0.39894 * exp(-0.5 * a * a);
+    return vec3(spread / s * below / (a * below + at), variance);
+}
+
+// Reflected environment, from above the horizon. Its clouds are blurred.
+vec3 mirror(vec3 n, vec3 v, vec3 seen) {
+    n = normalize(n / n.y + vec3(seen.x, 0.0, seen.y));
     vec3 r = reflect(-v, n);
     r.y = abs(r.y);
     float size = float(textureSize(environment, 0).x);
-    float lod = clamp(log2(1.3 * sqrt(variance) * size), 0.0, log2(size) - 3.0);
-    return with_band(textureLod(environment, r, lod).rgb, r.y);
+    float lod = clamp(log2(1.3 * sqrt(seen.z) * size), 0.0, log2(size) - 3.0);
+    vec3 sky = over_the_sea(textureLod(environment, r, lod).rgb, r.y);
+    return with_band(with_clouds(sky, r.y, CLOUDED), r.y);
 }
 
 // The sun's reflection in facets of all slopes (Cox and Munk 1954).
@@ -205,8 +260,8 @@ vec3 glint(vec2 slope, vec3 hidden, vec3 v) {
     if (l.y <= 0.0 || h.y <= 0.0) {
         return vec3(0.0);
     }
-    // The width of the disc, and ripples too small for the sum.
-    vec2 variance = hidden.xy + 4.0e-6 + 0.01 * scene.absorption.w;
+    // And the width of the disc.
+    vec2 variance = hidden.xy + 4.0e-6;
     vec2 off = -h.xz / h.y - slope;
     float determinant = variance.x * variance.y - hidden.z * hidden.z;
     float square = (variance.y * off.x * off.x + variance.x * off.y * off.y - 2.0 * hidden.z * off.x * off.y) / determinant;
@@ -220,8 +275,15 @@ vec3 glint(vec2 slope, vec3 hidden, vec3 v) {
 // Water over a surface `depth` below its own.
 vec3 water(vec3 under, float depth, Surf s) {
     vec3 v = -normalize(s.ray);
-    vec3 n = normalize(vec3(-s.slope.x, 1.0, -s.slope.y));
-    float variance = s.hidden.x + s.hidden.y;
+    // Slopes that turn away more than the line of sight rises are hidden by the crest before them.
+    vec2 e = normalize(v.xz + vec2(1.0e-6, 0.0));
+    float rises = v.y / max(length(v.xz), 1.0e-3);
+    float open = rises - dot(s.slope, e);
+    float least = 0.4 * rises;
+    float seen_open = open > least ? open : least * exp(open / least - 1.0);
+    vec2 slope = s.slope + e * (open - seen_open);
+    vec3 n = normalize(vec3(-slope.x, 1.0, -slope.y));
+    vec3 seen = seen_slope(s.hidden, n, v);
     // Cosine of the refracted ray, under a level surface.
     float down = sqrt(1.0 - (1.0 - v.y * v.y) / (REFRACTION * REFRACTION));
     float path = depth / down;
@@ -233,8 +295,8 @@ vec3 water(vec3 under, float depth, Surf s) {
     vec3 rate = lost * (1.0 + down * scene.sea.w);
     vec3 sum = (1.0 - exp(-rate * path)) / max(rate, 1.0e-9);
     vec3 c = under * exp(-lost * path) + scene.scattering.rgb * entering * scene.sea.w / (4.0 * PI) * sum;
-    float f = rough_fresnel(clamp(dot(n, v), 0.0, 1.0), variance);
-    return (1.0 - f) * c + f * mirror(n, v, variance) + glint(s.slope, s.hidden, v);
+    float f = rough_fresnel(clamp(dot(n, v), 0.0, 1.0), seen.z);
+    return (1.0 - f) * c + f * mirror(n, v, seen) + glint(s.slope, s.hidden, v);
 }
 
 // Centre of a plate: one per cell.

@@ -28,17 +28,14 @@ void main() {
     float width = 0.7 * max(length(dFdx(q)), length(dFdy(q)));
     int veiled = scene.air.z > 0.0 && d.y > 0.0 ? 1 : 0;
     for (int i = 0; i < veiled; ++i) {
-        // The air over the sea is clean: bluer than over land.
-        c *= mix(vec3(1.0), vec3(0.68, 0.95, 1.30), scene.air.z * smoothstep(0.0, 0.2, d.y));
+        c = over_the_sea(c, d.y);
         vec2 warp = vec2(octaves(vec3(q, 2.0), 0.35, 3, width), octaves(vec3(q, 9.0), 0.35, 3, width));
         // The wind stretches the clouds along its direction.
         vec2 along = vec2(0.28 * (q.x + 0.6 * q.y), q.y - 0.6 * q.x) + 1.5 * warp;
         float patchy = 0.5 + octaves(vec3(0.22 * q, 5.0), 0.6, 3, width);
         float fibres = 0.5 + octaves(vec3(along, 0.0), 0.55, 5, width);
         float thick = smoothstep(0.42, 1.0, 0.55 * fibres + 0.55 * patchy);
-        vec3 lit = scene.sun_color.rgb * vec3(0.172, 0.185, 0.205);
-        c = mix(c, max(lit, c), scene.air.z * 0.75 * thick * smoothstep(0.0, 0.05, d.y));
-        c = with_band(c, d.y);
+        c = with_band(with_clouds(c, d.y, thick), d.y);
     }
     // From the chord: acos of a cosine near 1 is imprecise in 32 bits.
     float angle = 2.0 * asin(min(0.5 * length(d - scene.sun_direction.xyz), 1.0));

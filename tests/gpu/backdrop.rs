@@ -143,6 +143,82 @@ fn clouds_brighten_the_sky_and_the_ground() {
     finish(headless);
 }
 
+/// Share of a disc that is on one side of a line so far from its middle, in radii.
+fn beyond(x: f32) -> f32 {
+    let x = x.clamp(-1.0, 1.0);
+    0.5 + (x * (1.0 - x * x).sqrt() + x.asin()) / std::f32::consts::PI
+}
+
+/// Behind thin clouds half of the sun's light comes from a glow, which makes shadows as much softer as what casts them is away.
+#[test]
+fn shadows_soften_with_the_distance_behind_clouds() {
+    let mut headless = headless(SIZE);
+    // No sky: what is left is the sun's, and what clouds scatter, which a plate over the floor hides in part.
+    headless.equirectangular(extent(8, 4), &[[0.0, 0.0, 0.0, 1.0]; 32], 1.0, 0.0).expect("dark");
+    let sun = SunLight { direction: [0.0, 1.0, 0.0], color: [3.0; 3] };
+    let sheet = |at: [f32; 3], half: [f32; 2]| Mesh::plane(at, half, matt());
+    let mut profile = |clouds: f32, high: f32, offset: f32| {
+        let meshes = vec![
+            sheet([0.0; 3], [3.0, 3.0]),
+            // Its edge lies along z, at x = 0.
+            sheet([-1.5, high, 0.0], [1.5, 3.0]),
+        ];
+        let scene = Scene { meshes, sun, clouds, ..Scene::default() };
+        let from = |x: f32| camera(Vec3::new(x + 0.5, 0.3, 0.0), Vec3::new(x, 0.0, 0.0));
+        // The pixel's centre is half a pixel off the axis: where that is on the floor.
+        let at = |middle: u32, size: u32| 2.0 * (middle as f32 + 0.5) / size as f32 - 1.0;
+        let [x, y] = [SIZE.width, SIZE.height].map(|size| at(size / 2, size));
+        let world = (from(0.0).projection_matrix() * from(0.0).view_matrix()).inverse();
+        let [near, far] = [0.9, 0.1].map(|depth| world.project_point3(Vec3::new(x, y, depth)));
+        let hit = near + (far - near) * (near.y / (near.y - far.y));
+        let (picture, _) = shot(&mut headless, &scene, &from(offset - hit.x));
+        picture[(SIZE.height / 2 * SIZE.width + SIZE.width / 2) as usize][0]
+    };
+    for high in [0.4_f32, 0.7] {
+        let radius = 0.0436 * high;
+        // The disc of the sun alone: a step, as wide as the filter of the map, whose texels are 3 mm.
+        let [dark, lit] = [-0.6, 0.6].map(|x| profile(0.0, high, x * radius));
+        assert!(dark < 0.01 * lit, "{dark} {lit}");
+        let [dark, lit] = [-1.3, 1.3].map(|x| profile(1.0, high, x * radius));
+        for x in [-0.6_f32, 0.6] {
+            let found = (profile(1.0, high, x * radius) - dark) / (lit - dark);
+            let core = if x > 0.0 { 0.5 } else { 0.0 };
+            let expected = core + 0.5 * beyond(x);
+            // One of sixteen places of half of the light, filtered over a texel, of which a radius is five.
+            let most = 0.5 / 16.0 + 0.5 * 0.5 / 5.0 * 2.0 / std::f32::consts::PI;
+            assert!((found - expected).abs() < most, "{high} {x}: {found} {expected}");
+        }
+    }
+    finish(headless);
+}
+
+/// Paving round what splashes is damp in patches, no darker than stone under a film of water, and dry beyond.
+#[test]
+fn splashed_paving_is_damp_near_by_and_dry_beyond() {
+    let mut headless = headless(SIZE);
+    under_a_grey_sky(&mut headless);
+    let paving = Material { pattern: Pattern::Paving { size: 0.4 }, ..matt() };
+    let mut seen = |splashed: Option<[[f32; 2]; 2]>, x: f32| {
+        let mesh = Mesh::plane([0.0; 3], [9.0, 9.0], paving.clone());
+        let scene = Scene { meshes: vec![mesh], splashed, ..Scene::default() };
+        let down = camera(Vec3::new(x, 1.5, 0.01), Vec3::new(x, 0.0, 0.0));
+        shot(&mut headless, &scene, &down).0
+    };
+    let basin = Some([[-1.0, -1.0], [1.0, 1.0]]);
+    let mean = |picture: &[[f32; 4]]| picture.iter().map(|c| c[1]).sum::<f32>();
+    let (dry, damp) = (seen(None, 1.4), seen(basin, 1.4));
+    let share = mean(&damp) / mean(&dry);
+    // Of an albedo of a half or less a film leaves 0.49 / (1 - 0.235), less at lower ones.
+    assert!((0.5..0.97).contains(&share), "{share}");
+    assert!(dry.iter().zip(&damp).any(|(a, b)| a == b), "not everywhere");
+    // Three metres beyond and the picture's half.
+    assert_eq!(seen(None, 6.0), seen(basin, 6.0));
+    let scene = Scene { splashed: Some([[0.0, f32::NAN], [1.0, 1.0]]), ..Scene::default() };
+    let error = headless.scene(&scene, false).expect_err("no place");
+    assert!(matches!(error, Error::BadInput { field: "Scene.splashed", .. }), "{error}");
+    finish(headless);
+}
+
 /// A roof of the backdrop keeps the sun from the backdrop, and from nothing else.
 #[test]
 fn a_backdrop_shades_itself_alone() {

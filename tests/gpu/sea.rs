@@ -130,6 +130,104 @@ fn water_absorbs_and_scatters_as_a_closed_form_says() {
     finish(headless);
 }
 
+/// Steepness of the longest wave and of each shorter one over the next longer: of 28 waves, and a fifth as much again for
+/// those that are shorter.
+fn variance_of_slopes(sea: &Sea) -> f64 {
+    let steepest = f64::from(PI * sea.waves / sea.length);
+    let each = (0..28).map(|i| 0.5 * (steepest * 0.93_f64.powi(i)).powi(2));
+    1.2 * each.sum::<f64>()
+}
+
+/// The mean reflected direction's height and the share of the light of a rough level sea that is mirrored, seen from a height whose
+/// sine is this; `variance`: of the slopes along one direction. The mean is over all facets, as much as each is seen of.
+fn mirrored_by(sine: f64, variance: f64) -> (f64, f64) {
+    let (deviation, tangent) = (variance.sqrt(), sine / (1.0 - sine * sine).sqrt());
+    let (mut sum, mut all) = (0.0, 0.0);
+    for i in -4000..=4000 {
+        let slope = 5.0 * deviation * f64::from(i) / 4000.0;
+        let seen = (tangent + slope).max(0.0) * (-0.5 * (slope / deviation).powi(2)).exp();
+        sum += slope * seen;
+        all += seen;
+    }
+    // The normal's tilt towards the eye; the ray is mirrored at it.
+    let tilt = (sum / all).atan();
+    let up = (2.0 * tilt + sine.asin()).sin();
+    let grazing = (1.0 - sine).powf(5.0 * (-2.69 * deviation).exp());
+    let mirrored = 0.02037 + (1.0 - 0.02037) * grazing / (1.0 + 22.7 * deviation.powf(1.5));
+    (up, mirrored)
+}
+
+/// A black sea, too far away for its waves to be seen one by one, mirrors a sky that is brighter the higher it is as its facets do
+/// that are seen; hazy air hides it by Beer's law, and at the horizon it is the sky.
+#[test]
+fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
+    let mut headless = headless(SIZE);
+    // Radiance 0.2 + 0.6 y, 0.2 below the horizon.
+    let (width, height) = (256, 128);
+    let sky: Vec<[f32; 4]> = (0..width * height)
+        .map(|i| {
+            let up = (PI * ((i / width) as f32 + 0.5) / height as f32).cos();
+            let c = 0.2 + 0.6 * up.max(0.0);
+            [c, c, c, 1.0]
+        })
+        .collect();
+    headless.equirectangular(extent(width, height), &sky, 1.0, 0.0).expect("environment");
+    // Far aside, so that clear air is clear: by the scene's size.
+    let aside = Mesh::plane([4.0e6, -1.0, 0.0], [1.0e6, 1.0e6], Material::default());
+    // The longest waves are so short that a pixel holds many, and gusts even out.
+    let sea = Sea {
+        absorption: [1.0e3; 3],
+        scattering: [0.0; 3],
+        waves: 0.001,
+        length: 0.05,
+        ..Sea::default()
+    };
+    let variance = 0.5 * variance_of_slopes(&sea);
+    assert!((0.008..0.02).contains(&variance), "as of a breeze: {variance}");
+    let clear = Scene {
+        meshes: vec![aside],
+        sun: SunLight { direction: [0.0, 1.0, 0.0], color: [0.0; 3] },
+        sea: Some(sea),
+        ..Scene::default()
+    };
+    let eye = 40.0_f32;
+    let level = camera([0.0, eye, 0.0], [0.0, eye, -1.0], [0.0, 1.0, 0.0], Lens::ReversedInfinite);
+    let (far, _) = shot(&mut headless, &clear, &level, false);
+    let length = 900.0;
+    let hazy = Scene { haze: Some(length), ..clear };
+    let (hazed, _) = shot(&mut headless, &hazy, &level, false);
+    // What is seen through so much haze that there is nothing else.
+    let (air, _) = shot(&mut headless, &Scene { haze: Some(0.1), ..hazy }, &level, false);
+    let to_world = (level.projection_matrix() * level.view_matrix()).inverse();
+    for y in SIZE.height / 2..SIZE.height {
+        let x = SIZE.width / 2;
+        let ndc = |at: u32, size: u32| 2.0 * (at as f32 + 0.5) / size as f32 - 1.0;
+        let near =
+            to_world.project_point3(glam::vec3(ndc(x, SIZE.width), ndc(y, SIZE.height), 0.5));
+        let ray = (near - glam::Vec3::Y * eye).normalize();
+        let (up, mirrored) = mirrored_by(f64::from(-ray.y), variance);
+        let expected = mirrored * (0.2 + 0.6 * up);
+        let i = (y * SIZE.width + x) as usize;
+        let found = f64::from(far[i][1]);
+        // The environment's texels of a degree and its mips; Page's fit of the normal distribution to 2e-4.
+        assert!((found / expected - 1.0).abs() < 0.03, "row {y}: {found}, not {expected}");
+        // What is left of it through haze, by the colour.
+        let away = eye / -ray.y * (1.0 - ray.y * ray.y).sqrt();
+        for (c, rate) in [0.80, 1.0, 1.39].into_iter().enumerate() {
+            let kept = (-rate * away / length).exp();
+            let expected = air[i][c] + kept * (far[i][c] - air[i][c]);
+            // Half floats below 1 are stored, of all three.
+            let (hazed, most) = (hazed[i][c], 3.0 * 2.0_f32.powi(-12));
+            assert!((hazed - expected).abs() < most, "row {y}: {hazed}, not {expected}");
+        }
+    }
+    // Towards the horizon the air is that of the sky there; a pixel is 2.8 degrees high.
+    let i = (SIZE.height / 2 * SIZE.width + SIZE.width / 2) as usize;
+    let sky = air[i - SIZE.width as usize][1];
+    assert!((air[i][1] - sky).abs() < 0.1, "{} {sky}", air[i][1]);
+    finish(headless);
+}
+
 /// A wall that stands over the sea and fills the picture, and an eye under water: as without a sea.
 #[test]
 fn what_is_not_seen_through_a_sea_is_as_it_was() {

@@ -16,7 +16,7 @@ pub struct Vertex {
     pub position: [f32; 3],
     pub normal: [f32; 3],
     pub uv: [f32; 2],
-    /// x: visible fraction of the sky. yzw: irradiance of sunlight after one bounce, divided by the sun's.
+    /// x: visible fraction of the sky. yzw: irradiance of sunlight after one bounce and two, divided by the sun's.
     pub light: [f32; 4],
     /// Mean albedo of the surfaces seen over the hemisphere, counting the sky as 0.
     pub around: [f32; 3],

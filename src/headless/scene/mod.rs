@@ -52,6 +52,9 @@ pub struct Scene {
     /// sky: [0, 1], default 0. The [`sea`](Self::sea) reflects the band. Reflections in the particles' water and the
     /// lighting ignore all of them.
     pub clouds: f32,
+    /// Rectangle of a basin, from the least x and z to the greatest, whose water has splashed: stone and
+    /// paving round it are damp in patches. `None`, the default: all is dry.
+    pub splashed: Option<[[f32; 2]; 2]>,
     /// World units per metre for procedural surfaces, whose grain is metric, (0, ∞). `None`, the default: 1.
     pub metre: Option<f32>,
 }

@@ -8,9 +8,9 @@ use super::Scene;
 use crate::error::Error;
 
 /// Number of waves that are summed.
-pub(super) const WAVES: usize = 18;
+pub(super) const WAVES: usize = 28;
 /// Ratio of a wave's length to that of the next longer wave.
-const SHORTER: f64 = 0.79;
+const SHORTER: f64 = 0.85;
 /// Ratio of a wave's steepness to that of the next longer wave.
 const FLATTER: f64 = 0.93;
 /// Metres per second squared.
@@ -145,6 +145,17 @@ impl Sea {
             let phase = (2.4 * n * n + 1.7 * n - rate * time).rem_euclid(TAU);
             let height = steepest * FLATTER.powf(n) / number;
             [wave.x as f32, wave.y as f32, height as f32, phase as f32]
+        })
+    }
+
+    /// Of each wave: by how much the two parts of `unrest` in `sea.glsl` shift its phase, short ones as much relative to
+    /// their length; variance of the slopes of it and all shorter ones.
+    pub(super) fn shifts_of(waves: &[[f32; 4]; WAVES]) -> [[f32; 4]; WAVES] {
+        std::array::from_fn(|i| {
+            let (more, turn) = (1.0 + 0.35 * i as f32, 2.1 * i as f32);
+            let square = |[x, z, height, _]: &[f32; 4]| 0.5 * (x * x + z * z) * height * height;
+            let rest = waves[i..].iter().map(square).sum();
+            [more * turn.cos(), more * turn.sin(), rest, 0.0]
         })
     }
 

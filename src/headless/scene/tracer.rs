@@ -1,5 +1,5 @@
-//! Bakes indirect light by rays from each vertex: visibility of the sky, sunlight after one bounce off
-//! another surface, and the albedo of the surroundings. Deterministic: every vertex uses the same directions.
+//! Bakes indirect light by rays from each vertex: visibility of the sky, sunlight after one bounce and two off
+//! other surfaces, and the albedo of the surroundings. Deterministic: every vertex uses the same directions.
 
 use std::collections::HashMap;
 
@@ -235,6 +235,12 @@ impl Tracer {
         }
     }
 
+    /// The sun's irradiance at a point of a surface over that on what faces the sun.
+    fn sunny(&self, at: Vec3, normal: Vec3) -> f32 {
+        let cosine = normal.dot(self.sun);
+        if cosine > 0.0 && self.trace(at, self.sun, true).is_none() { cosine } else { 0.0 }
+    }
+
     fn light_vertex(&self, vertex: &mut Vertex, is_mesh: bool) -> bool {
         let normal = Vec3::from(vertex.normal);
         let from = vertex.at() + normal * self.lift;
@@ -243,7 +249,7 @@ impl Tracer {
         let is_sky = |d: Vec3| self.ground.is_none() || d.y > 0.0;
         let (mut sky, mut seen, mut rays, mut inside) = (0.0_f32, 0.0_f32, 0.0_f32, 0);
         let (mut bounced, mut around) = (Vec3::ZERO, Vec3::ZERO);
-        for &direction in &self.directions {
+        for (i, &direction) in self.directions.iter().enumerate() {
             let d = frame * direction;
             let hit = self.trace(from, d, false);
             if hit.as_ref().is_some_and(|hit| hit.inside) {
@@ -256,11 +262,17 @@ impl Tracer {
                 None => seen += f32::from(is_sky(d)),
                 Some(hit) => {
                     around += hit.albedo;
-                    let lit = hit.normal.dot(self.sun);
                     let at = from + d * hit.distance + hit.normal * self.lift;
-                    if lit > 0.0 && self.trace(at, self.sun, true).is_none() {
-                        bounced += hit.albedo * lit;
+                    let mut light = Vec3::splat(self.sunny(at, hit.normal));
+                    // One ray for the second bounce, another for each of the first: the wall over its own shadow is
+                    // lit by the ground beyond it.
+                    let turn = Quat::from_rotation_arc(Vec3::Z, hit.normal);
+                    let d = turn * self.directions[(29 * i + 13) % self.directions.len()];
+                    if let Some(next) = self.trace(at, d, false).filter(|next| !next.inside) {
+                        let at = at + d * next.distance + next.normal * self.lift;
+                        light += next.albedo * self.sunny(at, next.normal);
                     }
+                    bounced += hit.albedo * light;
                 }
             }
         }
@@ -453,5 +465,28 @@ mod tests {
         assert!(tracer.light_vertex(&mut side, true));
         assert!((side.light[1] - 0.6 * 0.5).abs() < 0.02, "{:?}", side.light);
         assert!((side.light[0] - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn sunlight_bounces_twice() {
+        // Sun overhead, along a very wide and high wall, which the ground lights: half of what the wall sees. It is half of what
+        // the ground at its foot sees.
+        let wall = Mesh::cuboid(
+            [0.0, 500.0, -1.0],
+            [1000.0, 500.0, 1.0],
+            [0.0, 0.0, 0.0, 1.0],
+            Material::default(),
+        );
+        let mut scene = scene(vec![wall]);
+        scene.sun.direction = [0.0, 1.0, 0.0];
+        let tracer = Tracer::new(&scene, 1.0);
+        let mut foot =
+            Vertex { position: [0.0, 0.0, 0.01], normal: [0.0, 1.0, 0.0], ..Vertex::default() };
+        assert!(tracer.light_vertex(&mut foot, false));
+        // Each ray to the wall draws one of 64 to the ground or not: four standard deviations of 32 of them.
+        let expected = 0.6 * 0.6 * 0.5 * 0.5;
+        let deviation = 0.6 * 0.6 * (32.0_f32 * 0.25).sqrt() / 64.0;
+        assert!((foot.light[1] - expected).abs() < 4.0 * deviation, "{:?}", foot.light);
+        assert!(foot.light[1] > 0.5 * expected, "{:?}", foot.light);
     }
 }

@@ -163,15 +163,16 @@ fn terrace(scene: &mut Scene, place: &Place) {
         b.push("headland", headland([from, to], way, away, height, seed, land.clone()));
     }
     scene.backdrop.append(&mut b.meshes);
-    scene.haze = Some(4200.0 * m);
+    scene.haze = Some(2600.0 * m);
     scene.clouds = 1.0;
     let calm = Sea::default();
     scene.sea = Some(Sea {
         level: b.middle.y - CLIFF * m,
-        absorption: calm.absorption.map(|a| a / m),
-        scattering: calm.scattering.map(|s| s / m),
-        waves: 0.05 * m,
-        length: 3.0 * m,
+        // Less clear than far from land: greener, and lighter.
+        absorption: [0.42, 0.070, 0.045].map(|a: f32| a / m),
+        scattering: [0.004, 0.014, 0.015].map(|s: f32| s / m),
+        waves: 0.15 * m,
+        length: 9.0 * m,
         // Across the line of sight: crests along it, not in lines from side to side.
         towards: Vec2::from_angle(1.0).rotate(sight).to_array(),
         ..calm

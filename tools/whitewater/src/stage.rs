@@ -25,7 +25,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
     match set {
         // The tiles are blue, so that shallow and deep water have one colour.
         SetArg::Pool | SetArg::None => [
-            of([0.175, 0.16, 0.145], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
+            of([0.195, 0.179, 0.16], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
             of([0.29, 0.43, 0.48], 0.22, tiles(36.0)),
             of([0.40, 0.365, 0.305], 0.85, Pattern::Blocks { course: 0.036 * longest }),
         ],
@@ -208,8 +208,8 @@ pub fn basin_round(
     );
     let middle = 0.5 * (low + high);
     let paved = set == SetArg::Pool;
-    let (coping, damp) = match paved {
-        true => (slabs([0.47, 0.435, 0.375], 0.8), slabs([0.125, 0.117, 0.105], 0.55)),
+    let (coping, edging) = match paved {
+        true => (slabs([0.47, 0.435, 0.375], 0.8), slabs([0.245, 0.227, 0.2], 0.8)),
         false => (stone.clone(), stone.clone()),
     };
     // Faces that other objects hide are left out, because the lighting of each vertex takes rays.
@@ -278,12 +278,13 @@ pub fn basin_round(
             meshes.push(mesh);
         }
         if paved {
-            // A course of darker, damp stones in the paving, along the foot.
+            // A course of stones in the paving, along the foot.
             let course = outer + side.sign * 0.055 * wide;
             let (from, mut to) = wall(outer, course, floor, thick + 0.055 * wide);
             to.y = floor + 0.0002 * wide;
             let stones = (from, to);
-            for mut mesh in masonry::row(stones, across, 0.1 * wide, 0.01 * slab, &damp, 40 + seed)
+            for mut mesh in
+                masonry::row(stones, across, 0.1 * wide, 0.01 * slab, &edging, 40 + seed)
             {
                 mesh.name = "basin foot".into();
                 meshes.push(mesh);
@@ -353,6 +354,11 @@ pub fn basin_round(
         };
         let back = sides.iter().map(beyond).fold(4.0 * spacing, f32::max);
         scene.meshes.extend(spout.meshes(spacing, floor - 2.0 * sheet, back, &stone));
+    }
+    if paved {
+        let out = Vec2::splat(thick);
+        let (low, high) = (Vec2::new(low.x, low.z) - out, Vec2::new(high.x, high.z) + out);
+        scene.splashed = Some([low.to_array(), high.to_array()]);
     }
     let place = Place {
         middle: Vec3::new(middle.x, floor, middle.z),

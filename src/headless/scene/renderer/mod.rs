@@ -105,14 +105,14 @@ struct Recording<'a> {
     /// The whole frame.
     area: vk::Rect2D,
     /// All but the texture.
-    resources: [(u32, Resource); 5],
+    resources: [(u32, Resource); 6],
 }
 
 impl Recording<'_> {
     /// Everything that a shader of the scene may read.
-    fn resources(&self, texture: usize) -> [(u32, Resource); 6] {
-        let [a, b, c, d, e] = self.resources;
-        [a, b, c, d, (4, self.textures.resource(texture)), e]
+    fn resources(&self, texture: usize) -> [(u32, Resource); 7] {
+        let [a, b, c, d, e, f] = self.resources;
+        [a, b, c, d, (4, self.textures.resource(texture)), e, f]
     }
 }
 
@@ -256,6 +256,7 @@ impl SceneRenderer {
                 ),
                 (3, self.irradiance.resource()),
                 (5, Resource::Sampled(frame.environment, frame.sampler)),
+                (6, self.shadow.depths()),
             ],
         };
         gpu.begin_label(cmd, c"scene");

@@ -30,6 +30,7 @@ pub struct Sea {
     lava: [f32; 4],
     flow: [f32; 4],
     waves: [[f32; 4]; WAVES],
+    shifts: [[f32; 4]; WAVES],
 }
 
 /// Offset of a member in the block.
@@ -43,7 +44,8 @@ const _: () = assert!(
         && std::mem::offset_of!(Sea, scattering) == offset("scattering")
         && std::mem::offset_of!(Sea, lava) == offset("lava")
         && std::mem::offset_of!(Sea, flow) == offset("flow")
-        && std::mem::offset_of!(Sea, waves) == offset("waves"),
+        && std::mem::offset_of!(Sea, waves) == offset("waves")
+        && std::mem::offset_of!(Sea, shifts) == offset("shifts"),
     "the sea's part of the block differs from the shader's"
 );
 
@@ -56,8 +58,8 @@ impl Sea {
         let Some(sea) = scene.checked_sea()? else { return Ok(Self::zeroed()) };
         let Described { level, absorption: [ar, ag, ab], scattering: [sr, sg, sb], .. } = *sea;
         let waves = sea.waves_at(scene.time);
-        let variance =
-            waves.iter().map(|[x, z, height, _]| 0.5 * (x * x + z * z) * height * height).sum();
+        let shifts = Described::shifts_of(&waves);
+        let variance = shifts[0][2];
         let radiance = match sea.liquid {
             Liquid::Water => [0.0; 3],
             Liquid::Lava { radiance, .. } => radiance,
@@ -76,6 +78,7 @@ impl Sea {
             lava: Vec3::from(radiance).extend(loops).to_array(),
             flow: [x, z, drift, before],
             waves,
+            shifts,
         })
     }
 }

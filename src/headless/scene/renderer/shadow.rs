@@ -26,6 +26,8 @@ const BIAS: f32 = 1.5;
 pub struct Shadow {
     map: Image,
     sampler: Owned<vk::Sampler>,
+    /// Without comparison.
+    reader: Owned<vk::Sampler>,
     pass: vk::RenderPass,
     framebuffer: Owned<vk::Framebuffer>,
     pipeline: DepthOnly,
@@ -66,6 +68,7 @@ impl Shadow {
         let pass = gpu.render_pass("scene/shadow", &attachments)?;
         Ok(Self {
             sampler: gpu.sampler("scene/shadow", &info)?,
+            reader: gpu.sampler("scene/shadow depths", &vk::SamplerCreateInfo::default())?,
             framebuffer: gpu.framebuffer("scene/shadow", pass, map.view, map.extent)?,
             pipeline: DepthOnly::new(gpu, pass, BIAS)?,
             sun: SunView::new(scene, direction),
@@ -105,6 +108,11 @@ impl Shadow {
 
     pub fn resource(&self) -> Resource {
         Resource::Sampled(self.map.view, self.sampler.handle)
+    }
+
+    /// Its depths, texel by texel.
+    pub fn depths(&self) -> Resource {
+        Resource::Sampled(self.map.view, self.reader.handle)
     }
 }
 

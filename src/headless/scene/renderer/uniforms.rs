@@ -35,6 +35,7 @@ pub struct Uniforms {
     shadow_texel: [f32; 4],
     ground: [f32; 4],
     air: [f32; 4],
+    splashed: [f32; 4],
     sea: Sea,
 }
 
@@ -53,6 +54,7 @@ shader::assert_layout!(
         shadow_texel,
         ground,
         air,
+        splashed,
         sea
     }
 );
@@ -68,6 +70,7 @@ pub struct Surroundings {
     air: [f32; 4],
     /// Centre x and z of the ground, and the distances at which it begins and ends to fade.
     fade: [f32; 4],
+    splashed: [f32; 4],
     sea: Sea,
 }
 
@@ -91,6 +94,14 @@ impl Surroundings {
             let why = format!("expected 0 to 1, found {}", scene.clouds);
             return Err(Error::bad("Scene.clouds", why));
         }
+        let splashed =
+            scene.splashed.map_or([1.0, 1.0, -1.0, -1.0], |[[a, b], [c, d]]| [a, b, c, d]);
+        if !splashed.iter().all(|v| v.is_finite()) {
+            return Err(Error::bad(
+                "Scene.splashed",
+                format!("expected finite places, found {splashed:?}"),
+            ));
+        }
         let (low, high) = scene.bounds();
         let (centre, size) = (0.5 * (low + high), (high - low).length());
         let [begin, end] = GROUND_FADE;
@@ -101,6 +112,7 @@ impl Surroundings {
             backdrop: !scene.backdrop.is_empty(),
             air: [scene.haze.map_or(0.0, f32::recip), scene.metres_per_unit(), scene.clouds, 0.0],
             fade: [centre.x, centre.z, begin * size, end * size],
+            splashed,
             sea: Sea::new(scene, to_sun)?,
         })
     }
@@ -125,7 +137,8 @@ impl Uniforms {
         far: f32,
         extent: vk::Extent2D,
     ) -> Self {
-        let Surroundings { to_sun, sun_color, ground, backdrop, air, fade, sea } = *surroundings;
+        let Surroundings { to_sun, sun_color, ground, backdrop, air, fade, splashed, sea } =
+            *surroundings;
         let world = lens.view.inverse();
         let turn = |v: Vec3, w: f32| world.transform_vector3(v).extend(w).to_array();
         let p = lens.p;
@@ -147,6 +160,7 @@ impl Uniforms {
             shadow_texel: [texel, texel, sun.texel, ground.unwrap_or(NO_GROUND)],
             ground: fade,
             air,
+            splashed,
             sea,
         }
     }
