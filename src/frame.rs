@@ -194,7 +194,8 @@ pub fn reduced(extent: vk::Extent2D, level: u32) -> vk::Extent2D {
 /// A decomposed perspective projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Eye space looks down −z with this view (a +z host's view is mirrored).
+    /// World to eye space, which looks down −z. If the host's eye space looks down +z, this is the host's view with z
+    /// mirrored.
     pub view: Mat4,
     /// P₀₀, P₁₁, P₂₀, P₂₁: `ndc.xy = P₀₀₁₁·slope − P₂₀₂₁` with slope = xy / eye depth.
     pub p: Vec4,
@@ -525,7 +526,7 @@ struct Since {
 }
 
 impl Since {
-    /// Zero change if there is no previous frame. Its camera is already checked.
+    /// The changes are 0 if there is no previous frame. The previous frame's camera is already checked.
     fn new(lens: &Lens, frame: &Frame<'_>) -> Self {
         let before = frame.previous.and_then(|p| Some((Lens::new(&p.camera).ok()?, p.dt)));
         let (then, dt) = before.unwrap_or((*lens, 0.0));
@@ -565,8 +566,8 @@ fn falloff_mean(n: f32, m: f32) -> f32 {
     (sum / f64::from(steps)) as f32
 }
 
-/// The sun's irradiance on a surface that faces it, divided by 2π: from that of level ground, if the sun is not
-/// too low.
+/// The sun's irradiance on a surface that faces it, divided by 2π. It is found from the irradiance of level ground; for
+/// a sun lower than a sine of 0.1, as if the sine were 0.1.
 pub fn sun_on(settings: &Settings) -> [f32; 4] {
     let light = &settings.light;
     let height = settings.upward().dot(light.toward()).max(0.1);
@@ -574,7 +575,7 @@ pub fn sun_on(settings: &Settings) -> [f32; 4] {
     light_vector([part(0), part(1), part(2)].map(|e| e * 0.5 * std::f32::consts::FRAC_1_PI))
 }
 
-/// The two level axes for an up direction: x and z for y.
+/// The two level axes for an up direction; for +y they are x and z.
 pub fn level_axes(up: Vec3) -> [Vec3; 2] {
     let first = if up.x.abs() < 0.9 { Vec3::X } else { Vec3::Y };
     let east = (first - up * up.dot(first)).normalize();
@@ -645,7 +646,7 @@ fn pattern_phases(look: &SurfaceFoamSettings) -> ([f32; 2], [f32; 2], [f32; 2]) 
     let [one, other] = [0.0, 0.5].map(|late| {
         let at = cycles + late;
         let carried = 2.0 * (at - at.floor()) - 1.0;
-        // Origins far apart in the noise, for successive periods of one phase and for both phases.
+        // The origins are far apart in the noise for successive periods of a phase, and for the two phases.
         let began = 2.0 * at.floor() + if late > 0.0 { 1.0 } else { 0.0 };
         (1.0 - carried.abs(), carried, (17.0 * began).rem_euclid(256.0))
     });
@@ -677,8 +678,8 @@ fn index(water: &WaterSettings) -> f32 {
     }
 }
 
-/// Share of uniform sky light that the surface transmits. The mean of Schlick's reflectance is F0 + (1 -
-/// F0)/21, of the thesis' form bias + 2 scale/((p + 1)(p + 2)).
+/// Share of uniform sky light that the surface transmits. The mean of Schlick's reflectance is F0 + (1 - F0)/21. The
+/// mean of the thesis' form is bias + 2 scale/((p + 1)(p + 2)).
 fn comes_in(water: &WaterSettings) -> f32 {
     let mean = match water.fresnel {
         Fresnel::Schlick { f0 } => f0 + (1.0 - f0) / 21.0,
@@ -721,9 +722,10 @@ fn light_vector(c: [f32; 3]) -> [f32; 4] {
     [c[0], c[1], c[2], 0.0]
 }
 
-/// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders know absorption, single scattering and its light.
-/// A turbid medium is passed as one that only scatters, in its own light. The last component of `medium_b` is
-/// then the share of light that is scattered, which depends on the sun and the slope of the surface.
+/// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders know absorption, single scattering and the light that is
+/// scattered. A turbid medium is passed as a medium that only scatters, with its own radiance as that light. The last
+/// component of `medium_b` is then the scattered share of that radiance, which depends on the sun and the slope of the
+/// surface; the rest is emission.
 fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]) {
     match water.medium {
         Medium::Physical { absorption: a, scattering: s } => {
@@ -746,8 +748,8 @@ fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]
     }
 }
 
-/// Diffuse reflectance of a half space with this absorption and scattering per metre (van de Hulst 1980), below
-/// a surface that transmits the share `leaves`; without the surface's own reflection.
+/// Diffuse reflectance of a half space with this absorption and scattering per metre (van de Hulst 1980), below a
+/// surface that lets the share `leaves` of the light out. The surface's own reflection is not included.
 fn reflectance(absorption: f32, scattering: f32, leaves: f32) -> f32 {
     let extinction = absorption + scattering;
     if extinction <= 0.0 {

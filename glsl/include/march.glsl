@@ -1,7 +1,7 @@
 // Screen-space ray march against the scene's depth (McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing";
-// not in the thesis). Differs: steps grow by a constant factor, from a fraction of the picture's height to where the
-// ray leaves the view; a secant step at the end. There is no absolute length: steps are fractions of the picture, and
-// the assumed thickness of the scene is a step of the ray plus a fraction of the depth.
+// not in the thesis). Unlike there, steps grow by a constant factor, from a fraction of the picture's height to where
+// the ray leaves the view, and a secant step follows at the end. There is no absolute length: steps are fractions of
+// the picture, and the assumed thickness of the scene is two steps of the ray in depth plus a fraction of the depth.
 // Needs frame.glsl. Reads: scene depth (the includer's).
 
 struct Met {
@@ -9,13 +9,13 @@ struct Met {
     float share; // visible fraction: 0 for no hit, fading near the view's edge
 };
 
-// First step in heights of the picture, and length of a ray in multiples of its depth. A ray towards the eye
-// ends before it.
+// Length of the first step in heights of the picture, and length of a ray in multiples of the depth at its start. A ray
+// towards the eye ends at the latest after three quarters of the way to the eye's plane.
 const float MARCH_FIRST = 1.0 / 128.0;
 const float MARCH_FAR = 64.0;
-// How far behind the scene's front a ray still hits it: this many of its steps in depth, plus this fraction
-// of the depth. Checked for the whole step and again for its last part, because an object before the ray
-// alone does not come nearer to it.
+// How far behind the scene's front a ray still hits the scene: the change of the ray's depth in a step times
+// MARCH_STEEP, plus the scene's depth times MARCH_DEEP. This is checked for the whole step and again for its last part:
+// if the object only lies before the ray, the distance between them does not shrink with the step.
 const float MARCH_STEEP = 2.0;
 const float MARCH_DEEP = 1.0 / 32.0;
 // Bisections of the step that hits.

@@ -158,9 +158,10 @@ vec2 bent(vec2 offset) {
     return offset * inversesqrt(1.0 + dot(share, share));
 }
 
-// Scene colour behind the water at an offset in pixels; never that of an object in front of the water. If the
-// offset reaches such an object or the edge of the view, only half of the free part is used. Without an
-// offset there would be a seam; with all of the free part, what lies at the edge would smear.
+// Scene colour behind the water at an offset in pixels; never that of an object in front of the water. If such an
+// object or the edge of the view lies within twice the offset, the offset is shortened to half of the free length
+// before it. So the offset shrinks gradually towards an obstacle. An offset that dropped to 0 there would leave a seam,
+// and the whole free length would lead all pixels nearby to the obstacle's edge and smear it.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
     float far = length(offset);
     // In units of the offset: the farthest point known to be free, and the nearest known to be blocked.
@@ -274,7 +275,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     float lens = frame.surface.x * mix(min(t, 2.0 * frame.particle.y), t, surface.found);
     sheet.offset = -n.xy * sign(frame.projection.xy) * lens / (frame.texel.xy * surface.z);
 
-    // Thin films at the rim of a drop have no reflection and no highlight, which would outline every drop.
+    // Reflection and highlight fade out where the water is thin, because at the rims of drops they would outline every
+    // drop.
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 to = reflect(-v, n);
     vec3 reflected = mat3(frame.world) * to;
@@ -422,8 +424,9 @@ float foam_middle(FoamTexels foam) {
     return sum > 0.0 ? dot(w, mix(vec4(0.0), foam.z, greaterThan(w, vec4(0.0)))) / sum : foam.depth;
 }
 
-// Transmittance of foam with the lace pattern; its mean is that of smooth foam. Where cells are less than two
-// pixels wide, foam stays smooth. much: density relative to smooth foam, more than 1 in a thread.
+// Transmittance of foam with the lace pattern. `kept` is that of smooth foam, and the mean over the pattern is close to
+// it. Foam stays smooth where the largest cells are less than two pixels wide. `much` becomes the density relative to
+// smooth foam, which is more than 1 in a thread and less than 1 in a hole.
 float through_lace(vec2 pixel, float z, float kept, out float much) {
     vec3 at = (frame.world * vec4(z * vec3(ray_slope(pixel, frame.slope), -1.0), 1.0)).xyz / frame.foam_pattern.z;
     at -= LACE_WRAP * floor(at / LACE_WRAP + 0.5);
@@ -693,8 +696,9 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     if (FOAM == 1u) {
         foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
         behind_boundary = foam.depth >= boundary;
-        // Between the spheres of the front sheet one sees through it, where only its foam remains. The condition
-        // is false at compile time with one sheet, so that a CPU does not run what follows from it.
+        // Between the spheres of the front sheet the back sheet shows; of the front sheet only its foam is drawn, with
+        // the water in this foam. With one sheet the condition is false at compile time, so a CPU skips the code that
+        // depends on it.
         past = SHEETS == 2u && !behind_boundary && front >= boundary && front < EMPTY;
         // Foam behind the air between two sheets belongs to the back sheet.
         if (covers && behind_boundary) {

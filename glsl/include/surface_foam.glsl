@@ -1,25 +1,26 @@
-// Sprite of a particle's surface foam (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which changes to a
-// disc facing the camera where it is slow or moves along the view. Needs frame.glsl.
+// Sprite of a particle's surface foam (thesis Sec. 4.6.2 and 4.8): an ellipse along the particle's motion. It changes
+// to a disc facing the camera if the particle is slow or moves along the view. Needs frame.glsl.
 
 struct FoamSprite {
     vec4 centre;   // eye-space position; foam, 0 to 1
     vec4 velocity; // eye-space velocity; age in seconds
-    vec4 rest;     // w: logarithm of the pattern at its centre; xyz: gradient of that per metre
-    vec4 pattern;  // w: logarithm of how much more there is of it in its middle; xyz: how that grows a metre
+    vec4 rest;     // x: bits of the particle's id; y: visibility of the sun; zw: 0
+    vec4 pattern;  // w: logarithm of the pattern's factor at the centre; xyz: its gradient per metre, eye space
 };
 
 // Sprites per workgroup of the compute path.
 const uint FOAM_GROUP = 64u;
 // Half-axis across the motion in drawn radii. The depth's half-axis shrinks as the foam ends. That of the
-// thickness does not, because its profile ends softly, and a narrower one would cut it off. (The thesis has 2
-// to 3.)
+// thickness does not, because the thickness fades softly towards its edge, and a smaller half-axis would cut it off.
+// (The thesis has 2 to 3.)
 const float FOAM_AXIS = 2.0;
 // Min half-axis of the thickness in texels: narrower sprites would flicker between texel centres. Widened sprites are
 // thinner in proportion.
 const float LEAST_FOAM_AXIS = 1.5;
 // Noise cells per half-axis.
 const float NOISE_CELLS = 1.6;
-// Min cosine between a sprite's normal and the view ray: seen edge-on, the sprite would be infinitely thick.
+// Min value of n . centre / z, by which a sprite's thickness is divided. It is the cosine between the sprite's normal
+// and the view ray, times the ray's length per depth. At 0 the sprite is seen edge-on, and would be infinitely thick.
 const float LEAST_FACING = 0.2;
 
 // Unit vectors along and across the motion; returns the stretch, 0 to 1.

@@ -1,7 +1,7 @@
 #version 460
-// Pass `shoreline`, last part: merges the 8x8 tiles with foam on the host's surface to runs along their rows, for
-// `composite`: a quad per run costs much less set-up than one per tile. One invocation processes a stretch of a row of
-// the max length of a run.
+// Pass `shoreline`, last part: joins neighbouring 8x8 tiles of a row that have foam on the host's water surface to
+// runs. `composite` draws one quad per run, which costs much less set-up than one per tile. Each invocation handles
+// LONGEST tiles of a row, and a run does not continue in the tiles of another invocation.
 // Reads: marks. Writes: list of runs, arguments.
 
 layout(local_size_x = 8, local_size_y = 8) in;

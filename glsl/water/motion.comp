@@ -1,6 +1,6 @@
 #version 460
-// Pass `motion`, second part, not in the sources: motion of each particle near a surface, weighted by its thickness. A
-// particle over few texels takes one invocation; a whole group processes each of the others.
+// Pass `motion`, second part, not in the sources: sums the motions of the particles near a surface, weighted by their
+// thickness. One invocation handles a sprite of few texels; a whole group handles each of the other sprites.
 // Reads: Counts (particles), positions, velocities, densities, foam, members, fronts. Writes: sums.
 
 #include "frame.glsl"
@@ -92,7 +92,7 @@ Sprite sprite_of(uint index, bool foamy) {
     }
     s.centre = (frame.view * vec4(position, 1.0)).xyz;
     float depth = -s.centre.z;
-    // A centre behind the near plane has no sprite.
+    // A particle whose centre is before the near plane has no sprite.
     if (depth <= frame.depth.z || !in_frustum(s.centre, 2.0 * FOAM_AXIS * frame.particle.x)) {
         return NONE;
     }
@@ -164,8 +164,8 @@ void splat(ivec2 texel, Sprite s) {
     }
 }
 
-// The part of its box in which the sprite lies near a surface. In a deep body of water most particles have
-// none.
+// The smallest rectangle of the sprite's box that holds all texels in which the sprite lies near a surface. In a deep
+// body of water it is empty for most particles.
 ivec4 near_surfaces(Sprite s) {
     // The distance of a foam sprite's plane from its centre is at most its half-axes.
     float tilt = s.normal.z == 1.0 ? 0.0 : inversesqrt(dot(s.along, s.along)) + inversesqrt(dot(s.across, s.across));

@@ -1,6 +1,8 @@
 #version 460
-// Pass `split`, last part: the arguments of `composite`, for tiles of each kind. Not in the thesis.
-// Reads: lengths, levels. Writes: arguments: eight draws, then eight dispatches of groups of 8x8 pixels.
+// Pass `split`, last part: writes the arguments of `composite` for each of the eight kinds of tiles. Not in the thesis.
+// A draw has a quad per tile. A dispatch has several groups of 8x8 pixels per tile, because a tile is 16x16 texels of
+// the first smoothing level.
+// Reads: lengths of the lists, levels (width of a texel). Writes: arguments: eight draws, then eight dispatches.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -10,7 +12,7 @@ layout(local_size_x = 1) in;
 layout(set = 0, binding = 1, std430) readonly buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
-// Size of the second dimension of a dispatch in tiles.
+// Max number of tiles in the second dimension of a dispatch; the third counts the rows of that many tiles.
 const uint ROW = 64u;
 
 void main() {

@@ -27,7 +27,8 @@ layout(location = 0) out vec2 optical_depth; // optical depth: all, and the sunl
 // Logarithm of the mean of exp(a n) over a^2, for value noise n and amplitudes a up to 2: within 0.3 %.
 const float RAISED = 0.0895;
 
-// Factors of a lattice point's coordinates in its hash: primes of xxHash, as in gradient_noise.glsl.
+// Random value of a lattice point, -1 to 1. `joined` has the point's coordinates multiplied by primes of xxHash, as in
+// gradient_noise.glsl.
 float lattice_value(uvec2 joined, uint salt) {
     uint h = joined.x ^ joined.y ^ salt;
     h = (h ^ (h >> 15)) * 0x27D4EB2Fu;
@@ -72,8 +73,8 @@ void main() {
         discard;
     }
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
-    // Only a body of water hides spray; a drop is transparent. So the farthest of five depths, a drop apart, is
-    // used.
+    // Only a body of water hides spray; a single drop does not. So of the water's depths at this pixel and at four
+    // pixels diagonally a drop away, the farthest is used.
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float water = texelFetch(water_depth, pixel, 0).x;
     for (int i = 0; i < 4; ++i) {
@@ -87,7 +88,8 @@ void main() {
     // Droplets surround particles that may also be drawn as water, so droplets up to 1.5 spacings behind the water's
     // surface stay visible, fading with the distance.
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
-    // The kernel of the thickness, because the thesis' exp(-2 rho^2) alone ends with an edge.
+    // The falloff is that of the thickness, sqrt(1 - rho^2) exp(-2 rho^2), which is 0 at the sprite's edge, where rho
+    // is 1. The thesis' exp(-2 rho^2) is still 0.14 there, which would show the edge.
     float added = before * amount.x * clumps(place) * thickness_kernel(dot(place, place));
     optical_depth = floor(added * vec2(1.0, amount.y) * STEPS + rounding_up(chance, pixel)) / STEPS;
 }

@@ -22,16 +22,16 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint SAMPLED = 0;
 // 1: each pixel of a 4x4 block uses a sixteenth of the points, and `blur` combines them. Each sixteenth by
 // itself finds half of a half space hidden, whatever its slope, because isolated foam gets no help from its
-// neighbours' points. The number does not depend on the size of the spheres, so that foam does not change
-// with the distance.
+// neighbours' points. The number of points does not depend on the size of the spheres, so that foam does not
+// change with the distance.
 layout(constant_id = 1) const uint FAST = 0;
-// Points of all sixteen pixels.
+// Number of points of all sixteen pixels together.
 const float FAST_SAMPLES = 320.0;
 
 layout(set = 0, binding = 1) uniform sampler2D occluders;
 // xyz: normal; w: search radius.
 layout(set = 0, binding = 2, rgba16f) uniform image2D normals;
-// Points of a unit sphere, and their weights. FAST: one of each pair of opposite points.
+// Points of a unit sphere, and their weights. With FAST it holds one of each pair of opposite points.
 layout(set = 0, binding = 3, std430) readonly buffer Points { vec4 points[]; };
 // Octahedral, with a border of one texel.
 layout(set = 0, binding = 4) uniform sampler2D irradiance;
@@ -39,7 +39,7 @@ layout(set = 0, binding = 5) uniform samplerCube environment;
 // rgb: light; a: shadow.
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D radiance;
 
-// Weight of the direction to the eye beside the open direction. Haze has no open direction.
+// Weight of the direction to the eye, which is added to the open direction because haze has none.
 const float TO_EYE = 0.02;
 
 // x: occlusion of a sample, at most 1, without occluders that are too far before it. y: the same with
@@ -61,12 +61,13 @@ vec4 point_of(uint i) {
     return vec4((i & 1u) == 0u ? one.xyz : -one.xyz, one.w);
 }
 
-// First point of a pass, and the end, for a sphere with this radius in pixels.
+// The points that a pass uses for a sphere with this radius in pixels: index of the first, and index after the last.
 uvec2 samples_of(float pixels, ivec2 pixel, uint pass) {
     if (FAST == 1u) {
         uint count = 2u * max(uint(min(frame.whitewater_samples.y, FAST_SAMPLES)) / 32u, 1u);
-        // Runs of the sequence, each of which fills the sphere. The runs of neighbouring pixels, and those of a
-        // pixel's passes, are far apart in the sequence, so that three spheres have three times the points.
+        // Each pixel uses a run of the sequence in each pass, and each run fills the sphere. The runs of neighbouring
+        // pixels, and those of a pixel's passes, are far apart in the sequence, so that three spheres have three times
+        // the points.
         uvec2 p = uvec2(pixel);
         uint x = p.x ^ p.y;
         uint run = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
@@ -82,8 +83,9 @@ float search_of(float foam, uint pass) {
     return foam * (frame.whitewater_search.x + frame.whitewater_search.y * float(pass));
 }
 
-// Environment light over the hemisphere of a normal: 1/2 for an environment of 1. With few directions the sum
-// is normalized by their own cosines.
+// Light of the environment over the hemisphere of a normal, weighted by the cosine; it is 1/2 if the environment is 1
+// everywhere. With FAST, a pixel has few directions, so the sum is divided by twice the sum of their cosines instead
+// of their number: then it is exactly 1/2.
 vec3 gathered(vec3 normal, uvec2 run) {
     if (SAMPLED == 0u) {
         vec2 at = octahedral_texture_place(normal, textureSize(irradiance, 0));
@@ -152,7 +154,7 @@ void main() {
     // little.
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.whitewater_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
-    // The directions of the first sphere's points, even if there are no passes.
+    // The environment is looked up in the directions of the first sphere's points, even if there are no passes.
     uvec2 first = samples_of(0.5 * search_of(with.w, 1u) * frame.extent.y, pixel, 1u);
     vec3 light = gathered(normal, first) + sun;
     float share = parts.x * frame.whitewater_opacity.z;

@@ -1,7 +1,9 @@
 //! Passes `film`, `impostor` and `core`: data that is precomputed once per renderer (Huszár, Szécsi, Sec. 3.1, 4.2 to
 //! 4.4).
 //!
-//! Reads: bubbles of the blobs. Writes: the film's table, the impostors' maps, the core's picture.
+//! Reads: in `impostor`, the bubbles of the blobs. Writes: the table of the film's reflectance; the impostors' cube
+//! maps, which hold the distance of a blob's surface from its centre, or the index of the bubble there; the texture of
+//! small bubbles on the core.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -28,9 +30,9 @@ const FILM: vk::Extent2D = vk::Extent2D { width: 64, height: 256 };
 const CORE: u32 = 256;
 /// Side length of the impostor map that is not used.
 const UNUSED: u32 = 8;
-/// Access to the ids.
+/// Access of the later passes to the buffer of ids.
 const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
-/// Access to everything else.
+/// Access of the later passes to the images.
 const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 #[repr(C)]
@@ -168,7 +170,7 @@ impl Templates {
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         gpu.begin_label(cmd, c"bubbles");
         let images = [&self.table, &self.distances, &self.picture];
-        // If the data is computed again, earlier frames may have read it in these ways.
+        // If the data is computed again, earlier frames may have read it with the accesses AFTER and READ.
         let first = images.map(|image| access::image(image, AFTER.discarded(), COMPUTE_WRITE));
         gpu.barriers(cmd, &first, &[buffer(self.ids.handle, READ, COMPUTE_WRITE)]);
         let begin = |pipeline: &Pipeline, set: usize| {
@@ -188,7 +190,7 @@ impl Templates {
         let edges = Self::edges(&self.config);
         for (i, (pipeline, size)) in self.impostors.iter().zip(edges).enumerate() {
             if i > 0 {
-                // Each dispatch writes one of the two and binds both.
+                // Each dispatch binds both maps and writes one of them.
                 let maps = access::image(&self.distances, COMPUTE_WRITE, COMPUTE_WRITE);
                 let ids = buffer(self.ids.handle, COMPUTE_WRITE, COMPUTE_WRITE);
                 gpu.barriers(cmd, &[maps], &[ids]);

@@ -1,5 +1,5 @@
-//! Pass `level`: the reduction repeated at coarser resolutions, for water so near that its iterations would
-//! exceed the cap. Each pixel shows the level that its distance selects, and blends between two.
+//! Pass `level`: repeats the reduction at coarser resolutions, for water so near that its iterations would exceed
+//! the cap. Each pixel shows the level that its distance selects, or blends two levels.
 //!
 //! Not in the thesis, whose cap leaves near water rough. The next coarser level needs a quarter of the iterations for
 //! the same width. The levels share the smoothing images, also with those of the back layer (pass `back`). The tile
@@ -33,9 +33,9 @@ use crate::water::settings::{Rule, WaterSettings};
 pub const MOST_COARSENING: u32 = 3;
 /// Index of the back layer's first level.
 const BACK: usize = 4;
-/// Fraction of the maximum iterations at which the next level begins to fade in; at twice that it is used
-/// alone. The width is then 6 to 8 texels, or 3 to 4 of the next level, which still holds all remaining detail
-/// of the surface.
+/// Fraction of the maximum iterations at which the next coarser level begins to fade in; from twice that fraction on,
+/// only the coarser level is shown. Between the two, the smoothing is 6 to 8 texels wide. These are 3 to 4 texels of
+/// the coarser level, so it still resolves all detail that the smoothing leaves on the surface.
 const FADE: f32 = 0.25;
 
 /// Initial value of `Marked` (glsl/include/level.glsl): no groups in x, one in y and z, no tile, no level.
@@ -52,7 +52,7 @@ fn levels(config: &Config) -> impl Iterator<Item = (usize, u32)> {
     let (coarsening, two) = (coarsening(config), config.sheets > 1);
     (0..=MOST_COARSENING).flat_map(move |coarser| {
         let front = (coarser <= coarsening).then_some((coarser as usize, coarser));
-        // The first level of the back layer is the second one, even if the front layer does not have it.
+        // The back layer begins at the second level, even if the front layer does not have that level.
         let wanted = two && coarser > 0 && coarser <= coarsening.max(1);
         let back = wanted.then(|| (BACK + coarser as usize - 1, coarser));
         front.into_iter().chain(back)
@@ -79,7 +79,7 @@ fn in_rows(sizes: &[(usize, vk::Extent2D)]) -> Placed {
 }
 
 /// Places the levels, the largest first, where the image grows least: to the right of a placed one or at the
-/// left edge, and below one or at the top. `None` if one does not fit in an image of at most `most` texels per
+/// left edge, and below one or at the top. `None` if a level does not fit in an image of at most `most` texels per
 /// side.
 fn anywhere(sizes: &[(usize, vk::Extent2D)], most: u32) -> Option<Placed> {
     let (mut extent, mut origins) = ([0; 2], [[0; 2]; 7]);
@@ -119,9 +119,9 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// The layout in rows: the first level in one row, the others beside each other up to its width. If that is too
-    /// high for the device's images, levels are placed wherever they fit; if they do not fit at all, the layout exceeds
-    /// the limit.
+    /// Lays the levels out in rows: the first level in one row, the others beside each other up to its width. If these
+    /// rows are too high for the device's images, levels are placed wherever they fit; if they do not fit at all, the
+    /// layout exceeds the limit.
     pub fn new(config: &Config, most: u32) -> Self {
         let first = reduced(config.extent, config.smoothing_level);
         let sizes: Vec<_> = levels(config)
@@ -356,7 +356,7 @@ mod tests {
                     coarsening,
                     ..Config::new(extent, vk::Format::R16G16B16A16_SFLOAT, 1)
                 };
-                // Partial tiles may add one in each row and column.
+                // Partial tiles may add one tile to each row and column.
                 let most = 4096;
                 for level in [1, 2] {
                     assert_placed(&of(level), most);

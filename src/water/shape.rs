@@ -5,10 +5,10 @@
 //! Not in the thesis. Neighbours are found with a hashed grid, rebuilt each frame. The weighted covariance of
 //! the neighbours within reach is diagonalised by a fixed number of Jacobi rotations. An ellipsoid has its
 //! sphere's volume, so thickness stays in metres; the paper scales by a kernel constant. A sphere becomes an
-//! ellipsoid gradually with the weights of its neighbours; the paper keeps a sphere up to a number of them.
+//! ellipsoid gradually with the weights of its neighbours; the paper keeps a sphere up to a number of neighbours.
 //!
-//! It runs once per frame before `cull`, which reads its result instead of the host's positions; it does not
-//! know the view.
+//! The pass runs once per frame before `cull`, which reads the result instead of the host's positions. The result does
+//! not depend on the view.
 //! Reads: positions. Writes: the grid, shaped.
 
 use crate::gpu::memory::MemoryLocation;
@@ -34,7 +34,7 @@ use crate::gpu::shader;
 const MOST_GROUPS: u32 = 4096;
 /// Bytes of a particle with its shapes (glsl/include/shaped.glsl).
 pub const SHAPED: u32 = 40;
-/// Byte offset of the spray's shape in it.
+/// Byte offset of the spray's shape in such a particle.
 const SPRAY_SHAPE: u64 = 24;
 /// State of the result until the next frame.
 const AFTER: Access = COMPUTE_READ.and(COPY_READ);
@@ -134,7 +134,7 @@ pub struct Shape {
     shape: Pipeline,
     centre: Pipeline,
     scan: Scan,
-    /// Number of particles in each bucket, then its begin, then its end.
+    /// For each bucket first the number of its particles, later the bucket's begin, finally its end.
     buckets: Buffer,
     /// Particles sorted by bucket, and their number.
     places: Buffer,
@@ -173,8 +173,8 @@ impl Shape {
         })
     }
 
-    /// Returns the particles with shapes in place of the host's positions; their buffers are in the
-    /// compute-read state.
+    /// Returns the particles with `shaped`, which holds positions and shapes, in place of the host's positions.
+    /// The other streams are the host's. All their buffers are in the compute-read state.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -217,7 +217,7 @@ impl Shape {
                 buffer(buckets.handle, both, COMPUTE_READ),
                 buffer(places.handle, COMPUTE_WRITE, COMPUTE_READ),
                 buffer(self.counts.handle, both, COMPUTE_READ),
-                // Written for particles without a cell.
+                // `count` has written the particles without a cell.
                 buffer(self.shaped.handle, COMPUTE_WRITE, COMPUTE_WRITE),
             ],
         );

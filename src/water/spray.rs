@@ -1,14 +1,15 @@
 //! Pass `spray`: droplets of low-density particles, which are too few together to form a body of water (thesis
 //! Sec. 4.3 and 4.9.5).
 //!
-//! The part of a particle that its density classifies as spray is drawn as droplets around it, each a sprite that faces
-//! the camera and streaks along its motion; `composite` lays them over everything else. The thesis adds one sprite per
-//! particle to the picture, which shows as a disc near the camera. Optical depths are summed in any order: each droplet
-//! adds fixed-point steps. The steps are so fine that distant droplets, which are thinned to be a pixel wide, still add
-//! several; fractions of a step are rounded stochastically (glsl/include/whole_steps.glsl).
-//! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (RG16F, with
-//! coarser steps, where a device does not blend that): optical depth of the droplets in front of scene and water, and
-//! its sunlit part.
+//! A particle's density says which part of the particle is spray. This part is drawn as droplets around the particle.
+//! Each droplet is a sprite that faces the camera and is stretched along its motion; `composite` lays the droplets over
+//! everything else. The thesis adds one sprite per particle to the picture, which shows as a disc near the camera.
+//! The sum of the optical depths does not depend on their order, because each droplet adds a whole number of
+//! fixed-point steps. A distant droplet is widened to about a pixel and made thinner in proportion. The steps are so
+//! fine that it still adds several; fractions of a step are rounded at random (glsl/include/whole_steps.glsl).
+//! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (or RG16F with
+//! coarser steps, if the device cannot blend RG32F): optical depth of the droplets in front of scene and water, and the
+//! sunlit part of it.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -33,7 +34,7 @@ use crate::gpu::target::Target;
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 48;
 
-/// Read by compute (`reduce`) and by shading passes.
+/// Access of the compute passes (`reduce`) and the shading passes that read the image.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
@@ -126,9 +127,9 @@ impl Spray {
         &self.target.image
     }
 
-    /// `shapes` are those of the particles' spray, from pass `shape`; `None` gives balls. `list` is the one of `cull`,
-    /// read for its counts. `depth` is the water's depth, before and after in the state in which pass `depth` leaves
-    /// it.
+    /// `shapes` are the shapes of the particles' spray, from pass `shape`; without them spray forms balls. `list` is
+    /// the list of `cull`, whose counts are read. `depth` is the water's depth; before and after, it is in the state in
+    /// which pass `depth` leaves it.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -38,8 +38,8 @@ impl Columns {
         }
     }
 
-    /// The origin to subtract from the positions so that 32-bit floats can distinguish particles, from the
-    /// first ones.
+    /// The origin to subtract from the positions so that 32-bit floats can distinguish particles. It is found from the
+    /// first [`FIRST`] particles, and is 0 if their positions are 32-bit floats or not distant.
     pub(super) fn origin(&self, roles: &Roles) -> [f64; 3] {
         let exact =
             |column: usize| !matches!(self.0.get(column), Some(Column { data: Data::F32(_), .. }));
@@ -77,7 +77,7 @@ impl Columns {
     }
 }
 
-/// An attribute that is dropped because it should be integer and is not.
+/// An attribute that is dropped because it should have integers and does not.
 #[derive(Debug)]
 struct Dropped {
     attribute: String,
@@ -183,7 +183,7 @@ impl Steps {
 /// Results so far.
 #[derive(Debug)]
 pub(super) struct Survey {
-    /// Whether this is the first pass, in which nothing is known about all particles.
+    /// Whether this is the first pass over the particles, in which nothing is known yet about all of them.
     asks: bool,
     origin: [f64; 3],
     seen: usize,
@@ -191,7 +191,7 @@ pub(super) struct Survey {
     /// The time of the requested frame, and the number of particles of other frames.
     only: Option<f64>,
     others: usize,
-    /// A few thousand positions, spread evenly over the file: the first of each `step` particles.
+    /// At most a few thousand positions, spread evenly over the file: the first of each `step` particles.
     samples: Vec<[f64; 3]>,
     step: usize,
     not_finite: usize,
@@ -231,7 +231,7 @@ impl Survey {
         Self { only, ..self }
     }
 
-    /// For a second pass over the particles.
+    /// Prepares a second pass over the particles.
     pub(super) fn again(self) -> Self {
         Self { asks: false, ..self }
     }
@@ -245,12 +245,12 @@ impl Survey {
         self.seen
     }
 
-    /// Number of those that are no ghosts.
+    /// Number of particles so far that are kept: no ghosts, and of the requested time.
     pub(super) fn kept(&self) -> usize {
         self.seen - self.ghosts - self.others
     }
 
-    /// The time of all particles, if it is the same.
+    /// The requested time, or the time of all particles if they have the same.
     pub(super) fn time(&self) -> Option<f64> {
         self.only.or(self.one_time())
     }
@@ -366,7 +366,7 @@ impl Survey {
     }
 
     /// Whether ids repeat, so that they do not identify particles. Copies at the same position may share an
-    /// id. The fractions are those of some thousand samples.
+    /// id. The fractions of repeated ids and positions are those of some thousand samples.
     fn repeated_ids(&self) -> bool {
         self.numbers.share() > REPEATED_IDS + 1.2 * self.places.share()
     }
@@ -444,7 +444,7 @@ impl Survey {
         let several = match self.numbers.counts.is_empty() {
             // A particle that occurs twice has different times.
             false => self.numbers.share() > REPEATED_IDS && self.numbers.most() <= count,
-            // Or each particle's times are adjacent in the file.
+            // Without ids: either the particles of a time, or the times of a particle, are adjacent in the file.
             true => {
                 blocks
                     || (steps.changes + 1 == self.seen
@@ -517,8 +517,8 @@ fn reach_of(samples: &[[f64; 3]]) -> Option<(f64, f64, [f64; 3])> {
     Some((reach, extent, middle))
 }
 
-/// Origin to subtract from distant positions; 0 for others. It is rounded to a few leading digits, so that
-/// the frames of a sequence usually have the same.
+/// Origin to subtract from distant positions; 0 if the positions are not distant. The origin is rounded to a few
+/// leading digits, so that the frames of a sequence usually have the same one.
 fn origin(first: &[[f64; 3]]) -> [f64; 3] {
     let Some((reach, extent, middle)) = reach_of(first) else { return [0.0; 3] };
     if extent <= 0.0 || reach <= FAR * extent || !reach.is_finite() {

@@ -15,7 +15,7 @@ use crate::surface_foam;
 /// Number of probed frames. Water that flows in and comes to rest differs from frame to frame, so a few are not enough.
 const PROBES: usize = 16;
 
-/// A few frames of the whole sequence, from which its look is found. They do not depend on the range that a job draws.
+/// A few frames of the whole sequence, from which the look is found. They do not depend on the range that a job draws.
 pub struct Probes {
     pub frames: Vec<Particles>,
     pub numbers: Vec<u64>,
@@ -46,7 +46,7 @@ impl Probes {
                 Err(failure) => _ = first_failure.get_or_insert(failure),
             }
         }
-        // No probed frame can be read: use another readable one, or report the reason of the first.
+        // If no probed frame can be read, use another readable one, or report the first failure.
         if frames.is_empty() {
             let readable = left.iter().find_map(|frame| reader.read(frame).ok());
             match (readable, first_failure) {
@@ -73,7 +73,8 @@ impl Probes {
         Ok(Self { frames, numbers, fps, first, own })
     }
 
-    /// A message about attributes that no file of the sequence has, if foam is wanted.
+    /// A message about the effect on foam, if no probed frame has velocities, or the files have velocities but no ids.
+    /// Velocities that were found from the positions count. The caller asks for it only if foam is wanted.
     pub fn missing(&self, files: usize) -> Option<String> {
         let velocities = self.frames.iter().any(|frame| frame.velocities.is_some());
         let Has { velocities: own, ids, .. } = self.own;
@@ -122,7 +123,7 @@ impl Probes {
         self.rest_density_of((0, 1))
     }
 
-    /// The same for one of several fluids: its index and their number.
+    /// Rest density of one of several fluids: `fluid` is its index, `count` the number of fluids.
     pub fn rest_density_of(&self, (fluid, count): (usize, usize)) -> Option<f32> {
         let part = |frame: &'_ Particles| {
             let Range { start, end } = fluids::ranges(frame, count).get(fluid)?.clone();

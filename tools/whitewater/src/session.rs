@@ -1,4 +1,5 @@
-//! One run of drawing: device, look, targets. `render` and `demo` feed it frames.
+//! A session draws the frames of one run. It holds the device, the look and the targets; `render` and `demo` feed it
+//! frames.
 
 pub mod room;
 
@@ -43,9 +44,9 @@ pub struct Look {
     pub file: SettingsFile,
     pub environment: Environment,
     pub scene: Scene,
-    /// Only water, foam and spray are drawn, over transparency.
+    /// Whether only water, foam and spray are drawn, over transparency.
     pub matte: bool,
-    /// All pictures show this frame, each from the camera of its own number.
+    /// If set, all pictures show this frame, each from the camera of its own frame number.
     pub still: Option<u64>,
     /// Settings of foam formation; `None` if no water foams.
     pub foam: Option<WeberSettings>,
@@ -102,13 +103,13 @@ pub struct Session<'a> {
     making: Option<(GeneratorSettings, u32)>,
     /// Number of whitewater particles in the files of the last drawn frame; `None` if none are read.
     pub read: Option<usize>,
-    /// The warning about lack of room has been printed.
+    /// Whether the warning about lack of room has been printed.
     full: bool,
-    /// The warning about missing velocities has been printed.
+    /// Whether the warning about missing velocities has been printed.
     unmoved: bool,
     /// Output files of emitted whitewater.
     pub keep: Option<Target<WriteFormat>>,
-    /// Axes and unit of those files.
+    /// Axes and unit of the emitted whitewater's files.
     pub placing: Placing,
     /// The film, if one is written.
     reel: Option<Reel>,
@@ -289,7 +290,8 @@ impl<'a> Session<'a> {
         number as f64 / f64::from(self.look.fps.unwrap_or(f32::INFINITY))
     }
 
-    /// Draws those frames of a scene without particles that do not exist yet. Progress lines begin with `word`.
+    /// Draws the frames of a scene that has no particles. If there are several, those whose files all exist are skipped
+    /// unless `--overwrite` is given. In the progress line of a drawn frame, `word` stands before the time.
     pub fn frames_without_particles(
         &mut self,
         frames: &[u64],

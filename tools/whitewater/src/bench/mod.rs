@@ -158,7 +158,7 @@ pub enum Path {
     ReadBack,
     /// One layer of water
     OneSheet,
-    /// With foam: the highest 5 % of the particles, and part of another 2.5 %
+    /// With foam: the highest 5 % of the particles are foam by half or more, the next 2.5 % by less
     Foam,
     /// With spray: the highest 2.5 % of the particles are spray only
     Spray,
@@ -170,7 +170,7 @@ pub enum Path {
     Light,
     /// Shadows of a plate over the pool, or of a shore's land, by percentage-closer filtering of a map of 2048² texels
     Pcf,
-    /// The same shadows by convolution shadow maps at the library's default size
+    /// The shadows of 'pcf', by convolution shadow maps at the library's default size
     Convolution,
     /// Composite: a render pass over the tiles
     RasterComposite,
@@ -184,11 +184,11 @@ pub enum Path {
     BaselineNoise,
     /// As `render` draws a file by default: surface foam, spray and mist, shadows, caustics and a basin
     Render,
-    /// Shores, as all paths below: v from a distance map
+    /// Shores, as all paths below: shore coordinate v from a distance map
     Map,
-    /// v from a strip
+    /// Shore coordinate v from a strip
     Strip,
-    /// v from the screen's depth
+    /// Shore coordinate v from the screen's depth
     Screen,
     /// Shoreline foam alone
     Shoreline,
@@ -196,9 +196,9 @@ pub enum Path {
     Contact,
     /// Edges of shoreline foam clipped
     Clip,
-    /// Edges by the fraction of a pixel that foam covers
+    /// Edges of shoreline foam by the fraction of a pixel that it covers
     Smooth,
-    /// Edges by the coverage of four samples
+    /// Edges of shoreline foam by the coverage of four samples
     Coverage,
     /// Every feature enabled: four texture layers, noise on everything
     Everything,
@@ -350,7 +350,7 @@ pub fn run(args: &BenchArgs) -> Outcome<()> {
     } else {
         measure_all(args, &paths, &options, &report)
     };
-    // Whatever failed, the results so far are printed.
+    // The results so far are printed even if a combination failed.
     let told = output::at_end();
     outcome.and(told)
 }
@@ -613,7 +613,7 @@ impl Times {
     }
 }
 
-/// Densities: the highest fortieth of the particles is spray.
+/// Densities with which the highest fortieth of the particles is spray.
 fn densities(pool: &pool::Pool) -> Vec<f32> {
     let mut heights: Vec<f32> = pool.positions.iter().map(|p| p[1]).collect();
     heights.sort_unstable_by(f32::total_cmp);
@@ -655,7 +655,7 @@ fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let threshold = settings.scale * settings.rest_density * (20.0 * high).powi(2);
     headless.motion(&velocities, None)?;
     headless.step(None, &settings.with(|it| it.threshold = threshold))?;
-    // The ramp begins at half the Weber number.
+    // Foam begins at half the threshold of the Weber number, and is 1/2 at the threshold.
     Ok(heights.iter().filter(|y| **y > high * 0.5_f32.sqrt()).count() as u64)
 }
 
