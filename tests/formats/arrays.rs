@@ -369,10 +369,10 @@ fn shapes_of_json_that_are_refused() {
     for (text, parts) in [
         (
             "{\"frames\":[{\"time\":0,\"particles\":[[1,2,3]]},{\"particles\":[[1,2,3]]}]}",
-            ["2 frames", "a file for each"],
+            ["2 frames", "one file per frame"],
         ),
         ("[[1,2,3],\"a\"]", ["[[x, y, z], ...]", "found \"\\\"a\\\"\""]),
-        ("[[[1,2,3],[4,5,6]],[[1,2,3],[4,5,6]]]", ["several frames", "a file for each"]),
+        ("[[[1,2,3],[4,5,6]],[[1,2,3],[4,5,6]]]", ["several frames", "one file per frame"]),
         ("{\"positions\":[[[1,2,3]],[[4,5,6]]]}", ["several frames", "2 lists"]),
         ("[1,2,3,4]", ["4 numbers", "[x, y, z]"]),
         ("{\"water\":{\"a\":[1]},\"walls\":{\"a\":[1]}}", ["expected positions", "walls"]),

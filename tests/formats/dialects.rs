@@ -261,7 +261,7 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
         error(
             text,
             Extension::Csv,
-            &["several parts (another one begins in line", "a file for each"],
+            &["several parts (another one begins in line", "one file per frame"],
         );
     }
     error(
@@ -518,7 +518,7 @@ fn several_steps_in_one_table_are_refused() {
     };
     // One after the other, and by particle.
     let text = table("time,x,y,z", &|t, i| format!("{},{i},{t},0\n", 0.5 * t as f64));
-    error(&text, Extension::Csv, &["3 frames", "`time` goes from 0 to 1", "a file for each"]);
+    error(&text, Extension::Csv, &["3 frames", "`time` goes from 0 to 1", "one file per frame"]);
     let text = table("id,TimeStep,x,y,z", &|t, i| format!("{i},{t},{i},0,0\n"));
     error(&text, Extension::Csv, &["3 frames", "TimeStep"]);
     let rows: String =

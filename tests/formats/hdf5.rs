@@ -50,7 +50,7 @@ fn files_of_one_frame_are_the_cloud() {
 fn of_pysph_the_fluid_is_read() {
     let particles = read(&path("pysph.hdf5")).unwrap();
     assert_eq!(particles.time, Some(0.25));
-    let told = "groups that are no fluid are not read: /particles/boundary/arrays";
+    let told = "groups that are not fluid are not read: /particles/boundary/arrays";
     assert_eq!(particles.warnings, [told]);
     let names: Vec<_> = particles.attributes.iter().map(|a| a.name.as_str()).collect();
     assert!(names.contains(&"h") && !names.contains(&"au"), "{names:?}");

@@ -178,12 +178,12 @@ fn what_does_not_fit_is_an_error_and_leaves_none() {
     wrong(parts.push(&short), "not as long as positions");
     parts.push(&cloud.part(0..1000)).expect("a part");
     let other = Whitewater { radii: None, ..cloud.part(1000..1100) };
-    wrong(parts.push(&other), "other attributes");
+    wrong(parts.push(&other), "its attributes differ");
     wrong(
         parts.push(&cloud.part(900..COUNT)),
-        "600 particles in a part, of all there are 500 left",
+        "expected at most 500 more particles, found a part of 600",
     );
-    wrong(parts.finish(), "1500 particles expected, found 1000");
+    wrong(parts.finish(), "expected 1500 particles, found 1000");
     assert_eq!(cloud.draw(&mut headless), none);
     // Given up half way.
     headless.whitewater(Some(&cloud.part(0..COUNT))).expect("all at once");
