@@ -34,19 +34,25 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
-// The same for the front sheet alone, without what lies behind the air.
+// The same for the front sheet alone, without what lies behind the air. Texels of a surface before it count as their mean.
 vec2 sheet_slope(vec2 pixel, float front) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 middle = ivec2(floor(h + 0.5));
     mat3 own; // one column per row of texels
+    mat3 other;
+    float sum = 0.0;
+    float count = 0.0;
     for (int y = 0; y < 3; ++y) {
         for (int x = 0; x < 3; ++x) {
             ivec2 texel = clamp(middle + ivec2(x, y) - 1, ivec2(0), ivec2(frame.thick_extent.xy) - 1);
             vec3 t = texelFetch(sheets, texel, 0).xyz;
-            vec2 parts = front < boundary_of(texel) ? t.xy : t.yx;
-            own[y][x] = parts.x + (1.0 - air(t.z)) * parts.y;
+            other[y][x] = front < boundary_of(texel) ? 0.0 : 1.0;
+            own[y][x] = (1.0 - other[y][x]) * (t.x + (1.0 - air(t.z)) * t.y);
+            sum += own[y][x];
+            count += 1.0 - other[y][x];
         }
     }
+    own += other * (sum / max(count, 1.0));
     return spline_slope(h - vec2(middle), own[0], own[1], own[2]) / frame.thick_extent.z;
 }
 

@@ -102,14 +102,19 @@ float air(float window) {
 }
 
 // x: thickness of the sheet of the front surface; without air, that of both sheets together. y: amount of air
-// between the sheets. z: thickness of the back sheet. w: thickness of the front sheet.
-vec4 sheet_thickness(ivec2 base, vec4 weights, float front) {
+// between the sheets. z: thickness of the back sheet. w: thickness of the front sheet. boundary: that of the texel with
+// the largest weight, because a pixel's own texel may show another surface.
+vec4 sheet_thickness(ivec2 base, vec4 weights, float front, inout float boundary) {
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     vec4 sum = vec4(0.0);
+    float most = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
         vec3 t = texelFetch(sheets, texel, 0).xyz;
-        vec2 own = front < boundary_of(texel) ? t.xy : t.yx;
+        float between = boundary_of(texel);
+        boundary = weights[i] > most ? between : boundary;
+        most = max(most, weights[i]);
+        vec2 own = front < between ? t.xy : t.yx;
         float apart = air(t.z);
         sum += weights[i] * vec4(own.x + (1.0 - apart) * own.y, apart, apart * t.y, apart * t.x);
     }
@@ -647,7 +652,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     bool covers = false;
     vec2 share = vec2(0.0);
     if (boundary < EMPTY) {
-        vec4 thick = sheet_thickness(base, weights, front);
+        vec4 thick = sheet_thickness(base, weights, front, boundary);
         t = thick.x;
         covers = front < boundary && thick.z > 0.0;
         share = covers ? thick.yz : thick.yw;
@@ -657,10 +662,10 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         uint behind_shown = NEAR == 1u ? shown_level(nearness(covers ? boundary : front, slope), fade) : 0u;
         fade = behind_shown > 0u ? fade : 0.0;
         behind_shown = BACK + max(behind_shown, 1u) - 1u;
-        Surface other = surface_at(levels.level[behind_shown], pixel, covers ? -1.0 : front, threshold);
+        Surface other = surface_at(levels.level[behind_shown], pixel, covers ? -boundary : front, threshold);
         bool fading = NEAR == 1u && fade > 0.0;
         while (fading) {
-            Surface next = surface_at(levels.level[behind_shown + 1u], pixel, covers ? -1.0 : front, threshold);
+            Surface next = surface_at(levels.level[behind_shown + 1u], pixel, covers ? -boundary : front, threshold);
             other.covered = mix(other.covered, next.covered, fade);
             other = towards(other, next, fade);
             fading = false;

@@ -55,7 +55,8 @@ const float RIM = 1.0 / 64.0;
 // Largest slope (depth per width) of a drop, which is a place where complete texels have at most 1/63 of the weight.
 const float RIM_SLOPE = 1.5;
 
-// front: depth of the pixel's own surface; negative: the surface of the nearest texel.
+// front: depth of the pixel's own surface; negative: the surface of the nearest texel that is not before -front, of the
+// four or else of those beside them.
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
     vec2 h = pixel / level.texel.z - 0.5;
@@ -102,7 +103,18 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     if (base.y >= last.y) { z.zw = z.xy; dx.zw = dx.xy; dy.zw = dy.xy; trust.zw = trust.xy; }
 
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    front = front < 0.0 ? min(min(z.x, z.y), min(z.z, z.w)) : front;
+    // The two texels above or below the four, and the two at their left or right, whichever side the pixel is
+    // nearer to.
+    bvec2 after = greaterThan(f, vec2(0.5));
+    vec4 beside = vec4(after.y ? row3 : row0, after.x ? vec2(row1.w, row2.w) : vec2(row1.x, row2.x));
+    bvec4 outside = bvec4(base.x < 0, base.x >= last.x, base.y < 0, base.y >= last.y);
+    bool behind = front < 0.0;
+    vec4 past = mix(z, vec4(EMPTY), lessThan(z, vec4(-front)));
+    float next_past = min(min(past.x, past.y), min(past.z, past.w));
+    past = mix(beside, vec4(EMPTY), lessThan(beside, vec4(-front)));
+    past = mix(past, vec4(EMPTY), outside);
+    next_past = next_past < EMPTY ? next_past : min(min(past.x, past.y), min(past.z, past.w));
+    front = behind ? next_past : front;
     vec4 off = abs(z - front);
     vec4 own = w * vec4(lessThanEqual(off, vec4(threshold)));
     float sum = own.x + own.y + own.z + own.w;
@@ -128,11 +140,6 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     // The condition means that whole texels weigh more than 1/63.
     s.dz = trusted > 2.0 * RIM ? s.dz : clamp(s.dz, -steepest, steepest);
 
-    // The two texels above or below the four, and the two at their left or right, whichever side the pixel is
-    // nearer to.
-    bvec2 after = greaterThan(f, vec2(0.5));
-    vec4 beside = vec4(after.y ? row3 : row0, after.x ? vec2(row1.w, row2.w) : vec2(row1.x, row2.x));
-    bvec4 outside = bvec4(base.x < 0, base.x >= last.x, base.y < 0, base.y >= last.y);
     vec4 miss = mix(abs(beside - front), vec4(2.0 * EMPTY), outside);
     float least = min(min(miss.x, miss.y), min(miss.z, miss.w));
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
@@ -148,6 +155,9 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
         vec4 middle = vec4(smoothed_at(level, s.base));
         vec2 dz = differences(low.xyxy, middle, high.xyxy, threshold, sides).xy / level.texel.z;
         s.dz = sides.x && sides.y ? dz : clamp(dz, -steepest, steepest);
+        behind = behind && front < EMPTY;
+        s.covered = behind ? 1.0 : s.covered;
+        s.found = behind && sides.x && sides.y ? 1.0 : s.found;
         found = false;
     }
     return s;

@@ -34,11 +34,16 @@ void visit(uint cell, uint all, float z) {
     float spacing = frame.particle.y;
     float behind = z - uintBitsToFloat(cells[cell]);
     vec2 reach = vec2(behind - REACH * spacing, behind + REACH * spacing) / (SLICE * spacing);
-    ivec2 slices = ivec2(clamp(floor(reach), 0.0, 31.0));
-    uint bits = bitfieldInsert(0u, ~0u, slices.x, slices.y - slices.x + 1);
-    // Most slices are already marked: a read is cheaper than an atomic.
-    if ((cells[all + cell] & bits) != bits) {
-        atomicOr(cells[all + cell], bits);
+    ivec2 slices = ivec2(clamp(floor(reach), 0.0, float(SLICES - 1)));
+    // At most five slices, in one word or in two.
+    for (int word = slices.x >> 5; word <= slices.y >> 5; ++word) {
+        ivec2 own = clamp(slices - 32 * word, 0, 31);
+        uint bits = bitfieldInsert(0u, ~0u, own.x, own.y - own.x + 1);
+        uint at = uint(1 + word) * all + cell;
+        // Most slices are already marked: a read is cheaper than an atomic.
+        if ((cells[at] & bits) != bits) {
+            atomicOr(cells[at], bits);
+        }
     }
 }
 

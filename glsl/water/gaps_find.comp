@@ -1,8 +1,7 @@
 #version 460
-// Pass `gaps`, third part: for each cell the middle of the air in front of the last body of water that is behind air, or
-// in front of the first drop if there is no such body. Both walls of a crown are thus one layer, and the pool behind them
-// the other. Not in the thesis.
-// Reads: nearest, marks. Writes: boundaries of the cells.
+// Pass `gaps`, third part: for each cell the airs: slices without water that have water before and behind them. Not in
+// the thesis.
+// Reads: nearest, marks. Writes: airs of the cells.
 
 #include "frame.glsl"
 #include "gaps.glsl"
@@ -10,27 +9,24 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer Cells { uint cells[]; };
-layout(set = 0, binding = 2, std430) writeonly buffer Found { float found[]; };
+layout(set = 0, binding = 2, std430) writeonly buffer Airs { uint airs[]; };
 
 layout(push_constant, std430) uniform Push {
     int columns;
     int rows;
 } push;
 
-float boundary_of(uint cell) {
-    uint marks = cells[uint(push.columns * push.rows) + cell];
-    int middle = 0; // doubled
-    // There is always an end behind the marks, because shifts bring zeros.
-    int air = findLSB(~marks);
-    while (air > 0 && air < 32 && (marks >> air) != 0u) {
-        int water = air + findLSB(marks >> air);
-        int end = water + findLSB(~(marks >> water));
-        bool body = end - water >= BODY || end == 32;
-        middle = body || middle == 0 ? air + water : middle;
-        air = end;
+// The first slice at `from` or behind that is marked or that is not; SLICES if there is none.
+int next(uint cell, int from, bool marked) {
+    uint all = uint(push.columns * push.rows);
+    for (int word = from >> 5; word < WORDS; ++word) {
+        uint bits = cells[uint(1 + word) * all + cell];
+        bits = (marked ? bits : ~bits) & (word == from >> 5 ? ~0u << (from & 31) : ~0u);
+        if (bits != 0u) {
+            return 32 * word + findLSB(bits);
+        }
     }
-    return middle > 0 ? uintBitsToFloat(cells[cell]) + float(middle) * (0.5 * SLICE * frame.particle.y)
-                      : EMPTY;
+    return SLICES;
 }
 
 void main() {
@@ -39,5 +35,18 @@ void main() {
         return;
     }
     uint cell = uint(p.y * push.columns + p.x);
-    found[cell] = boundary_of(cell);
+    uvec3 words = uvec3(0u);
+    int from = next(cell, 0, false);
+    for (int i = 0; i <= AIRS && from > 0; ++i) {
+        int to = i < AIRS ? next(cell, from, true) : SLICES;
+        bool last = to == SLICES;
+        uint air = uint(min(from, SLICES - 1) | (last ? 0 : to << 8)) << (16 * (i & 1));
+        words |= i < 2 ? uvec3(air, 0u, 0u) : i < 4 ? uvec3(0u, air, 0u) : uvec3(0u, 0u, air);
+        from = last ? 0 : next(cell, to, false);
+    }
+    uint at = AIR_WORDS * cell;
+    airs[at] = cells[cell];
+    airs[at + 1u] = words.x;
+    airs[at + 2u] = words.y;
+    airs[at + 3u] = words.z;
 }

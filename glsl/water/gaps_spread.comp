@@ -1,42 +1,42 @@
 #version 460
-// Pass `gaps`, fourth part: dilation: cells without a boundary take one from cells nearby, weighted by squared distance.
-// Not in the thesis. Reads: boundaries of the cells. Writes: the same, dilated.
+// Pass `gaps`, fourth part: dilation: cells without air take that of a cell beside them, or else of one on a diagonal. Not
+// in the thesis. Reads: airs. Writes: the same, dilated.
 
 #include "frame.glsl"
+#include "gaps.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 1, std430) readonly buffer Found { float found[]; };
-layout(set = 0, binding = 2, std430) writeonly buffer Spread { float spread[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Airs { uint airs[]; };
+layout(set = 0, binding = 2, std430) writeonly buffer Spread { uint spread[]; };
 
 layout(push_constant, std430) uniform Push {
     int columns;
     int rows;
 } push;
 
-const int NEAR = 1;
+const ivec2 AROUND[8] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1), ivec2(-1), ivec2(1, -1), ivec2(-1, 1),
+                                ivec2(1));
+
+bool has_air(uint cell) {
+    return (airs[AIR_WORDS * cell + 1u] >> 8) != 0u;
+}
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (p.x >= push.columns || p.y >= push.rows) {
         return;
     }
-    float own = found[p.y * push.columns + p.x];
-    if (own >= EMPTY) {
-        ivec2 first = max(p - NEAR, ivec2(0));
-        ivec2 last = min(p + NEAR, ivec2(push.columns, push.rows) - 1);
-        float sum = 0.0;
-        float weight = 0.0;
-        for (int y = first.y; y <= last.y; ++y) {
-            for (int x = first.x; x <= last.x; ++x) {
-                float there = found[y * push.columns + x];
-                vec2 off = vec2(x, y) - vec2(p);
-                float w = there < EMPTY ? 1.0 / max(dot(off, off), 1.0) : 0.0;
-                sum += w > 0.0 ? w * there : 0.0;
-                weight += w;
-            }
-        }
-        own = weight > 0.0 ? sum / weight : EMPTY;
+    uint own = uint(p.y * push.columns + p.x);
+    uint from = own;
+    for (int i = 0; i < 8 && !has_air(from); ++i) {
+        ivec2 q = p + AROUND[i];
+        bool inside = all(greaterThanEqual(q, ivec2(0))) && q.x < push.columns && q.y < push.rows;
+        from = inside ? uint(q.y * push.columns + q.x) : from;
     }
-    spread[p.y * push.columns + p.x] = own;
+    // The sign tells that it is another cell's.
+    spread[AIR_WORDS * own] = airs[AIR_WORDS * from] | (from == own ? 0u : 0x80000000u);
+    for (uint i = 1u; i < AIR_WORDS; ++i) {
+        spread[AIR_WORDS * own + i] = airs[AIR_WORDS * from + i];
+    }
 }

@@ -2,12 +2,14 @@
 //!
 //! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its
 //! limitation, Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool. Each
-//! cell of 8×8 pixels has 32 depth slices of half a spacing, from its nearest sphere on. Every sphere marks the
-//! slices that it fills. The boundary between front and back layer is the middle of the last air in front of a
-//! body of water, or of the first air in front of a drop if there is no body. Slices instead of sorting: atomics
-//! on two words per cell, for any number of particles. Boundaries are dilated to cells nearby and blended. Where
-//! the layers touch, the water that `thickness` finds at the boundary merges them smoothly and removes it.
-//! Reads: the lists of `front` and `cull`. Writes: boundaries, the farthest of each block of texels.
+//! cell of 8×8 pixels has 256 depth slices of half a spacing, from its nearest sphere on. Every sphere marks the
+//! slices that it fills. Air is what is left between. Slices instead of sorting: atomics on nine words per cell,
+//! for any number of particles. Cells without air borrow that of one beside them. A texel of the thickness takes
+//! the first wide air behind the surface that it shows and before a body of water; its cells vote, with bilinear
+//! weights. So a drop before a crown before a pool has the crown behind it, and the crown beside the drop the
+//! pool. Where the layers touch, the water that `thickness` finds at the boundary merges them smoothly and
+//! removes it.
+//! Reads: the lists of `front` and `cull`, depth. Writes: boundaries, the farthest of each block of texels.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -21,17 +23,22 @@ use crate::error::Error;
 use crate::frame::{EMPTY, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    Access, CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, FRAGMENT_READ,
+    self, Access, CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, FRAGMENT_READ,
     buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
+use crate::gpu::image::Image;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
 /// Side length of a cell in pixels.
 const CELL: u32 = 8;
+/// Words of a cell's marks (gaps.glsl).
+const MARKS: u64 = 8;
+/// Words of a cell's airs (gaps.glsl).
+const AIRS: u64 = 4;
 /// Side length of a block in pixels.
 const BLOCK: u32 = 16;
 
@@ -54,7 +61,7 @@ pub struct Gaps {
     farthest: Pipeline,
     /// Nearest depth of every cell, then its marks.
     cells: Buffer,
-    /// Eye depth between the two layers of each cell, as found and as dilated.
+    /// Airs of every cell, as found and as dilated.
     found: Buffer,
     spread_out: Buffer,
     /// Eye depth between the two layers of each thickness texel; EMPTY where there is only one.
@@ -79,7 +86,7 @@ fn blocks(extent: vk::Extent2D) -> vk::Extent2D {
 pub fn bytes_bound(config: &Config) -> u64 {
     let thick = reduced(config.extent, config.thickness_level);
     let boundaries = 4 * u64::from(thick.width) * u64::from(thick.height);
-    boundaries.max(8 * Push::new(config.extent).cells())
+    boundaries.max(4 * (1 + MARKS) * Push::new(config.extent).cells())
 }
 
 impl Push {
@@ -128,9 +135,9 @@ impl Gaps {
             Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly)
         };
         Ok([
-            make("water/gaps/cells", 8 * cells, Usage::TRANSFER_DST)?,
-            make("water/gaps/found", 4 * cells, Usage::empty())?,
-            make("water/gaps/spread", 4 * cells, Usage::empty())?,
+            make("water/gaps/cells", 4 * (1 + MARKS) * cells, Usage::TRANSFER_DST)?,
+            make("water/gaps/found", 4 * AIRS * cells, Usage::empty())?,
+            make("water/gaps/spread", 4 * AIRS * cells, Usage::empty())?,
             make("water/gaps/boundaries", 4 * texels, Usage::TRANSFER_SRC)?,
             blocks_buffer(gpu, "water/gaps/blocks", config)?,
         ])
@@ -151,12 +158,13 @@ impl Gaps {
         Ok(())
     }
 
-    /// The nearest sphere of a cell is always among the visible ones.
+    /// The nearest sphere of a cell is always among the visible ones. `reduce` has not yet cut the depth at the scene.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         front: &SphereList,
         all: &SphereList,
+        depth: &Image,
     ) -> Result<(), Error> {
         let scope = r.begin(c"gaps");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -167,7 +175,7 @@ impl Gaps {
         // SAFETY: outside a render pass; the frame before has read the cells (barrier).
         unsafe {
             gpu.device.cmd_fill_buffer(cmd, handle, 0, words, EMPTY.to_bits());
-            gpu.device.cmd_fill_buffer(cmd, handle, words, words, 0);
+            gpu.device.cmd_fill_buffer(cmd, handle, words, MARKS * words, 0);
         }
         gpu.barriers(cmd, &[], &[buffer(handle, CLEAR, COMPUTE_READ_WRITE)]);
         let bound = [(3, Resource::buffer(&self.cells))];
@@ -193,12 +201,20 @@ impl Gaps {
             (&self.spread, &self.found, &self.spread_out, cells),
             (&self.texels, &self.spread_out, &self.boundaries, reduced(r.extent, self.level)),
         ] {
-            let bound = [(0, r.uniforms), (1, Resource::buffer(from)), (2, Resource::buffer(to))];
+            let bound = [
+                (0, r.uniforms),
+                (1, Resource::buffer(from)),
+                (2, Resource::buffer(to)),
+                (3, Resource::storage(depth)),
+            ];
             r.descriptors.bind(gpu, cmd, pipeline, &bound)?;
             pipeline.push(gpu, cmd, &push);
             r.dispatch_over(extent, pipeline.local_size);
             gpu.barriers(cmd, &[], &[buffer(to.handle, COMPUTE_WRITE, READ)]);
         }
+        // `reduce` writes the depth.
+        let read = access::image(depth, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE);
+        gpu.barriers(cmd, &[read], &[]);
         dispatch_blocks(r, &self.farthest, &self.boundaries, &self.blocks)?;
         r.end(scope);
         Ok(())

@@ -294,7 +294,7 @@ impl Water {
         }
         let gaps = self.sheets.as_ref().map(|sheets| &sheets.gaps);
         if let Some(gaps) = gaps {
-            gaps.record(r, &self.front.list, &self.cull.list)?;
+            gaps.record(r, &self.front.list, &self.cull.list, &self.depth.image)?;
         }
         self.thickness.record(r, &self.cull.list, gaps, self.foam.as_ref())?;
         let foam = self.foam.as_ref().map(surface_foam::Foam::depth);
@@ -355,7 +355,7 @@ impl Water {
         }
     }
 
-    /// Depth between the two layers of each cell.
+    /// Depth between the two layers of each thickness texel.
     pub fn boundaries(&self) -> Option<vk::Buffer> {
         self.sheets.as_ref().map(|sheets| sheets.gaps.boundaries.handle)
     }

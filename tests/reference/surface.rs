@@ -8,7 +8,7 @@
 
 use super::composite::{Inputs, Settings};
 use super::noise::Ripple;
-use super::{Image, View, is_surface, smoothstep};
+use super::{EMPTY, Image, View, is_surface, smoothstep};
 use glam::{DVec2, DVec3};
 
 /// The part of a texel on the rim in the slope, where there are others.
@@ -86,6 +86,8 @@ pub struct Smooth {
     pub case: Case,
     /// What the texels on the surface and not on the rim weigh of all round the pixel.
     pub found: f64,
+    /// The one texel beside them is not on the rim.
+    pub whole: bool,
 }
 
 /// What a texel knows of its surface.
@@ -205,30 +207,36 @@ impl<'a> Surfaces<'a> {
         (vec![(i, j, 1.0)], Case::Alone, 0.0)
     }
 
-    /// Of the texels on a pixel's surface that lie up to half a texel outside the tent about it along
-    /// one axis, and inside it along the other, the nearest in depth. Not at full resolution.
-    fn beside(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> Option<(usize, usize)> {
+    /// The texels up to half a texel outside the tent about a pixel along one axis, and inside it along
+    /// the other. None at full resolution.
+    fn next(&self, x: usize, y: usize) -> Vec<(usize, usize)> {
         let (z, level) = (self.inputs.smoothed, self.inputs.level);
         let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(1 << level);
-        let mut best: Option<(f64, (usize, usize))> = None;
         let about = |at: f64, n: usize| (at as usize).saturating_sub(2)..n.min(at as usize + 3);
-        for j in about(at.y, z.height).filter(|_| level > 0) {
-            for i in about(at.x, z.width) {
-                let off = (DVec2::new(i as f64 + 0.5, j as f64 + 0.5) - at).abs();
-                let next = |a: f64, b: f64| a < 1.0 && b > 1.0 && b < 1.5;
-                if !(next(off.x, off.y) || next(off.y, off.x)) {
-                    continue;
-                }
-                let away = (z.at(i, j) - depth).abs();
-                if !self.near(z.at(i, j), depth, margin) {
-                    continue;
-                }
-                if let Some((least, _)) = best {
-                    *margin = margin.min((away - least).abs());
-                }
-                if best.is_none_or(|(least, _)| away < least) {
-                    best = Some((away, (i, j)));
-                }
+        let rows = about(at.y, z.height).filter(|_| level > 0);
+        let all = rows.flat_map(|j| about(at.x, z.width).map(move |i| (i, j)));
+        all.filter(|(i, j)| {
+            let off = (DVec2::new(*i as f64 + 0.5, *j as f64 + 0.5) - at).abs();
+            let next = |a: f64, b: f64| a < 1.0 && b > 1.0 && b < 1.5;
+            next(off.x, off.y) || next(off.y, off.x)
+        })
+        .collect()
+    }
+
+    /// Of the texels beside a pixel's that are on its surface the nearest in depth.
+    fn beside(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> Option<(usize, usize)> {
+        let z = self.inputs.smoothed;
+        let mut best: Option<(f64, (usize, usize))> = None;
+        for (i, j) in self.next(x, y) {
+            let away = (z.at(i, j) - depth).abs();
+            if !self.near(z.at(i, j), depth, margin) {
+                continue;
+            }
+            if let Some((least, _)) = best {
+                *margin = margin.min((away - least).abs());
+            }
+            if best.is_none_or(|(least, _)| away < least) {
+                best = Some((away, (i, j)));
             }
         }
         best.map(|(_, texel)| texel)
@@ -239,7 +247,7 @@ impl<'a> Surfaces<'a> {
         let (seen, mut case, covered) = self.seen(x, y, depth, margin);
         if case == Case::Alone {
             let slope = [DVec2::ZERO; 2];
-            return Smooth { z: depth, slope, case, found: 0.0 };
+            return Smooth { z: depth, slope, case, found: 0.0, whole: false };
         }
         if case == Case::Beside {
             let texel = self.smoothed.at(seen[0].0, seen[0].1);
@@ -248,7 +256,7 @@ impl<'a> Surfaces<'a> {
             if !texel.whole {
                 slope[0] = self.not_steep(slope[0], depth, self.inputs.level);
             }
-            return Smooth { z: depth, slope, case, found: 0.0 };
+            return Smooth { z: depth, slope, case, found: 0.0, whole: texel.whole };
         }
         let z: f64 = seen.iter().map(|t| t.2 * self.inputs.smoothed.at(t.0, t.1)).sum();
         let (mut slope, mut trust, mut whole) = ([DVec2::ZERO; 2], 0.0, 0.0);
@@ -272,13 +280,19 @@ impl<'a> Surfaces<'a> {
             case = if cut == slope[0] { Case::Rim } else { Case::SteepRim };
             slope[0] = cut;
         }
-        Smooth { z, slope, case, found: whole * covered }
+        Smooth { z, slope, case, found: whole * covered, whole: false }
     }
 
-    /// The depth of the nearest texel of the smoothed image round a pixel.
-    pub fn nearest(&self, x: usize, y: usize) -> f64 {
-        let depths = self.round(x, y).into_iter().map(|t| self.inputs.smoothed.at(t.0, t.1));
-        depths.fold(f64::INFINITY, f64::min)
+    /// The depth of the nearest texel of the smoothed image round a pixel that is not before a depth; or
+    /// else of those beside them.
+    pub fn nearest(&self, x: usize, y: usize, from: f64) -> f64 {
+        let z = self.inputs.smoothed;
+        let least = |texels: &mut dyn Iterator<Item = (usize, usize)>| {
+            let depths = texels.map(|(i, j)| z.at(i, j)).filter(|z| *z >= from);
+            depths.fold(EMPTY, f64::min)
+        };
+        let round = least(&mut self.round(x, y).into_iter().map(|t| (t.0, t.1)));
+        if is_surface(round) { round } else { least(&mut self.next(x, y).into_iter()) }
     }
 
     /// Whether one of the four texels round a pixel lies before its surface; at full resolution of its

@@ -11,7 +11,7 @@ use crate::reference::composite::{
 };
 use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
-use crate::reference::{View, is_surface};
+use crate::reference::{EMPTY, View, is_surface};
 
 /// Errors of texture filtering.
 #[derive(Clone, Copy)]
@@ -215,7 +215,10 @@ fn lit(
     };
     let (dx, dy) = (slope(surface, 0, drop), slope(surface, 1, drop));
     // The scene's depth is a rounded quotient of two projection entries.
-    let room = (off(inputs.scene(x, y), 8.0) - z).clamp(0.0, f64::MAX);
+    let room = match surface.room.is_finite() {
+        true => (off(inputs.scene(x, y), 8.0) - z).clamp(0.0, f64::MAX),
+        false => exact(EMPTY),
+    };
     let (own, limited) = (t.e, surface.thickness < surface.parts.full);
     let t = if limited { room } else { t };
     // Rounding may choose either case.

@@ -4,14 +4,14 @@ use glam::Vec3;
 
 use crate::harness::fails;
 use crate::reduce::wide;
-use crate::reference::sheets::{self, CELL, GROWN, Known, Part};
-use crate::reference::{EMPTY, Image, Sphere, is_surface};
+use crate::reference::sheets::{self, CELL, Cell, GROWN, KnownTexel, Part};
+use crate::reference::{EMPTY, Image, Sphere, depth, is_surface};
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::{self, U};
 
-use super::{of, shot, spacing, unpruned, visible};
+use super::{of, rule, shot, spacing, unpruned, visible};
 
 /// What the texels of frames were.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,20 +37,28 @@ impl Texels {
     }
 }
 
-/// What is known of the boundaries of a shot.
-fn judged(shot: &Shot, level: u32) -> Image<Known> {
+/// What rounding adds of a number on the way to a boundary: an end of an air is off by 4u of it, its middle
+/// and the mean's products and sums make 9u, the sum of the weights and the quotient 6u, the limits 6u.
+const RELATIVE: f64 = 33.0 * U;
+
+/// What is known of the boundaries of a shot whose depth was found.
+fn judged(shot: &Shot, depth: &Image<f32>, level: u32) -> Image<KnownTexel> {
     let (spheres, view) = (visible(shot), shot.view(shot.size));
     let rounded = |sphere: &Sphere| tolerance::span(sphere, &view);
     let cells = sheets::judged(&spheres, &view, spacing(shot), rounded);
-    sheets::judged_texels(&cells, &view, level)
+    sheets::judged_texels(&cells, &wide(depth), level, rule(shot), RELATIVE)
 }
 
-/// Asserts that the boundaries are the twin's. The sum that makes a cell's boundary adds 4u of it. Of
-/// the mean of eight cells products and sums make 9u, the quotient 5u, of that of four 5u and 5u, and
-/// of its weights 5u. Where the answer depends on rounding it must still be one of those that may come
-/// out.
-pub fn check_boundaries(name: &str, found: &Image<f32>, shot: &Shot, level: u32) -> Texels {
-    let texels = judged(shot, level);
+/// Asserts that the boundaries are the twin's, by the depth that was found. Where the answer depends on
+/// rounding it must still be in the range of the cells.
+pub fn check_boundaries(
+    name: &str,
+    found: &Image<f32>,
+    depth: &Image<f32>,
+    shot: &Shot,
+    level: u32,
+) -> Texels {
+    let texels = judged(shot, depth, level);
     assert_eq!((found.width, found.height), (texels.width, texels.height), "{name}");
     let (mut count, mut wrong) = (Texels::default(), Vec::new());
     for (i, (found, texel)) in found.data.iter().zip(&texels.data).enumerate() {
@@ -59,7 +67,7 @@ pub fn check_boundaries(name: &str, found: &Image<f32>, shot: &Shot, level: u32)
         count.split += usize::from(texel.certain && split);
         count.unsure += usize::from(!texel.certain);
         let found = f64::from(*found);
-        let (low, high) = (texel.low * (1.0 - 33.0 * U), texel.high * (1.0 + 33.0 * U));
+        let (low, high) = (texel.low * (1.0 - RELATIVE), texel.high * (1.0 + RELATIVE));
         let sound = match is_surface(found) {
             true => texel.maybe_one && found >= low && found <= high,
             // Exactly so: other passes compare with it.
@@ -78,7 +86,7 @@ pub fn check_boundaries(name: &str, found: &Image<f32>, shot: &Shot, level: u32)
 }
 
 /// The definition of the cells in single precision, as plainly as it can be put.
-fn single_precision(shot: &Shot) -> Image<f32> {
+fn single_precision(shot: &Shot) -> Image<Cell> {
     let view = shot.view(shot.size);
     let (width, height) = (view.width as f32, view.height as f32);
     let s = shot.settings.water.spacing;
@@ -113,27 +121,22 @@ fn single_precision(shot: &Shot) -> Image<f32> {
             }
         }
     }
-    let boundary = |depths: &Vec<f32>| {
+    let airs = |depths: &Vec<f32>| {
         let nearest = depths.iter().copied().fold(f32::INFINITY, f32::min);
-        let slice = |z: f32| ((z - nearest) / (0.5 * s)).floor().clamp(0.0, 31.0) as u32;
-        let mark = |z: &f32| (slice(z - 0.75 * s)..=slice(z + 0.75 * s)).map(|k| 1_u32 << k);
-        let marks = depths.iter().flat_map(mark).fold(0, |all, mark| all | mark);
-        let marked = |k: usize| k < 32 && marks >> k & 1 == 1;
-        let next = |from: usize, of: bool| (from..32).find(|k| marked(*k) == of).unwrap_or(32);
-        let mut air = Vec::new();
-        let mut a = next(0, false);
-        while next(a, true) < 32 {
-            let (w, e) = (next(a, true), next(next(a, true), false));
-            air.push(((a + w) as f32 * 0.25 * s, e - w >= 6 || e == 32));
-            a = e;
+        let slice = |z: f32| ((z - nearest) / (0.5 * s)).floor().clamp(0.0, 255.0) as usize;
+        let mut marks = [false; 256];
+        for z in depths {
+            marks[slice(z - 0.75 * s)..=slice(z + 0.75 * s)].fill(true);
         }
-        let chosen = air.iter().rfind(|(_, body)| *body).or(air.first());
-        chosen.map_or(EMPTY as f32, |(behind, _)| nearest + behind)
+        let airs = sheets::airs_of(&marks);
+        let spacing = f64::from(s);
+        let airs = airs.iter().map(|air| air.behind(f64::from(nearest), spacing)).collect();
+        Cell { airs, lent: false }
     };
     Image {
         width: columns,
         height: touching.len() / columns,
-        data: touching.iter().map(boundary).collect(),
+        data: touching.iter().map(airs).collect(),
     }
 }
 
@@ -151,10 +154,13 @@ fn certain_texels_stay_in_all_of_the_slack() {
     for (i, shot) in shots.into_iter().enumerate() {
         let (spheres, view) = (visible(&shot), shot.view(shot.size));
         let level = i as u32 % 4;
-        let texels = |cells: &Image<f64>| sheets::of_texels(cells, &view, level).map(|b| *b as f32);
+        let depth = depth::splat(&spheres, &view).map(|z| *z as f32);
+        let texels = |cells: &Image<Cell>| {
+            sheets::of_texels(cells, &wide(&depth), level, rule(&shot)).map(|b| *b as f32)
+        };
         let name = format!("slack-{i}");
-        let found = texels(&wide(&single_precision(&shot)));
-        count += check_boundaries(&name, &found, &shot, level);
+        let found = texels(&single_precision(&shot));
+        count += check_boundaries(&name, &found, &depth, &shot, level);
         for _ in 0..20 {
             let mut moved = |sphere: &Sphere| -> (f64, Option<Part>) {
                 let mut sphere = *sphere;
@@ -164,8 +170,8 @@ fn certain_texels_stay_in_all_of_the_slack() {
                 (-sphere.center.z, sheets::counted(&sphere, &view, spacing(&shot), grown))
             };
             let moved: Vec<_> = spheres.iter().map(&mut moved).collect();
-            let other = sheets::boundaries_of(moved.into_iter(), &view, spacing(&shot));
-            check_boundaries(&name, &texels(&other), &shot, level);
+            let other = sheets::cells_from(moved.into_iter(), &view, spacing(&shot));
+            check_boundaries(&name, &texels(&other), &depth, &shot, level);
         }
         let split = found.data.iter().position(|b| *b < 1e9).expect("a gap");
         // A texel of one sheet, if there is any.
@@ -181,10 +187,10 @@ fn certain_texels_stay_in_all_of_the_slack() {
             let mut planted = found.clone();
             planted.data[texel] = other;
             let seen = fails(|| {
-                check_boundaries(&name, &planted, &shot, level);
+                check_boundaries(&name, &planted, &depth, &shot, level);
             });
             // Where rounding decides either answer may pass.
-            let certain = judged(&shot, level).data[texel].certain;
+            let certain = judged(&shot, &depth, level).data[texel].certain;
             assert!(seen || !certain, "{name}: {other} in texel {texel}");
         }
     }
@@ -202,7 +208,9 @@ fn the_boundaries_are_the_twins() {
             for lens in LENSES.into_iter().skip(level as usize).step_by(2) {
                 let shot = shot(size, lens);
                 let name = format!("boundaries-{lens:?}-{width}-{level}");
-                count += check_boundaries(&name, &of(&rig.draw(&shot)).boundaries, &shot, level);
+                let drawn = rig.draw(&shot);
+                let found = &of(&drawn).boundaries;
+                count += check_boundaries(&name, found, &drawn.depth, &shot, level);
             }
         }
     }
@@ -220,7 +228,8 @@ fn the_boundaries_are_of_the_drawn_spheres() {
         let densities = shot.positions.iter().map(|_| random.between(250.0, 600.0));
         shot.densities = Some(densities.collect());
         let drawn = rig.draw(&shot);
-        count += check_boundaries("boundaries-thin", &of(&drawn).boundaries, &shot, 1);
+        count +=
+            check_boundaries("boundaries-thin", &of(&drawn).boundaries, &drawn.depth, &shot, 1);
     }
     count.suffice("boundaries-thin");
 }
@@ -242,7 +251,8 @@ fn spheres_at_the_eye_take_no_part() {
     let mut count = Texels::default();
     for shot in near_shots() {
         let drawn = Rig::new(&gpu, &unpruned(shot.size, 0)).draw(&shot);
-        count += check_boundaries("boundaries-near", &of(&drawn).boundaries, &shot, 0);
+        count +=
+            check_boundaries("boundaries-near", &of(&drawn).boundaries, &drawn.depth, &shot, 0);
     }
     count.suffice("boundaries-near");
 }

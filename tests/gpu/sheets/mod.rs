@@ -13,6 +13,7 @@ use whitewater::Config;
 use whitewater::water::Splat;
 
 use crate::reference::cull::{CullParams, cull};
+use crate::reference::sheets::Rule;
 use crate::reference::{Image, Sphere};
 use crate::support::rig::{Drawn, Sheets, Shot, config};
 use crate::support::scenes::{Lens, Random};
@@ -115,6 +116,11 @@ fn visible(shot: &Shot) -> Vec<Sphere> {
 
 fn spacing(shot: &Shot) -> f64 {
     f64::from(shot.settings.water.spacing)
+}
+
+/// What decides of a shot's boundaries.
+fn rule(shot: &Shot) -> Rule {
+    Rule { spacing: spacing(shot), falloff: f64::from(shot.falloff()) }
 }
 
 /// Asserts that no texel is another, of those that are `sure`.

@@ -354,7 +354,9 @@ fn near_sheets_are_the_twins() {
             it.composite = Some(way);
         });
         let mut rig = even(&gpu, config);
-        for (torn, width) in [(true, 2.8), (true, 5.7), (false, 4.2), (false, 7.8), (false, 15.6)] {
+        for (torn, width) in
+            [(true, 2.0), (true, 2.8), (true, 5.7), (false, 4.2), (false, 7.8), (false, 15.6)]
+        {
             let shot = if torn { shot(size, lens) } else { slabs(size) };
             let mut shot = look(shot, false);
             shot.settings.water.smoothing_width = width;
@@ -372,11 +374,22 @@ fn near_sheets_are_the_twins() {
             let shown = Image::from_fn(160, 100, |x, y| {
                 let of_pixel = |z: f32| levels.shown(levels.nearness_at((x, y), f64::from(z)));
                 let z = drawn.depth.at(x, y);
-                let covers = z < boundary(x, y) && boundary(x, y) < 1e9;
                 let (front, fade) = of_pixel(z);
-                let (back, behind) = of_pixel(if covers { boundary(x, y) } else { z });
-                let alone = fade == 0.0 && (back == 0 || behind == 0.0) && z < 1e9;
-                (if alone { front } else { 0 }, back.max(1), covers)
+                let behind = |boundary: f32| {
+                    let covers = z < boundary && boundary < 1e9;
+                    let (back, behind) = of_pixel(if covers { boundary } else { z });
+                    (back.max(1), back == 0 || behind == 0.0, covers)
+                };
+                let (back, whole, covers) = behind(boundary(x, y));
+                // The boundary may be that of any of the four texels round the pixel.
+                let half = (1 << thickness_level) / 2;
+                let near =
+                    |at: usize, size: usize| [at.saturating_sub(half), (at + half).min(size - 1)];
+                let mut around =
+                    near(y, 100).into_iter().flat_map(|y| near(x, 160).map(|x| boundary(x, y)));
+                let same = around.all(|other| behind(other) == (back, whole, covers));
+                let alone = fade == 0.0 && whole && same && z < 1e9;
+                (if alone { front } else { 0 }, back, covers)
             });
             for (front, back) in (1..4).flat_map(|front| (1..4).map(move |back| (front, back))) {
                 // Tiles that have no boundary within a texel are drawn as one sheet.

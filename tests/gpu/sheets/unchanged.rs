@@ -127,6 +127,73 @@ fn a_drop_before_a_pool_leaves_the_rest_as_it_is() {
     }
 }
 
+/// A drop far before a torn slanted sheet before a pool changes what it covers, and what is smoothed or refracted with
+/// that, but no cell of the boundaries.
+#[test]
+fn a_drop_far_before_a_sheet_leaves_no_square() {
+    /// Pixels from what it covers: a texel of the back sheet and the next ones, and the march over the thickness.
+    const REACH: usize = 8;
+    let gpu = Gpu::shared();
+    let (width, height) = (320, 192);
+    let size = extent(width, height);
+    let mut random = Random(5);
+    let mut behind = Vec::new();
+    for (x, y) in (0..28).flat_map(|x| (0..18).map(move |y| (x as f32, y as f32))) {
+        for layer in 0..2 {
+            let at = [0.25 * (x - 14.0), 0.25 * (y - 9.0), 6.0 + 0.05 * x + 0.25 * layer as f32];
+            behind.push(super::jittered(&mut random, at, 0.3));
+        }
+    }
+    behind.extend(scenes::block(9, SPACING, [70, 44, 4], [-8.7, -5.4, 9.5]));
+    for thickness_level in [1, 2] {
+        let config = two(size).with(|it| {
+            it.thickness_splat = Some(Splat::Compute);
+            it.thickness_level = thickness_level;
+            it.coarsening = 0;
+            it.max_particles = 20_000;
+        });
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut draw = |drop: &[[f32; 3]]| {
+            let points: Vec<_> = drop.iter().chain(&behind).copied().collect();
+            rig.draw(&unsmoothed(&shot_of(size, Lens::Standard, &points)))
+        };
+        let (with, without) = (draw(&[[0.1, 0.12, 1.6]]), draw(&[]));
+        // Where its sphere or its splat is.
+        let mut covered = Image::from_fn(width as usize, height as usize, |x, y| {
+            let texel = (x >> thickness_level, y >> thickness_level);
+            with.depth.at(x, y) != without.depth.at(x, y)
+                || with.thickness.at(texel.0, texel.1) != without.thickness.at(texel.0, texel.1)
+        });
+        let count = covered.data.iter().filter(|covered| **covered).count();
+        assert!(count > 200 && count < 4000, "{count} pixels");
+        let own = covered.clone();
+        for (y, x) in (0..own.height).flat_map(|y| (0..own.width).map(move |x| (y, x))) {
+            if own.at(x, y) {
+                for row in y.saturating_sub(REACH)..(y + REACH + 1).min(own.height) {
+                    let columns = x.saturating_sub(REACH)..(x + REACH + 1).min(own.width);
+                    columns.for_each(|column| *covered.at_mut(column, row) = true);
+                }
+            }
+        }
+        let beside = covered.map(|covered| !covered);
+        let texels =
+            Image::from_fn(of(&with).thickness.width, of(&with).thickness.height, |x, y| {
+                beside.at(x << thickness_level, y << thickness_level)
+            });
+        for part in 0..2 {
+            let of = |drawn: &Drawn| of(drawn).thickness.map(|t| t[part]);
+            let name = format!("square-{thickness_level}-part-{part}");
+            same_where(&name, &of(&with), &of(&without), &texels);
+        }
+        assert!(gaps(&with) > 1000 && gaps(&without) > 1000);
+        for channel in 0..4 {
+            let of = |drawn: &Drawn| drawn.output.map(|c| c[channel]);
+            let name = format!("square-{thickness_level}-{channel}");
+            same_where(&name, &of(&with), &of(&without), &beside);
+        }
+    }
+}
+
 #[test]
 fn the_order_of_the_particles_is_no_matter() {
     let gpu = Gpu::shared();
@@ -207,7 +274,7 @@ fn small_images_have_sheets_too() {
             let shot = unsmoothed(&shot_of(size, Lens::Reversed, &points));
             let drawn = rig.draw(&shot);
             let name = format!("tiny-{width}x{height}-{smoothing_level}{thickness_level}");
-            check_boundaries(&name, &of(&drawn).boundaries, &shot, thickness_level);
+            check_boundaries(&name, &of(&drawn).boundaries, &drawn.depth, &shot, thickness_level);
             assert!(gaps(&drawn) > 0, "{name}: no gap");
             let (all, level) = (&drawn.thickness, back_level(&name, &drawn, &shot));
             check_thickness(&name, all, of(&drawn), &shot, thickness_level, Sum::Float);

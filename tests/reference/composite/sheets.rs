@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::surface::{Surface, Surfaces};
+use super::super::surface::{Case, Surface, Surfaces};
 use super::super::{Image, View, is_surface, smoothstep};
 
 use super::{
@@ -32,7 +32,7 @@ pub struct Back {
     /// How much of the pixel it is found in, whole, and how much air there is before it.
     pub covered: f64,
     pub apart: f64,
-    /// Depth of the nearest of the four texels round the pixel.
+    /// Depth of the nearest of the texels round the pixel that are not before the boundary.
     pub nearest: f64,
 }
 
@@ -105,14 +105,19 @@ impl<'a> Two<'a> {
         let mut smooth = fronts.smooth(x, y, f, &mut margin);
         let (texels, borrowed) = fronts.texels_of_thickness(x, y, smooth.z, &mut margin);
         let level = inputs.thickness_level;
-        let boundary = boundaries.at(x >> level, y >> level);
+        let mut boundary = boundaries.at(x >> level, y >> level);
         let parted = is_surface(boundary);
         let (mut t, mut apart, mut t2, mut barely) = (one.parts.full, 0.0, 0.0, false);
         if parted {
             t = 0.0;
+            // That of the texel that weighs most, the first of them.
+            let mut most = 0.0;
             for (i, j, weight) in texels.iter().copied() {
                 let [front, back, window] = thickness.at(i, j);
                 let air = air(window, self.spacing);
+                if weight > most + 1e-9 {
+                    (most, boundary) = (weight, boundaries.at(i, j));
+                }
                 let before = f < boundaries.at(i, j);
                 let (own, other) = if before { (front, back) } else { (back, front) };
                 t += weight * (own + (1.0 - air) * other);
@@ -124,17 +129,22 @@ impl<'a> Two<'a> {
         let mut back = None;
         let mut mixed = 0.0;
         if parted && f < boundary && t2 > 0.0 {
-            let nearest = backs.nearest(x, y);
+            let nearest = backs.nearest(x, y, boundary);
             let there = is_surface(nearest);
             let own = if there { nearest } else { f };
-            let found = backs.smooth(x, y, own, &mut margin);
+            let mut found = backs.smooth(x, y, own, &mut margin);
+            if there && found.case == Case::Beside {
+                found.found = if found.whole { 1.0 } else { 0.0 };
+            }
             // As the air between closes they become one.
             let open = if there { open(found.z - smooth.z - t, self.spacing) } else { 1.0 };
             t += (1.0 - open) * t2;
             (t2, apart) = (open * t2, open * apart);
             let mut surface = backs.made_of((x, y), &found, t2, None, f64::INFINITY);
             // Without a depth of its own it has all the room.
-            surface.thickness = if there { surface.thickness } else { t2 };
+            if !there {
+                (surface.thickness, surface.room) = (t2, f64::INFINITY);
+            }
             let hidden = found.z >= inputs.scene(x, y);
             let covered = if there && !hidden { found.found } else { 0.0 };
             back = Some(Back { surface, covered, apart, nearest });

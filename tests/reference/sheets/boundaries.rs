@@ -1,12 +1,15 @@
-//! The boundaries themselves: which cells a sphere counts in, the air of a cell, the spread to the cells
-//! round and to the texels.
+//! The boundaries themselves: which cells a sphere counts in, the airs of a cell, the spread to the cells
+//! round, and which air is a texel's.
 
 use glam::DVec2;
 use std::ops::Range;
 
-use super::super::{EMPTY, Image, Sphere, View, is_surface};
+use super::super::{EMPTY, Image, Sphere, View};
 
-use super::{BESIDE, BODY, CELL, DROP, GROWN, NEAR, Part, REACH, SLICE, SLICES, UNBOUNDED};
+use super::{
+    AIRS, BESIDE, BEYOND, BODY, CELL, CHOSEN, DROP, GROWN, LEAST, Part, REACH, SLICE, SLICES,
+    UNBOUNDED,
+};
 
 /// The pixels whose centres lie in the bounding box of a sphere's projection, grown by so many
 /// pixels; none where the projection has no bounds. The tangents through the eye lie at `asin(r / l)`
@@ -68,27 +71,54 @@ pub fn slice(behind: f64, spacing: f64) -> usize {
     ((behind / (SLICE * spacing)).floor().max(0.0) as usize).min(SLICES - 1)
 }
 
-/// Twice the slice in which the boundary lies, if there is one.
-pub fn middle_of_air(marked: &[bool; SLICES]) -> Option<usize> {
-    let run = |from: usize, of: bool| (from..SLICES).find(|k| marked[*k] != of).unwrap_or(SLICES);
-    let (mut first, mut body, mut a) = (None, None, run(0, true));
-    while a < SLICES {
-        let w = run(a, false);
-        if w == SLICES {
-            break;
-        }
-        let e = run(w, true);
-        if e - w >= BODY || e == SLICES {
-            body = Some(a + w);
-        }
-        first = first.or(Some(a + w));
-        a = e;
-    }
-    body.or(first)
+/// Air between two runs of marked slices, and how much the second is a body of water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Air<T> {
+    /// Where it begins and where the water behind it does.
+    pub from: T,
+    pub to: T,
+    pub body: f64,
 }
 
-/// The boundary of a cell, of the depths of the spheres that touch it.
-pub fn boundary(depths: &[f64], spacing: f64) -> f64 {
+impl Air<usize> {
+    /// As depths.
+    pub fn behind(&self, nearest: f64, spacing: f64) -> Air<f64> {
+        let [from, to] = [self.from, self.to].map(|k| nearest + k as f64 * (SLICE * spacing));
+        Air { from, to, body: self.body }
+    }
+}
+
+/// The first airs of a cell.
+pub fn airs_of(marked: &[bool]) -> Vec<Air<usize>> {
+    let mut runs = Vec::new();
+    for (k, _) in marked.iter().enumerate().filter(|(_, marked)| **marked) {
+        match runs.last_mut() {
+            Some(Range { end, .. }) if *end == k => *end += 1,
+            _ => runs.push(k..k + 1),
+        }
+    }
+    let between = runs.windows(2).map(|two| {
+        let water = &two[1];
+        // What reaches the end may go on.
+        let body = match water.end >= SLICES - 1 {
+            true => 1.0,
+            false => ((water.len() as f64 - BODY[0]) / (BODY[1] - BODY[0])).clamp(0.0, 1.0),
+        };
+        Air { from: two[0].end, to: water.start, body }
+    });
+    between.take(AIRS).collect()
+}
+
+/// What a cell knows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cell {
+    pub airs: Vec<Air<f64>>,
+    /// They are of another cell.
+    pub lent: bool,
+}
+
+/// The airs of a cell, of the depths of the spheres that touch it.
+pub fn cell(depths: &[f64], spacing: f64) -> Cell {
     let nearest = depths.iter().copied().fold(f64::INFINITY, f64::min);
     let mut marked = [false; SLICES];
     for z in depths {
@@ -96,36 +126,24 @@ pub fn boundary(depths: &[f64], spacing: f64) -> f64 {
         let last = slice(z + REACH * spacing - nearest, spacing);
         marked[first..=last].fill(true);
     }
-    match middle_of_air(&marked) {
-        Some(twice) => nearest + twice as f64 * 0.5 * SLICE * spacing,
-        None => EMPTY,
-    }
+    let airs = airs_of(&marked).iter().map(|air| air.behind(nearest, spacing)).collect();
+    Cell { airs, lent: false }
 }
 
-/// The cells round one, from it.
-pub fn around() -> impl Iterator<Item = (isize, isize)> {
-    let near = -NEAR..=NEAR;
-    near.clone().flat_map(move |dy| near.clone().map(move |dx| (dx, dy)))
-}
+/// The cells round one, from it, in the order in which it asks them.
+pub const AROUND: [(isize, isize); 8] =
+    [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)];
 
-/// Boundaries of cells, spread to those round them that have none: the mean by the inverse square
-/// of the distance.
-pub fn spread(cells: &Image<f64>) -> Image<f64> {
+/// Cells without air have that of the first of those round them that has any.
+pub fn spread(cells: &Image<Cell>) -> Image<Cell> {
     Image::from_fn(cells.width, cells.height, |x, y| {
         let own = cells.at(x, y);
-        if is_surface(own) {
-            return own;
+        let there = |(dx, dy)| cells.checked(x as isize + dx, y as isize + dy);
+        let lender = AROUND.into_iter().filter_map(there).find(|cell| !cell.airs.is_empty());
+        match lender {
+            Some(lender) if own.airs.is_empty() => Cell { airs: lender.airs, lent: true },
+            _ => own,
         }
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (dx, dy) in around() {
-            let there = cells.checked(x as isize + dx, y as isize + dy);
-            if let Some(there) = there.filter(|b| is_surface(*b)) {
-                let weight = 1.0 / (dx * dx + dy * dy) as f64;
-                sum += weight * there;
-                weights += weight;
-            }
-        }
-        if weights > 0.0 { sum / weights } else { EMPTY }
     })
 }
 
@@ -147,35 +165,131 @@ pub fn round(
     all.filter(|t| t.2 > 0.0).collect()
 }
 
-/// The boundary of each texel of the thickness, of those of the cells.
-pub fn of_texels(cells: &Image<f64>, full: &View, level: u32) -> Image<f64> {
-    let (cells, view) = (spread(cells), full.reduced(level));
-    Image::from_fn(view.width, view.height, |x, y| {
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (i, j, weight) in round((x, y), level, cells.width, cells.height) {
-            if is_surface(cells.at(i, j)) {
-                sum += weight * cells.at(i, j);
+/// What decides besides the cells.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    pub spacing: f64,
+    /// Depths farther apart are on different surfaces.
+    pub falloff: f64,
+}
+
+impl Rule {
+    /// The width of air that counts in full.
+    pub fn full(&self) -> f64 {
+        2.0 * (self.falloff - self.spacing).max(SLICE * self.spacing)
+    }
+}
+
+/// The boundary of a texel whose surface lies at a depth, of the cells round it with their weights; and
+/// how near any comparison was that decided: of depths, and of what airs count for.
+pub fn between(cells: &[(Cell, f64)], z: f64, rule: Rule) -> (f64, [f64; 2]) {
+    let (spacing, full) = (rule.spacing, rule.full());
+    let mut near = [f64::INFINITY; 2];
+    // Once those behind the surface and then those before it.
+    for behind in [true, false] {
+        let (mut best, mut after) = (None::<(f64, f64)>, 0.0);
+        loop {
+            let own = |cell: &Cell, near: &mut [f64; 2]| {
+                let mut found = None;
+                for air in &cell.airs {
+                    let past = air.from + air.to - 2.0 * z;
+                    near[0] = near[0].min(0.5 * past.abs());
+                    if behind && past > 0.0 && found.is_none() {
+                        if air.from != after {
+                            near[0] = near[0].min((air.from - after).abs());
+                        }
+                        found = (air.from >= after).then_some(*air);
+                    }
+                    if !behind && past <= 0.0 {
+                        found = Some(*air);
+                    }
+                }
+                found
+            };
+            let of: Vec<_> = cells.iter().map(|(cell, _)| own(cell, &mut near)).collect();
+            let ahead =
+                |a: &Air<f64>, b: &Air<f64>| if behind { b.from - a.from } else { a.to - b.to };
+            let Some(first) =
+                of.iter().flatten().copied().reduce(|a, b| if ahead(&b, &a) > 0.0 { b } else { a })
+            else {
+                break;
+            };
+            let (mut sum, mut weights, mut open) = (0.0, 0.0, 0.0);
+            let (mut start, mut end) = (0.0_f64, f64::INFINITY);
+            for (air, (cell, weight)) in of.iter().zip(cells) {
+                let Some(air) = air else { continue };
+                // Another may be the first; those that begin with one sphere stay as they are.
+                let ahead = ahead(&first, air);
+                near[0] = near[0].min(if ahead == 0.0 { f64::INFINITY } else { ahead });
+                near[0] = near[0].min((first.to - air.from).abs().min((air.to - first.from).abs()));
+                if air.from >= first.to || air.to <= first.from {
+                    continue;
+                }
+                let width = air.to - air.from;
+                sum += weight * (air.from + (0.5 * width).min(BEYOND * spacing));
                 weights += weight;
+                (start, end) = (start.max(air.from), end.min(air.to));
+                let counts = LEAST + (1.0 - LEAST) * air.body;
+                open += if cell.lent { 0.0 } else { weight * (width / full).min(1.0) * counts };
             }
+            let (mut at, rest) = (sum / weights, 0.5 * (end - start));
+            near[0] = near[0].min(rest.abs());
+            if rest > 0.0 {
+                let edge = rest.min(SLICE * spacing);
+                at = at.clamp(start + edge, end - edge);
+            }
+            near[1] = near[1].min((open - CHOSEN).abs());
+            // Two that both count for nothing stay in their order.
+            if let Some((most, _)) = best.filter(|(most, _)| open != 0.0 || *most != 0.0) {
+                near[1] = near[1].min((open - most).abs());
+            }
+            if best.is_none_or(|(most, _)| open > most) {
+                best = Some((open, at));
+            }
+            if !behind || open >= CHOSEN {
+                break;
+            }
+            after = first.to;
         }
-        if weights > 0.0 { sum / weights } else { EMPTY }
+        if let Some((_, at)) = best {
+            return (at, near);
+        }
+    }
+    (EMPTY, near)
+}
+
+/// The nearest depth of the pixels of a texel.
+pub fn front(depth: &Image<f64>, level: u32, p: (usize, usize)) -> f64 {
+    let pixels = |p: usize, extent: usize| p << level..((p + 1) << level).min(extent);
+    let all = pixels(p.1, depth.height)
+        .flat_map(|y| pixels(p.0, depth.width).map(move |x| depth.at(x, y)));
+    all.fold(EMPTY, f64::min)
+}
+
+/// The boundary of each texel of the thickness, of the airs of the cells and the depth image.
+pub fn of_texels(cells: &Image<Cell>, depth: &Image<f64>, level: u32, rule: Rule) -> Image<f64> {
+    let cells = spread(cells);
+    let texels = |extent: usize| extent.div_ceil(1 << level);
+    Image::from_fn(texels(depth.width), texels(depth.height), |x, y| {
+        let round = round((x, y), level, cells.width, cells.height);
+        let of: Vec<_> = round.into_iter().map(|(i, j, weight)| (cells.at(i, j), weight)).collect();
+        between(&of, front(depth, level, (x, y)), rule).0
     })
 }
 
-/// The boundary of each cell, [`EMPTY`] where it holds one sheet or none. `spheres`: those that the
-/// culling leaves.
-pub fn boundaries(spheres: &[Sphere], view: &View, spacing: f64) -> Image<f64> {
+/// The airs of each cell. `spheres`: those that the culling leaves.
+pub fn cells(spheres: &[Sphere], view: &View, spacing: f64) -> Image<Cell> {
     let spans =
         spheres.iter().map(|sphere| (-sphere.center.z, counted(sphere, view, spacing, GROWN)));
-    boundaries_of(spans, view, spacing)
+    cells_from(spans, view, spacing)
 }
 
 /// The same from depths and spans.
-pub fn boundaries_of(
+pub fn cells_from(
     spans: impl Iterator<Item = (f64, Option<Part>)>,
     view: &View,
     spacing: f64,
-) -> Image<f64> {
+) -> Image<Cell> {
     let mut depths = by_cell(view, Vec::new());
     for (z, pixels) in spans.filter_map(|(z, pixels)| Some((z, pixels?))) {
         let (columns, rows) = cells_of(pixels);
@@ -185,5 +299,5 @@ pub fn boundaries_of(
             }
         }
     }
-    depths.map(|depths| boundary(depths, spacing))
+    depths.map(|depths| cell(depths, spacing))
 }

@@ -6,7 +6,8 @@ use std::ops::Range;
 use super::super::{EMPTY, Image, Sphere, View};
 
 use super::boundaries::{
-    around, boundaries, by_cell, cells_of, counted, middle_of_air, of_texels, round, slice, spread,
+    AROUND, Cell, Rule, airs_of, between, by_cell, cells, cells_of, counted, front, round, slice,
+    spread,
 };
 use super::{GROWN, Part, REACH, SLICE, SLICES};
 
@@ -19,12 +20,28 @@ pub struct Slack {
     pub pixels: f64,
 }
 
-/// What is known of a boundary.
-#[derive(Clone, Copy, Debug)]
+/// What is known of the airs of a cell.
+#[derive(Clone, Debug)]
 pub struct Known {
     /// Without slack.
+    pub cell: Cell,
+    /// Whether a sphere may touch the cell.
+    pub touched: bool,
+    /// All that it may be but for the rounding of one number; `None` if that is too much to try.
+    pub answers: Option<Vec<Cell>>,
+    /// By how much that may move the airs.
+    pub rounding: f64,
+    /// Depths that hold all airs that may be.
+    pub low: f64,
+    pub high: f64,
+}
+
+/// What is known of a texel's boundary.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownTexel {
+    /// Without slack.
     pub boundary: f64,
-    /// Whether a sphere may touch the cell, or one that the texel goes by.
+    /// Whether a sphere may touch a cell that it goes by.
     pub touched: bool,
     /// Whether there may be none, and whether there may be one.
     pub maybe_none: bool,
@@ -34,34 +51,6 @@ pub struct Known {
     /// Least and greatest that it may be, if there is one.
     pub low: f64,
     pub high: f64,
-}
-
-impl Known {
-    fn none(touched: bool) -> Self {
-        let (maybe_none, maybe_one, certain) = (true, false, true);
-        let (boundary, low, high) = (EMPTY, f64::INFINITY, 0.0);
-        Self { boundary, touched, maybe_none, maybe_one, certain, low, high }
-    }
-
-    /// The weighted mean of those that there are; `boundary` is that without slack.
-    fn mean(of: &[(Self, f64)], boundary: f64) -> Self {
-        let touched = of.iter().any(|(known, _)| known.touched);
-        let there: Vec<_> = of.iter().filter(|(known, _)| known.maybe_one).collect();
-        let certain = of.iter().all(|(known, _)| known.certain);
-        let weights: f64 = there.iter().map(|t| t.1).sum();
-        let mean = |bound: fn(&Self) -> f64| {
-            there.iter().map(|(known, weight)| bound(known) * weight).sum::<f64>() / weights
-        };
-        let (low, high) = match certain && !there.is_empty() {
-            true => (mean(|known| known.low), mean(|known| known.high)),
-            false => (
-                there.iter().map(|t| t.0.low).fold(f64::INFINITY, f64::min),
-                there.iter().map(|t| t.0.high).fold(0.0, f64::max),
-            ),
-        };
-        let maybe_none = of.iter().all(|(known, _)| known.maybe_none);
-        Self { boundary, touched, maybe_none, maybe_one: !there.is_empty(), certain, low, high }
-    }
 }
 
 /// The spheres that touch a cell, by the least and the greatest that their depths may be: those that
@@ -115,27 +104,56 @@ pub fn judged(
             }
         }
     }
-    let exact = boundaries(spheres, view, spacing);
+    let exact = cells(spheres, view, spacing);
     let cells = touching.data.iter().zip(&exact.data);
-    let data = cells.map(|(touching, boundary)| judge(touching, *boundary, spacing));
+    let data = cells.map(|(touching, cell)| judge(touching, cell, spacing));
     Image { width: exact.width, height: exact.height, data: data.collect() }
 }
 
 /// Slices that rounding may leave open and are all tried, marked and not.
-const OPEN: usize = 10;
+const OPEN: usize = 8;
+/// What cells may be together that is all tried.
+const TRIED: usize = 256;
+
+impl Known {
+    pub fn is_certain(&self) -> bool {
+        self.answers.as_ref().is_some_and(|answers| answers.len() == 1)
+    }
+
+    fn add(&mut self, answer: Cell) {
+        if let Some(answers) = self.answers.as_mut().filter(|all| !all.contains(&answer)) {
+            answers.push(answer);
+        }
+    }
+
+    /// Whether it may have no air of its own.
+    fn maybe_none(&self) -> bool {
+        self.answers.as_ref().is_none_or(|all| all.iter().any(|cell| cell.airs.is_empty()))
+    }
+}
 
 /// What the slack of the depths and of who touches it makes of a cell.
-fn judge(touching: &Touching, boundary: f64, spacing: f64) -> Known {
+fn judge(touching: &Touching, cell: &Cell, spacing: f64) -> Known {
     let Touching { surely, maybe } = touching;
-    let mut known = Known { boundary, ..Known::none(!maybe.is_empty()) };
     // Any of these is the nearest: one that surely touches the cell, or one before that which may.
     let surest = surely.iter().map(|z| z.1).fold(f64::INFINITY, f64::min);
-    let nearest = maybe.iter().filter(|z| z.0 <= surest);
-    known.maybe_none = surely.is_empty();
-    let (mut ends, mut rounding) = (Vec::new(), 0.0_f64);
+    let nearest: Vec<_> = maybe.iter().filter(|z| z.0 <= surest).collect();
+    let low = nearest.iter().map(|z| z.0).fold(f64::INFINITY, f64::min);
+    let high = nearest.iter().map(|z| z.1.min(surest)).fold(0.0, f64::max);
+    let mut known = Known {
+        cell: cell.clone(),
+        touched: !maybe.is_empty(),
+        answers: Some(Vec::new()),
+        rounding: 0.0,
+        low,
+        high: high + SLICES as f64 * SLICE * spacing,
+    };
+    if surely.is_empty() {
+        known.add(Cell::default());
+    }
     for nearest in nearest {
         let (low, high) = (nearest.0, nearest.1.min(surest));
-        rounding = rounding.max(nearest.1 - nearest.0);
+        known.rounding = known.rounding.max(nearest.1 - nearest.0);
         let (mut sure, mut possible) = ([false; SLICES], [false; SLICES]);
         let reach = REACH * spacing;
         for z in maybe.iter().filter(|z| z.1 >= low) {
@@ -152,62 +170,113 @@ fn judge(touching: &Touching, boundary: f64, spacing: f64) -> Known {
         }
         let open: Vec<_> = (0..SLICES).filter(|k| possible[*k] && !sure[*k]).collect();
         if open.len() > OPEN {
-            known.maybe_none = true;
-            ends.extend([(low, 0), (high, 2 * SLICES)]);
-            continue;
+            known.answers = None;
+            return known;
         }
         for bits in 0..1_u32 << open.len() {
             let mut marked = sure;
             for (i, k) in open.iter().enumerate() {
                 marked[*k] = bits >> i & 1 == 1;
             }
-            match middle_of_air(&marked) {
-                Some(twice) => ends.extend([(low, twice), (high, twice)]),
-                None => known.maybe_none = true,
-            }
+            let z = 0.5 * (nearest.0 + nearest.1);
+            let airs = airs_of(&marked).iter().map(|air| air.behind(z, spacing)).collect();
+            known.add(Cell { airs, lent: false });
         }
-    }
-    known.maybe_one = !ends.is_empty();
-    if known.maybe_one {
-        let at = |(from, twice): &(f64, usize)| from + *twice as f64 * 0.5 * SLICE * spacing;
-        known.low = ends.iter().map(at).fold(f64::INFINITY, f64::min);
-        known.high = ends.iter().map(at).fold(0.0, f64::max);
-        known.certain = !known.maybe_none && known.high - known.low <= 1.001 * rounding;
-    } else {
-        known.maybe_none = true;
     }
     known
 }
 
-/// What the slack of the cells makes of the texels of the thickness.
-pub fn judged_texels(cells: &Image<Known>, full: &View, level: u32) -> Image<Known> {
-    let exact = cells.map(|cell| cell.boundary);
-    let (exact_spread, exact_texels) = (spread(&exact), of_texels(&exact, full, level));
-    let spread = Image::from_fn(cells.width, cells.height, |x, y| {
-        let own = cells.at(x, y);
-        if !own.maybe_none {
-            return own;
+/// What the slack of the cells makes of the texels of the thickness, of a depth image that has none.
+/// `relative`: how much of a number rounding adds on the way to it.
+pub fn judged_texels(
+    cells: &Image<Known>,
+    depth: &Image<f64>,
+    level: u32,
+    rule: Rule,
+    relative: f64,
+) -> Image<KnownTexel> {
+    let exact = spread(&cells.map(|known| known.cell.clone()));
+    // Each cell with those whose airs it may have.
+    let lent = Image::from_fn(cells.width, cells.height, |x, y| {
+        let mut all = cells.at(x, y);
+        all.cell = exact.at(x, y);
+        if !all.maybe_none() {
+            return all;
         }
-        let round: Vec<_> = around()
-            .filter(|at| *at != (0, 0))
-            .filter_map(|(dx, dy)| {
-                let there = cells.checked(x as isize + dx, y as isize + dy)?;
-                Some((there, 1.0 / (dx * dx + dy * dy) as f64))
-            })
-            .collect();
-        let mut mean = Known::mean(&round, exact_spread.at(x, y));
-        mean.touched = own.touched;
-        if own.maybe_one {
-            mean.certain = false;
-            (mean.low, mean.high) = (mean.low.min(own.low), mean.high.max(own.high));
-            mean.maybe_one = true;
+        if let Some(answers) = &mut all.answers {
+            answers.retain(|answer| !answer.airs.is_empty());
         }
-        mean
+        for (dx, dy) in AROUND {
+            let Some(there) = cells.checked(x as isize + dx, y as isize + dy) else { continue };
+            all.rounding = all.rounding.max(there.rounding);
+            (all.low, all.high) = (all.low.min(there.low), all.high.max(there.high));
+            match &there.answers {
+                Some(answers) => answers
+                    .iter()
+                    .filter(|answer| !answer.airs.is_empty())
+                    .for_each(|answer| all.add(Cell { lent: true, ..answer.clone() })),
+                None => all.answers = None,
+            }
+            // No other is asked.
+            if !there.maybe_none() {
+                return all;
+            }
+        }
+        all.add(Cell::default());
+        all
     });
-    let view = full.reduced(level);
-    Image::from_fn(view.width, view.height, |x, y| {
+    let texels = |extent: usize| extent.div_ceil(1 << level);
+    Image::from_fn(texels(depth.width), texels(depth.height), |x, y| {
         let round = round((x, y), level, cells.width, cells.height);
-        let of: Vec<_> = round.iter().map(|(i, j, weight)| (spread.at(*i, *j), *weight)).collect();
-        Known::mean(&of, exact_texels.at(x, y))
+        let of: Vec<_> = round.iter().map(|(i, j, weight)| (lent.at(*i, *j), *weight)).collect();
+        let z = front(depth, level, (x, y));
+        let exact: Vec<_> =
+            of.iter().map(|(known, weight)| (known.cell.clone(), *weight)).collect();
+        let boundary = between(&exact, z, rule).0;
+        let rounding = of.iter().map(|(known, _)| known.rounding).fold(0.0, f64::max);
+        let least = of.iter().map(|(known, _)| known.low).fold(f64::INFINITY, f64::min);
+        let most = of.iter().map(|(known, _)| known.high).fold(0.0, f64::max);
+        // Of the difference of two depths; what airs count for are widths over one.
+        let off = 2.0 * (rounding + relative * most);
+        // All that the cells may be together.
+        let mut together = Some(vec![Vec::new()]);
+        for (known, weight) in &of {
+            together = together.zip(known.answers.as_ref()).and_then(|(all, answers)| {
+                let more = all.iter().flat_map(|so_far: &Vec<(Cell, f64)>| {
+                    let with = |answer: &Cell| {
+                        so_far.iter().cloned().chain([(answer.clone(), *weight)]).collect()
+                    };
+                    answers.iter().map(with).collect::<Vec<_>>()
+                });
+                let more: Vec<_> = more.collect();
+                (more.len() <= TRIED).then_some(more)
+            });
+        }
+        let found: Option<Vec<f64>> = together.and_then(|all| {
+            let asked = all.iter().map(|cells| between(cells, z, rule));
+            asked
+                .map(|(at, near)| {
+                    (near[0] > off && near[1] > off / rule.full() + relative).then_some(at)
+                })
+                .collect()
+        });
+        let touched = round.iter().any(|(i, j, _)| cells.at(*i, *j).touched);
+        let open = KnownTexel {
+            boundary,
+            touched,
+            maybe_none: of.iter().all(|(known, _)| known.maybe_none()),
+            maybe_one: most > 0.0,
+            certain: false,
+            low: least,
+            high: most,
+        };
+        let Some(found) = found else { return open };
+        let there = || found.iter().copied().filter(|at| *at < EMPTY);
+        let low = there().fold(f64::INFINITY, f64::min) - rounding;
+        let high = there().fold(0.0, f64::max) + rounding;
+        let (maybe_none, maybe_one) = (found.contains(&EMPTY), there().next().is_some());
+        // Answers of one sphere differ by no more than the middle of what is known of its depth.
+        let certain = maybe_none != maybe_one && high - low <= 3.0 * rounding + off;
+        KnownTexel { maybe_none, maybe_one, certain: certain || !maybe_one, low, high, ..open }
     })
 }

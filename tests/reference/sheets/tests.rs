@@ -38,11 +38,26 @@ fn rounded(sphere: &Sphere) -> Slack {
     Slack { depth: 1e-5 * sphere.center.z.abs(), pixels: 1.0 / 32.0 }
 }
 
-/// The boundary of a view of one cell.
-fn one(spheres: &[Sphere]) -> f64 {
-    let found = boundaries(spheres, &wide(8, 8), SPACING);
+const RULE: Rule = Rule { spacing: SPACING, falloff: 3.5 * SPACING };
+
+/// The airs of a view of one cell.
+fn airs(spheres: &[Sphere]) -> Cell {
+    let found = cells(spheres, &wide(8, 8), SPACING);
     assert_eq!((found.width, found.height), (1, 1));
-    found.data[0]
+    found.at(0, 0)
+}
+
+fn air(from: f64, to: f64, body: f64) -> Air<f64> {
+    Air { from, to, body }
+}
+
+fn cell_of(airs: &[Air<f64>]) -> Cell {
+    Cell { airs: airs.to_vec(), lent: false }
+}
+
+/// The boundary that a texel at a depth has of one cell.
+fn one(depths: &[f64], z: f64) -> f64 {
+    between(&[(airs(&row(depths)), 1.0)], z, RULE).0
 }
 
 #[test]
@@ -52,16 +67,17 @@ fn a_drop_before_a_plane_is_a_sheet_of_its_own() {
     let drop = at(44.0 * 8.5 / 32.0 - 8.5, 8.5 - 20.0 * 8.5 / 32.0, 8.5);
     let mut spheres = plane(10.0);
     spheres.push(drop);
-    let found = boundaries(&spheres, &view, SPACING);
+    let found = cells(&spheres, &view, SPACING);
     for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
-        // The drop marks slices 0 and 1, the plane 4 (from (1.5 - 0.375) / 0.25 on) to 7.
-        let expected = if (x, y) == (5, 2) { 8.5 + 3.0 * 0.25 } else { EMPTY };
-        assert_eq!(found.at(x, y), expected, "({x}, {y})");
+        // The drop marks slices 0 and 1, the plane 4 (from (1.5 - 0.375) / 0.25 on) to 7, which is a
+        // third of the way from a drop to a body.
+        let expected = if (x, y) == (5, 2) { vec![air(9.0, 9.5, 1.0 / 3.0)] } else { Vec::new() };
+        assert_eq!(found.at(x, y).airs, expected, "({x}, {y})");
     }
     // Nearer to the plane the air between is less than a slice.
-    assert_eq!(one(&row(&[8.0, 10.0])), 9.0);
-    assert_eq!(one(&row(&[8.75, 10.0])), 9.375);
-    assert_eq!(one(&row(&[9.0, 10.0])), EMPTY);
+    assert_eq!(one(&[8.0, 10.0], 7.7), 9.0);
+    assert_eq!(one(&[8.75, 10.0], 8.4), 9.375);
+    assert_eq!(one(&[9.0, 10.0], 8.7), EMPTY);
 }
 
 #[test]
@@ -71,95 +87,129 @@ fn contiguous_water_is_one_sheet_and_no_water_none() {
         block.extend(plane(6.0 + f64::from(layer) * SPACING));
     }
     let view = wide(50, 33);
-    let found = boundaries(&block, &view, SPACING);
+    let found = cells(&block, &view, SPACING);
     assert_eq!((found.width, found.height), (7, 5));
-    assert!(found.data.iter().all(|b| *b == EMPTY));
-    assert!(boundaries(&[], &view, SPACING).data.iter().all(|b| *b == EMPTY));
-    assert_eq!(one(&row(&[6.0])), EMPTY);
+    assert!(found.data.iter().all(|cell| *cell == Cell::default()));
+    assert!(cells(&[], &view, SPACING).data.iter().all(|cell| *cell == Cell::default()));
+    assert!(airs(&row(&[6.0])).airs.is_empty());
 }
 
 #[test]
-fn the_last_air_before_a_body_decides() {
-    // Slices 0 and 1, 6 to 9, 14 to 19: the last are a body.
-    assert_eq!(one(&row(&[9.5, 5.0, 9.0, 7.0])), 5.0 + 12.0 * 0.25);
-    // 14 to 18 are none: the first air.
-    assert_eq!(one(&row(&[5.0, 7.0, 9.0, 9.25])), 5.0 + 4.0 * 0.25);
-    // All to the last slice are, and the last body decides.
-    assert_eq!(one(&row(&[5.0, 7.0, 40.0])), 5.0 + 20.5 * 0.25);
-    assert_eq!(one(&row(&[5.0, 7.0, 7.5, 40.0])), 5.0 + 21.5 * 0.25);
-    // A drop behind a body is of its sheet.
-    assert_eq!(one(&row(&[5.0, 7.0, 7.5, 10.0])), 5.0 + 4.0 * 0.25);
-    // What is before the air need be none.
-    assert_eq!(one(&row(&[5.0, 5.5, 6.0, 8.0, 8.5])), 5.0 + 0.5 * (6.0 + 10.0) * 0.25);
+fn the_air_behind_the_surface_decides() {
+    // Slices 0 and 1, 6 to 9, 14 to 17: all of them drops, of which the first air counts.
+    let three = airs(&row(&[9.0, 5.0, 7.0]));
+    assert_eq!(three.airs, [air(5.5, 6.5, 1.0 / 3.0), air(7.5, 8.5, 1.0 / 3.0)]);
+    assert_eq!(one(&[9.0, 5.0, 7.0], 4.7), 6.0);
+    // The second one's own surface, which may lie before its marks; then the last one's, behind which
+    // there is none.
+    assert_eq!(one(&[9.0, 5.0, 7.0], 6.1), 8.0);
+    assert_eq!(one(&[9.0, 5.0, 7.0], 8.7), 8.0);
+    assert_eq!(one(&[9.0, 5.0, 7.0], EMPTY), 8.0);
+    // A body is not passed, a drop before it is; the boundary keeps near to what is before it.
+    assert_eq!(one(&[5.0, 8.0, 8.5, 20.0], 4.7), 6.5);
+    assert_eq!(one(&[5.0, 8.0, 20.0, 20.5], 4.7), 9.5);
+    // Of little air before a body, 1.0 of 2.5, none is chosen; of 1.5 it is.
+    assert_eq!(one(&[5.0, 7.0, 7.5, 20.0, 20.5], 4.7), 9.0);
+    assert_eq!(one(&[5.0, 7.5, 8.0, 20.0, 20.5], 4.7), 5.5 + 0.75);
+    // Five airs are kept.
+    let many: Vec<f64> = (0..8).map(|k| 5.0 + 2.0 * f64::from(k)).collect();
+    assert_eq!(airs(&row(&many)).airs.len(), 5);
+    assert_eq!(one(&many, EMPTY), 14.0);
 }
 
 #[test]
-fn boundaries_are_spread_to_the_cells_round() {
-    let mut cells = Image::new(5, 4, EMPTY);
-    *cells.at_mut(0, 0) = 4.0;
-    *cells.at_mut(2, 1) = 8.0;
+fn airs_are_lent_to_the_cells_round() {
+    let mut cells = Image::new(5, 4, Cell::default());
+    let (first, second) = ([air(3.0, 5.0, 1.0)], [air(7.0, 9.0, 1.0)]);
+    *cells.at_mut(0, 0) = cell_of(&first);
+    *cells.at_mut(2, 1) = cell_of(&second);
     let found = spread(&cells);
-    // By 1 over the square of the distance: half on the diagonal.
-    let (both, far) = ((4.0 + 0.5 * 8.0) / 1.5, (0.5 * 4.0 + 8.0) / 1.5);
-    let expected = [
-        [4.0, both, 8.0, 8.0, EMPTY],
-        [4.0, far, 8.0, 8.0, EMPTY],
-        [EMPTY, 8.0, 8.0, 8.0, EMPTY],
-        [EMPTY; 5],
-    ];
+    // At the left first, on a diagonal last.
+    let expected = [[1, 1, 2, 2, 0], [1, 2, 2, 2, 0], [0, 2, 2, 2, 0], [0; 5]];
     for (y, x) in (0..4).flat_map(|y| (0..5).map(move |x| (y, x))) {
-        assert!((found.at(x, y) - expected[y][x]).abs() < 1e-12, "({x}, {y})");
+        let airs: [&[Air<f64>]; 3] = [&[], &first, &second];
+        let lent = expected[y][x] > 0 && cells.at(x, y).airs.is_empty();
+        let expected = Cell { airs: airs[expected[y][x]].to_vec(), lent };
+        assert_eq!(found.at(x, y), expected, "({x}, {y})");
     }
 }
 
 #[test]
-fn texels_are_between_the_cells_that_have_one() {
-    let view = wide(40, 8);
-    let mut cells = Image::new(5, 1, EMPTY);
-    *cells.at_mut(0, 0) = 4.0;
-    *cells.at_mut(1, 0) = 6.0;
-    *cells.at_mut(2, 0) = 8.0;
+fn texels_are_between_the_cells_whose_airs_overlap() {
+    let mut cells = Image::new(5, 1, Cell::default());
+    *cells.at_mut(0, 0) = cell_of(&[air(3.0, 5.0, 1.0)]);
+    *cells.at_mut(1, 0) = cell_of(&[air(3.5, 5.5, 1.0)]);
+    *cells.at_mut(2, 0) = cell_of(&[air(4.25, 6.25, 1.0)]);
     // The middle of texel p lies at p / 2 - 1 / 4 from that of the first cell; the fourth cell
-    // has its boundary of the third.
-    let found = of_texels(&cells, &view, 2);
+    // has the airs of the third.
+    let depth = Image::new(40, 8, 2.0);
+    let found = of_texels(&cells, &depth, 2, RULE);
     assert_eq!((found.width, found.height), (10, 2));
-    let expected = [4.0, 4.5, 5.5, 6.5, 7.5, 8.0, 8.0, 8.0, 8.0, EMPTY];
+    let expected = [4.0, 4.125, 4.375, 4.6875, 5.0625, 5.25, 5.25, 5.25, 5.25, EMPTY];
     for (x, expected) in expected.into_iter().enumerate() {
+        // Of the third texel's cells the second decides by 3/4; of the fifth's the limits do not.
         assert_eq!([found.at(x, 0), found.at(x, 1)], [expected; 2], "{x}");
     }
     // Each texel of level 3 is a cell.
-    let found = of_texels(&cells, &view, 3);
-    assert_eq!(found.data, [4.0, 6.0, 8.0, 8.0, EMPTY]);
-    assert_eq!(of_texels(&cells, &view, 0).at(8, 5), 4.0 * 0.4375 + 6.0 * 0.5625);
+    let found = of_texels(&cells, &depth, 3, RULE);
+    assert_eq!(found.data, [4.0, 4.5, 5.25, 5.25, EMPTY]);
+    assert_eq!(of_texels(&cells, &depth, 0, RULE).at(8, 5), 4.0 * 0.4375 + 4.5 * 0.5625);
+    // The nearest of a texel's pixels is its surface.
+    let mut near = Image::new(40, 8, 9.0);
+    *cells.at_mut(0, 0) = cell_of(&[air(3.0, 5.0, 1.0), air(6.0, 8.0, 1.0)]);
+    assert_eq!(of_texels(&cells, &near, 3, RULE).at(0, 0), 7.0);
+    *near.at_mut(7, 6) = 2.0;
+    assert_eq!(of_texels(&cells, &near, 3, RULE).at(0, 0), 4.0);
+}
+
+/// Both cells know both bodies behind the surface, but one of them no air before the nearer.
+#[test]
+fn what_more_cells_see_is_chosen() {
+    let both = cell_of(&[air(3.0, 6.0, 1.0), air(8.0, 12.0, 1.0)]);
+    let joined = cell_of(&[air(8.0, 12.0, 1.0)]);
+    for (share, expected) in [(0.75, 4.0), (0.51, 4.0), (0.49, 9.0), (0.25, 9.0)] {
+        let cells = [(both.clone(), share), (joined.clone(), 1.0 - share)];
+        assert_eq!(between(&cells, 2.0, RULE).0, expected, "{share}");
+        let cells = [(joined.clone(), 1.0 - share), (both.clone(), share)];
+        assert_eq!(between(&cells, 2.0, RULE).0, expected, "{share}, the other way round");
+    }
+    // Airs that are lent do not vote, but are better than none.
+    let lent = Cell { lent: true, ..both.clone() };
+    assert_eq!(between(&[(lent.clone(), 0.9), (joined, 0.1)], 2.0, RULE).0, 9.0);
+    assert_eq!(between(&[(lent, 1.0)], 2.0, RULE).0, 4.0);
+    // It lies in the air that all of them have.
+    let (far, near) = (cell_of(&[air(3.0, 13.0, 1.0)]), cell_of(&[air(3.0, 3.75, 1.0)]));
+    assert_eq!(between(&[(far, 0.75), (near, 0.25)], 2.0, RULE).0, 3.5);
 }
 
 #[test]
 fn the_last_slice_holds_all_that_is_farther() {
-    assert_eq!(one(&row(&[5.0, 40.0])), 9.125);
-    assert_eq!(one(&row(&[5.0, 1e12])), 9.125);
+    assert_eq!(airs(&row(&[5.0, 100.0])).airs, [air(5.5, 5.0 + 255.0 * 0.25, 1.0)]);
+    assert_eq!(airs(&row(&[5.0, 1e12])).airs, [air(5.5, 5.0 + 255.0 * 0.25, 1.0)]);
     let until = |z: f64| -> Vec<f64> {
         (0..).map(|i| 5.0 + 0.25 * f64::from(i)).take_while(|d| *d <= z).collect()
     };
-    // The layer at 12 marks to slice 29 (7.375 / 0.25), that at 12.25 to 30, at 12.5 to 31.
-    for (last, far, expected) in [
-        (12.0, Some(40.0), 5.0 + 30.5 * 0.25),
-        (12.0, None, EMPTY),
-        (12.25, Some(40.0), EMPTY),
-        (12.25, None, EMPTY),
-        (12.5, Some(40.0), EMPTY),
+    // The layer at 68 marks to slice 253 (63.375 / 0.25), that at 68.25 to 254, at 68.5 to 255.
+    for (last, far, air_from) in [
+        (68.0, Some(100.0), Some(254.0)),
+        (68.0, None, None),
+        (68.25, Some(100.0), None),
+        (68.5, Some(100.0), None),
     ] {
         let mut depths = until(last);
         depths.extend(far);
-        assert_eq!(one(&row(&depths)), expected, "{last} {far:?}");
+        let expected: Vec<_> =
+            air_from.map(|k| air(5.0 + 0.25 * k, 5.0 + 0.25 * 255.0, 1.0)).into_iter().collect();
+        assert_eq!(airs(&row(&depths)).airs, expected, "{last} {far:?}");
     }
 }
 
 #[test]
 fn a_sphere_at_the_eye_takes_no_part() {
-    for (radii, expected) in [(1.005, EMPTY), (0.5, EMPTY), (-3.0, EMPTY), (1.02, 1.02)] {
+    for (radii, seen) in [(1.005, false), (0.5, false), (-3.0, false), (1.02, true)] {
         let z = radii * RADIUS;
-        let expected = if expected == EMPTY { EMPTY } else { z + 16.5 * 0.25 };
-        assert_eq!(one(&row(&[z, 10.0])), expected, "{radii} radii");
+        let expected = if seen { z + 0.5 + 1.0 } else { EMPTY };
+        assert_eq!(one(&[z, 10.0], z - RADIUS), expected, "{radii} radii");
     }
 }
 
@@ -205,33 +255,41 @@ fn a_span_bounds_the_projection() {
 #[test]
 fn a_cell_is_certain_unless_rounding_decides() {
     let view = wide(8, 8);
-    let judge = |depths: &[f64]| judged(&row(depths), &view, SPACING, rounded).data[0];
+    let judge = |depths: &[f64]| judged(&row(depths), &view, SPACING, rounded).at(0, 0);
     let apart = judge(&[8.5, 10.0]);
-    assert!(apart.certain && apart.boundary == 9.25, "{apart:?}");
-    assert!(apart.low < 9.25 && apart.high > 9.25 && apart.high - apart.low < 2e-4);
-    let none = |known: Known| known.certain && known.maybe_none && !known.maybe_one;
-    assert!(none(judge(&[8.5])) && none(judge(&[8.5, 9.5])));
+    assert!(apart.is_certain() && apart.cell.airs == [air(9.0, 9.5, 1.0 / 3.0)], "{apart:?}");
+    assert!(apart.rounding > 0.0 && apart.rounding < 2e-4);
+    assert!(apart.low < 8.5 && apart.high > 8.5 + 256.0 * 0.25);
+    let none = |known: &Known| known.is_certain() && known.cell.airs.is_empty();
+    assert!(none(&judge(&[8.5])) && none(&judge(&[8.5, 9.5])));
     // The second marks from slice 3 on, or from 2 on: a gap or none.
     let edge = 8.5 + 3.0 * 0.25 + 0.375;
     let either = judge(&[8.5, edge]);
-    assert!(!either.certain && either.maybe_none && either.maybe_one, "{either:?}");
-    assert!(judge(&[8.5, edge + 1e-3]).certain);
+    assert!(!either.is_certain(), "{either:?}");
+    assert!(judge(&[8.5, edge + 1e-3]).is_certain());
     // The same of slices 4 and 3, or of where the first sheet ends: a gap that is wider or not.
     for depths in [&[8.5, edge + 0.25][..], &[8.5, 8.875, 12.0]] {
-        let either = judge(depths);
-        assert!(!either.certain && !either.maybe_none, "{either:?}");
-        assert!((either.high - either.low - 0.125).abs() < 1e-3, "{either:?}");
+        assert!(!judge(depths).is_certain(), "{depths:?}");
     }
     // What is not known of a cell is not known of the texels round it.
-    let view = wide(16, 8);
     let mut cells = Image::new(2, 1, judge(&[8.5, 10.0]));
-    *cells.at_mut(1, 0) = either;
-    let texels = judged_texels(&cells, &view, 3);
-    assert!(texels.at(0, 0).certain && !texels.at(1, 0).certain);
+    *cells.at_mut(1, 0) = either.clone();
+    let depth = Image::new(16, 8, 8.2);
+    let texels = |level| judged_texels(&cells, &depth, level, RULE, 1e-6);
+    let KnownTexel { boundary, low, high, certain, maybe_none, maybe_one, .. } = texels(3).at(0, 0);
+    assert!(certain && maybe_one && !maybe_none && low < 9.25 && high > 9.25 && boundary == 9.25);
+    assert!(high - low < 4e-4);
     // It may have the boundary of the first, or its own; never none.
-    let Known { low, high, maybe_none, .. } = texels.at(1, 0);
-    assert!(!maybe_none && low <= either.low && high >= either.high && high > 9.2499);
-    assert!(!judged_texels(&cells, &view, 2).at(1, 0).certain);
+    let KnownTexel { low, high, certain, maybe_none, maybe_one, .. } = texels(3).at(1, 0);
+    assert!(!certain && maybe_one && !maybe_none && low <= 9.126 && high >= 9.2499);
+    assert!(low > 9.0 && high < 9.26, "{low} {high}");
+    assert!(!texels(2).at(1, 0).certain);
+    // Where the surface is at the middle of the air, rounding decides whether that is behind it.
+    for (z, certain) in [(9.25, false), (9.25 - 1e-2, true), (9.25 + 1e-2, true)] {
+        let depth = Image::new(16, 8, z);
+        let texel = judged_texels(&cells, &depth, 3, RULE, 1e-6).at(0, 0);
+        assert_eq!(texel.certain, certain, "{z}");
+    }
     let view = wide(8, 8);
     // A sphere that may touch the cell or not.
     let beside = |by: f64| {
@@ -239,12 +297,12 @@ fn a_cell_is_certain_unless_rounding_decides() {
         let angle = ((3.5 + by) / 4.0).atan() + (RADIUS / 10.0).asin();
         let (x, z) = (10.0 * angle.sin(), 10.0 * angle.cos());
         let spheres = [row(&[6.0])[0], at(x, view.ray(4, 4).y * z, z)];
-        judged(&spheres, &view, SPACING, rounded).data[0]
+        judged(&spheres, &view, SPACING, rounded).at(0, 0)
     };
     let (outside, edge, inside) = (beside(0.1), beside(GROWN), beside(-0.1));
-    assert!(none(outside) && outside.boundary == EMPTY, "{outside:?}");
-    assert!(inside.certain && (inside.boundary - 6.75).abs() < 1e-12, "{inside:?}");
-    assert!(!edge.certain, "{edge:?}");
+    assert!(none(&outside), "{outside:?}");
+    assert!(inside.is_certain() && inside.cell.airs.len() == 1, "{inside:?}");
+    assert!(!edge.is_certain(), "{edge:?}");
 }
 
 #[test]
