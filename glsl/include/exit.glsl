@@ -93,8 +93,11 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
         float next = beyond.x < 0.0 ? open : mix(before.x, beyond.x, part);
         far = skipped ? far : next;
     }
-    vec2 at = clamp(on_screen(sheet.at + inside * far).xy, vec2(0.5), frame.extent.xy - 0.5);
-    return at - pixel;
+    vec3 end = on_screen(sheet.at + inside * far);
+    vec2 at = clamp(end.xy, vec2(0.5), frame.extent.xy - 0.5);
+    bool plane = all(equal(at, end.xy)) && met_depth(at) > z;
+    at = plane ? on_plane(on_screen(sheet.at), end) : at;
+    return clamp(at, vec2(0.5), frame.extent.xy - 0.5) - pixel;
 }
 
 // Offset in pixels of the image of water at depth `beyond`, seen through a sheet at depth `front` as through a prism.

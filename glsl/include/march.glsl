@@ -35,6 +35,30 @@ vec3 on_screen(vec3 eye) {
     return vec3((eye.xy / -eye.z - frame.slope.zw) / frame.slope.xy, -1.0 / eye.z);
 }
 
+// Most texels that `on_plane` moves a point.
+const float MOST_MOVED = 4.0;
+
+// Where a ray meets the plane of the scene's texel at a point: a texel's depth alone would round the point to the
+// texel. a, b: the ray's start and that point; pixels, and 1/depth, which is linear in the picture both along the ray
+// and over the plane. The plane has the smaller of the differences to the texels on either side, so that no edge
+// tilts it.
+vec2 on_plane(vec3 a, vec3 b) {
+    vec2 size = 1.0 / frame.scene_depth.xy; // of a texel, pixels
+    vec2 centre = (floor(b.xy / size) + 0.5) * size;
+    float here = 1.0 / met_depth(centre);
+    vec2 after = 1.0 / vec2(met_depth(centre + vec2(size.x, 0.0)), met_depth(centre + vec2(0.0, size.y))) - here;
+    vec2 before = here - 1.0 / vec2(met_depth(centre - vec2(size.x, 0.0)), met_depth(centre - vec2(0.0, size.y)));
+    vec2 rise = mix(before, after, lessThan(abs(after), abs(before))) / size;
+    vec3 way = b - a;
+    float gap = here + dot(rise, b.xy - centre) - b.z;
+    float closes = way.z - dot(rise, way.xy);
+    float most = MOST_MOVED * size.y * abs(closes);
+    vec2 moved = way.xy * (gap * sign(closes));
+    // Without a division by 0: `closes` is 0 for a ray along the plane.
+    float far = length(moved);
+    return b.xy + moved * (most < far ? MOST_MOVED * size.y / far : 1.0 / max(abs(closes), 1.0e-30));
+}
+
 // Marches from a point before the scene along a unit vector; with 0 steps there is no hit.
 Met march(vec3 from, vec3 along, int steps) {
     float reach = MARCH_FAR * -from.z;

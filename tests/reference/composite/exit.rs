@@ -109,7 +109,36 @@ pub fn bed_offset(
             None => (far + before.1 / along).min(2.0 * far),
         };
     }
-    ends(far) - pixel
+    let found = on_screen(view, position + inside * far);
+    let at = ends(far);
+    let inside = at == found.truncate() && depth(inputs, view, at) > -position.z;
+    let at = if inside { on_plane(inputs, view, on_screen(view, position), found) } else { at };
+    at.clamp(DVec2::splat(0.5), view.extent() - 0.5) - pixel
+}
+
+/// Where the line between two places on the screen, or its continuation by at most four texels, crosses the
+/// plane of the scene's texel at the second. All are pixels and reciprocal depths, in which lines and planes stay lines
+/// and planes. The plane goes through the texel's centre and has the flatter of the slopes to the two neighbours on
+/// each axis.
+fn on_plane(inputs: &Inputs<'_>, view: &View, start: DVec3, found: DVec3) -> DVec2 {
+    let (scene, pixels) = (inputs.scene_depth, view.extent());
+    let size = pixels / DVec2::new(scene.width as f64, scene.height as f64);
+    let centre = ((found.truncate() / size).floor() + 0.5) * size;
+    let near = |x: f64, y: f64| depth(inputs, view, centre + DVec2::new(x, y) * size).recip();
+    let flatter = |low: f64, middle: f64, high: f64| {
+        let (rise, fall) = (high - middle, middle - low);
+        if rise.abs() < fall.abs() { rise } else { fall }
+    };
+    let middle = near(0.0, 0.0);
+    let slope = DVec2::new(
+        flatter(near(-1.0, 0.0), middle, near(1.0, 0.0)),
+        flatter(near(0.0, -1.0), middle, near(0.0, 1.0)),
+    ) / size;
+    // Height of the line over the plane, at its two places.
+    let over = |p: DVec3| p.z - middle - slope.dot(p.truncate() - centre);
+    let part = over(found) / (over(found) - over(start));
+    let moved = (start - found).truncate() * part;
+    found.truncate() + moved.clamp_length_max(4.0 * size.y)
 }
 
 /// The same, and how far off it may be.

@@ -413,6 +413,41 @@ fn a_wall_is_mirrored_where_it_stands() {
     }
 }
 
+/// A level pool over a sloping floor: the refracted ray meets the floor between the centres of the scene's texels.
+#[test]
+fn a_floor_under_water_is_met_between_texels() {
+    let (above, deep, index) = (1.5, 1.0, 1.33);
+    let pitch = DMat4::from_rotation_x(35.0_f64.to_radians());
+    let p = projection(DVec2::new(1.2, -1.2), DVec2::ZERO, Depth::Standard);
+    let view = View::new(pitch, p, 160, 120).expect("a valid view");
+    let world = view.view.inverse();
+    let up = view.view.transform_vector3(DVec3::Y);
+    // The floor rises to the right and away from the eye. Distances along a ray of unit depth.
+    let floor = (DVec3::new(-0.1, 1.0, 0.1), -above - deep);
+    let to_floor = |from: DVec3, along: DVec3| (floor.1 - floor.0.dot(from)) / floor.0.dot(along);
+    let ray = |x: usize, y: usize| world.transform_vector3(view.ray(x, y));
+    let of = |of: &(dyn Fn(DVec3) -> f64 + Sync)| {
+        Image::from_fn(view.width, view.height, |x, y| of(ray(x, y)))
+    };
+    let mut scene = Scene::new(&view, 0, 1.0, |_| 1.0);
+    (scene.depth, scene.smoothed) = (of(&|ray| -above / ray.y), of(&|ray| -above / ray.y));
+    scene.scene = of(&|ray| to_floor(DVec3::ZERO, ray));
+    let mut most = 0.0_f64;
+    for (x, y) in (30..130).flat_map(|x| (50..90).map(move |y| (x, y))) {
+        let ray = ray(x, y);
+        let surface = facing(view.ray(x, y) * (-above / ray.y), up, 1.0, 1.0);
+        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let off = bed_offset(&scene.inputs(0), &surface, &view, pixel, (index, &Off::default()));
+        // By Snell's law the part along the surface shrinks by the index.
+        let (from, unit) = (ray * (-above / ray.y), ray.normalize());
+        let level = unit.with_y(0.0) / index;
+        let along = level.with_y(-(1.0 - level.length_squared()).sqrt());
+        let meets = on_wall(&view, from + along * to_floor(from, along));
+        most = most.max((pixel + off).distance(meets));
+    }
+    assert!(most < 1e-6, "{most} pixels");
+}
+
 /// Pixels of a place in the world.
 fn on_wall(view: &View, place: DVec3) -> DVec2 {
     let eye = view.view.transform_point3(place);
