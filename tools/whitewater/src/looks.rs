@@ -59,12 +59,12 @@ const LONE: f32 = 0.5;
 /// their motion, by their differences in speed over a third of the time of a fall through a spacing. Mist comes from
 /// fast water: its share grows with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.55 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.65 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
         it.droplets = 64;
-        it.size = 0.22;
+        it.size = 0.16;
         it.scatter_radius = 4.5;
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = mist;
@@ -72,8 +72,8 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
         it.exposure = 0.001;
-        it.shade = 2.5 + 70.0 * mist;
-        it.scattering = 0.45;
+        it.shade = 2.5 + 30.0 * mist;
+        it.scattering = 0.6;
         it.relief = 1.5;
     });
 }
@@ -102,8 +102,8 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
 /// basin's width, because the waves tell the eye how large the basin is.
 pub fn waves_of_caches(water: &mut WaterSettings, spacing: f32, bounds: &Bounds) {
     let wide = bounds.size().x.max(bounds.size().z);
-    water.wavelets.slope = 0.06;
-    water.wavelets.length = (4.0 * spacing).max(0.07 * wide);
+    water.wavelets.slope = 0.1;
+    water.wavelets.length = (6.0 * spacing).max(0.13 * wide);
 }
 
 /// Width in metres below which water has its natural clarity: a glass or a tub, for which the colour of a pool is too

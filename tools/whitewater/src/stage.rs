@@ -387,7 +387,7 @@ pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
 
 /// Exposure correction of a set in stops: dark stone is photographed brighter.
 pub fn exposure(set: SetArg) -> f32 {
-    if set == SetArg::Pool { 0.45 } else { 0.0 }
+    if set == SetArg::Pool { 0.3 } else { 0.0 }
 }
 
 /// The light of a set, if it has its own. `towards_eye` is the direction from the water.
