@@ -1,9 +1,10 @@
-//! Conformance on a Vulkan device through the public API alone: every pass against its CPU twin, the guarantees of the
-//! contract, and proof that each check can fail.
+//! Tests on a Vulkan device through the public API alone: every pass against its CPU twin, the
+//! guarantees of the contract, and proof that each check can fail.
 //!
-//! `WHITEWATER_EXPECT_ADAPTER`: part of the name of adapter or driver, asserted. `WHITEWATER_REQUIRE_VALIDATION=1`:
-//! fails without the validation layer. `WHITEWATER_SLOW=1`: the long tests too. `WHITEWATER_WATCHDOG=SECONDS`: the
-//! longest wait for the GPU, 60 where it is not set.
+//! `WHITEWATER_EXPECT_ADAPTER`: a part of the adapter's or driver's name, which is asserted.
+//! `WHITEWATER_REQUIRE_VALIDATION=1`: the tests fail without the validation layer.
+//! `WHITEWATER_SLOW=1`: also runs the slow tests. `WHITEWATER_WATCHDOG=SECONDS`: the longest wait
+//! for the GPU, 60 by default.
 #![allow(clippy::unwrap_used)] // a test may
 
 mod reference;

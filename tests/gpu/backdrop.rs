@@ -1,4 +1,5 @@
-//! The stand-in scene's backdrop: seen, lit and hazed, and no part of what shadows, ground and bake are laid round.
+//! The stand-in scene's backdrop is drawn, lit and hazed, and does not enlarge the bounds that
+//! shadows, ground and bake use.
 
 use ash::vk;
 use glam::{Mat4, Vec3};
@@ -30,7 +31,7 @@ fn matt() -> Material {
     Material { base_color: [0.5; 3], roughness: 1.0, ..Material::default() }
 }
 
-/// The same radiance from everywhere.
+/// Radiance from all directions.
 const AROUND: f32 = 0.5;
 
 fn under_a_grey_sky(headless: &mut Headless) {
@@ -52,7 +53,7 @@ fn stage(backdrop: bool) -> Scene {
     }
 }
 
-/// What the backdrop does not cover is the same to the bit.
+/// Pixels that the backdrop does not cover are the same to the bit.
 #[test]
 fn a_backdrop_is_seen_and_changes_nothing_else() {
     let mut headless = headless(SIZE);
@@ -63,7 +64,7 @@ fn a_backdrop_is_seen_and_changes_nothing_else() {
     assert_eq!(stage(false).bounds(), stage(true).bounds());
     let mut covered = 0;
     for ((a, b), (far, near)) in alone.iter().zip(&with).zip(depths.iter().zip(&nearer)) {
-        // Reversed: what is nearer is larger.
+        // Depth is reversed: nearer means larger.
         assert!(near >= far);
         if near == far {
             assert_eq!(a, b);
@@ -76,7 +77,7 @@ fn a_backdrop_is_seen_and_changes_nothing_else() {
     finish(headless);
 }
 
-/// Beer's law: over a length of haze 1/e of the contrast to the horizon is left.
+/// Beer's law: over one length of haze, 1/e of the contrast with the horizon is left.
 #[test]
 fn haze_takes_the_contrast_of_the_backdrop() {
     let mut headless = headless(SIZE);
@@ -87,15 +88,15 @@ fn haze_takes_the_contrast_of_the_backdrop() {
     let length = 9.0;
     let (hazy, _) = shot(&mut headless, &Scene { haze: Some(length), ..stage(true) }, &camera);
     let middle = (SIZE.height / 2 * SIZE.width + SIZE.width / 2) as usize;
-    // To the wall's face; a pixel's centre is half a pixel off the axis.
+    // Distance from the eye to the wall's face; the pixel's centre is half a pixel off the axis.
     let kept = (-(16.5_f32) / length).exp();
     for c in 0..3 {
         let (clear, hazy) = (clear[middle][c] - AROUND, hazy[middle][c] - AROUND);
         assert!(clear.abs() > 0.05, "no contrast to lose: {clear}");
-        // Half floats of about 1 are stored.
+        // Values of about 1 in half precision.
         assert!((hazy - kept * clear).abs() < 2.0_f32.powi(-10), "{hazy}, not {kept} of {clear}");
     }
-    // Meshes stand in clear air.
+    // Haze does not cover the meshes.
     let clip =
         camera.projection_matrix() * camera.view_matrix() * Vec3::new(0.1, 0.6, 0.5).extend(1.0);
     let [x, y] = [(clip.x, SIZE.width), (clip.y, SIZE.height)]
@@ -109,14 +110,14 @@ fn haze_takes_the_contrast_of_the_backdrop() {
     finish(headless);
 }
 
-/// Thin clouds and haze brighten the sky at the horizon, less so above, and what lies under it; no share of them but 0 to 1
-/// is one.
+/// Thin clouds brighten the sky at the horizon more than higher up, and brighten the ground. Values
+/// outside 0 to 1 are errors.
 #[test]
 fn clouds_brighten_the_sky_and_the_ground() {
     let mut headless = headless(SIZE);
     under_a_grey_sky(&mut headless);
     let camera = camera(Vec3::new(0.0, 1.5, 5.0), Vec3::new(0.0, 2.5, 0.0));
-    // Brighter than the sky is the band only where the sun is.
+    // The band of clouds is brighter than the sky only with a strong sun.
     let sun = SunLight { color: [8.0; 3], ..stage(true).sun };
     let (_, depths) = shot(&mut headless, &stage(true), &camera);
     let mut of = |clouds: f32| {
@@ -143,29 +144,31 @@ fn clouds_brighten_the_sky_and_the_ground() {
     finish(headless);
 }
 
-/// Share of a disc that is on one side of a line so far from its middle, in radii.
+/// Fraction of a disc on one side of a line at a distance of `x` radii from its centre.
 fn beyond(x: f32) -> f32 {
     let x = x.clamp(-1.0, 1.0);
     0.5 + (x * (1.0 - x * x).sqrt() + x.asin()) / std::f32::consts::PI
 }
 
-/// Behind thin clouds half of the sun's light comes from a glow, which makes shadows as much softer as what casts them is away.
+/// Behind thin clouds, half of the sunlight comes from a glow around the sun, so the shadow's
+/// penumbra widens with the distance from the occluder.
 #[test]
 fn shadows_soften_with_the_distance_behind_clouds() {
     let mut headless = headless(SIZE);
-    // No sky: what is left is the sun's, and what clouds scatter, which a plate over the floor hides in part.
+    // A black sky leaves only sunlight and the light that clouds scatter, which a plate over the
+    // floor partly hides.
     headless.equirectangular(extent(8, 4), &[[0.0, 0.0, 0.0, 1.0]; 32], 1.0, 0.0).expect("dark");
     let sun = SunLight { direction: [0.0, 1.0, 0.0], color: [3.0; 3] };
     let sheet = |at: [f32; 3], half: [f32; 2]| Mesh::plane(at, half, matt());
     let mut profile = |clouds: f32, high: f32, offset: f32| {
         let meshes = vec![
             sheet([0.0; 3], [3.0, 3.0]),
-            // Its edge lies along z, at x = 0.
+            // The plate's edge lies along z at x = 0.
             sheet([-1.5, high, 0.0], [1.5, 3.0]),
         ];
         let scene = Scene { meshes, sun, clouds, ..Scene::default() };
         let from = |x: f32| camera(Vec3::new(x + 0.5, 0.3, 0.0), Vec3::new(x, 0.0, 0.0));
-        // The pixel's centre is half a pixel off the axis: where that is on the floor.
+        // The pixel's centre is half a pixel off the axis; this finds its point on the floor.
         let at = |middle: u32, size: u32| 2.0 * (middle as f32 + 0.5) / size as f32 - 1.0;
         let [x, y] = [SIZE.width, SIZE.height].map(|size| at(size / 2, size));
         let world = (from(0.0).projection_matrix() * from(0.0).view_matrix()).inverse();
@@ -176,7 +179,8 @@ fn shadows_soften_with_the_distance_behind_clouds() {
     };
     for high in [0.4_f32, 0.7] {
         let radius = 0.0436 * high;
-        // The disc of the sun alone: a step, as wide as the filter of the map, whose texels are 3 mm.
+        // With the sun's disc alone the penumbra is as narrow as the map's filter, whose texels are
+        // 3 mm.
         let [dark, lit] = [-0.6, 0.6].map(|x| profile(0.0, high, x * radius));
         assert!(dark < 0.01 * lit, "{dark} {lit}");
         let [dark, lit] = [-1.3, 1.3].map(|x| profile(1.0, high, x * radius));
@@ -184,7 +188,8 @@ fn shadows_soften_with_the_distance_behind_clouds() {
             let found = (profile(1.0, high, x * radius) - dark) / (lit - dark);
             let core = if x > 0.0 { 0.5 } else { 0.0 };
             let expected = core + 0.5 * beyond(x);
-            // One of sixteen places of half of the light, filtered over a texel, of which a radius is five.
+            // Half of the light has sixteen samples. The map filters over one texel, and a radius
+            // is five texels.
             let most = 0.5 / 16.0 + 0.5 * 0.5 / 5.0 * 2.0 / std::f32::consts::PI;
             assert!((found - expected).abs() < most, "{high} {x}: {found} {expected}");
         }
@@ -192,7 +197,8 @@ fn shadows_soften_with_the_distance_behind_clouds() {
     finish(headless);
 }
 
-/// Paving round what splashes is damp in patches, no darker than stone under a film of water, and dry beyond.
+/// Paving around splashing water is damp in patches, no darker than stone under a film of water,
+/// and dry farther away.
 #[test]
 fn splashed_paving_is_damp_near_by_and_dry_beyond() {
     let mut headless = headless(SIZE);
@@ -208,10 +214,11 @@ fn splashed_paving_is_damp_near_by_and_dry_beyond() {
     let mean = |picture: &[[f32; 4]]| picture.iter().map(|c| c[1]).sum::<f32>();
     let (dry, damp) = (seen(None, 1.4), seen(basin, 1.4));
     let share = mean(&damp) / mean(&dry);
-    // Of an albedo of a half or less a film leaves 0.49 / (1 - 0.235), less at lower ones.
+    // With a film of water, an albedo of 0.5 becomes 0.49 / (1 - 0.235) of itself; lower albedos
+    // become less.
     assert!((0.5..0.97).contains(&share), "{share}");
     assert!(dry.iter().zip(&damp).any(|(a, b)| a == b), "not everywhere");
-    // Three metres beyond and the picture's half.
+    // More than three metres away, plus half of the picture.
     assert_eq!(seen(None, 6.0), seen(basin, 6.0));
     let scene = Scene { splashed: Some([[0.0, f32::NAN], [1.0, 1.0]]), ..Scene::default() };
     let error = headless.scene(&scene, false).expect_err("no place");
@@ -219,7 +226,7 @@ fn splashed_paving_is_damp_near_by_and_dry_beyond() {
     finish(headless);
 }
 
-/// A roof of the backdrop keeps the sun from the backdrop, and from nothing else.
+/// A roof of the backdrop shades the backdrop and nothing else.
 #[test]
 fn a_backdrop_shades_itself_alone() {
     let mut headless = headless(SIZE);
@@ -234,22 +241,23 @@ fn a_backdrop_shades_itself_alone() {
         let scene = Scene { meshes, backdrop, sun, ..Scene::default() };
         shot(&mut headless, &scene, &down).0[middle][0]
     };
-    // A pole, so high that the roof is within what the shadow map sees.
+    // A pole extends the scene's bounds so that the shadow map reaches the roof.
     let pole = Mesh::cuboid([3.5, 3.0, 3.5], [0.1, 3.0, 0.1], [0.0, 0.0, 0.0, 1.0], matt());
     let floor = [sheet(0.0, 4.0), pole];
     let lit = light(&floor, &[]);
     let below = light(&floor, std::slice::from_ref(&roof));
-    // (Of a backdrop there is no sky below the horizon, of which a level sheet sees nothing.)
+    // A backdrop hides the sky below the horizon only, which a level sheet does not see.
     assert!((below - lit).abs() < 0.02 * lit, "a mesh: {below}, {lit}");
     let lit = light(&[], &[sheet(0.0, 4.0)]);
     let below = light(&[], &[sheet(0.0, 4.0), roof]);
-    // Lambert without sun and sky: what the roof throws back of the light that it does not have.
+    // Lambert's law without sun and sky: what is left is light that the roof reflects.
     let sun = 0.5 * 3.0 / std::f32::consts::PI;
     assert!(lit > sun && below < 0.4 * lit, "a backdrop: {below}, {lit}");
     finish(headless);
 }
 
-/// Procedural surfaces go by the metre that is said: all of it four times as large looks the same.
+/// Procedural patterns scale with `Scene::metre`: a scene four times as large, with its metre,
+/// looks the same.
 #[test]
 fn surfaces_go_by_the_metre() {
     let mut headless = headless(SIZE);
@@ -279,7 +287,7 @@ fn surfaces_go_by_the_metre() {
             let differences = a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).abs());
             differences.sum::<f32>() / a.len() as f32
         };
-        // Four is a power of two: all but the sky's constants scales exactly.
+        // Four is a power of two, so everything except the sky's constants scales exactly.
         let [same, other] = [same, other].map(|shot| apart(&shot, &expected));
         assert!(same < 1.0e-3 && other > 5.0e-3, "{small:?}: {same}, {other}");
     }

@@ -1,4 +1,5 @@
-//! Pass `classify`: foam phases by particle id, against the twin, over hundreds of steps.
+//! Compares pass `classify`, which keeps the foam phase of each particle id, with its CPU twin over
+//! hundreds of steps.
 
 use ash::vk;
 use whitewater::water::WeberSettings;
@@ -18,7 +19,7 @@ use crate::support::tolerance::U;
 
 const SLOTS: u32 = 2;
 
-/// A state in a host.
+/// A foam state and the host that records its steps.
 struct Body<'g> {
     gpu: &'g Gpu,
     stub: Stub,
@@ -26,7 +27,7 @@ struct Body<'g> {
     steps: u32,
 }
 
-/// What the shader says of a step's particles.
+/// Foam amount and age that the shader writes for each particle of a step.
 type Foam = Vec<[f32; 2]>;
 
 impl<'g> Body<'g> {
@@ -39,13 +40,14 @@ impl<'g> Body<'g> {
         self.state.as_mut().expect("only drop takes it")
     }
 
-    /// A step of streams, in the slots' turn.
+    /// Records a step in the next frame slot.
     fn record(&mut self, step: &SurfaceFoamStep<'_>) -> Result<(), Error> {
         let slot = self.steps % SLOTS;
         self.steps += 1;
         let cmd = self.stub.begin(slot);
         let state = self.state.as_mut().expect("only drop takes it");
-        // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+        // SAFETY: cmd is recording, the slot was waited for, and all handles live until the end of
+        // this function.
         let result = unsafe { state.record_step(cmd, &step.with(|it| it.slot = Slot(slot))) };
         self.stub.end(slot);
         self.stub.wait(slot);
@@ -66,7 +68,7 @@ impl<'g> Body<'g> {
         bytemuck::cast_slice(&back.bytes()[..8 * count]).to_vec()
     }
 
-    /// The state as it is saved.
+    /// The bytes of the saved state.
     fn save(&mut self) -> Vec<u8> {
         let size = self.state().size();
         let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
@@ -150,8 +152,8 @@ fn twin_settings(settings: &WeberSettings) -> twin::Settings {
     }
 }
 
-/// Ages and where nothing is divided: bit for bit. The division may be 2.5 ulp off, and is taken
-/// from one.
+/// Ages are equal bit for bit. The foam amount is 1 minus a quotient whose division errs by up to
+/// 2.5 ulp.
 fn assert_foam(name: &str, found: &Foam, expected: &[twin::Out]) {
     assert_eq!(found.len(), expected.len());
     for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
@@ -165,7 +167,7 @@ fn assert_foam(name: &str, found: &Foam, expected: &[twin::Out]) {
     }
 }
 
-/// The saved rows hold the twin's entries, bit for bit, and no others.
+/// The saved rows are the twin's entries bit for bit, and there are no others.
 fn assert_state(name: &str, saved: &[u8], phases: &Phases) {
     let words: &[u32] = bytemuck::cast_slice(saved);
     let mut rows = 0;
@@ -187,7 +189,8 @@ fn assert_state(name: &str, saved: &[u8], phases: &Phases) {
     assert_eq!(rows, phases.map.len(), "{name}: rows");
 }
 
-/// Water that is torn now and then: particles come and go, and change places.
+/// Water that becomes turbulent now and then. Some particles vanish, others are born, and the order
+/// changes.
 struct Sea {
     random: Random,
     particles: Vec<Particle>,
@@ -204,7 +207,7 @@ impl Sea {
     }
 
     fn bear(&mut self) {
-        // Ids are not dense, and one of them is the last that is allowed.
+        // The ids are not consecutive, and the largest permitted id is among them.
         let id = self.next.wrapping_mul(2_654_435_761).wrapping_add(NO_ID - 1);
         self.next += 1;
         if id != NO_ID {
@@ -255,7 +258,7 @@ fn phases_are_the_twins_over_hundreds_of_steps() {
     assert!(most.iter().all(|n| *n > 30), "the sea is too calm or too wild: {most:?}");
 }
 
-/// However a sequence is cut into jobs, the foam is the same, bit for bit.
+/// Saving and restoring the state between steps does not change the foam by a bit.
 #[test]
 fn a_saved_state_goes_on_as_if_uncut() {
     let gpu = Gpu::shared();
@@ -276,7 +279,8 @@ fn a_saved_state_goes_on_as_if_uncut() {
     }
 }
 
-/// Where a device binds only a part of the tables at once, and a part of the particles, nothing of it shows.
+/// If the device binds only a part of the tables and of the particles at once, the results are the
+/// same.
 #[test]
 fn tables_in_parts_hold_the_same_state() {
     let mut gpu = Gpu::spied();
@@ -291,7 +295,7 @@ fn tables_in_parts_hold_the_same_state() {
             let cloud = Cloud::new(&body.stub, particles);
             let step = cloud.step(&settings, 0.05);
             drop(spy::take_bound());
-            // Without ids every ninth: what the table holds then is nobody's, in both.
+            // Every ninth step has no ids, which clears the table in both runs.
             let step = if i % 9 == 8 { step.with(|it| it.ids = None) } else { step };
             body.record(&step).expect("a step");
             let bytes = (cloud.data.buffer, cloud.data.size);
@@ -306,7 +310,8 @@ fn tables_in_parts_hold_the_same_state() {
         (foam, body.save())
     };
     let (whole, saved) = run(&gpu, &|_| {});
-    // 250 rows, and 237 particles of 20 bytes: 224.
+    // A binding holds 250 rows of the table, or 237 particles of 20 bytes, which is rounded down to
+    // 224.
     let claims = Claims { max_storage_buffer_range: Some(5000), ..Claims::default() };
     claim(&mut gpu, claims);
     let gpu = gpu;
@@ -328,7 +333,8 @@ fn tables_in_parts_hold_the_same_state() {
     assert_state("parts", &in_parts, &phases);
 }
 
-/// More than a device of the common 128 MiB to a storage buffer binds at once: 4 473 924 ids, really gone through.
+/// More ids than a device binds at once that has the common limit of 128 MiB, which is 4 473 924
+/// rows.
 #[test]
 fn a_step_of_millions_of_ids() {
     if !crate::support::slow() {
@@ -344,7 +350,7 @@ fn a_step_of_millions_of_ids() {
     let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(COUNT));
     for step in 0..3 {
         let mut particles = sea.step().to_vec();
-        // Two steps of it do not make foam of water that begins at rest.
+        // In two steps, water that begins at rest would not become foam without this factor.
         particles.iter_mut().for_each(|p| p.velocity = p.velocity.map(|v| 4.0 * v));
         let expected = phases.step(&twin_settings(&settings), 0.25, &particles);
         let found = body.step(&settings, 0.25, &particles);
@@ -356,7 +362,7 @@ fn a_step_of_millions_of_ids() {
     assert_state("millions", &body.save(), &phases);
 }
 
-/// A step that was thrown away did not happen.
+/// A step whose commands were thrown away leaves the state unchanged.
 #[test]
 fn an_abandoned_step_leaves_the_state_before_it() {
     let gpu = Gpu::shared();
@@ -380,13 +386,14 @@ fn an_abandoned_step_leaves_the_state_before_it() {
     assert_state("after abandoned steps", &body.save(), &phases);
 }
 
-/// Nor does a step that failed or was thrown away before any other leave memory as it was found.
+/// Abandoning the first step, which was never executed, leaves an empty state and not the memory's
+/// old contents.
 #[test]
 fn an_abandoned_first_step_leaves_an_empty_state() {
     let gpu = Gpu::shared();
     let config = SurfaceFoamStateConfig::new(100).with(|it| it.max_stride = 20);
     let settings = settings();
-    // What the allocator hands out next.
+    // The allocator probably hands out this memory, filled with 0x5a, to the next state.
     let mut before = Body::new(&gpu, config);
     let size = before.state().size() as usize;
     before.restore(&vec![0x5a; size]);
@@ -404,8 +411,8 @@ fn an_abandoned_first_step_leaves_an_empty_state() {
     assert!(body.save().iter().all(|byte| *byte == 0), "rows of another's");
 }
 
-/// A state that was reset or brought back after a step is not what the step made: to abandon the step takes nothing
-/// back.
+/// A reset or restore after a step replaces what the step wrote, so abandoning the step must not
+/// undo it.
 #[test]
 fn an_abandoned_step_does_not_undo_a_reset_or_a_restore() {
     let gpu = Gpu::shared();
@@ -418,7 +425,8 @@ fn an_abandoned_step_does_not_undo_a_reset_or_a_restore() {
         }
         let saved = body.save();
         assert!(saved.iter().any(|byte| *byte != 0));
-        // Two steps: of one the table before it would be the saved one.
+        // After only one step the previous table would be the saved one, and the fault would not
+        // show.
         for _ in 0..2 {
             body.steps = 0;
             body.step(&settings, 0.1, sea.step());
@@ -437,7 +445,7 @@ fn an_abandoned_step_does_not_undo_a_reset_or_a_restore() {
     }
 }
 
-/// Counts from the GPU, streams of their own, without densities, without ids, and no particles.
+/// Counts on the GPU, separate streams, no densities, no ids, and no particles.
 #[test]
 fn every_kind_of_input() {
     let gpu = Gpu::shared();
@@ -482,13 +490,13 @@ fn every_kind_of_input() {
     wide.record(&step.with(|it| it.ids = None)).expect("a step");
     for (p, found) in particles.iter().zip(wide.foam(particles.len())) {
         let expected = twin::stateless(&twin_settings(&settings), p.velocity, p.density);
-        // A division of 2.5 ulp, of numbers up to 1.5.
+        // The division errs by 2.5 ulp, for numbers up to 1.5.
         assert!(f64::from((found[0] - expected).abs()) <= 8.0 * U, "{found:?}, not {expected}");
     }
 }
 
-/// NaN and infinite velocities are not foam by themselves, and harm no other particle. Without a density, which is 0, less
-/// or NaN, a particle has the rest density: as fast as another it foams as that one.
+/// Particles with NaN or infinite velocities are not foam and do not affect others. A density of 0,
+/// below 0 or NaN counts as the rest density, so the particle foams like others of its speed.
 #[test]
 fn broken_particles() {
     let gpu = Gpu::shared();
@@ -511,7 +519,7 @@ fn broken_particles() {
     }
     assert!(body.foam(6)[2..].iter().all(|foam| foam[0] > 0.99), "those with a speed are foam");
     assert!(body.foam(6)[0][0] == 0.0, "the one without is not");
-    // Two of an id: no crash, and one of them is remembered.
+    // Two particles with the same id: no crash, and one of them is kept.
     let twins = [of(6, 9.0, 1000.0), of(6, 9.0, 1000.0)];
     assert!(body.step(&settings, 0.05, &twins).iter().all(|foam| foam[0] > 0.99));
 }
@@ -567,7 +575,8 @@ fn bad_steps_are_errors() {
     }
 }
 
-/// Any bits, of streams and of a state that something else wrote: a step ends. Of streams it makes shares.
+/// A step ends with any bits in the streams and in a restored state. From hostile streams it writes
+/// amounts between 0 and 1.
 #[test]
 fn hostile_bits_in_a_step() {
     let gpu = Gpu::shared();
@@ -591,7 +600,7 @@ fn hostile_bits_in_a_step() {
     }
     let mut saved: Vec<u32> = bytemuck::pod_collect_to_vec(&body.save());
     spoil(&mut saved, 1, &mut random);
-    // A table without a free row.
+    // The second table has no free row.
     for all in [saved, vec![0xdead_beef; body.state().size() as usize / 4]] {
         body.restore(bytemuck::cast_slice(&all));
         body.step(&settings, 0.02, &particles);

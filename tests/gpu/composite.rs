@@ -1,4 +1,4 @@
-//! Pass `composite` against the twin, on the layers read back.
+//! Compares pass `composite` with its CPU twin, which shades the layers read back from the GPU.
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
@@ -17,16 +17,17 @@ use crate::support::scenes::{self, LENSES, Lens};
 use crate::support::shaded::{Filter, Shaded, shaded};
 use crate::support::tolerance::U;
 
-/// What the environment is, for the picture and its twin.
+/// An environment whose radiance the test knows exactly, used for the picture and for its twin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sky {
-    /// A constant that half precision holds.
+    /// A constant that half precision represents exactly.
     Even,
-    /// `0.5 + 0.25 d.y` and `0.5 + 0.25 d.x`, the third channel even.
+    /// `0.5 + 0.25 d.y` and `0.5 + 0.25 d.x`; the third channel is constant.
     Slope,
 }
 
-/// A scene of one colour: what filters may do to it is nothing, the bounds are those of arithmetic.
+/// Colour of a uniform scene. Filtering does not change it, so the bounds contain only arithmetic
+/// errors.
 pub const FLAT: [f32; 4] = [0.3, 0.5, 0.7, 0.75];
 const CUBE: f64 = 64.0;
 pub const SKY: (u32, u32) = (256, 128);
@@ -39,7 +40,8 @@ impl Sky {
         }
     }
 
-    /// Row 0 is up, the middle column looks along -z, the right quarter along +x.
+    /// Texels of the environment map: row 0 is up, the middle column looks along -z, the column at
+    /// three quarters along +x.
     pub fn texels(self) -> Vec<[f32; 4]> {
         let (width, height) = (f64::from(SKY.0), f64::from(SKY.1));
         (0..SKY.1)
@@ -57,14 +59,15 @@ impl Sky {
             .collect()
     }
 
-    /// The most that a channel changes per unit of direction.
+    /// Max change of a channel per unit of direction.
     fn slope(self) -> f64 {
         if self == Self::Even { 0.0 } else { 0.25 }
     }
 
-    /// Error of the cube: linear interpolation in it and in the image that it is made of misses
-    /// h² / 8 of the second derivative (0.25) an axis, four samples a texel as much again; half
-    /// precision keeps 2^-11 of 0.75; the weights are of `bits` bits of a texel's difference.
+    /// Error of the cube map. Linear interpolation in the cube and in the source image errs by h² /
+    /// 8 of the second derivative (0.25) per axis; taking four samples per texel errs as much
+    /// again. Half precision adds 2^-11 of 0.75, and filter weights of `bits` bits add that
+    /// fraction of the difference between texels.
     pub fn error(self, bits: u32) -> f64 {
         if self == Self::Even {
             return 0.0;
@@ -119,7 +122,7 @@ pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
     }
 }
 
-/// How the noise of a shot shows, in an image of it.
+/// How the twin applies the noise image to the surface of a shot.
 pub fn noise_look(shot: &Shot, image: &Image<f32>) -> Look {
     let look = &shot.settings.noise;
     let light = shot.settings.light.irradiance;
@@ -134,7 +137,7 @@ pub fn noise_look(shot: &Shot, image: &Image<f32>) -> Look {
     }
 }
 
-/// How many pixels were of each kind.
+/// Number of pixels in which each rule of the surface decided.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cases {
     whole: usize,
@@ -188,7 +191,7 @@ pub fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) -> Cases {
     check_other(name, rig, shot, sky, |_| ())
 }
 
-/// Against a twin whose look is another.
+/// Compares with a twin whose settings `other` has changed.
 fn check_other(
     name: &str,
     rig: &mut Rig<'_>,
@@ -199,7 +202,8 @@ fn check_other(
     check_told(name, rig, shot, shot, sky, other)
 }
 
-/// Against a twin whose look is another, and its noise that of another shot.
+/// Compares with a twin whose settings `other` has changed and whose noise settings are those of
+/// `told`.
 pub fn check_told(
     name: &str,
     rig: &mut Rig<'_>,
@@ -213,7 +217,7 @@ pub fn check_told(
     let view = shot.view(size);
     let mut settings = twin_settings(shot, &view);
     settings.mirror_steps = rig.config.mirror_steps;
-    // The index of a bed.
+    // The refractive index of the bed, or of water where there is no bed.
     let index = settings.bed.map_or(1.333, |bed| bed.index);
     settings.exit = (rig.config.exit == Exit::TwoInterfaces).then_some(index);
     other(&mut settings);
@@ -253,7 +257,8 @@ pub fn check_told(
             shaded(&inputs, &settings, &found, &view, (x, y), seen, &filter);
         for (i, c) in color.iter().enumerate() {
             let twin = expected.at(x, y)[i];
-            // The view's matrix is a rotation to single precision only.
+            // The twin and the bounds evaluate the colour in different orders; the view matrix is a
+            // rotation only to single precision.
             assert!(
                 (c.v - twin).abs() <= 8.0 * U * (1.0 + twin),
                 "{name}: two orders, two colours"
@@ -262,11 +267,12 @@ pub fn check_told(
         cases.count(&found);
         cases.mirrored += usize::from(met.share == 1.0);
         decisions += rig.config.mirror_steps as usize;
-        // A look-up as near to the next texel as it is uncertain may meet another scene.
+        // If the look-up's uncertainty reaches a neighbouring texel, the GPU may read another texel
+        // of the scene.
         let q = look_up(&inputs, &settings, &found, &view, pixel);
         let z = -found.position.z;
         let sides = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
-        // Gathers go by coordinates of as many bits as filters.
+        // A gather rounds its coordinates to the same number of bits as a filter.
         let texel = size.width as f64 / shot.depth_extent.width.min(size.width) as f64;
         let moved = moved + 2.0 * texel / f64::from(1 << bits);
         let (_, asked) = cut_look_up(&inputs, z, pixel, q);
@@ -275,7 +281,7 @@ pub fn check_told(
             let either = sides.map(|(dx, dy)| hidden(&inputs, z, *q + DVec2::new(dx, dy) * moved));
             either.iter().any(|h| *h != either[0])
         };
-        // Depths are means of 13u, the falloff a product.
+        // Depths are means with an error of 13u; the falloff is a product.
         let undecided = 16.0 * U * (z + settings.falloff * settings.radius);
         if found.parts.margin <= undecided || !sure || asked.iter().any(unsure) {
             skipped += 1;
@@ -330,15 +336,15 @@ fn the_picture_is_the_twins() {
     }
 }
 
-/// Spheres of many pixels with steep limbs, single drops and thin layers, cut by narrow and wide
-/// falloffs: each rule of the surface decides in some pixels.
+/// Spheres of many pixels with steep rims, single drops and thin layers, cut by narrow and wide
+/// falloffs. Each rule of the surface decides in some pixels.
 #[test]
 fn every_rule_of_the_surface() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     let mut all = Cases::default();
     for (level, thickness_level) in [(0, 0), (1, 2), (2, 1), (2, 3), (1, 1)] {
-        // The twin knows one level; tests of `level` compare the others with it.
+        // The twin knows one level; the tests of pass `level` compare the other levels with it.
         let config = config(size).with(|it| {
             it.smoothing_level = level;
             it.thickness_level = thickness_level;
@@ -411,7 +417,7 @@ fn every_medium_and_reflectance() {
     }
 }
 
-/// Each liquid is of its colour, by the twin: as deep as no bed shows, before white, and in a glass.
+/// Each preset medium has its liquid's colour in the twin: very deep, over white, and in a glass.
 #[test]
 fn liquids_look_like_themselves() {
     let size = extent(33, 33);
@@ -424,17 +430,18 @@ fn liquids_look_like_themselves() {
         twin::through(&settings.medium, DVec3::splat(behind), metres).to_array()
     };
     let deep = |medium| seen(medium, 1.0e4, 0.0);
-    // Colourless in a glass, and blue over ten metres of white.
+    // Clear water is colourless in a glass, and blue over white at a depth of ten metres.
     let [r, g, b] = seen(Medium::CLEAR, 0.1, 1.0);
     assert!(r > 0.97 && g > 0.99 && b > 0.99, "{r} {g} {b}");
     let [r, g, b] = seen(Medium::CLEAR, 10.0, 1.0);
     assert!(b > 0.85 && g > 0.5 && r < 0.1, "{r} {g} {b}");
-    // Clear ocean is deep blue, and returns a few hundredths; a lake is green and darker.
+    // Clear ocean is deep blue and reflects a few hundredths of the light; a lake is green and
+    // darker.
     let [r, g, b] = deep(Medium::OCEAN);
     assert!(b > 3.0 * g && g > 3.0 * r && (0.01..0.05).contains(&b), "{r} {g} {b}");
     let [r, g, b] = deep(Medium::LAKE);
     assert!(g > 1.5 * r && g > 1.5 * b && g < 0.03, "{r} {g} {b}");
-    // Silt is tan, and hides the bed within two metres; rock flour is bright turquoise.
+    // Silt is tan and hides the bed at a depth of two metres; rock flour is bright turquoise.
     let [r, g, b] = deep(Medium::RIVER);
     assert!(r > 1.2 * g && g > 2.0 * b && r > 0.1, "{r} {g} {b}");
     assert!(
@@ -445,22 +452,22 @@ fn liquids_look_like_themselves() {
     );
     let [r, g, b] = deep(Medium::GLACIER);
     assert!(b > g && g > 1.8 * r && b > 0.3, "{r} {g} {b}");
-    // Milk is white, with a touch of yellow, a few millimetres deep.
+    // Milk a few millimetres deep is white with a touch of yellow.
     let [r, g, b] = seen(Medium::MILK, 0.003, 0.0);
     assert!(r > 0.88 && g > 0.85 && (0.7..0.8).contains(&b), "{r} {g} {b}");
-    // Beer is amber in a glass of seven centimetres, honey in two, and a thousandth of blood pink in as much.
+    // Seven centimetres of beer and two of honey are amber; deep blood is red.
     let [r, g, b] = seen(Medium::BEER, 0.07, 1.0);
     assert!((0.3..0.6).contains(&r) && r > 2.0 * g && g > 5.0 * b, "{r} {g} {b}");
     let [r, g, b] = seen(Medium::HONEY, 0.02, 1.0);
     assert!((0.3..0.6).contains(&r) && r > 2.0 * g && g > 5.0 * b, "{r} {g} {b}");
     let [r, g, b] = deep(Medium::BLOOD);
     assert!((0.05..0.2).contains(&r) && r > 10.0 * g.max(b), "{r} {g} {b}");
-    // Lava shines by itself, the same in any light.
+    // Lava emits light, so its colour does not depend on the illumination.
     let [r, g, b] = deep(Medium::LAVA);
     assert!(r > 3.0 * g && g > 10.0 * b && (r - 0.497).abs() < 1.0e-6, "{r} {g} {b}");
 }
 
-/// A look that is off by a hundredth is another picture, for each of its numbers.
+/// A change of any setting by a hundredth is detected as another picture.
 #[test]
 fn a_hundredth_is_seen() {
     let gpu = Gpu::shared();
@@ -495,7 +502,7 @@ fn a_hundredth_is_seen() {
     }
 }
 
-/// A turbid medium that is off by two hundredths is another picture.
+/// A change of a turbid medium by two hundredths is detected as another picture.
 #[test]
 fn turbid_media_are_exact() {
     let gpu = Gpu::shared();
@@ -525,13 +532,14 @@ fn turbid_media_are_exact() {
         });
         assert!(seen, "{name} off by two hundredths");
     }
-    // In no light at all it shines as it does.
+    // Without any light the medium still shows its emission.
     let dark = &mut shot.settings.light;
     (dark.ambient, dark.irradiance, dark.shade) = ([0.0; 3], [0.0; 3], [0.0; 3]);
     check("turbid-dark", &mut rig, &shot, Sky::Even);
 }
 
-/// Water on a bed that falls away from it: from all of it lies under water to none.
+/// Water over a bed that slopes away behind it; the share of the bed under water goes from all to
+/// nothing.
 fn on_bed(size: ash::vk::Extent2D, lens: Lens) -> Shot {
     let mut shot = shot(size, lens);
     shot.scene_depth(|x, _| Some(4.6 + 0.02 * f64::from(x)));
@@ -563,14 +571,14 @@ fn the_bed_is_the_twins() {
                     }
                     let name = format!("composite-bed-{lens:?}-{medium_name}-{flat}-{way:?}");
                     check(&name, &mut rig, &shot, Sky::Even);
-                    // And dry.
+                    // The same scene with a dry bed.
                     shot.settings.water.bed = Bed::Source;
                     check(&format!("{name}-dry"), &mut rig, &shot, Sky::Even);
                 }
             }
         }
     }
-    // Each number of it counts; none of a hundredth is lost.
+    // The comparison detects a change of each of the bed's numbers by a hundredth.
     let mut rig = Rig::new(&gpu, &config(size).with(|it| it.coarsening = 0));
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let mut shot = on_bed(size, Lens::Standard);
@@ -597,7 +605,7 @@ fn the_bed_is_the_twins() {
     }
 }
 
-/// A wall behind and beside the water, of a gradient, that it mirrors at its limbs.
+/// The water's rims mirror a wall with a colour gradient, which stands behind and beside the water.
 #[test]
 fn what_of_the_scene_is_mirrored_is_the_twins() {
     let gpu = Gpu::shared();
@@ -620,7 +628,7 @@ fn what_of_the_scene_is_mirrored_is_the_twins() {
             mirrored += check(&name, &mut rig, &shot, Sky::Even).mirrored;
             shot.color.fill(FLAT);
             check(&format!("{name}-flat"), &mut rig, &shot, Sky::Even);
-            // One step fewer meets it elsewhere.
+            // Without mirror steps the picture differs.
             if steps == 10 && lens == Lens::Standard {
                 let other = fails(|| {
                     check_other(&name, &mut rig, &shot, Sky::Even, |s| s.mirror_steps = 0);
@@ -632,8 +640,8 @@ fn what_of_the_scene_is_mirrored_is_the_twins() {
     assert!(mirrored > 500, "{mirrored} pixels mirror the wall alone");
 }
 
-/// Drops and a block with air behind them, before a wall that is seen through them, or the environment; and on a wall that
-/// the block fills the room to.
+/// Drops and a block of water with air behind them. Through them one sees a distant wall, or only
+/// the environment, or a wall close behind the water.
 #[test]
 fn what_comes_through_both_surfaces_is_the_twins() {
     let gpu = Gpu::shared();
@@ -665,7 +673,7 @@ fn what_comes_through_both_surfaces_is_the_twins() {
                         check_other(&name, &mut rig, &shot, Sky::Even, |s| s.exit = None);
                     });
                     assert!(other, "{name}: the front alone shows another picture");
-                    // Of an even environment alone, hardly.
+                    // Against the even environment alone the index hardly shows.
                     let other = wall.is_none()
                         || fails(|| {
                             check_other(&name, &mut rig, &shot, Sky::Even, |s| {
@@ -679,8 +687,9 @@ fn what_comes_through_both_surfaces_is_the_twins() {
     }
 }
 
-/// A body before other water is the lens that it is by itself: a clear pane of water far behind it takes no more away than its
-/// own mirrored light, twice a fiftieth of at most 1, and moves what is behind it by its own thickness.
+/// A body of water before other water refracts as it does alone. The clear pane of water far behind
+/// changes the picture only by its own reflection, at most twice a fiftieth of the radiance, and by
+/// the offset from its own thickness.
 #[test]
 fn water_before_water_bends_as_it_does_alone() {
     let gpu = Gpu::shared();
@@ -715,8 +724,9 @@ fn water_before_water_bends_as_it_does_alone() {
     assert!(count > 300 && mean < 0.04, "{count} pixels, {mean} in the mean, {most} at most");
 }
 
-/// A white furnace: clear water over a white bed, in an environment as bright from everywhere, is not seen: what comes out
-/// of the bed and what is mirrored are all there is. A grey bed is darker for it, a black one as black.
+/// White furnace: clear water over a white bed in an even environment is invisible, because
+/// transmitted and mirrored light add up to all of the light. Over a grey bed the picture is
+/// darker, over a black bed black.
 #[test]
 fn clear_water_in_a_white_furnace_is_not_seen() {
     let gpu = Gpu::shared();
@@ -760,11 +770,12 @@ fn furnace(gpu: &Gpu, config: Config) {
             found.iter().fold((f32::MAX, 0.0_f32), |(low, high), c| (low.min(*c), high.max(*c)));
         [low / radiance, high / radiance]
     };
-    // The twin's roundings, 64 of them.
+    // The bound is 64 roundings, as many as the twin's.
     let [low, high] = middle(1.0);
     let off = 64.0 * U as f32;
     assert!(low > 1.0 - off && high < 1.0 + off, "{low} to {high} of the radiance");
-    // From all wet, at a rim that mirrors nothing, to all dry or all mirrored.
+    // The picture lies between a fully wet bed at normal incidence and a dry bed or a full
+    // reflection.
     let q = (1.0 - (0.02 + 0.98 / 21.0)) / (1.141_421_4_f32 / 0.858_578_6).powi(2);
     let wet = 0.4 * q / (1.0 - 0.4 * (1.0 - q));
     let [low, high] = middle(0.4);
@@ -773,7 +784,8 @@ fn furnace(gpu: &Gpu, config: Config) {
     assert!(low == 0.0 && high < 1.0 + off, "{low} to {high} of a black bed");
 }
 
-/// Refraction never looks at what stands before the water; the scene's depth may be of another size.
+/// Refraction never looks up the scene in front of the water, also where the scene's depth has
+/// another resolution.
 #[test]
 fn what_stands_before_the_water_is_not_refracted() {
     let gpu = Gpu::shared();

@@ -1,5 +1,5 @@
-//! Pass `convolution`: the basis against the twin, the picture against the basis, and properties that every filtered
-//! depth comparison has.
+//! Compares the basis images of pass `convolution` with the CPU twin and the picture with these
+//! images, and checks properties that every filtered shadow comparison has.
 
 use std::sync::OnceLock;
 
@@ -19,7 +19,7 @@ use crate::support::scenes::{self, Lens, Random};
 use crate::support::slow;
 use crate::surface_foam::Foamy;
 
-/// Without light of ours.
+/// A configuration without a light map.
 fn convolving(convolution: Convolution) -> Config {
     let shadow = Some(Shadows::Convolution(convolution));
     casting(16).with(|it| {
@@ -42,7 +42,8 @@ fn filter(convolution: Convolution, settings: &ShadowFilter) -> Filter {
     }
 }
 
-/// A wall of foam with the sun behind the eye's shoulder; where the light looks, and the way to it.
+/// A wall of foam, with the sun behind the eye and to its side. Returns also the light's target and
+/// the direction to the sun.
 fn lit_wall() -> (Foamy, Vec3, Vec3) {
     let mut case = wall(Lens::Standard);
     let [at, from] = [[0.1, 0.1, 2.0], [0.5, 0.7, 0.5]]
@@ -52,7 +53,7 @@ fn lit_wall() -> (Foamy, Vec3, Vec3) {
     (case, at, sun)
 }
 
-/// A shot's shadow map, of which a part is meant.
+/// A shadow map that is a part of a larger image.
 struct Map {
     part: Image<f32>,
     view_projection: Mat4,
@@ -62,7 +63,7 @@ struct Map {
 }
 
 impl Map {
-    /// All of the texels but a frame of them, which is another depth.
+    /// Surrounds `part` by texels of another depth, which must not be used.
     fn new(
         rig: &Rig<'_>,
         case: &mut Foamy,
@@ -104,7 +105,8 @@ fn pages(drawn: &Drawn) -> &Pages {
     drawn.shadow_basis.as_ref().expect("a basis")
 }
 
-/// The basis with its border is the twin's; by how much of the bound it is off at most.
+/// Checks that the basis images with their borders are the twin's. Returns the max error as a
+/// fraction of its bound.
 fn check_basis(name: &str, twin: &Convolved<'_>, pages: &Pages) -> f64 {
     let (_, [width, height]) = twin.size();
     let mut worst = 0.0_f64;
@@ -128,7 +130,7 @@ fn check_basis(name: &str, twin: &Convolved<'_>, pages: &Pages) -> f64 {
     worst
 }
 
-/// Blocks of shade and of sun, texels about the wall itself, and some with nothing there.
+/// Blocks in shade and in sun, texels at random depths between, and empty ones.
 fn blocks(width: usize, height: usize, [before, behind]: [f32; 2], open: f32) -> Image<f32> {
     let mut random = Random(4);
     let (low, high) = (before.min(behind), before.max(behind));
@@ -177,7 +179,7 @@ fn the_basis_is_the_twins_and_foam_is_in_its_shade() {
     }
 }
 
-/// As the wall, of sprites that do not overlap: what a pixel shows is the light in the middle of one.
+/// A wall of sprites that do not overlap, so a pixel shows the light at one sprite's centre.
 fn scattered() -> (Foamy, Vec3, Vec3) {
     let (mut case, at, sun) = lit_wall();
     let mut random = Random(8);
@@ -193,8 +195,8 @@ fn scattered() -> (Foamy, Vec3, Vec3) {
     (case, at, sun)
 }
 
-/// The sun's share of each sprite in view, and where in the map and how far along the light it is, of nine
-/// frames with the sprites elsewhere.
+/// For each visible sprite: its position in the map, its depth along the light, and its fraction of
+/// sunlight. Nine frames shift the sprites to other positions.
 fn shares(rig: &mut Rig<'_>, case: &mut Foamy, map: &Map) -> Vec<([f64; 2], f64, f64)> {
     let positions = case.shot.positions.clone();
     let mut all = Vec::new();
@@ -226,14 +228,14 @@ fn shares_of(case: &Foamy, map: &Map, drawn: &Drawn) -> Vec<([f64; 2], f64, f64)
         let Some((uv, z, false)) = twin.seen(p, by) else { continue };
         let size = [map.part.width, map.part.height];
         let place = [0, 1].map(|i| uv[i].v * size[i] as f64);
-        // Red is all the sun's.
+        // The red channel contains only sunlight.
         shares.push((place, z.v, f64::from(color[0]) / white));
     }
     shares
 }
 
-/// A half-plane before the wall, another behind it: a share of one half at the edge of the box, as much
-/// lit as of it is past the edge, all of it on one side, none on the other.
+/// A half-plane before the wall, another behind. At the edge a sprite has half of the light; across
+/// the filter's box the light grows linearly, from none to all.
 #[test]
 fn an_edge_is_half_lit_and_the_light_grows_across_it() {
     let gpu = Gpu::shared();
@@ -252,8 +254,8 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
             let part = Image::from_fn(101, 23, |x, _| depth(if x < edge { 2.5 } else { -2.5 }));
             let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
             let twin = map.twin(&case, convolution);
-            // What rings well past the ramp, where the wall is; a basis a rounding off, of sines and of
-            // what is kept.
+            // The cosine series rings beyond its ramp. Each basis term errs by its sine's rounding
+            // and by that of the image.
             let ramp = 1.5 * twin.ramp();
             let steps = (0..2000).map(|i| ramp + (1.0 - 2.0 * ramp) * f64::from(i) / 2000.0);
             let whole = 0.5 + 0.5 * f64::from(scale);
@@ -275,7 +277,8 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
             let mut seen = [0; 3];
             let half = 0.5 * f64::from(width);
             for &(x, s) in &shares {
-                // Of an odd number of texels, and between them linear: as much as of the box is past.
+                // The box has an odd number of texels and is interpolated linearly, so the light is
+                // the fraction of the box beyond the edge.
                 let past = (x / f64::from(width)).clamp(-0.5, 0.5);
                 let lit = 0.5 + f64::from(scale) * past;
                 let off = (s - lit.clamp(0.0, 1.0)).abs();
@@ -285,7 +288,7 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
                 );
                 seen[if x.abs() < half { 1 } else { usize::from(x > 0.0) * 2 }] += 1;
             }
-            // The light grows, but for the bounds of two.
+            // The light does not decrease by more than two bounds.
             let mut most = 0.0_f64;
             for &(_, s) in &shares {
                 assert!(s >= most - 2.0 * bound, "{s} after {most}");
@@ -296,8 +299,8 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
     }
 }
 
-/// Unfiltered, where all texels about a point agree and none of them is as near to it as the ramp is
-/// long, it is what a comparison says.
+/// Without filtering, where all texels around a point agree and none is within the ramp's length of
+/// the point, the result is that of a hard comparison.
 #[test]
 fn away_from_edges_and_contacts_it_is_a_hard_comparison() {
     let gpu = Gpu::shared();
@@ -320,7 +323,7 @@ fn away_from_edges_and_contacts_it_is_a_hard_comparison() {
                 .map(|(i, j)| map.part.clamped(base[0] + i, base[1] + j))
                 .map(|texel| twin.behind(texel, z))
                 .collect();
-            // Twice the ramp: it begins with the offset.
+            // Twice the ramp, because it begins after the offset.
             let far = 2.1 * twin.ramp();
             let verdict = if about.iter().all(|t| *t > 0.0) {
                 1
@@ -336,7 +339,7 @@ fn away_from_edges_and_contacts_it_is_a_hard_comparison() {
     }
 }
 
-/// A reversed map of the same depths, and one of half the depth's range, shade the same.
+/// A reversed map and maps with other depth ranges give the same shade.
 #[test]
 fn the_convention_does_not_show() {
     let gpu = Gpu::shared();
@@ -363,13 +366,14 @@ fn the_convention_does_not_show() {
         let found = draw(view_projection, reversed);
         assert_eq!(found.len(), expected.len());
         for (a, b) in found.iter().zip(&expected) {
-            // Half precision, of sixteen terms.
+            // Sixteen terms in half precision.
             assert!((a.2 - b.2).abs() < 0.02, "{} not {} at {:?}", a.2, b.2, a.0);
         }
     }
 }
 
-/// Maps of any size from frame to frame, whatever was there before; nothing there: nothing in shade.
+/// The map's size may change from frame to frame, and nothing of earlier maps shows. With an empty
+/// map nothing is in shade.
 #[test]
 fn maps_of_any_size_come_and_go() {
     let gpu = Gpu::shared();
@@ -397,7 +401,8 @@ fn maps_of_any_size_come_and_go() {
             let map = Map::new(&rig, &mut case, part, (flat, false), 0.05);
             let drawn = case.draw(&mut rig);
             check_basis(&format!("size-{w}x{h}"), &map.twin(&case, convolution), pages(&drawn));
-            // Renderers take seconds to compile: after larger and smaller ones, and all in the long tests.
+            // A renderer takes seconds to compile, so the normal test compares with a new one only
+            // after a larger and a smaller map.
             if slow() || [(5, 90), (32, 32)].contains(&(w, h)) {
                 let mut fresh = Rig::lit(&gpu, &config, 1);
                 let _map = Map::new(&fresh, &mut case, map.part, (flat, false), 0.05);
@@ -407,7 +412,7 @@ fn maps_of_any_size_come_and_go() {
             pictures.push(drawn.output);
         }
         assert!(pictures[0] == pictures[6] && pictures[0] != pictures[1]);
-        // Nothing in the map, in both conventions.
+        // An empty map, in both depth conventions.
         let mut dark = Rig::lit(&gpu, &config.with(|it| it.shadow = None), 1);
         case.shot.shadow = None;
         let expected = case.draw(&mut dark);

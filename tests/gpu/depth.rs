@@ -1,4 +1,4 @@
-//! Pass `depth`: exact sphere depth, against closed forms and the twin.
+//! Compares pass `depth`, the exact depth of spheres, with closed forms and with the CPU twin.
 
 use whitewater::Config;
 use whitewater::water::Splat;
@@ -20,7 +20,7 @@ fn splatted(size: ash::vk::Extent2D, splat: Splat) -> Config {
     })
 }
 
-/// The eye-space spheres of a shot.
+/// The spheres of a shot in eye space.
 pub fn spheres(shot: &Shot) -> Vec<Sphere> {
     let view = shot.camera_view();
     let radius = f64::from(shot.settings.water.radius());
@@ -30,8 +30,8 @@ pub fn spheres(shot: &Shot) -> Vec<Sphere> {
         .collect()
 }
 
-/// One sphere: on the axis, off it, near the eye, over the edge, partly before the near plane, with
-/// the eye inside, behind the eye, smaller than a pixel, larger than the screen.
+/// One sphere: on the axis, off it, near the eye, over the picture's edge, partly before the near
+/// plane, around the eye, behind the eye, smaller than a pixel, larger than the screen.
 #[test]
 fn one_sphere_has_its_closed_form() {
     let gpu = Gpu::shared();
@@ -79,8 +79,9 @@ fn a_cloud_is_the_twins_through_every_lens() {
     }
 }
 
-/// Both run the same arithmetic on the same spheres. A compiler may contract it otherwise in each (an H200 draws a third of
-/// the pixels not to the bit the same): both lie in the twin's bounds, so they differ by no more than these are wide.
+/// Raster and compute run the same arithmetic on the same spheres. A compiler may contract it
+/// differently in each (on an H200 a third of the pixels differ by bits), so both must lie within
+/// the twin's bounds.
 #[test]
 fn raster_and_compute_agree() {
     let gpu = Gpu::shared();

@@ -1,4 +1,5 @@
-//! Pass `environment`: the cubes of a map and of the sky against their twins, and their mips.
+//! Compares the cube maps that pass `environment` makes of a map and of the sky, and their mip
+//! levels, with the CPU twins.
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
@@ -15,13 +16,13 @@ use crate::support::tolerance::U;
 
 const FORMAT: ash::vk::Format = ash::vk::Format::R16G16B16A16_SFLOAT;
 
-/// Conversion to half precision may go to either neighbour: one of its steps, of 2^-10 at most of
-/// the value and of 2^-24 at least.
+/// Error of a conversion to half precision, which may go to either neighbour: one step, at most
+/// 2^-10 of the value and at least 2^-24.
 fn half_step(value: f64) -> f64 {
     (value.abs() / 1024.0).max(1.0 / (1 << 24) as f64)
 }
 
-/// All faces of each mip, one below the other.
+/// All faces of each mip level, below each other.
 fn cube(rig: &Rig<'_>) -> Vec<Image<[f32; 4]>> {
     let size = rig.config.environment_size;
     let state = whitewater::Access::new(
@@ -44,10 +45,10 @@ fn cube(rig: &Rig<'_>) -> Vec<Image<[f32; 4]>> {
     mips.iter().enumerate().map(image).collect()
 }
 
-/// How far a position in a map may be off, in its texels. The direction: components of 8u (pixel to
-/// 0..1, normalization), which turn the angle by as much over the distance from the axis; atan and
-/// acos may be off by 4096 ulp (8192u), acos by what 1 - y² loses; sums and quotients 8u. Filters
-/// know positions to 2^-bits.
+/// Error of a position in a map, in texels. A direction's components err by 8u (pixel to 0..1,
+/// normalization), which turns the angle by that over the distance from the axis. atan and acos may
+/// err by 4096 ulp (8192u), acos also by the cancellation in 1 - y²; sums and quotients add 8u.
+/// Filters know positions to 2^-bits.
 fn nudge(d: DVec3, turn: f64, map: &Image<[f32; 4]>, bits: u32) -> DVec2 {
     let unit = d.normalize();
     let away = DVec2::new(unit.x, unit.z).length();
@@ -58,7 +59,8 @@ fn nudge(d: DVec3, turn: f64, map: &Image<[f32; 4]>, bits: u32) -> DVec2 {
     DVec2::new(east / TAU * map.width as f64, down / PI * map.height as f64) + filter
 }
 
-/// Compares a cube's first mip with the twin's, and the others with means of the one before.
+/// Compares a cube's first mip level with the twin, and each other level with means of the one
+/// before.
 fn check(name: &str, rig: &Rig<'_>, expected: impl Fn(usize, DVec2) -> (DVec3, DVec3) + Sync) {
     let mips = cube(rig);
     let size = mips[0].width;
@@ -88,7 +90,7 @@ fn verbose(name: &str, census: &crate::reference::Census) {
     }
 }
 
-/// Maps of texels that have nothing to do with each other, so that none can stand for another.
+/// The texels are random, so that none can stand for another.
 #[test]
 fn a_map_becomes_the_twins_cube() {
     let mut gpu = Gpu::spied();
@@ -128,7 +130,7 @@ fn a_map_becomes_the_twins_cube() {
     }
 }
 
-/// From noon to after sunset, and a sun that is not of unit length.
+/// From noon to after sunset, and a sun direction that is not of unit length.
 #[test]
 fn the_sky_becomes_the_twins_cube() {
     let mut gpu = Gpu::spied();
@@ -159,7 +161,7 @@ fn the_sky_becomes_the_twins_cube() {
     }
 }
 
-/// The brightest texel is one that half precision can hold, and mips stay finite.
+/// Radiance is limited to the range of half precision, so all mip levels are finite.
 #[test]
 fn radiance_over_half_precision_is_cut() {
     let mut gpu = Gpu::spied();

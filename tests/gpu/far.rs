@@ -1,6 +1,6 @@
-//! The light that far particles take away: sums over the picture times the area of a pixel are the particles' own at
-//! every distance, down to a pixel for ten spacings. What each fragment adds is a whole number of steps, so that sums do
-//! not depend on the order; what is thin beside a step must not be lost by that.
+//! Far particles keep their light: the sum over a picture, times a pixel's area, is the same at
+//! every distance, down to ten spacings per pixel. Fragments add whole fixed-point steps, so sums
+//! do not depend on the order; contributions smaller than a step must not be lost by that.
 
 use glam::{DMat3, DVec3, Mat4, Vec3, vec3};
 use whitewater::LightVolume;
@@ -18,26 +18,26 @@ use crate::surface_foam::Foamy;
 
 const SIZE: ash::vk::Extent2D = ash::vk::Extent2D { width: 96, height: 64 };
 const SPACING: f32 = 0.04;
-/// Spacings a pixel.
+/// Spacings per pixel.
 const DISTANCES: [f32; 7] = [0.16, 0.32, 0.65, 1.3, 2.6, 5.2, 10.4];
-/// What may be lost.
+/// Max relative error of a sum.
 const LOSS: f64 = 0.05;
 
-/// Degrees high: so few that nothing is seen from the side.
+/// Height of the view in degrees, so small that perspective does not matter.
 const HIGH: f32 = 6.0;
 
-/// Width of a pixel a depth of 1, where the picture is so many degrees high.
+/// Width of a pixel at depth 1, for a view of this height in degrees.
 fn slope(high: f32) -> f32 {
     2.0 * (0.5 * high).to_radians().tan() / SIZE.height as f32
 }
 
-/// So many particles apart from each other at rest, in a plane across the view, so far away that a pixel is as wide as
-/// some spacings, from `left` pixels on away from the picture's edges.
+/// `count` particles at rest at random places in a plane across the view, at the depth where a
+/// pixel is `spacings` spacings wide, at least `left` pixels away from the picture's edges.
 fn plane(count: usize, spacings: f32, left: f32) -> Foamy {
     plane_in(HIGH, count, spacings, left)
 }
 
-/// The same, where the picture is so many degrees high.
+/// The same for a view of this height in degrees.
 fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
     let mut random = Random(11);
     let depth = spacings * SPACING / slope(high);
@@ -52,14 +52,14 @@ fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
         (0..count).map(|_| [random.between(-x, x), random.between(-y, y), depth]).collect();
     shot.positions = scenes::world(&shot.camera, &points);
     shot.scene_depth(|_, _| None);
-    // Nothing that makes it more here and less there.
+    // Without noise and pattern, which vary the thickness.
     (shot.settings.surface_foam.noise, shot.settings.surface_foam.pattern) = (0.0, 0.0);
     let ids = (0..count).map(|_| random.bits() as u32).collect();
     let (amounts, velocities) = (vec![[0.0; 2]; count], vec![[0.0; 3]; count]);
     Foamy { shot, amounts, velocities, ids: Some(ids) }
 }
 
-/// Draws it with the streams that the renderer takes.
+/// Draws the shot with the streams that the renderer is configured for.
 fn draw(case: &Foamy, rig: &mut Rig<'_>) -> Drawn {
     let streams = case.streams(rig);
     let all = streams.particles();
@@ -67,32 +67,33 @@ fn draw(case: &Foamy, rig: &mut Rig<'_>) -> Drawn {
     rig.draw_particles(&case.shot, &all.with(|it| it.surface_foam = foam))
 }
 
-/// The sum of texels of `level` over a plane at such a distance: of a particle, square spacings times the unit.
+/// Sum of all texels of `level` per particle, in square spacings times the texel's unit.
 fn total(texels: impl Iterator<Item = f32>, case: &Foamy, spacings: f32, level: u32) -> f64 {
     let texel = f64::from(spacings) * f64::from(1 << level);
     texels.map(f64::from).sum::<f64>() * texel * texel / case.amounts.len() as f64
 }
 
-/// Sums of a kind at all distances, in what they should be.
+/// Checks the sum at all distances against the expected one.
 fn kept(name: &str, wanted: f64, sum: impl FnMut(f32) -> f64) {
     let parts: Vec<f64> = DISTANCES.into_iter().map(sum).map(|sum| sum / wanted).collect();
     eprintln!("{name}: {parts:.3?} of it at {DISTANCES:?} spacings a pixel");
     assert!(parts.iter().all(|part| (part - 1.0).abs() < LOSS), "{name}: {parts:.3?}");
 }
 
-/// The mean over sizes of droplets 0.2 + 2.135 u⁶ of their square.
+/// Mean square of the droplets' sizes, which are 0.2 + 2.135 u⁶ with u uniform.
 const SQUARES: f64 = 0.04 + 0.4 * 2.135 / 7.0 + 2.135 * 2.135 / 13.0;
-/// The integral of a sprite's kernel over its disc, over that of 1 and over π.
+/// Integral of a sprite's kernel over the unit disc, divided by pi.
 const KERNEL: f64 = 0.340_003;
 
-/// The optical depth of a particle's spray over its area in square spacings, by the definition.
+/// Expected optical depth of a particle's spray times its area, in square spacings.
 fn spray_of(case: &Foamy) -> f64 {
     let look = &case.shot.settings.spray;
     let many = f64::from(look.droplets);
-    // Of particles that are nothing but spray: the part of the droplets that they have, as much larger as they are fewer.
+    // Fraction of droplets of a particle that is only spray. Fewer droplets are larger.
     let torn = 0.3_f64;
-    // Half-axis of one that covers as much as 0.6 of them. Of those but the first, which is mist, k is there where a half and
-    // that part of a fifth to all of them, evenly, are more than k.
+    // Half-axis of one droplet. A particle draws a random fraction of these droplets, uniform
+    // between 0.2 and 1, 0.6 in the mean. Droplet 0 is the mist; droplet k is drawn if their number
+    // plus a half is more than k.
     let whole = f64::from(look.size) * 0.656;
     let part = |k: u32| ((f64::from(k) - 0.5) / (torn * many) - 0.2) / 0.8;
     let drawn: f64 = (1..look.droplets).map(|k| 1.0 - part(k).clamp(0.0, 1.0)).sum();
@@ -127,8 +128,8 @@ fn far_spray_keeps_its_light() {
     spray_keeps_its_light(&Gpu::shared(), &[0.5, 0.05]);
 }
 
-/// Where the device blends no single floats. Of fainter spray there are so few of the wider steps that what chance makes
-/// of them shows in their sum.
+/// The path for devices that cannot blend 32-bit floats. Its steps are larger, and fainter spray
+/// would have so few that the sum's random error shows.
 #[test]
 fn far_spray_of_half_floats_keeps_its_light() {
     let mut gpu = Gpu::spied();
@@ -137,8 +138,9 @@ fn far_spray_of_half_floats_keeps_its_light() {
     spray_keeps_its_light(&gpu, &[0.5]);
 }
 
-/// Mist in sheets and strands that lie in all directions: its ellipse is another for each, its light the same. So wide that
-/// no half-axis is a pixel's, of groups so far apart that each has its own shape.
+/// Mist of sheets and strands in all orientations: each has another ellipse, and the same light.
+/// The ellipses are wider than a pixel, and the groups are so far apart that each has its own
+/// shape.
 #[test]
 fn far_mist_keeps_its_light_in_every_shape() {
     let gpu = Gpu::shared();
@@ -177,7 +179,7 @@ fn far_mist_keeps_its_light_in_every_shape() {
         for spacings in [1.3, 1.9] {
             let case = case(spacings);
             let drawn = draw(&case, &mut rig);
-            // Those at the ends of a group have less mist.
+            // Particles at the ends of a group have fewer neighbours and less mist.
             let crowds = of_spray(&drawn, &case.shot).into_iter().map(|(_, crowd)| crowd);
             let mist: f64 = crowds.map(|crowd| smoothstep(1.0, 6.0, crowd)).sum();
             let expected = spray_of(&case) * mist / case.shot.positions.len() as f64;
@@ -188,7 +190,7 @@ fn far_mist_keeps_its_light_in_every_shape() {
     }
 }
 
-/// Both ways, at two levels of the thickness: the library's own is 2.
+/// Both kinds of splat, at two levels of the thickness, of which 2 is the default.
 #[test]
 fn far_foam_keeps_its_light() {
     let gpu = Gpu::shared();
@@ -201,7 +203,7 @@ fn far_foam_keeps_its_light() {
         });
         let mut rig = Rig::new(&gpu, &ways.with(|it| it.surface_foam = true));
         for amount in [1.0, 0.1] {
-            // A plane is one layer: of all foam, of what lies right behind the frontmost, of what of that is lit.
+            // The plane is one layer, so all foam is also the foam right behind the frontmost.
             for (i, layer) in ["all", "front"].into_iter().enumerate() {
                 let volume = f64::from(amount) * f64::from(SPACING);
                 kept(
@@ -220,7 +222,8 @@ fn far_foam_keeps_its_light() {
     }
 }
 
-/// Off the axis of a wide lens, where a sprite that faces the eye is tilted to the picture's plane: by up to 61 degrees.
+/// Off the axis of a wide lens, a sprite that faces the eye is tilted against the image plane by up
+/// to 61 degrees.
 #[test]
 fn foam_off_the_axis_keeps_its_volume() {
     let gpu = Gpu::shared();
@@ -240,7 +243,7 @@ fn foam_off_the_axis_keeps_its_volume() {
     }
 }
 
-/// Water has no such steps, by blending, or so fine ones that they do not count.
+/// Water's thickness is blended without steps, or added in steps too fine to matter.
 #[test]
 fn far_water_keeps_its_volume() {
     let gpu = Gpu::shared();
@@ -257,7 +260,7 @@ fn far_water_keeps_its_volume() {
     }
 }
 
-/// Texels of the sun's map are as wide as pixels here.
+/// The light map's texels have the same widths as the pixels in the tests above.
 #[test]
 fn far_maps_of_the_sun_keep_what_casts() {
     let gpu = Gpu::shared();
@@ -267,7 +270,7 @@ fn far_maps_of_the_sun_keep_what_casts() {
         it.spray = true;
     });
     let mut rig = Rig::new(&gpu, &config);
-    // Of the map's channels, by the foam of a particle: metres of water and of foam.
+    // The map's channels for particles of this foam amount: metres of water, and metres of foam.
     for (amount, channel, share) in [(0.0, 0, 1.0), (1.0, 1, 1.0), (0.1, 1, 0.1)] {
         let wanted = share * f64::from(SPACING);
         kept(&format!("channel {channel} of the sun's map, foam {amount}"), wanted, |spacings| {
@@ -286,7 +289,8 @@ fn far_maps_of_the_sun_keep_what_casts() {
     }
 }
 
-/// A particle that is nothing but spray casts as its droplets are: of several it has 0.3, and of those the square.
+/// Particles that are only spray block sunlight in proportion to their droplets: a single droplet
+/// in full, several with 0.3 squared.
 #[test]
 fn far_maps_of_the_sun_keep_what_spray_casts() {
     let gpu = Gpu::shared();
@@ -315,7 +319,8 @@ fn far_maps_of_the_sun_keep_what_spray_casts() {
     }
 }
 
-/// Whitewater particles, to the eye and to the sun: of a radius like the water's, of a fifth of it and in between.
+/// Whitewater particles seen by the eye and by the sun, with five radii from 0.656 spacings down to
+/// a fifth.
 #[test]
 fn far_whitewater_particles_keep_their_light() {
     let gpu = Gpu::shared();
@@ -328,10 +333,11 @@ fn far_whitewater_particles_keep_their_light() {
         }),
     );
     const COUNT: usize = 2000;
-    // What is left of it at an age is the second.
+    // `life` is the fraction left at this age.
     for (age, life) in [(0.0, 1.0), (0.998, (1.0_f32 - 0.998 * 0.998).powf(0.4))] {
         let radius = 0.656_f32;
-        // A fifth of each of five sizes, of a shape 1 - x^2.25.
+        // A fifth of the particles has each of the five sizes. The sprite's thickness is 1 -
+        // x^2.25.
         let squares: f64 = (1..=5).map(|i| 1.0 / f64::from(i * i)).sum::<f64>() / 5.0;
         let wanted = std::f64::consts::PI * f64::from(radius * radius) * squares;
         let wanted = wanted * (1.0 - 2.0 / 4.25) * f64::from(life);

@@ -1,4 +1,5 @@
-//! The generator of whitewater particles against the twin, over steps of a torn sea.
+//! Compares the generator of whitewater particles with its CPU twin, over several steps of
+//! turbulent water.
 
 use std::collections::HashMap;
 
@@ -20,19 +21,20 @@ mod snapshot;
 const SLOTS: u32 = 2;
 const SPACING: f32 = 0.05;
 
-/// A generator in a host.
+/// A generator and the host that records its steps.
 struct Making {
     stub: Stub,
     generator: Option<Generator>,
     steps: u32,
 }
 
-/// What there is after a step.
+/// The generator's state after a step.
 #[derive(Clone, Debug, PartialEq)]
 struct Made {
-    /// Slots that were ever taken, and newborns lost, after the words of the counts.
+    /// The words of the counts; the last two are the slots ever taken and the newborn particles
+    /// lost.
     counts: [u32; 6],
-    /// Trapped air, crest, energy, neighbours.
+    /// Trapped air, crest, energy, number of neighbours.
     potentials: Vec<[f32; 4]>,
     particles: Vec<Particle>,
 }
@@ -47,10 +49,11 @@ impl Making {
         self.generator.as_mut().expect("only drop takes it")
     }
 
-    /// A step of streams, in the slots' turn.
+    /// Records a step in the next frame slot.
     fn record(&mut self, step: &GeneratorStep<'_>) -> Result<(), Error> {
         self.record_by(step, |generator, cmd, step| {
-            // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+            // SAFETY: cmd is recording, the slot was waited for, and all handles live until the end
+            // of this function.
             unsafe { generator.record_step(cmd, step) }
         })
     }
@@ -84,7 +87,7 @@ impl Making {
                 [x, y, z, u, v, w, fluid.ids[i]]
             })
             .collect();
-        // Of none there is a buffer all the same.
+        // A buffer is bound even if there are no particles.
         words.resize(words.len().max(7), 0);
         self.stub.data(bytemuck::cast_slice(&words), vk::BufferUsageFlags::STORAGE_BUFFER)
     }
@@ -145,7 +148,7 @@ impl Making {
     }
 }
 
-/// A step of what [`Making::upload`] holds.
+/// A step of the particles that [`Making::upload`] uploaded.
 fn step_of<'a>(
     data: &Data,
     fluid: &Fluid,
@@ -186,7 +189,8 @@ impl Made {
     }
 }
 
-/// Water that is torn: a block that turns about its middle, a jet through it, drops above, and what takes no part.
+/// Turbulent water: a block that turns about its middle, a jet through it, drops above it, and
+/// particles with invalid values.
 fn sea(step: u32) -> Fluid {
     let mut random = Random(77 + u64::from(step));
     let mut fluid = Fluid::default();
@@ -254,7 +258,7 @@ fn twins(settings: &GeneratorSettings) -> twin::Settings {
     }
 }
 
-/// What sums of so many single-precision terms may be off, beside steps.
+/// Relative rounding error of the sums of single-precision terms.
 const FLOAT: f64 = 4.0e-6;
 
 #[test]
@@ -299,7 +303,7 @@ fn config() -> GeneratorConfig {
     GeneratorConfig::new(2000, 4000).with(|it| it.max_stride = 28)
 }
 
-/// Whether two particles are the same but for rounding and what the water's velocity may be off.
+/// Checks that two particles differ only by rounding and by the error of the water's velocity.
 fn assert_same(name: &str, found: &Particle, expected: &Particle, off: f64, dt: f64) {
     assert_eq!((found.kind, found.id), (expected.kind, expected.id), "{name}");
     let velocity = (found.velocity - expected.velocity).abs().max_element();
@@ -323,7 +327,8 @@ fn every_step_is_the_twins() {
         let fluid = sea(number);
         let made = making.step(&fluid, &settings, dt, number);
         let sure = twins(&settings);
-        // What was there, in its place; where it may have ended something else may be.
+        // Particles of the step before keep their slot. A slot whose particle may have died may
+        // hold another one.
         let mut taken = vec![false; made.particles.len()];
         for (slot, particle) in before.iter().enumerate() {
             let (after, loose) = twin::moved(particle, &fluid, &sure, dt);
@@ -333,13 +338,13 @@ fn every_step_is_the_twins() {
                 continue;
             }
             let water = twin::carried(particle.position, &fluid, SPACING);
-            // Of spray nothing is the water's.
+            // The water does not carry spray.
             let off = if after.kind == twin::SPRAY { 0.0 } else { water.off };
             assert_same(&format!("{number}/{slot}"), &made.particles[slot], &after, off, dt.into());
             seen[after.kind as usize] += 1;
             taken[slot] = true;
         }
-        // What is new, by its id.
+        // New particles, by id.
         let new: HashMap<u32, usize> = (0..taken.len())
             .filter(|slot| !taken[*slot] && made.particles[*slot].age < 1.0)
             .map(|slot| (made.particles[slot].id, slot))
@@ -350,7 +355,7 @@ fn every_step_is_the_twins() {
             let Some(p) = p else { continue };
             let wanted = twin::wanted(p, &sure, dt);
             let count = |wanted: f64| twin::count(wanted.max(0.0), &sure, fluid.ids[i], number);
-            // By the most that the potentials may be off.
+            // Counts for the largest error of the potentials.
             let off = 2.0e-2 * (1.0 + wanted) + if p.loose { 64.0 } else { 0.0 };
             let (least, most) = (count(wanted - off), count((wanted + off).min(64.0)));
             let of = |k| twin::newborn(&fluid, i, p, k, &sure, dt, number);
@@ -363,7 +368,7 @@ fn every_step_is_the_twins() {
                 let expected = of(k);
                 let slot = new[&expected.id];
                 let kind = if p.loose { made.particles[slot].kind } else { expected.kind };
-                // Sines are told to 2^-11.
+                // The device's sines have an error of 2^-11.
                 let off = f64::from(SPACING) / 2048.0;
                 let expected = Particle { kind, ..expected };
                 assert_same(
@@ -379,7 +384,7 @@ fn every_step_is_the_twins() {
         }
         assert_eq!(explained, new.len(), "{number}: particles of nothing");
         assert_eq!(made.counts[4] as usize, explained);
-        // Free places first, both in order.
+        // New particles fill free slots first, then new slots, both in ascending order.
         let high = before.len();
         let first_new = places.iter().position(|slot| *slot >= high).unwrap_or(places.len());
         assert!(places[..first_new].is_sorted() && places[first_new..].is_sorted());
@@ -453,7 +458,7 @@ fn no_more_than_there_is_room_for() {
     assert!(lost > 100, "{lost}");
 }
 
-/// What the water carries nothing of is told to single precision.
+/// Where the water carries no particle, positions are exact to single precision.
 #[test]
 fn in_still_water_motion_is_exact() {
     let gpu = Gpu::shared();
@@ -479,8 +484,9 @@ fn in_still_water_motion_is_exact() {
     assert!(seen.iter().all(|n| *n > 20), "{seen:?}");
 }
 
-/// A whitewater particle is of a kind by the water about it, of which the particle that makes it is a part: six that lie close
-/// together make foam, and 21 bubbles, at birth as in the step after it.
+/// A whitewater particle's kind depends on the number of water particles around it, including the
+/// one that creates it: five make spray, six foam and 21 bubbles. The kind at birth is that of the
+/// next step.
 #[test]
 fn kinds_at_birth_are_those_of_the_next_step() {
     let gpu = Gpu::shared();
@@ -501,7 +507,7 @@ fn kinds_at_birth_are_those_of_the_next_step() {
             it.bounds = None;
         });
         let data = making.upload(&fluid);
-        // Those of a step come no farther than a hundredth of a second's way.
+        // In this step particles move at most a hundredth of a spacing.
         let step = step_of(&data, &fluid, &settings, 0.01 * SPACING, 0);
         let recorded = making.record_by(&step, |generator, cmd, step| {
             // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
@@ -514,7 +520,7 @@ fn kinds_at_birth_are_those_of_the_next_step() {
         });
         recorded.expect("recorded");
         let born = making.made(fluid.ids.len()).particles;
-        // No time goes by: where they were born they are looked at again.
+        // With a time step of 0 the kinds are determined again at the place of birth.
         let after = making.step(&fluid, &settings, 0.0, 1).particles;
         let mut seen = [0; 3];
         for (born, after) in born.iter().zip(&after) {
@@ -527,7 +533,8 @@ fn kinds_at_birth_are_those_of_the_next_step() {
     }
 }
 
-/// Counts from the GPU, streams of their own, chunks, without ids, no particles, all on one spot.
+/// Counts on the GPU, separate streams, chunks, no ids, no particles, and all particles on one
+/// spot.
 #[test]
 fn every_kind_of_input() {
     let gpu = Gpu::shared();
@@ -539,7 +546,7 @@ fn every_kind_of_input() {
     let place = Fluid { ids: (0..count as u32).collect(), ..fluid.clone() };
     let expected = plain.step(&place, &settings, 0.03, 1);
 
-    // Without ids particles are told by their place.
+    // Without ids a particle's index is its id.
     let mut making = Making::new(&gpu, &GeneratorConfig::new(2000, 4000));
     let positions = making.stub.data(bytemuck::cast_slice(&fluid.positions), storage);
     let velocities = making.stub.data(bytemuck::cast_slice(&fluid.velocities), storage);
@@ -559,7 +566,7 @@ fn every_kind_of_input() {
     making.record(&step).expect("a step");
     assert_eq!(making.made(count), expected, "a count on the GPU");
 
-    // A chunk holds a part of them.
+    // One chunk holds only a part of the particles.
     let range = u64::from(gpu.limits().max_storage_buffer_range);
     let stride = (range / 900).next_multiple_of(4).min(1 << 17) as u32;
     let mut chunked =
@@ -586,7 +593,7 @@ fn every_kind_of_input() {
         Making::new(&gpu, &GeneratorConfig::new(9000, 50).with(|it| it.max_stride = 28));
     let none = making.step(&Fluid::default(), &settings, 0.03, 0);
     assert_eq!(none.counts, [0; 6]);
-    // On one spot all are neighbours, as far as they are looked at.
+    // On one spot all particles are neighbours, up to the max number that is examined.
     let heap = Fluid {
         positions: vec![[0.1, 0.2, 0.3]; 9000],
         velocities: vec![[1.0, 0.0, 0.0]; 9000],
@@ -600,7 +607,7 @@ fn every_kind_of_input() {
 #[test]
 fn an_abandoned_first_step_leaves_nothing() {
     let gpu = Gpu::shared();
-    // What the allocator hands out next.
+    // The allocator probably hands out this memory, filled with 0x5a, to the next generator.
     let mut before = Making::new(&gpu, &config());
     let size = before.generator().size() as usize;
     before.restore(&vec![0x5a; size]);
@@ -702,7 +709,7 @@ fn mistakes_are_named() {
     }
 }
 
-/// A renderer draws what was made, without a copy.
+/// A renderer draws the generated particles without a copy.
 #[test]
 fn what_is_made_is_drawn() {
     let gpu = Gpu::shared();
@@ -712,7 +719,7 @@ fn what_is_made_is_drawn() {
     let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(31, 10, 6.0, 9.0));
     shot.settings.whitewater.radius = 0.05;
     let mut fluid = sea(0);
-    // Before the eye.
+    // The water lies in front of the eye.
     let eye: Vec<_> =
         fluid.positions.iter().map(|p| [p[0] - 0.3, p[1] - 0.3, 1.5 + p[2]]).collect();
     fluid.positions = scenes::world(&shot.camera, &eye);

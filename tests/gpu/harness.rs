@@ -21,8 +21,8 @@ use crate::support::skipped::skipped;
 use crate::support::tolerance;
 use crate::support::watchdog::{self, Watch};
 
-/// Whether a check panics; says nothing of it. The hook is that of all threads, and put in once: other
-/// tests may panic meanwhile.
+/// Whether a check panics, without printing. The panic hook is shared by all threads and set once,
+/// because other tests may panic at the same time.
 pub fn fails(check: impl FnOnce()) -> bool {
     thread_local!(static QUIET: Cell<bool> = const { Cell::new(false) });
     static HOOK: Once = Once::new();
@@ -107,7 +107,7 @@ fn a_shifted_image_is_not_the_twins() {
         assert!(fails(|| compare::between("planted-depth", &d, &depth)));
         assert!(fails(|| compare::between("planted-thickness", &t, &thickness)));
     }
-    // A centre or a radius off by a thousandth of the radius.
+    // A centre or a radius that is off by a thousandth of the radius.
     for (move_x, grow) in [(2e-4, 0.0), (0.0, 2e-4)] {
         let mut other = spheres(&shot);
         for sphere in &mut other {
@@ -119,21 +119,22 @@ fn a_shifted_image_is_not_the_twins() {
     }
 }
 
-/// Written by a clear: ALL_TRANSFER, as older layers do not book clears as such.
+/// Access of a clear. ALL_TRANSFER, because older layers do not count clears as a stage of their
+/// own.
 const CLEARED: Access = Access::new(
     vk::PipelineStageFlags2::ALL_TRANSFER,
     vk::AccessFlags2::TRANSFER_WRITE,
     vk::ImageLayout::TRANSFER_DST_OPTIMAL,
 );
-/// What a host may think that a clear is ordered by.
+/// A wrong access that a host may declare for a clear.
 const UNORDERED: Access = Access::new(
     vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
     vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
     CLEARED.layout,
 );
 
-/// Draws with a host that makes a mistake; returns what the layer says. The images are spoiled by
-/// then: the frame is recorded and submitted, and the device goes on.
+/// Draws for a host that makes a mistake, and returns the validation layer's messages. The images
+/// may have wrong contents; the frame is recorded and submitted, and the device stays usable.
 fn mistaken(gpu: &Gpu, before: Access, write: bool, apart: bool) -> Vec<String> {
     let size = extent(32, 16);
     let mut rig = Rig::with_slots(gpu, &config(size), 2);
@@ -174,7 +175,7 @@ fn mistaken(gpu: &Gpu, before: Access, write: bool, apart: bool) -> Vec<String> 
     if write && !apart {
         clear(&rig, cmd);
     }
-    // SAFETY: wrong on purpose, in ways that the layer catches and lavapipe survives.
+    // SAFETY: invalid on purpose, in ways that the layer reports and lavapipe survives.
     unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
     rig.stub.end(0);
     rig.stub.wait(0);
@@ -214,12 +215,12 @@ fn a_missing_barrier_of_the_hosts_is_reported() {
     assert!(messages.iter().any(|m| is_hazard(m)), "{messages:?}");
 }
 
-/// Old layers name the message, newer ones say it.
+/// Old layers give the message's id, newer ones its text.
 pub fn is_hazard(message: &str) -> bool {
     message.contains("SYNC-HAZARD") || message.contains("hazard detected")
 }
 
-/// Only with the layer's switch for hazards between submissions.
+/// Needs the layer's switch for hazards between submissions.
 #[test]
 fn a_missing_barrier_between_submissions_is_reported() {
     let switch = "SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
@@ -239,7 +240,7 @@ fn a_core_error_is_reported_and_fails_the_test() {
         return;
     }
     let spoil = |gpu: &Gpu| {
-        // SAFETY: invalid on purpose: a buffer without a size or usage.
+        // SAFETY: invalid on purpose: a buffer without size and usage.
         unsafe {
             let info = vk::BufferCreateInfo::default();
             if let Ok(buffer) = gpu.device.create_buffer(&info, None) {
@@ -251,7 +252,7 @@ fn a_core_error_is_reported_and_fails_the_test() {
     spoil(&gpu);
     assert!(gpu.expect_messages().iter().any(|m| m.contains("VkBufferCreateInfo")));
     drop(gpu);
-    // The end of a test is what fails.
+    // A message makes the test fail at its end, when the Gpu is dropped.
     let failed = fails(|| {
         let gpu = Gpu::shared();
         spoil(&gpu);
@@ -260,7 +261,7 @@ fn a_core_error_is_reported_and_fails_the_test() {
     assert!(failed, "a message must fail the test");
 }
 
-/// What a device of a test's own leaks is reported at its end.
+/// A leak on a test's own device is reported at its end.
 #[test]
 fn a_leak_fails_the_test() {
     let failed = fails(|| {
@@ -272,7 +273,7 @@ fn a_leak_fails_the_test() {
     assert!(failed, "a renderer that was not destroyed is a leak");
 }
 
-/// In a process of its own, which it ends.
+/// Runs in a child process, which the watchdog ends.
 #[test]
 fn the_watchdog_ends_a_test_that_hangs() {
     if std::env::var_os("WHITEWATER_HANG").is_some() {

@@ -1,5 +1,5 @@
-//! The headless renderer and its stand-in scene behind a spy: whichever call fails, nothing leaks, and the next attempt
-//! succeeds.
+//! The headless renderer and its stand-in scene behind a spy: whichever call fails, nothing leaks,
+//! and the next attempt succeeds.
 
 use std::sync::{Arc, Mutex};
 
@@ -18,7 +18,8 @@ use crate::support::spy::{self, MAKERS};
 const SIZE: vk::Extent2D = vk::Extent2D { width: 32, height: 16 };
 const NO_MEMORY: vk::Result = vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
 
-/// A device with the spy in its function table; the lock on it goes with the test's.
+/// A device with the spy in its function table. The returned Gpu holds the lock that gives the spy
+/// to one test at a time.
 fn spied() -> (Gpu, Device) {
     let mut gpu = Gpu::spied();
     let functions = spy::functions(&gpu);
@@ -31,7 +32,7 @@ fn spied() -> (Gpu, Device) {
     (gpu, device)
 }
 
-/// Some of a function's calls, first and last among them.
+/// The numbers of some of a function's calls, including the first and the last.
 fn chosen(calls: u32) -> Vec<u32> {
     let mut chosen: Vec<u32> = (0..calls.min(4)).map(|i| 1 + i * (calls - 1) / 3).collect();
     chosen.dedup();
@@ -46,7 +47,7 @@ fn is_memory_error(error: &Error) -> bool {
     }
 }
 
-/// A box with a texture on a plain sheet: two pipelines, two textures.
+/// A textured box on a plain sheet: two pipelines, two textures.
 fn scene() -> Scene {
     let texture = Arc::new(Texture { width: 3, height: 2, data: vec![[200, 100, 50, 255]; 6] });
     let textured = Material { texture: Some(texture), ..Material::default() };
@@ -93,7 +94,8 @@ fn a_failed_scene_leaves_nothing() {
     let mut headless = Headless::new(device, &config(SIZE)).expect("headless");
     let scene = scene();
     spy::reset();
-    // What the context keeps is only made by the first scene, as far as it comes.
+    // The first scene creates what the context keeps. If it fails, the next one continues from
+    // there.
     spy::CREATE_RENDER_PASS.fail(2, NO_MEMORY);
     assert!(headless.scene(&scene, true).is_err());
     headless.scene(&scene, true).expect("scene");
@@ -102,13 +104,13 @@ fn a_failed_scene_leaves_nothing() {
     headless.scene(&scene, true).expect("scene");
     let calls: Vec<u32> = MAKERS.iter().map(|f| f.calls()).collect();
     assert!(spy::CREATE_SAMPLER.calls() >= 2, "it sees");
-    // The scene there is goes first: from here on there is none.
+    // A new scene destroys the old one first, so from here on there is none.
     spy::CREATE_SAMPLER.fail(1, NO_MEMORY);
     assert!(headless.scene(&scene, true).is_err());
     let mut wrong = Vec::new();
     for (function, calls) in MAKERS.iter().zip(calls) {
         for k in chosen(calls) {
-            // The allocator keeps blocks of its own and asks for none.
+            // The allocator has free blocks and does not ask for memory.
             if std::ptr::eq(*function, &spy::ALLOCATE_MEMORY) {
                 continue;
             }
@@ -138,7 +140,7 @@ fn a_failed_scene_leaves_nothing() {
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// How much the allocator has handed out.
+/// Number of live allocations.
 fn allocations(device: &Device) -> usize {
     device.allocator.lock().unwrap().generate_report().allocations.len()
 }
@@ -160,7 +162,7 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
         let draw = |headless: &mut Headless| {
             headless.render(&shot.camera, &shot.settings, &Background::Scene)
         };
-        // From elsewhere: what is kept of the scene is no good.
+        // Another camera, for which the kept image of the scene cannot be used.
         let aside = beside(&shot.camera);
         let draw_aside =
             |headless: &mut Headless| headless.render(&aside, &shot.settings, &Background::Scene);
@@ -201,7 +203,8 @@ fn beside(camera: &Camera) -> Camera {
     }
 }
 
-/// For a camera that rests the scene is drawn once, and anew for whatever changes it.
+/// While the camera rests the scene is drawn only once; it is drawn again after every change that
+/// affects it.
 #[test]
 fn a_camera_that_rests_keeps_the_scene() {
     let (_gpu, device) = spied();
@@ -214,7 +217,8 @@ fn a_camera_that_rests_keeps_the_scene() {
         headless.particles(points, None).expect("particles");
         spy::reset();
         headless.render(camera, &settings, &Background::Scene).expect("a frame");
-        // The scene's are made a frame.
+        // Framebuffers are created in each frame, so their number tells whether the scene was
+        // drawn.
         let made = spy::CREATE_FRAMEBUFFER.calls();
         let depth = headless.scene_depth().expect("read back");
         (made, headless.color().expect("read back"), depth)
@@ -226,11 +230,11 @@ fn a_camera_that_rests_keeps_the_scene() {
     assert_ne!(color, with_more, "other water");
     let (again, same, same_depth) = frame(&mut headless, &camera, &few);
     assert!(again == second && same == color && same_depth == depth);
-    // Another view, and back.
+    // Another view, and back again.
     let (moved, other, _) = frame(&mut headless, &beside(&camera), &few);
     let (back, same, _) = frame(&mut headless, &camera, &few);
     assert!([moved, back] == [first; 2] && other != color && same == color);
-    // Another sky, another scene.
+    // Another sky, then another scene.
     headless.sky(&Sky::default().with(|it| it.intensity = 5.0)).expect("sky");
     let (anew, hazy, _) = frame(&mut headless, &camera, &few);
     assert!(anew == first && hazy != color);
@@ -244,7 +248,8 @@ fn a_camera_that_rests_keeps_the_scene() {
     assert_eq!(device.take_messages(), Vec::<String>::new());
 }
 
-/// Foam by a step of the state: of velocities, ids and time; new particles have none until then.
+/// A step of the foam state makes foam from velocities, ids and time. New particles have no foam
+/// until the next step.
 #[test]
 fn a_step_makes_foam() {
     let mut gpu = Gpu::spied();
@@ -267,13 +272,13 @@ fn a_step_makes_foam() {
         }
         headless.render(&camera, &look, &background).expect("a frame");
         let depth = headless.layer("surface_foam").expect("read").expect("a layer");
-        // Of a quarter of the resolution.
+        // The layer has a quarter of the resolution along each axis.
         16 * depth.data.iter().filter(|z| **z < 1e9).count()
     };
     assert_eq!(covered(&mut headless, None), 0, "no step");
     assert!(covered(&mut headless, Some((None, None))) > 500, "a frame for itself");
     assert!(covered(&mut headless, Some((Some(&ids), None))) > 500, "ids for the noise alone");
-    // By phases it takes a step to begin, and half a second to be whole.
+    // With phases, foam begins at the second step and is whole after half a second.
     assert_eq!(covered(&mut headless, Some((Some(&ids), Some(0.1)))), 0, "the first step");
     assert!(covered(&mut headless, Some((Some(&ids), Some(0.1)))) > 0, "the second");
     assert_eq!(covered(&mut headless, None), 0, "other particles");
@@ -283,7 +288,7 @@ fn a_step_makes_foam() {
     headless.finish().expect("finish");
 }
 
-/// A step that fails for want of memory loses nothing of the state, and the next one is good.
+/// A step that fails for lack of memory leaves the state unchanged, and the next step succeeds.
 #[test]
 fn a_failed_step_keeps_the_state() {
     let (_gpu, device) = spied();

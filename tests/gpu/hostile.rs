@@ -1,6 +1,6 @@
-//! Whatever bits a host's streams hold, a frame ends, is finite, and touches no memory but its own: NaN, infinities,
-//! the largest and the tiniest numbers, bits at random. A driver that ends endless loops by itself (lavapipe before Mesa
-//! 25) shows half of it: these tests run on a newer one too.
+//! Whatever bits a host's streams hold, a frame ends, is finite and stays in its own memory: NaN,
+//! infinities, the largest and smallest numbers, random bits. A driver that ends endless loops by
+//! itself (lavapipe before Mesa 25) hides some faults, so these tests also run on a newer one.
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, Crossfade};
@@ -20,15 +20,15 @@ use crate::surface_foam::Foamy;
 const SIZE: vk::Extent2D = vk::Extent2D { width: 64, height: 48 };
 const USAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
 
-/// Bits that a word may hold, one kind after the other; `None`: any.
+/// Kinds of bits for a word, taken in turn. `None` means random bits.
 const BITS: [Option<u32>; 13] = [
     Some(0x7fc0_0000), // NaN
-    Some(0xff80_0001), // a signalling one, negative
+    Some(0xff80_0001), // negative signalling NaN
     Some(0x7f80_0000), // infinity
     Some(0xff80_0000),
     Some(0x7f7f_ffff), // the largest
     Some(0xff7f_ffff),
-    Some(0x0000_0001), // the tiniest, and the tiniest that is normal
+    Some(0x0000_0001), // smallest denormal, then smallest normal
     Some(0x0080_0000),
     Some(0x7149_f2ca), // 1e30
     Some(0x0da2_4260), // 1e-30
@@ -37,7 +37,8 @@ const BITS: [Option<u32>; 13] = [
     None,
 ];
 
-/// Spoils two of three entries, of some all words and of the others one: each kind of bits in each place.
+/// Changes two of three entries: in some all words, in others one word, so that each kind of bits
+/// comes to each place.
 pub fn spoil(words: &mut [u32], entry: usize, random: &mut Random) {
     for (i, entry) in words.chunks_mut(entry).enumerate().filter(|(i, _)| i % 3 > 0) {
         let all = entry.len();
@@ -50,7 +51,7 @@ pub fn spoil(words: &mut [u32], entry: usize, random: &mut Random) {
     }
 }
 
-/// Words of a stream, and how many an entry has.
+/// Name and words of a stream, and the number of words per entry.
 #[derive(Clone)]
 struct Words(&'static str, Vec<u32>, usize);
 
@@ -60,7 +61,7 @@ impl Words {
     }
 }
 
-/// The streams of a frame of everything, in this order.
+/// The streams of a frame with everything, in this order.
 fn streams(case: &Foamy) -> Vec<Words> {
     let shot = &case.shot;
     let (points, mut random) = (scenes::cloud(7, 300, 1.0, 9.0), Random(3));
@@ -147,7 +148,8 @@ fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
         it.bubbles = theirs.map(|_| blobs);
     });
     let cmd = rig.stub.begin(0);
-    // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+    // SAFETY: cmd is recording, the slot was waited for, and all handles live until the end of this
+    // function.
     let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
     rig.stub.end(0);
     rig.stub.wait(0);

@@ -1,5 +1,5 @@
-//! What must not change the picture: no particles, their order, stray ones, how they are handed in,
-//! in how many pieces they are worked on, and the unit of length.
+//! Checks what must not change the picture: a frame without particles, the particles' order,
+//! invalid particles, the way they are handed in, the number of chunks, and the unit of length.
 
 use ash::vk;
 use whitewater::water::Shading::{Compute, Raster};
@@ -17,7 +17,8 @@ use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::{self, Sum};
 use crate::surface_foam::Foamy;
 
-/// Sums in fixed point: the order of the particles is no matter.
+/// Both splats by compute, whose sums are in fixed point, so the order of the particles does not
+/// matter.
 pub fn exact(size: vk::Extent2D) -> Config {
     config(size).with(|it| {
         it.depth_splat = Some(Splat::Compute);
@@ -42,7 +43,7 @@ pub fn same_drawn(name: &str, actual: &Drawn, expected: &Drawn) {
     compare::same_color(name, &actual.output, &expected.output);
 }
 
-/// Where the sheets part, and how thick they are.
+/// The same boundaries, thicknesses and back surface of both sheets.
 pub fn same_sheets(name: &str, actual: &Sheets, expected: &Sheets) {
     compare::same(&format!("{name}-boundaries"), &actual.boundaries, &expected.boundaries);
     let [found, wanted] =
@@ -70,7 +71,7 @@ fn no_particles_change_nothing() {
             );
             let mut shot = water(size);
             shot.positions.clear();
-            // Another frame's water must not come back.
+            // The water of the frame before must not show.
             rig.draw(&water(size));
             let drawn = rig.draw(&shot);
             let scene = crate::reference::Image {
@@ -126,7 +127,8 @@ fn the_order_of_the_particles_is_no_matter() {
     let (first, second) = (rig.draw(&shot), rig.draw(&mixed));
     same_drawn("permutation", &second, &first);
 
-    // Added in another order, floats round otherwise: both are in the bounds.
+    // Float sums in another order round differently, so both pictures are only checked against the
+    // twin's bounds.
     let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.thickness_splat = Some(Splat::Raster)));
     for shot in [&shot, &mixed] {
         let drawn = rig.draw(shot);
@@ -141,7 +143,8 @@ fn strays_do_no_harm() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     for (splat, sheets) in [(Splat::Compute, 1), (Splat::Raster, 1), (Splat::Compute, 2)] {
-        // Added in another order, floats would round otherwise.
+        // Thickness is summed in fixed point, because float sums in another order round
+        // differently.
         let config = exact(size).with(|it| {
             it.depth_splat = Some(splat);
             it.sheets = sheets;
@@ -173,12 +176,13 @@ fn strays_do_no_harm() {
         }
         let drawn = rig.draw(&shot);
         same_drawn(&format!("strays-{splat:?}-{sheets}"), &drawn, &expected);
-        // The last one is a number that is only far away.
+        // The last position is finite and only far away, so it is not counted as dropped.
         assert_eq!((expected.work.dropped, drawn.work.dropped), (0, 12), "strays are counted");
     }
 }
 
-/// Sub-threshold particles are spray, thin water has smaller ones; fresh ones (0) are whole.
+/// Particles below the density threshold are spray, thin water has smaller spheres, and particles
+/// of density 0 have the whole radius.
 #[test]
 fn densities_are_the_twins() {
     let gpu = Gpu::shared();
@@ -255,7 +259,7 @@ fn a_count_on_the_gpu_is_that_of_the_cpu_and_is_clamped() {
         let on_cpu = rig.draw_particles(&shot, &packed(stream, Count::Cpu(drawn)));
         same_drawn(&format!("count-{host}"), &on_gpu, &on_cpu);
     }
-    // A stream that ends before the count does.
+    // The stream is shorter than the count.
     let count = rig.stub.data(&words(&[190]), STORAGE);
     let short = Stream { size: 100 * 12, ..stream(&positions, 0, 12) };
     let on_gpu = packed(short, Count::Gpu { buffer: count.buffer, offset: 0 });
@@ -274,7 +278,7 @@ fn streams_may_be_strided_offset_and_interleaved() {
     shot.densities = Some(shot.positions.iter().map(|_| random.between(300.0, 500.0)).collect());
     let expected = rig.draw(&shot);
     let densities = shot.densities.clone().expect("set above");
-    // Words from a particle to the next, and the first words of position and density.
+    // Words from one particle to the next, and the first words of position and density.
     for (stride, position, density) in [(4, 0, 3), (5, 1, 0), (8, 4, 2), (16, 13, 6), (7, 3, 20)] {
         let mut data = vec![f32::NAN; stride * shot.positions.len() + 32];
         for (i, (p, d)) in shot.positions.iter().zip(&densities).enumerate() {
@@ -282,7 +286,7 @@ fn streams_may_be_strided_offset_and_interleaved() {
             data[i * stride + density] = *d;
         }
         if density == 20 {
-            // Apart from it.
+            // In this case the densities have their own buffer.
             for (i, p) in shot.positions.iter().enumerate() {
                 data[i * stride + position..][..3].copy_from_slice(p);
             }
@@ -325,12 +329,12 @@ fn packets_cull_as_single_particles() {
     let size = extent(96, 64);
     let shot = water(size);
     let n = shot.positions.len() as u32;
-    // One chunk, and several that cut through the packets.
+    // All particles in one chunk, and several chunks whose borders cut packets.
     for max_stride in [16, 1 << 19] {
         let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.max_stride = max_stride));
         let expected = rig.draw(&shot);
         let all: Vec<(u32, u32)> = (0..n).step_by(70).map(|i| (i, 70.min(n - i))).collect();
-        // The last one counts beyond the particles, and beyond 32 bits.
+        // The last packet's count reaches beyond the particles, and its end beyond 32 bits.
         let mut open = all.clone();
         open.last_mut().expect("some").1 = u32::MAX - 1;
         let mut mixed = all.clone();
@@ -344,7 +348,7 @@ fn packets_cull_as_single_particles() {
             let drawn = rig.draw_particles(&shot, &particles);
             same_drawn(&format!("packets-{name}-{max_stride}"), &drawn, &expected);
         }
-        // Those in no packet are not drawn.
+        // Particles in no packet are not drawn.
         let half: Vec<(u32, u32)> = vec![(0, n / 2)];
         let cloud = rig.particles(&shot);
         let data = rig.stub.data(&packet_bytes(&shot, &half), STORAGE);
@@ -356,8 +360,8 @@ fn packets_cull_as_single_particles() {
     }
 }
 
-/// Those in no packet are nowhere, whichever pass goes over the particles; those in packets that the camera does not see
-/// cast what of their shadow it sees.
+/// Particles in no packet are absent from every pass. Particles in packets that the camera does not
+/// see still cast their shadows and caustics into the view.
 #[test]
 fn particles_in_no_packet_are_in_no_pass() {
     let gpu = Gpu::shared();
@@ -389,7 +393,7 @@ fn particles_in_no_packet_are_in_no_pass() {
         let packed = |case: &Foamy, rig: &mut Rig<'_>, ranges: &[(u32, u32)]| {
             let streams = case.streams(rig);
             let bytes = packet_bytes(&case.shot, ranges);
-            // A buffer of none has room for one.
+            // A buffer cannot be empty, so it has room for one packet.
             let bytes = if bytes.is_empty() { vec![0; 32] } else { bytes };
             let data = rig.stub.data(&bytes, STORAGE);
             let count = ranges.len() as u32;
@@ -418,7 +422,7 @@ fn particles_in_no_packet_are_in_no_pass() {
             same_drawn(&name, &drawn, &expected);
             same_passes(&name, &drawn, &expected);
         }
-        // All of it behind the eye.
+        // All particles lie behind the eye.
         case.shot.light_volume = region(scenes::world(&case.shot.camera, &[[0.0, 0.0, -8.0]])[0]);
         let behind = scenes::world(&case.shot.camera, &scenes::cloud(31, n as usize, -10.0, -6.0));
         case.shot.positions = behind;
@@ -429,7 +433,7 @@ fn particles_in_no_packet_are_in_no_pass() {
     }
 }
 
-/// What other passes than the water's leave.
+/// The layers of all passes except those of the water's surface.
 fn same_passes(name: &str, actual: &Drawn, expected: &Drawn) {
     let foam = |drawn: &Drawn| drawn.foam.clone().expect("foam");
     let (found, wanted) = (foam(actual), foam(expected));
@@ -449,7 +453,7 @@ fn same_passes(name: &str, actual: &Drawn, expected: &Drawn) {
     compare::same_color(&format!("{name}-to-the-sun"), &map(actual), &map(expected));
 }
 
-/// The stride there may be decides how many particles are worked on at a time.
+/// `max_stride` decides how many particles fit in a chunk; the picture does not change.
 #[test]
 fn chunks_do_not_show() {
     let gpu = Gpu::shared();
@@ -467,7 +471,7 @@ fn chunks_do_not_show() {
         let one = exact(size).with(|it| it.depth_splat = Some(splat));
         let expected = Rig::new(&gpu, &one).draw(&shot);
         same_drawn(&format!("chunks-{splat:?}"), &drawn, &expected);
-        // A chunk or more without particles.
+        // Fewer particles than one chunk holds, so further chunks are empty.
         let mut few = shot.clone();
         few.positions.truncate(100);
         let expected =
@@ -476,7 +480,7 @@ fn chunks_do_not_show() {
     }
 }
 
-/// As many chunks as a configuration may come to: each has its descriptor sets.
+/// With the max number of chunks of a configuration, the descriptor pool has sets for each.
 #[test]
 fn many_chunks_have_their_descriptors() {
     let gpu = Gpu::shared();
@@ -494,7 +498,7 @@ fn many_chunks_have_their_descriptors() {
     same_drawn("many-chunks", &rig.draw(&shot), &expected);
 }
 
-/// A stream longer than what one binding may hold is read through windows.
+/// A stream longer than one binding is read through several windows.
 #[test]
 fn a_stream_longer_than_a_binding_is_read_whole() {
     let gpu = Gpu::shared();
@@ -510,7 +514,7 @@ fn a_stream_longer_than_a_binding_is_read_whole() {
     let data = {
         let mut rig = Rig::new(&gpu, &exact(size).with(|it| it.max_stride = 1 << 20));
         let mut data = rig.stub.sized(count * stride, STORAGE);
-        // Only the pages that are written cost memory.
+        // Only pages that are written use memory.
         for (i, p) in shot.positions.iter().take(count as usize).enumerate() {
             data.write_at(i as u64 * stride, bytemuck::cast_slice(p));
         }
@@ -528,7 +532,7 @@ pub fn scaled(shot: &Shot, scale: f32) -> Shot {
     for p in &mut shot.positions {
         *p = p.map(|x| x * scale);
     }
-    // Depths are scaled, device depths stay as they are.
+    // Depths are scaled; device depths stay the same.
     let mut view = shot.camera.view_matrix();
     view.w_axis = (view.w_axis.truncate() * scale).extend(1.0);
     shot.camera.view = view.to_cols_array_2d();
@@ -541,8 +545,8 @@ pub fn scaled(shot: &Shot, scale: f32) -> Shot {
     shot
 }
 
-/// Powers of two scale every number without rounding: the pictures are the same bit for bit. Others
-/// are checked against the twins at their scale.
+/// A scale by a power of two changes no rounding, so the pictures are equal bit for bit. Other
+/// scales are compared with the twins at their scale.
 #[test]
 fn the_unit_of_length_does_not_show() {
     let gpu = Gpu::shared();
@@ -577,7 +581,7 @@ fn the_unit_of_length_does_not_show() {
     }
 }
 
-/// Of the last particle of an interleaved buffer only its values are there.
+/// An interleaved buffer may end with the last particle's values, before its stride is complete.
 #[test]
 fn the_last_interleaved_particle_is_drawn() {
     let gpu = Gpu::shared();
@@ -598,7 +602,7 @@ fn the_last_interleaved_particle_is_drawn() {
     compare::same("interleaved-last", &found.depth, &expected.depth);
 }
 
-/// One look in metres and in centimetres: all of `Settings::new` follows from the spacing and the unit.
+/// A look in metres and in centimetres: `Settings::new` scales all settings by spacing and unit.
 #[test]
 fn settings_follow_from_spacing_and_unit() {
     let (metres, others) =
@@ -621,7 +625,7 @@ fn settings_follow_from_spacing_and_unit() {
         panic!("a pool")
     };
     near(a, 100.0 * b);
-    // The same number of particles as fast.
+    // The Weber number's scale describes the same particles at the same speed.
     let [a, b] = [(0.05, 1.0), (5.0, 100.0)].map(|(spacing, unit)| {
         whitewater::water::WeberSettings::weber_in(spacing, unit, 1.0).scale * unit * unit
     });

@@ -1,4 +1,5 @@
-//! Levels of the smoothing: near water is smoothed and shown at coarser levels, each pixel by its own distance.
+//! Levels of the smoothing: near water is smoothed and drawn at coarser levels, each pixel by its
+//! own distance.
 
 use whitewater::Config;
 use whitewater::water::{Fresnel, Gate, Rule, Shading, Smoothing};
@@ -15,10 +16,10 @@ use crate::support::scenes::{self, Lens};
 use crate::support::slow;
 use crate::support::tolerance;
 
-/// Odd, so that no level divides it.
+/// Odd numbers, which no level divides.
 const SIZE: (u32, u32) = (97, 61);
 
-/// A pool seen along its surface, from so near that all levels show.
+/// A pool seen along its surface, from so near that all levels are drawn.
 fn pool() -> Shot {
     let mut points = scenes::block(3, 0.1, [40, 3, 60], [-2.0, -0.9, 0.8]);
     points.extend(scenes::block(4, 0.1, [6, 6, 2], [0.3, -0.2, 2.6]));
@@ -39,14 +40,14 @@ fn at(level: u32, coarsening: u32, cap: u32) -> Config {
 
 fn draw(gpu: &Gpu, config: &Config, shot: &Shot) -> Drawn {
     let mut rig = Rig::lit(gpu, config, 1);
-    // The second frame starts from what the first one left.
+    // The second frame finds the first one's contents in the images.
     rig.draw(shot);
     let mut drawn = rig.draw(shot);
     drawn.coarser = coarser(&drawn, shot, config.max_iterations);
     drawn
 }
 
-/// Surface and plan of each coarser level of a frame, without what is left of a frame before.
+/// Surface and plan of each coarser level, without the texels that this frame did not write.
 pub fn coarser(drawn: &Drawn, shot: &Shot, cap: u32) -> Vec<(Image<f32>, Image<u32>)> {
     let levels = levels(drawn, shot, cap);
     let needed = levels.needed(&wide(&drawn.depth));
@@ -67,15 +68,16 @@ fn levels(drawn: &Drawn, shot: &Shot, cap: u32) -> Levels {
     }
 }
 
-/// A frame's smoothed surfaces as the twin takes them.
+/// A frame's smoothed surfaces, as the twin takes them.
 pub fn smoothed<'a>(drawn: &'a Drawn, shot: &Shot, cap: u32) -> Smoothed<'a> {
     let coarser = drawn.coarser.iter().map(|(surface, _)| surface);
     let surfaces = std::iter::once(&drawn.surface).chain(coarser).collect();
     Smoothed { levels: levels(drawn, shot, cap), surfaces }
 }
 
-/// Asserts that a level's plan is the twin's where it is wanted, and nothing elsewhere; that its surface
-/// is what the twin makes of the plan. Returns how many texels are smoothed, and how many with water not.
+/// Checks that a level's plan is the twin's at texels that are `wanted` and 0 elsewhere, and that
+/// its surface is what the twin computes from the plan. Returns how many texels are smoothed, and
+/// how many with water are not.
 pub fn check_level(
     name: &str,
     (surface, plan): (&Image<f32>, &Image<u32>),
@@ -95,7 +97,7 @@ pub fn check_level(
             continue;
         }
         let near = levels.nearness(view.ray(x, y).truncate(), z);
-        // Of numbers that are rounded a few times.
+        // The nearness is rounded a few times.
         let either = [1.0 - 1e-5, 1.0 + 1e-5].map(|off| wanted(near * off));
         if either[0] && either[1] || either[0] != either[1] && plan.at(x, y) != 0 {
             *compared.at_mut(x, y) = found.at(x, y);
@@ -111,8 +113,8 @@ pub fn check_level(
     (smoothed, left)
 }
 
-/// Every level is planned and smoothed where it shows and a bit around, from the depth of the tiles that
-/// need it; in every form of the smoothing to the bit.
+/// Every level is planned and smoothed where it is drawn and a little around, from the depth of the
+/// tiles that need it. All forms of the smoothing give the same bits.
 #[test]
 fn levels_are_the_twins() {
     let gpu = Gpu::shared();
@@ -155,7 +157,7 @@ fn levels_are_the_twins() {
                 let wanted = |near| levels.is_wanted(near, level, finest, coarsest);
                 let name = format!("{name}-{level}");
                 let (smoothed, left) = check_level(&name, images, &reduced, &levels, level, wanted);
-                // By the least cap the first ones are hardly shown.
+                // With the smallest cap, the first levels are hardly drawn.
                 assert!(
                     smoothed > 10 || cap == 3 && level < coarsening,
                     "{name}: {smoothed} texels"
@@ -168,10 +170,11 @@ fn levels_are_the_twins() {
     }
 }
 
-/// Large, so that all is smooth.
+/// So large that no iterations are missing.
 const CAP: u32 = 200;
 
-/// Water at nearly one depth, smoothed so wide that it is so near to the finest level: see `Levels`.
+/// Water at nearly one depth, with the smoothing width that gives this nearness to the finest level
+/// (see `Levels`).
 fn cloud(nearness: f64, cap: u32) -> Shot {
     let points = scenes::block(3, 0.25, [14, 8, 2], [-1.8, -1.0, 4.0]);
     let mut shot = Shot::new(extent(SIZE.0, SIZE.1), Lens::Standard, 0.2, &points);
@@ -183,7 +186,7 @@ fn cloud(nearness: f64, cap: u32) -> Shot {
     shot
 }
 
-/// Least and most nearness of the water that a frame shows.
+/// Min and max nearness of the water in a frame.
 fn range(drawn: &Drawn, levels: &Levels) -> [f64; 2] {
     let depth = wide(&drawn.depth);
     let all = (0..depth.data.len())
@@ -192,8 +195,8 @@ fn range(drawn: &Drawn, levels: &Levels) -> [f64; 2] {
     all.fold([f64::INFINITY, 0.0], |[low, high], near| [low.min(near), high.max(near)])
 }
 
-/// Where one coarser level shows everywhere, all is what a renderer gives that is configured so coarse: the surface
-/// bit for bit, the picture but for rounding.
+/// If one coarser level is drawn everywhere, the result is that of a renderer configured for this
+/// level: the surface bit for bit, the picture except for rounding.
 #[test]
 fn a_coarser_level_is_the_configured_one() {
     let gpu = Gpu::shared();
@@ -218,19 +221,20 @@ fn a_coarser_level_is_the_configured_one() {
         let (surface, plan) = &drawn.coarser[coarser as usize - 1];
         assert!(plan.data == expected.plan.data, "{name}: other plans");
         compare::same(&name, surface, &expected.surface);
-        // Of another shader: sums may be in another order.
+        // Another shader may add in another order.
         close(&name, config.output_format, &drawn, &expected);
     }
 }
 
-/// Between two levels each pixel has of both, by its own distance. Only the slope goes straight from one to
-/// the other, the colour nearly, of what is seen through it of an even change. Of what the pixels say of their
-/// way (found - fine) / (coarse - fine) the mean by the squares of their differences is taken, as of their
-/// fades. Inside the water: the thickness at its rim goes by the finer level alone.
+/// Between two levels each pixel is a mixture by its own distance. Only the slope is interpolated
+/// linearly, the colour nearly so, against a scene with even gradients. Each pixel gives (found -
+/// fine) / (coarse - fine); the test compares their mean, weighted by the squared differences, with
+/// that of the fades. Only pixels inside the water count, because at rims the thickness follows the
+/// finer level.
 #[test]
 fn the_next_level_fades_in() {
     let gpu = Gpu::shared();
-    // So few iterations that the levels are as rough as they are different.
+    // With so few iterations the levels are rough and differ clearly.
     let cap = 6;
     let mut last = 0.0;
     for nearness in [0.85, 1.0, 1.15, 1.3, 1.45] {
@@ -280,13 +284,13 @@ fn the_next_level_fades_in() {
     assert!(last > 0.7, "{last} of the way at last");
 }
 
-/// What is far is drawn as if nothing were near: to the bit, beside a drop before the lens.
+/// Far water is equal to the bit whether or not a drop hangs close before the camera.
 #[test]
 fn a_drop_before_the_lens_changes_nothing_else() {
     let gpu = Gpu::shared();
     for sheets in [1, 2] {
         let mut shot = cloud(0.5, CAP);
-        // In the middle of the view, much nearer than the block.
+        // A drop in the middle of the view, much nearer than the block.
         shot.positions.push([2.5, 1.5, 1.0]);
         let config = at(0, 3, CAP).with(|it| it.sheets = sheets);
         let drawn = draw(&gpu, &config, &shot);
@@ -313,7 +317,8 @@ fn a_drop_before_the_lens_changes_nothing_else() {
     }
 }
 
-/// The source's rules keep the source's cap, and nothing makes a fixed count more.
+/// The source's rules keep their cap, and a fixed iteration count is never exceeded, so there are
+/// no coarser levels.
 #[test]
 fn other_rules_stay() {
     let gpu = Gpu::shared();
@@ -326,7 +331,7 @@ fn other_rules_stay() {
     }
 }
 
-/// Nothing is too small to go coarser; the levels lie apart, in the images, by whole tiles.
+/// Images of any size have coarser levels; in memory the levels are whole tiles apart.
 #[test]
 fn small_images_go_coarser_too() {
     let gpu = Gpu::shared();
@@ -335,7 +340,7 @@ fn small_images_go_coarser_too() {
         for level in 0..3 {
             let forms = [Smoothing::Tiles, Smoothing::Fused, Smoothing::Query(Gate::VertexCull)];
             for (form, smoothing) in (0..).zip(forms) {
-                // Each size and each level with each form, not all three together.
+                // Each size and each level with each form, but not all combinations.
                 if !slow() && form != (turn + level) % 3 {
                     continue;
                 }

@@ -1,5 +1,5 @@
-//! A device that claims stricter limits than it has: alignment of offsets, the longest binding, and timestamps with few
-//! bits.
+//! Tests on a device that claims stricter limits than it has: offset alignment, length of a
+//! binding, descriptors per stage, and timestamps with few bits.
 
 use ash::vk;
 use whitewater::bubbles::{BlobSimulation, BlobSimulationConfig, BubbleConfig, DistanceField};
@@ -28,8 +28,8 @@ fn shot() -> Shot {
     shot
 }
 
-/// Draws with claims from one buffer that holds everything, as interleaved streams from `word` on,
-/// with the count and the packets in it; `checks` looks at every buffer that was bound.
+/// Draws with `claims`, and with one buffer that contains everything: interleaved streams that
+/// begin at `word`, the count and the packets. `checks` is called for every bound buffer.
 fn claimed(
     name: &str,
     config: &Config,
@@ -86,7 +86,7 @@ fn claimed(
     }
 }
 
-/// Windows begin where the device can bind, the rest is left to the shader.
+/// Bindings begin at multiples of the device's alignment; the shader adds the rest of the offset.
 #[test]
 fn offsets_are_multiples_of_the_devices_alignment() {
     for splat in [Splat::Compute, Splat::Raster] {
@@ -104,7 +104,8 @@ fn offsets_are_multiples_of_the_devices_alignment() {
     }
 }
 
-/// No storage buffer is bound longer than the device allows; chunks do not show.
+/// No binding is longer than the device allows, and the division into chunks does not change the
+/// picture.
 #[test]
 fn bindings_are_no_longer_than_the_device_allows() {
     for splat in [Splat::Compute, Splat::Raster] {
@@ -130,7 +131,7 @@ fn bindings_are_no_longer_than_the_device_allows() {
     }
 }
 
-/// What was aligned on another device may not be on this one.
+/// An offset that another device could bind may not be aligned for this one.
 #[test]
 fn offsets_that_the_device_cannot_bind_are_errors() {
     let mut gpu = Gpu::spied();
@@ -154,7 +155,7 @@ fn offsets_that_the_device_cannot_bind_are_errors() {
     ] {
         let frame = shot.frame(color.host_image(), depth.host_image(), particles);
         let cmd = rig.stub.begin(0);
-        // SAFETY: cmd is recording; nothing of a bad frame is used.
+        // SAFETY: cmd is recording; a frame with bad input uses no handle.
         let result = unsafe { rig.renderer().record(cmd, &frame) };
         rig.stub.throw_away(0);
         match result {
@@ -164,7 +165,7 @@ fn offsets_that_the_device_cannot_bind_are_errors() {
     }
 }
 
-/// A counter of few bits starts again from 0 within a frame.
+/// A timestamp counter with few bits wraps around within a frame.
 #[test]
 fn timestamps_that_wrap_are_still_durations() {
     for bits in [36_u32, 48, 64] {
@@ -178,7 +179,7 @@ fn timestamps_that_wrap_are_still_durations() {
         claim(&mut gpu, claims);
         let gpu = gpu;
         let mask = u64::MAX >> (64 - bits);
-        // Before, within and between the scopes.
+        // The counter wraps before, within and between the scopes.
         for before_the_end in [0, 50, 150, 1_050] {
             let first = mask - before_the_end;
             let stamp = move |i: usize| first.wrapping_add(100 * i as u64) & mask;
@@ -196,7 +197,7 @@ fn timestamps_that_wrap_are_still_durations() {
     }
 }
 
-/// A queue without timestamps: no queries, no timings, no error.
+/// On a queue without timestamps there are no queries, no timings and no error.
 #[test]
 fn a_queue_without_timestamps_has_no_timings() {
     let mut gpu = Gpu::spied();
@@ -216,17 +217,18 @@ fn a_queue_without_timestamps_has_no_timings() {
     }
 }
 
-/// What is bound whole, of a size that each of these alone is over: errors that say which.
+/// Buffers that are bound as a whole and are too long for the device give an error that names the
+/// setting.
 #[test]
 fn what_the_device_does_not_bind_at_once_is_an_error() {
     let mut gpu = Gpu::spied();
     claim(&mut gpu, Claims { max_storage_buffer_range: Some(1 << 17), ..Claims::default() });
     let gpu = gpu;
-    // 8 bytes a pixel of 120x120 are 115 200, under the 131 072.
+    // 8 bytes per pixel of 120x120 are 115 200, below the limit of 131 072.
     let base = config(extent(120, 120)).with(|it| it.thickness_level = 0);
     drop(Rig::new(&gpu, &base));
     let foam = base.with(|it| it.surface_foam = true);
-    // Blended, they are images.
+    // Blended thickness needs images instead of buffers.
     drop(Rig::new(&gpu, &foam.with(|it| it.thickness_splat = Some(Splat::Raster))));
     let bubbles = BubbleConfig::new(8).with(|it| {
         it.variants = 1;
@@ -238,7 +240,8 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
         it.layers = 1;
         it.max_blobs = 10_000;
     });
-    // Blended, two sheets still have a depth a texel between them: of 200x200, 160 000 bytes.
+    // With blended thickness, two sheets still have a buffer with one depth per texel: 160 000
+    // bytes for 200x200.
     let blended = config(extent(200, 200)).with(|it| {
         it.thickness_level = 0;
         it.thickness_splat = Some(Splat::Raster);
@@ -275,7 +278,7 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
     }
 }
 
-/// Sets a limit by its name.
+/// Sets a limit by its Vulkan name.
 fn set(limits: &mut vk::PhysicalDeviceLimits, name: &str, value: u32) {
     let [x, y, z] = &mut limits.max_compute_work_group_size;
     *match name {
@@ -301,8 +304,8 @@ fn set(limits: &mut vk::PhysicalDeviceLimits, name: &str, value: u32) {
     } = value;
 }
 
-/// A device that has just what a configuration needs makes all its pipelines; with one step less of anything it is
-/// told what.
+/// A device whose limits are exactly what a configuration needs makes all its pipelines. If one
+/// limit is lower by 1, the error names it.
 #[test]
 fn limits_are_what_the_shaders_use() {
     let mut gpu = Gpu::spied();
@@ -374,7 +377,8 @@ fn limits_are_what_the_shaders_use() {
         }
         gpu.claims = None;
     }
-    // As few as Vulkan guarantees: for objects that no configuration of a renderer speaks of.
+    // The min that Vulkan guarantees, which is too few for every object that has no configuration
+    // check.
     let mut least = all;
     least.max_per_stage_descriptor_storage_buffers = 4;
     claim(&mut gpu, Claims { limits: Some(least), ..Claims::default() });
@@ -396,7 +400,8 @@ fn limits_are_what_the_shaders_use() {
     }
 }
 
-/// Where the levels of the smoothing find no room below each other they lie elsewhere, and nothing of it shows.
+/// If an image cannot hold the smoothing's levels below each other, they lie side by side; the
+/// picture is the same.
 #[test]
 fn levels_beside_each_other_smooth_the_same() {
     let mut gpu = Gpu::spied();
@@ -416,7 +421,8 @@ fn levels_beside_each_other_smooth_the_same() {
         claim(&mut gpu, Claims { limits: Some(narrow), ..Claims::default() });
         same_drawn(&format!("{smoothing:?}"), &Rig::new(&gpu, &config).draw(&shot), &expected);
     }
-    // What finds no room at all is refused by a name, and drawn at half the resolution.
+    // If they have no room at all, the error names the extent. At half the resolution they have
+    // room.
     let wide = config(extent(80, 80)).with(|it| {
         it.smoothing_level = 0;
         it.sheets = 2;
@@ -435,12 +441,12 @@ fn levels_beside_each_other_smooth_the_same() {
     }
 }
 
-/// The longest and narrowest images that the device has, silent under validation.
+/// Images of the device's max width and height, without validation messages.
 #[test]
 fn the_longest_images_are_drawn() {
     let gpu = Gpu::shared();
     let limits = gpu.limits();
-    // Of an image that is drawn to.
+    // Limits of an image that is drawn to.
     let [across, down] = [0, 1].map(|i| {
         let frame = [limits.max_framebuffer_width, limits.max_framebuffer_height][i];
         limits.max_image_dimension2_d.min(frame).min(limits.max_viewport_dimensions[i])
@@ -452,7 +458,7 @@ fn the_longest_images_are_drawn() {
                 it.sheets = 2;
             });
             let mut rig = Rig::new(&gpu, &config);
-            // A part of it: all would take long.
+            // Draws only a part of the image, because the whole would take long.
             rig.draw(&water(extent(16, 16)));
         }
     }

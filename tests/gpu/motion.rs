@@ -1,5 +1,5 @@
-//! Pass `motion`: vectors against the twin and against closed forms, and their use: finding a pixel in the previous
-//! frame.
+//! Compares the motion vectors of pass `motion` with the CPU twin and with closed forms, and checks
+//! their use: a vector leads to the same point in the frame before.
 
 use ash::vk;
 use glam::{DMat4, DVec2, DVec3, Mat4, Quat, Vec3};
@@ -19,21 +19,21 @@ fn moving(size: vk::Extent2D) -> Config {
     config(size).with(|it| it.motion = true)
 }
 
-/// A shot of particles that move.
+/// A shot of moving particles.
 #[derive(Clone)]
 struct Moving {
     shot: Shot,
-    /// In the world.
+    /// Velocities in world space, metres per second.
     velocities: Option<Vec<[f32; 3]>>,
-    /// Foam and age.
+    /// Amount and age of surface foam.
     amounts: Option<Vec<[f32; 2]>>,
-    /// What the noise in foam goes by.
+    /// Ids, which seed the noise in foam.
     ids: Option<Vec<u32>>,
 }
 
 impl Moving {
-    /// At all speeds up to `fastest` spacings a second along each axis, after a twentieth of a second
-    /// in which the camera moved, turned and changed its lens.
+    /// Particles at all speeds up to `fastest` spacings per second along each axis. In the
+    /// twentieth of a second since the frame before, the camera moved, turned and changed its lens.
     fn new(size: vk::Extent2D, lens: Lens, points: &[[f32; 3]], fastest: f32) -> Self {
         let mut shot = Shot::new(size, lens, 0.2, points);
         let most = fastest * shot.settings.water.spacing;
@@ -62,7 +62,7 @@ impl Moving {
         rig.draw_particles(&self.shot, &particles)
     }
 
-    /// As the twin takes them.
+    /// The particles as the twin takes them.
     fn particles(&self) -> Vec<Particle> {
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
         let shot = &self.shot;
@@ -103,14 +103,14 @@ impl Moving {
         motion::motion(&self.particles(), &shot.view(shot.size), &self.then(), &settings, &shown)
     }
 
-    /// The vectors are the twin's; how many are of water or foam.
+    /// Checks the vectors against the twin. Returns the number of pixels with water.
     fn check(&self, name: &str, drawn: &Drawn, level: u32) -> usize {
         agree(name, of(drawn), &self.twin(drawn, level));
         drawn.depth.data.iter().filter(|z| **z < 1e9).count()
     }
 }
 
-/// A camera that stood beside another, looked elsewhere and through a wider, shifted lens.
+/// The previous camera: beside `camera`, turned, with a wider and shifted lens.
 fn elsewhere(camera: &Camera) -> Camera {
     let turn = Quat::from_scaled_axis(Vec3::new(0.02, -0.03, 0.015));
     let moved = Mat4::from_rotation_translation(turn, Vec3::new(0.11, -0.07, 0.2));
@@ -126,7 +126,8 @@ fn of(drawn: &Drawn) -> &Image<[f32; 2]> {
     drawn.motion.as_ref().expect("a frame with motion")
 }
 
-/// Depth of the foam where it hides half of what is behind it, as `composite` has it.
+/// Depth of the foam where it hides at least half of what is behind it, by the formula of
+/// `composite`.
 pub(crate) fn shown_foam(shot: &Shot, drawn: &Drawn) -> Option<Image<f32>> {
     let seen = drawn.foam.as_ref()?.seen(shot);
     let look = &shot.settings.surface_foam;
@@ -137,14 +138,15 @@ pub(crate) fn shown_foam(shot: &Shot, drawn: &Drawn) -> Option<Image<f32>> {
     }))
 }
 
-/// No vector is farther from the twin's than its bound; where rounding decides there are few.
+/// Checks that each vector differs from the twin's by at most its bound. Pixels where rounding
+/// decides have an infinite bound, and must be few.
 fn agree(name: &str, found: &Image<[f32; 2]>, twin: &Image<Vector>) {
     assert_eq!((found.width, found.height), (twin.width, twin.height), "{name}");
     let (mut failed, mut unsure, width) = (Vec::new(), 0, found.width);
     for (i, (found, twin)) in found.data.iter().zip(&twin.data).enumerate() {
         let error = (DVec2::from(found.map(f64::from)) - twin.v).abs();
         unsure += usize::from(!twin.e.is_finite());
-        // A comparison with NaN is false.
+        // Written so that NaN fails.
         if !(error.x <= twin.e.x && error.y <= twin.e.y) {
             failed.push((i, *found, *twin));
         }
@@ -192,7 +194,7 @@ fn vectors_are_the_twins() {
     }
 }
 
-/// Every resolution, and many chunks of particles.
+/// Every resolution, and several chunks of particles.
 #[test]
 fn vectors_of_every_resolution_are_the_twins() {
     let gpu = Gpu::shared();
@@ -219,7 +221,8 @@ fn vectors_of_every_resolution_are_the_twins() {
     }
 }
 
-/// Particles of no number, at no place, and faster than any: these count as a thousand spacings.
+/// Particles with invalid positions and velocities, and faster than a thousand spacings per frame,
+/// to which motion is limited.
 #[test]
 fn strange_particles_move_as_the_twins() {
     let gpu = Gpu::shared();
@@ -227,7 +230,7 @@ fn strange_particles_move_as_the_twins() {
     let mut rig = Rig::new(&gpu, &moving(size));
     let points = scenes::cloud(31, 160, 2.0, 9.0);
     let mut case = Moving::new(size, Lens::Reversed, &points, 10.0);
-    // To the right, down and towards the eye: it was farther off.
+    // Towards the right, down and towards the eye, so the particle was farther away before.
     let fast = |row: usize| case.shot.camera.view_matrix().row(row).truncate() * 1e9;
     let fast = (fast(0) - fast(1) + fast(2)).to_array();
     let velocities = case.velocities.as_mut().expect("velocities");
@@ -244,7 +247,7 @@ fn strange_particles_move_as_the_twins() {
     let drawn = case.draw(&mut rig);
     assert!(of(&drawn).data.iter().flatten().all(|v| v.is_finite()));
     case.velocities.iter_mut().flatten().for_each(|v| {
-        // What is dropped has no number for the twin either.
+        // The pass drops these particles, so the twin gets invalid ones.
         if v.iter().any(|c| c.abs() >= 1e18) {
             *v = [f32::NAN; 3];
         }
@@ -252,7 +255,8 @@ fn strange_particles_move_as_the_twins() {
     case.check("motion-strange", &drawn, 2);
 }
 
-/// Nothing moved, by whatever it is said: nothing to the bit, of water, foam, scene and sky.
+/// Without motion, however the frame says so, all vectors of water, foam, scene and sky are exactly
+/// 0.
 #[test]
 fn what_is_still_has_no_motion() {
     let gpu = Gpu::shared();
@@ -280,8 +284,8 @@ fn what_is_still_has_no_motion() {
     }
 }
 
-/// A rigid body at one velocity under a still camera: every pixel of it, to its outline, moves as its
-/// own point does in perspective, and nothing else does.
+/// A rigid body moves with one velocity under a camera at rest. Every pixel of it, up to its
+/// outline, has the perspective motion of its own point; all other pixels have none.
 #[test]
 fn a_rigid_body_moves_as_its_points() {
     let gpu = Gpu::shared();
@@ -296,7 +300,8 @@ fn a_rigid_body_moves_as_its_points() {
         let drawn = case.draw(&mut rig);
         let view = case.shot.view(size);
         let moved = view.view.transform_vector3(DVec3::from(velocity.map(f64::from))) * 0.1;
-        // The depth is that of the smoothed surface: no less than the frontmost's, by the falloff.
+        // The depth is that of the smoothed surface, which the falloff keeps close to the frontmost
+        // sphere.
         let slack = f64::from(case.shot.falloff());
         let (mut covered, mut longest) = (0, 0.0_f64);
         for (i, found) in of(&drawn).data.iter().enumerate() {
@@ -313,7 +318,8 @@ fn a_rigid_body_moves_as_its_points() {
                 let here = view.ray(x, y) * z;
                 view.project(here) - view.project(here - moved)
             };
-            // Of some depth of the surface's it is the vector to the bit: the least over them is.
+            // The vector belongs to some depth of the surface, so the test takes the min error over
+            // these depths.
             let near = (0..=200).map(|n| at(z + slack * (f64::from(n) / 100.0 - 1.0)));
             let off = near.map(|v| (v - found).length()).fold(f64::INFINITY, f64::min);
             let between = (at(z + 0.01 * slack) - at(z)).length();
@@ -323,8 +329,8 @@ fn a_rigid_body_moves_as_its_points() {
     }
 }
 
-/// A camera that moves and turns, everything at rest: by depth alone, which is known; of the sky by
-/// rotation alone.
+/// The camera moves and everything else rests: motion follows from the depth, and for the sky from
+/// the rotation alone.
 #[test]
 fn what_rests_moves_by_the_camera() {
     let gpu = Gpu::shared();
@@ -361,8 +367,8 @@ fn what_rests_moves_by_the_camera() {
     }
 }
 
-/// A drop that flies before a pool that flows the other way: each pixel has the motion of what it
-/// shows, on both sides of the outline.
+/// A drop flies before a pool that flows in the opposite direction. On both sides of the outline
+/// each pixel has the motion of the visible body.
 #[test]
 fn outlines_keep_both_sides() {
     let gpu = Gpu::shared();
@@ -379,13 +385,13 @@ fn outlines_keep_both_sides() {
         let drop = scenes::block(4, 0.3, [3, 3, 3], [-0.3, -0.3, 4.0]);
         let points = [drop.clone(), pool].concat();
         let mut case = Moving::new(size, Lens::Standard, &points, 0.0);
-        // Across the view, as it lies in the world.
+        // World-space velocities across the view.
         let right = case.shot.camera.view_matrix().row(0).truncate();
         let of_drop = (right * 6.0).to_array();
         let of_pool = (right * -4.0).to_array();
         let velocity = |i: usize| if i < drop.len() { of_drop } else { of_pool };
         case.velocities = Some((0..points.len()).map(velocity).collect());
-        // The drop is foam, where there is some.
+        // With foam, the drop is foam.
         let amount = |i: usize| [if i < drop.len() { 1.0 } else { 0.0 }, 0.0];
         case.amounts = foam.then(|| (0..points.len()).map(amount).collect());
         case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.05 });
@@ -405,10 +411,10 @@ fn outlines_keep_both_sides() {
             drops += usize::from(is_drop);
             pools += usize::from(!is_drop);
             let speed = if is_drop { 6.0 } else { -4.0 };
-            // 60 degrees over 121 pixels.
+            // The view is 60 degrees high over 121 pixels.
             let expected = speed * 0.05 * 60.5 / 30.0_f32.to_radians().tan() / z;
             let off = (found[0] - expected).abs().max(found[1].abs());
-            // Where one looks between spheres the smoothed surface is nearer, by the falloff at most.
+            // In gaps between spheres the smoothed surface may be nearer, by at most the falloff.
             let slack = case.shot.falloff();
             wrong += usize::from(off > slack / (z - slack) * expected.abs());
         }
@@ -418,7 +424,7 @@ fn outlines_keep_both_sides() {
     }
 }
 
-/// In another order, and in chunks: the same bits.
+/// The order of the particles and the number of chunks do not change a bit.
 #[test]
 fn the_order_of_particles_does_not_show() {
     let gpu = Gpu::shared();
@@ -450,7 +456,8 @@ fn the_order_of_particles_does_not_show() {
     }
 }
 
-/// A part of larger images, a frame smaller than the renderer, and one made anew: the same bits.
+/// A part of larger images, a frame smaller than the renderer's extent, and a resized renderer give
+/// the same bits.
 #[test]
 fn motion_of_any_size() {
     let gpu = Gpu::shared();
@@ -469,7 +476,7 @@ fn motion_of_any_size() {
         same(&name, &case.draw(&mut resized), &expected);
         case.shot.margin = [3, 1, 2, 4];
         same(&name, &case.draw(&mut large), &expected);
-        // No particles: the scene's alone, over all that was there before.
+        // Without particles only the scene's vectors remain.
         case.shot.positions.clear();
         case.velocities = Some(Vec::new());
         let drawn = case.draw(&mut large);
@@ -477,7 +484,8 @@ fn motion_of_any_size() {
     }
 }
 
-/// Off there is no layer and no memory; on it is the host's without the other layers.
+/// Without `motion` there is no layer and no memory for it; with it, the host gets the vectors even
+/// if other layers are not kept.
 #[test]
 fn motion_is_a_layer_of_its_own() {
     let gpu = Gpu::shared();
@@ -496,13 +504,13 @@ fn motion_is_a_layer_of_its_own() {
     assert!(without.images < with.images && without.buffers < with.buffers);
     case.shot.previous = None;
     assert!(case.draw(&mut rig).motion.is_none());
-    // What is drawn is the same.
+    // The picture is the same with and without `motion`.
     let drawn = case.draw(&mut rig);
     compare::same_color("motion-off", &drawn.output, &kept.output);
 }
 
-/// What was behind the eye of the frame before, a cut to the other side, a view of no common point: all
-/// vectors are finite.
+/// Points that were behind the previous eye, a cut to the opposite direction, and views without a
+/// common point: all vectors are finite.
 #[test]
 fn cuts_have_finite_vectors() {
     let gpu = Gpu::shared();
@@ -523,8 +531,8 @@ fn cuts_have_finite_vectors() {
     }
 }
 
-/// The frame before, looked up where the vectors say, is this frame: a block that flies past, under a
-/// camera that moves along. Its depth as a camera at rest would have it, and its colour.
+/// Looking up the frame before by the vectors gives this frame: a block flies past and the camera
+/// moves too. Compared are its colour, and its depth in the previous camera.
 #[test]
 fn vectors_find_the_frame_before() {
     let gpu = Gpu::shared();
@@ -562,7 +570,7 @@ fn vectors_find_the_frame_before() {
             continue;
         }
         let now = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-        // The depth it had then.
+        // The point's depth in the frame before.
         let depth = -to_then.transform_point3(view.ray(x, y) * z - moved).z;
         let places = [now - DVec2::from(vector.map(f64::from)), now];
         let looked = places.map(|place| {
@@ -592,7 +600,7 @@ fn vectors_find_the_frame_before() {
     assert!(better[0] > 8.0 && better[1] > 2.0, "{better:?}");
 }
 
-/// A good frame with motion, spoilt.
+/// A good frame with motion, in which one input is made invalid.
 #[test]
 fn bad_frames_before_are_errors() {
     let gpu = Gpu::shared();
@@ -627,7 +635,7 @@ fn bad_frames_before_are_errors() {
         let cloud = rig.particles(&shot);
         let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
         let cmd = rig.stub.begin(0);
-        // SAFETY: cmd is recording; the handles live to the end of this.
+        // SAFETY: cmd is recording, and all handles live until the end of this function.
         let result = unsafe { rig.renderer().record(cmd, &frame) };
         rig.stub.throw_away(0);
         match result {

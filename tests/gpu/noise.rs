@@ -1,4 +1,5 @@
-//! Pass `noise`: the baseline's surface noise against the twin, and the picture with it.
+//! Compares pass `noise`, the baseline's surface noise, with its CPU twin, and checks the picture
+//! with this noise.
 
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::water::{Rule, Shading, SurfaceNoiseSettings};
@@ -20,7 +21,7 @@ fn noisy(size: ash::vk::Extent2D, level: u32) -> Config {
     config(size).with(|it| it.noise = Some(level))
 }
 
-/// A shot with ids.
+/// A shot with particle ids.
 #[derive(Clone)]
 struct Noisy {
     shot: Shot,
@@ -28,7 +29,7 @@ struct Noisy {
 }
 
 impl Noisy {
-    /// A block, and drops before, beside and behind it; some are spray.
+    /// A block, and drops before, beside and behind it. Some particles are spray.
     fn new(size: ash::vk::Extent2D, lens: Lens) -> Self {
         let mut points = scenes::block(3, 0.25, [14, 8, 4], [-1.8, -1.0, 4.0]);
         points.extend(scenes::cloud(4, 40, 0.05, 12.0));
@@ -54,7 +55,7 @@ impl Noisy {
         rig.draw_particles(&self.shot, &cloud.particles().with(|it| it.ids = ids))
     }
 
-    /// As the twin takes them.
+    /// The particles as the twin takes them.
     fn particles(&self) -> Vec<Particle> {
         let rest = f64::from(self.shot.settings.water.rest_density);
         let density = |i: usize| self.shot.densities.as_ref().map_or(0.0, |all| f64::from(all[i]));
@@ -77,12 +78,12 @@ impl Noisy {
         }
     }
 
-    /// The noise is the twin's; says how many texels have some.
+    /// Checks the noise against the twin. Returns how many texels have noise.
     fn check(&self, name: &str, level: u32, drawn: &Drawn) -> usize {
         self.check_other(name, level, drawn, &self.settings())
     }
 
-    /// Against a twin of other settings.
+    /// The same check against a twin with other settings.
     fn check_other(&self, name: &str, level: u32, drawn: &Drawn, by: &noise::Settings) -> usize {
         let view = self.shot.view(self.shot.size);
         let twin = noise::noise(&self.particles(), &view, by, &wide(&drawn.depth), level);
@@ -119,7 +120,7 @@ fn noise_is_the_twins() {
             let drawn = case.draw(&mut rig);
             let covered = case.check(&name, level, &drawn);
             assert!(covered << (2 * level) > 1500, "{name}: {covered} texels");
-            // Where the scene hides the water there is none.
+            // Where the scene hides the water there is no noise.
             case.shot.scene_depth(|x, y| ((x / 9 + y / 5) % 2 == 0).then_some(4.0));
             let cut = case.draw(&mut rig);
             let left = case.check(&format!("{name}-cut"), level, &cut);
@@ -141,7 +142,8 @@ const CHANGES: [Change; 8] = [
     ("size-least", |look| look.size = 1e-3),
 ];
 
-/// Every setting at its ends, particles about the eye and at no place, a deep block, and many chunks.
+/// Every setting at both ends of its range, particles around the eye and at invalid positions, a
+/// deep block, and several chunks.
 #[test]
 fn noise_of_all_settings_is_the_twins() {
     let gpu = Gpu::shared();
@@ -165,7 +167,7 @@ fn noise_of_all_settings_is_the_twins() {
     }
 }
 
-/// The twin sees a hundredth of each number.
+/// The comparison with the twin detects a change of each number by a hundredth.
 #[test]
 fn a_hundredth_of_the_noise_is_seen() {
     let gpu = Gpu::shared();
@@ -200,7 +202,8 @@ fn pick<T: Copy>(all: &[T], order: &[usize]) -> Vec<T> {
     order.iter().map(|i| all[*i]).collect()
 }
 
-/// In another order and in a part of another image it is the same, bit for bit; so is the picture.
+/// With the particles in another order and in a part of a larger image, noise and picture are the
+/// same, bit for bit.
 #[test]
 fn noise_goes_by_ids_not_by_places() {
     let gpu = Gpu::shared();
@@ -222,15 +225,16 @@ fn noise_goes_by_ids_not_by_places() {
     compare::same_color("noise-order-picture", &third.output, &first.output);
 }
 
-/// What moves together, particles and camera, keeps its noise: it is theirs, not the world's. The two
-/// are moved by what floats hold, so that the eye-space places differ by roundings alone.
+/// Noise moves with the particles and the camera when both move alike, because the lattice is in
+/// the particles' space. All are moved by exact floats, so eye-space positions differ only by
+/// rounding.
 #[test]
 fn noise_moves_with_its_particles() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     let mut rig = Rig::new(&gpu, &noisy(size, 1));
     let mut case = Noisy::new(size, Lens::Standard);
-    // To eighths of a thousandth, as the way.
+    // Positions are rounded to 1/8192, so that the sum with the offset is exact.
     let round = |v: f32| (v * 8192.0).round() / 8192.0;
     case.shot.positions.iter_mut().for_each(|p| *p = p.map(round));
     let first = case.draw(&mut rig);
@@ -240,7 +244,8 @@ fn noise_moves_with_its_particles() {
     let view = case.shot.camera.view_matrix() * Mat4::from_translation(-by);
     moved.shot.camera = Camera { view: view.to_cols_array_2d(), ..case.shot.camera };
     let second = moved.draw(&mut rig);
-    // Both owe the bounds of both, where the surface is the same but for its roundings.
+    // Both pictures lie within their bounds, and where the surface is the same they differ only by
+    // rounding.
     moved.check("noise-moved", 1, &second);
     let pairs = of(&first).data.iter().zip(&of(&second).data);
     let (mut same, mut some) = (0, 0);
@@ -248,17 +253,18 @@ fn noise_moves_with_its_particles() {
         some += 1;
         same += usize::from((a - b).abs() < 2e-3);
     }
-    // A rim of a sphere may be another pixel's.
+    // At a sphere's rim, rounding may move the edge to another pixel.
     assert!(some > 300 && same * 50 > some * 49, "{same} of {some} texels");
-    // In place the particles alone see another part of the pattern.
+    // If only the particles move, the camera sees another part of the pattern.
     let mut left = moved.clone();
     left.shot.camera = case.shot.camera;
     let third = left.draw(&mut rig);
     assert_ne!(of(&third).data, of(&first).data);
 }
 
-/// Normals and foam are the twin's, of one sheet, at every level, with both ways to shade. (The sky is
-/// even: steep ripples mirror the seams of the cube too, where lavapipe filters in one face alone.)
+/// Normals and foam are the twin's, with one sheet, at every level and with both kinds of shading.
+/// (The sky is uniform, because steep ripples also mirror the cube's edges, where lavapipe filters
+/// within one face only.)
 #[test]
 fn the_picture_with_noise_is_the_twins() {
     let gpu = Gpu::shared();
@@ -295,7 +301,7 @@ fn the_picture_with_noise_is_the_twins() {
     }
 }
 
-/// A hundredth of its look is seen in the picture.
+/// A change of the look by a hundredth is detected in the picture.
 #[test]
 fn a_hundredth_of_the_ripples_is_seen() {
     let gpu = Gpu::shared();
@@ -323,7 +329,8 @@ fn a_hundredth_of_the_ripples_is_seen() {
     }
 }
 
-/// No weight and no foam: the same bits as without the pass; with the pass off no setting counts.
+/// With weight 0 and foam 0 the picture is that without the pass, bit for bit. In a renderer
+/// without the pass, no setting matters.
 #[test]
 fn without_weight_nothing_changes() {
     let gpu = Gpu::shared();
@@ -350,8 +357,8 @@ fn without_weight_nothing_changes() {
     }
 }
 
-/// Odd sizes, of the frame and of the part of the image it is, smaller than it was made for; no
-/// particles, and all behind the eye.
+/// Frames of odd sizes, as a part of a larger image and smaller than the renderer's extent; frames
+/// without particles, and with all particles behind the eye.
 #[test]
 fn noise_of_any_size() {
     let gpu = Gpu::shared();

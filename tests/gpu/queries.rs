@@ -1,4 +1,5 @@
-//! The occlusion queries that end the smoothing: their counts, and the host's reading of them.
+//! The occlusion queries that end the smoothing: their counts, and the variant in which the host
+//! reads them.
 
 use glam::{Mat4, Vec3};
 use whitewater::ash::vk;
@@ -8,7 +9,7 @@ use whitewater::{Camera, Config, Settings};
 
 use crate::support::device::Gpu;
 
-/// A slanted bed of spheres: near ones get many iterations, far ones few.
+/// Draws a slanted bed of spheres: near ones get many iterations, far ones few.
 fn draw(read_back: bool, test: impl FnOnce(&mut Headless)) {
     let mut gpu = Gpu::own();
     let device = gpu.take_device();
@@ -16,7 +17,7 @@ fn draw(read_back: bool, test: impl FnOnce(&mut Headless)) {
     let config = Config::new(extent, COLOR_FORMAT, 4096).with(|it| {
         it.smoothing_level = 0;
         it.thickness_level = 0;
-        // The queries count all levels.
+        // The queries count all levels together, so there is only one.
         it.coarsening = 0;
         it.smoothing = Some(Smoothing::Query(Gate::VertexCull));
     });
@@ -45,7 +46,8 @@ fn draw(read_back: bool, test: impl FnOnce(&mut Headless)) {
     headless.finish().expect("an idle device");
 }
 
-/// The query of iteration i counts the pixels with N >= i; the first empty one is the last that ran.
+/// The query after iteration i counts the pixels with N >= i. The first query that counts none ends
+/// the smoothing.
 #[test]
 fn each_query_counts_the_active_pixels() {
     draw(false, |headless| {
@@ -65,7 +67,7 @@ fn each_query_counts_the_active_pixels() {
     });
 }
 
-/// The host's read-back ends the smoothing at the same place: the same bits.
+/// If the host reads the queries, the smoothing ends at the same iteration, with the same bits.
 #[test]
 fn the_hosts_look_gives_the_same_picture() {
     let mut drawn = Vec::new();

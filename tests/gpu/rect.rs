@@ -1,4 +1,4 @@
-//! Views that are a part of the host's images, and frames smaller than the renderer's size.
+//! Views that are a part of the host's images, and frames smaller than the renderer's extent.
 
 use whitewater::Config;
 use whitewater::water::{Gate, Shading, Smoothing, Splat};
@@ -16,16 +16,16 @@ fn shot(depth_extent: (u32, u32)) -> Shot {
     let mut points = scenes::block(3, 0.25, [14, 8, 4], [-1.8, -1.0, 4.0]);
     points.extend(scenes::cloud(4, 30, 1.5, 12.0));
     let mut shot = Shot::new(extent(SIZE.0, SIZE.1), Lens::Reversed, 0.2, &points);
-    // Refraction that looks beyond the view's edges.
+    // Strong refraction looks beyond the view's edges.
     shot.settings.water.refraction = 2.0;
     shot.depth_extent = extent(depth_extent.0, depth_extent.1);
     shot.scene_depth(|x, y| ((x / 9 + y / 7) % 2 == 0).then_some(6.0 + f64::from(x % 5)));
     shot
 }
 
-/// Bit for bit, but for the scene's colour: it is filtered at a place that rounds otherwise in
-/// another image. Weights have at least four bits, neighbours of the gradient differ by 1/256 along
-/// either axis.
+/// Equal bit for bit except for the colour, because filter positions in the scene's colour round
+/// differently in another image. Filter weights have at least four bits, and neighbouring texels of
+/// the gradient differ by 1/256 along each axis.
 fn assert_same(name: &str, found: &Drawn, expected: &Drawn) {
     compare::same(&format!("{name}-depth"), &found.depth, &expected.depth);
     compare::same(&format!("{name}-surface"), &found.surface, &expected.surface);
@@ -42,7 +42,7 @@ fn assert_same(name: &str, found: &Drawn, expected: &Drawn) {
     }
 }
 
-/// Every way that has images of its own size.
+/// Configurations for every path that has images of its own size.
 fn ways() -> Vec<(&'static str, Config)> {
     let base = config(extent(SIZE.0, SIZE.1));
     let sums = base.with(|it| it.thickness_level = 1);
@@ -63,7 +63,7 @@ fn ways() -> Vec<(&'static str, Config)> {
     ]
 }
 
-/// The view gets what it gets alone; what lies beside it is neither seen nor touched.
+/// The view is the same as in an image of its own; texels beside it are neither read nor written.
 #[test]
 fn a_view_may_be_a_part_of_the_images() {
     let gpu = Gpu::shared();
@@ -95,8 +95,8 @@ fn a_view_may_be_a_part_of_the_images() {
     }
 }
 
-/// A renderer made for larger frames draws smaller ones as one made for them: a resolution that
-/// changes from frame to frame needs no resize.
+/// A renderer made for larger frames draws a smaller one like a renderer made for it, so a
+/// resolution that changes from frame to frame needs no resize.
 #[test]
 fn a_frame_may_be_smaller_than_the_renderer_is_made_for() {
     let gpu = Gpu::shared();
@@ -104,7 +104,7 @@ fn a_frame_may_be_smaller_than_the_renderer_is_made_for() {
         let shot = shot(SIZE);
         let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
         let mut rig = Rig::lit(&gpu, &config.with(|it| it.extent = extent(150, 101)), 1);
-        // What a larger frame left behind is not seen.
+        // A larger frame's remains in the images are not visible.
         let whole =
             Shot::new(extent(150, 101), Lens::Standard, 0.5, &scenes::cloud(1, 900, 1.0, 9.0));
         rig.draw(&whole);

@@ -1,4 +1,5 @@
-//! Pass `reduce`: occlusion by the scene, nearest surface of each block, and the plan of the smoothing.
+//! Pass `reduce`: occlusion by the scene, the nearest surface of each block, and the plan of the
+//! smoothing.
 
 use whitewater::water::Rule;
 
@@ -19,14 +20,14 @@ fn narrow(image: &Image<f64>) -> Image<f32> {
     image.map(|d| *d as f32)
 }
 
-/// Draws without smoothing: the surface is the reduced depth.
+/// Draws without smoothing, so that the surface is the reduced depth.
 fn unsmoothed(rig: &mut Rig<'_>, shot: &Shot) -> Drawn {
     let mut shot = shot.clone();
     shot.settings.water.smoothing_width = 0.0;
     rig.draw(&shot)
 }
 
-/// The minimum rounds nothing: bit for bit.
+/// A minimum rounds nothing, so the comparison is bit for bit.
 #[test]
 fn each_block_keeps_its_nearest_surface() {
     let gpu = Gpu::shared();
@@ -52,7 +53,8 @@ fn each_block_keeps_its_nearest_surface() {
     }
 }
 
-/// A pixel may go either way where water and scene are as near as the scene's depth is rounded.
+/// Where water and scene are as close as the scene's depth is rounded, a pixel may be hidden or
+/// not.
 #[test]
 fn what_the_scene_hides_is_gone() {
     let gpu = Gpu::shared();
@@ -87,7 +89,7 @@ fn what_the_scene_hides_is_gone() {
     }
 }
 
-/// A rule as the library and as the twin have it.
+/// Each rule, for the library and for the twin.
 pub fn rules() -> [(Rule, smooth::Rule); 3] {
     [
         (Rule::ConstantWidth, smooth::Rule::ConstantWidth),
@@ -96,7 +98,7 @@ pub fn rules() -> [(Rule, smooth::Rule); 3] {
     ]
 }
 
-/// The twin's lengths of a shot.
+/// The twin's parameters for a shot.
 pub fn params(shot: &Shot, cap: u32) -> Params {
     let water = &shot.settings.water;
     let radius = f64::from(water.radius());
@@ -108,7 +110,7 @@ pub fn params(shot: &Shot, cap: u32) -> Params {
     }
 }
 
-/// Largest step of a rule, of which the plan holds a share of 23 bits.
+/// Largest step of a rule. The plan stores a step as a fraction of it in 23 bits.
 fn most(rule: smooth::Rule, params: &Params) -> f64 {
     match rule {
         smooth::Rule::ConstantWidth => 0.25,
@@ -116,20 +118,20 @@ fn most(rule: smooth::Rule, params: &Params) -> f64 {
     }
 }
 
-/// Iterations and steps as the GPU planned them.
+/// Iterations and steps that the GPU planned.
 pub fn decoded(drawn: &Drawn, rule: smooth::Rule, params: &Params) -> Image<(u32, f64)> {
     decoded_plan(&drawn.plan, rule, params)
 }
 
-/// The same of any level.
+/// The same for any level.
 pub fn decoded_plan(plan: &Image<u32>, rule: smooth::Rule, params: &Params) -> Image<(u32, f64)> {
     let most = most(rule, params);
     plan.map(|p| (p & 511, f64::from(p >> 9) / 8_388_607.0 * most))
 }
 
-/// Asserts that a plan is the twin's. The step is a share in 23 bits of the most there is, from
-/// numbers that 16u are rounded by; the count may be the next one where it is as near to a whole
-/// number.
+/// Checks that a plan is the twin's. The step is stored as a 23-bit fraction of the largest step,
+/// from numbers with an error of 16u. The count may be one more or less if its exact value is that
+/// close to a whole number.
 pub fn assert_planned(
     name: &str,
     found: &Image<(u32, f64)>,
@@ -145,7 +147,7 @@ pub fn assert_planned(
         let (want, want_step) = expected.data[i];
         let at = (i % view.width, i / view.width);
         let steps = f64::from(uncapped.data[i].0.max(1));
-        // The number that is rounded up: 2 kappa N steps of it are sigma squared.
+        // The exact value that is rounded up: 2 kappa N steps of it make sigma squared.
         let exact = match twin {
             smooth::Rule::ConstantWidth => {
                 let s = view.ray(at.0, at.1).truncate();
@@ -161,7 +163,7 @@ pub fn assert_planned(
         let near = (exact - exact.round()).abs() <= 32.0 * U * exact;
         assert!(*n == want || near, "{name} at {at:?}: {n} iterations, expected {want}");
         let share = most(twin, params) / 8_388_607.0 + 32.0 * U * want_step;
-        // One step less makes each larger by this.
+        // One iteration fewer makes each step larger by this.
         let fewer = want_step / (steps - 1.0).max(1.0);
         let share = if near { share + fewer } else { share };
         let off = (step - want_step).abs();

@@ -1,4 +1,5 @@
-//! The stand-in scene's sea: seen and not there, of light that closed forms tell, moved by time alone.
+//! The stand-in scene's sea: visible but absent from the depth, with the light of closed forms, and
+//! moved by time alone.
 
 use std::f32::consts::PI;
 
@@ -20,12 +21,12 @@ fn camera(eye: [f32; 3], target: [f32; 3], up: [f32; 3], lens: Lens) -> Camera {
     Camera::of(Mat4::look_at_rh(eye.into(), target.into(), up.into()), projection(lens, SIZE))
 }
 
-/// Down on what is below the origin from 10 over it.
+/// A camera 10 m above the origin that looks straight down.
 fn from_above() -> Camera {
     camera([0.0, 10.0, 0.0], [0.0; 3], [0.0, 0.0, -1.0], Lens::ReversedInfinite)
 }
 
-/// A look at the horizon.
+/// A camera that looks at the horizon.
 fn level() -> Camera {
     camera([0.0, 3.0, 12.0], [0.0, 0.5, 0.0], [0.0, 1.0, 0.0], Lens::ReversedInfinite)
 }
@@ -42,7 +43,7 @@ fn shot(headless: &mut Headless, scene: &Scene, camera: &Camera, antialias: bool
     draw(headless, camera)
 }
 
-/// A floor two metres under the level with a box that stands up through it.
+/// A floor two metres under the water level, with a box that rises above the level.
 fn stage(sea: Option<Sea>) -> Scene {
     let floor = Mesh::plane([0.0, -2.0, 0.0], [30.0, 30.0], Material::named("island").unwrap());
     let stone = Material::named("rock").unwrap();
@@ -54,7 +55,7 @@ fn lava() -> Sea {
     Sea { liquid: Liquid::LAVA, length: 1.5, ..Sea::default() }
 }
 
-/// The same radiance from everywhere.
+/// Radiance from all directions.
 const AROUND: f32 = 0.5;
 
 fn under_a_grey_sky(headless: &mut Headless) {
@@ -62,7 +63,7 @@ fn under_a_grey_sky(headless: &mut Headless) {
     headless.equirectangular(extent(8, 4), &[grey; 32], 1.0, 0.0).expect("environment");
 }
 
-/// Of an angle of incidence with this cosine, from air to water.
+/// Reflectance from air to water, for an angle of incidence with this cosine.
 fn fresnel(cosine: f32) -> f32 {
     0.02037 + (1.0 - 0.02037) * (1.0 - cosine).powi(5)
 }
@@ -83,7 +84,8 @@ fn a_sea_is_seen_and_not_there() {
     finish(headless);
 }
 
-/// Straight down through a mirror of a sea on a floor, or on none: what Beer, Fresnel and Lambert leave of the light.
+/// Straight down through a flat sea, over a floor or deep water: transmission by Beer, reflection
+/// by Fresnel, floor by Lambert.
 #[test]
 fn water_absorbs_and_scatters_as_a_closed_form_says() {
     let mut headless = headless(SIZE);
@@ -92,7 +94,7 @@ fn water_absorbs_and_scatters_as_a_closed_form_says() {
     let sea = Sea { waves: 0.0, ..Sea::default() };
     let matt = Material { base_color: [albedo; 3], roughness: 1.0, ..Material::default() };
     let floor = |x: f32, y: f32| Mesh::plane([x, y, 0.0], [40.0, 40.0], matt.clone());
-    // The last one lies aside, where it is not seen.
+    // The last floor lies far aside, where the camera does not see it.
     let far = (floor(200.0, 0.0), f32::INFINITY);
     for (floor, depth) in
         [(floor(0.0, -0.5), 0.5), (floor(0.0, -2.0), 2.0), (floor(0.0, -9.0), 9.0), far]
@@ -105,7 +107,7 @@ fn water_absorbs_and_scatters_as_a_closed_form_says() {
         };
         let (picture, _) = shot(&mut headless, &scene, &from_above(), false);
         let found = picture[picture.len() / 2 + SIZE.width as usize / 2];
-        // Metres that the sun's light goes for one down.
+        // Path length of sunlight in water per metre of depth.
         let slant = 1.0 / (1.0 - (1.0 - height * height) / 1.333_f32.powi(2)).sqrt();
         let sky = PI * AROUND;
         let mirrored = fresnel(1.0);
@@ -130,16 +132,17 @@ fn water_absorbs_and_scatters_as_a_closed_form_says() {
     finish(headless);
 }
 
-/// Steepness of the longest wave and of each shorter one over the next longer: of 28 waves, and a fifth as much again for
-/// those that are shorter.
+/// Variance of the slopes of 28 waves, whose steepness falls by 0.93 from each to the next shorter
+/// one; still shorter waves add a fifth.
 fn variance_of_slopes(sea: &Sea) -> f64 {
     let steepest = f64::from(PI * sea.waves / sea.length);
     let each = (0..28).map(|i| 0.5 * (steepest * 0.93_f64.powi(i)).powi(2));
     1.2 * each.sum::<f64>()
 }
 
-/// The mean reflected direction's height and the share of the light of a rough level sea that is mirrored, seen from a height whose
-/// sine is this; `variance`: of the slopes along one direction. The mean is over all facets, as much as each is seen of.
+/// Height of the mean reflected direction and mean reflectance of a rough sea, seen at an elevation
+/// with this sine. `variance` is that of the slopes along one direction. Facets are weighted by the
+/// area that the eye sees.
 fn mirrored_by(sine: f64, variance: f64) -> (f64, f64) {
     let (deviation, tangent) = (variance.sqrt(), sine / (1.0 - sine * sine).sqrt());
     let (mut sum, mut all) = (0.0, 0.0);
@@ -149,7 +152,7 @@ fn mirrored_by(sine: f64, variance: f64) -> (f64, f64) {
         sum += slope * seen;
         all += seen;
     }
-    // The normal's tilt towards the eye; the ray is mirrored at it.
+    // The mean normal is tilted towards the eye; the ray is mirrored at it.
     let tilt = (sum / all).atan();
     let up = (2.0 * tilt + sine.asin()).sin();
     let grazing = (1.0 - sine).powf(5.0 * (-2.69 * deviation).exp());
@@ -157,12 +160,13 @@ fn mirrored_by(sine: f64, variance: f64) -> (f64, f64) {
     (up, mirrored)
 }
 
-/// A black sea, too far away for its waves to be seen one by one, mirrors a sky that is brighter the higher it is as its facets do
-/// that are seen; hazy air hides it by Beer's law, and at the horizon it is the sky.
+/// A black sea, too far away for single waves, mirrors a sky that is brighter higher up, by the
+/// facets that are visible. Haze hides it by Beer's law, and at the horizon it has the colour of
+/// the sky.
 #[test]
 fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
     let mut headless = headless(SIZE);
-    // Radiance 0.2 + 0.6 y, 0.2 below the horizon.
+    // Radiance 0.2 + 0.6 y, and 0.2 below the horizon.
     let (width, height) = (256, 128);
     let sky: Vec<[f32; 4]> = (0..width * height)
         .map(|i| {
@@ -172,9 +176,9 @@ fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
         })
         .collect();
     headless.equirectangular(extent(width, height), &sky, 1.0, 0.0).expect("environment");
-    // Far aside, so that clear air is clear: by the scene's size.
+    // A mesh far aside makes the scene so large that the default haze is negligible.
     let aside = Mesh::plane([4.0e6, -1.0, 0.0], [1.0e6, 1.0e6], Material::default());
-    // The longest waves are so short that a pixel holds many, and gusts even out.
+    // The longest waves are so short that a pixel contains many, and gusts average out.
     let sea = Sea {
         absorption: [1.0e3; 3],
         scattering: [0.0; 3],
@@ -196,7 +200,7 @@ fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
     let length = 900.0;
     let hazy = Scene { haze: Some(length), ..clear };
     let (hazed, _) = shot(&mut headless, &hazy, &level, false);
-    // What is seen through so much haze that there is nothing else.
+    // With dense haze only the colour of the air is seen.
     let (air, _) = shot(&mut headless, &Scene { haze: Some(0.1), ..hazy }, &level, false);
     let to_world = (level.projection_matrix() * level.view_matrix()).inverse();
     for y in SIZE.height / 2..SIZE.height {
@@ -209,26 +213,28 @@ fn a_rough_sea_mirrors_the_sky_and_melts_into_it() {
         let expected = mirrored * (0.2 + 0.6 * up);
         let i = (y * SIZE.width + x) as usize;
         let found = f64::from(far[i][1]);
-        // The environment's texels of a degree and its mips; Page's fit of the normal distribution to 2e-4.
+        // The environment has texels of a degree, and mip levels; Page's fit of the normal
+        // distribution errs by 2e-4.
         assert!((found / expected - 1.0).abs() < 0.03, "row {y}: {found}, not {expected}");
-        // What is left of it through haze, by the colour.
+        // The fraction left through the haze, for each channel.
         let away = eye / -ray.y * (1.0 - ray.y * ray.y).sqrt();
         for (c, rate) in [0.80, 1.0, 1.39].into_iter().enumerate() {
             let kept = (-rate * away / length).exp();
             let expected = air[i][c] + kept * (far[i][c] - air[i][c]);
-            // Half floats below 1 are stored, of all three.
+            // Three values below 1 in half precision.
             let (hazed, most) = (hazed[i][c], 3.0 * 2.0_f32.powi(-12));
             assert!((hazed - expected).abs() < most, "row {y}: {hazed}, not {expected}");
         }
     }
-    // Towards the horizon the air is that of the sky there; a pixel is 2.8 degrees high.
+    // At the horizon the air has the colour of the sky; a pixel is 2.8 degrees high.
     let i = (SIZE.height / 2 * SIZE.width + SIZE.width / 2) as usize;
     let sky = air[i - SIZE.width as usize][1];
     assert!((air[i][1] - sky).abs() < 0.1, "{} {sky}", air[i][1]);
     finish(headless);
 }
 
-/// A wall that stands over the sea and fills the picture, and an eye under water: as without a sea.
+/// Pixels that do not look through the sea's surface are as without a sea: a wall above the sea
+/// that fills the picture, and an eye under water.
 #[test]
 fn what_is_not_seen_through_a_sea_is_as_it_was() {
     let mut headless = headless(SIZE);
@@ -244,7 +250,7 @@ fn what_is_not_seen_through_a_sea_is_as_it_was() {
                 |sea| Scene { meshes: vec![wall.clone(), floor.clone()], sea, ..Scene::default() };
             let (dry, _) = shot(&mut headless, &scene(None), &camera, false);
             let (wet, _) = shot(&mut headless, &scene(Some(sea)), &camera, false);
-            // Two pipelines may round otherwise; lava's glow is far below.
+            // Two pipelines may round differently; the glow of lava is far below the wall.
             for (dry, wet) in dry.iter().flatten().zip(wet.iter().flatten()) {
                 assert!((dry - wet).abs() <= 1.0e-3 * dry.max(0.1), "{dry} {wet}");
             }

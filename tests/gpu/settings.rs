@@ -1,5 +1,6 @@
-//! Each setting does what it says: a change of any one shows in the picture, where the configuration has what it is of. Those
-//! that only count in a mode are changed in that mode; the shore's in [`super::shore::settings`].
+//! Each setting has an effect: a change of any one changes the picture of a configuration that uses
+//! it. Settings that only apply in one mode are changed in that mode; shore settings are tested in
+//! [`super::shore::settings`].
 
 use std::f32::consts::PI;
 
@@ -25,7 +26,7 @@ const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 
 pub type Change = (&'static str, fn(&mut Settings));
 
-/// Each of the changes shows: in pixels of a picture that is drawn from settings.
+/// Checks that each of the changes changes the picture.
 pub fn all_show(
     mode: &str,
     base: &Settings,
@@ -43,7 +44,7 @@ pub fn all_show(
     assert!(idle.is_empty(), "{mode}: these do nothing: {idle:?}");
 }
 
-/// The same where a change does nothing and says so.
+/// Checks that none of the changes changes the picture, as their documentation says.
 fn none_show(
     mode: &str,
     base: &Settings,
@@ -58,7 +59,7 @@ fn none_show(
     }
 }
 
-/// Water, foam and spray of all kinds that stand before each other, in the sun.
+/// Water, foam and spray of all kinds before and behind each other, in the sun.
 fn layered() -> Foamy {
     let mut case = Foamy::new(SIZE, Lens::Standard, 20.0);
     let n = case.shot.positions.len();
@@ -67,10 +68,10 @@ fn layered() -> Foamy {
     let center = scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0];
     case.shot.light_volume = Some(LightVolume { center, radius: 6.0 });
     let settings = &mut case.shot.settings;
-    // The sun behind the eye, and a highlight so wide that it is seen.
+    // The sun is behind the eye, and the highlight is wide enough to be visible.
     settings.light.direction = Vec3::new(-0.5, 0.7, 0.6).normalize().to_array();
     settings.water.shininess = 4.0;
-    // A front layer that ends within the foam.
+    // The front layer ends inside the foam.
     settings.surface_foam.front_depth = 2.0 * settings.water.spacing;
     settings.noise = SurfaceNoiseSettings::default().with(|it| it.foam = 0.5);
     settings.spray = SpraySettings::default().with(|it| it.size = 1.5);
@@ -185,7 +186,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     all_show("layered", &base, &changes, drawer(case, &mut rig));
 }
 
-/// Of ellipsoids, and of spheres not.
+/// The setting shows with ellipsoids, and not with spheres.
 #[test]
 fn the_setting_of_the_sprays_shape_shows() {
     let gpu = Gpu::shared();
@@ -212,7 +213,7 @@ fn the_setting_of_the_sprays_shape_shows() {
     }
 }
 
-/// Of two ways of which one is taken the other has its settings too.
+/// Settings of the alternatives that the layered scene does not use.
 #[test]
 fn every_setting_of_the_other_modes_shows() {
     let gpu = Gpu::shared();
@@ -230,7 +231,7 @@ fn every_setting_of_the_other_modes_shows() {
     case.shot.settings.water.medium = Medium::source(case.shot.settings.water.spacing);
     let base = case.shot.settings.clone();
     let changes: [Change; 10] = [
-        // Where spray is not drawn these are what is no water.
+        // Without spray, these settings select which particles are water.
         ("water.density_threshold", |s| s.water.density_threshold = 0.42),
         ("water.density_full", |s| s.water.density_full = 0.9),
         ("water.fresnel.bias", |s| {
@@ -251,7 +252,7 @@ fn every_setting_of_the_other_modes_shows() {
         ("surface_foam.noise_rate", |s| s.surface_foam.noise_rate = 50.0),
     ];
     all_show("other modes", &base, &changes, drawer(case, &mut rig));
-    // A rule of the smoothing that has a width of its own says so.
+    // The source's rule of the smoothing has its own width, so this setting has no effect.
     let ruled = plain.with(|it| it.rule = Rule::Source);
     let mut rig = Rig::lit(&gpu, &ruled, 1);
     let mut case = layered();
@@ -267,7 +268,7 @@ fn change_source(settings: &mut Settings, change: fn(&mut [f32; 3], &mut [f32; 4
     }
 }
 
-/// Of a shadow map that is filtered.
+/// Settings of a filtered shadow map.
 #[test]
 fn every_setting_of_the_shadow_filter_shows() {
     let gpu = Gpu::shared();
@@ -301,12 +302,12 @@ fn every_setting_of_the_shadow_filter_shows() {
     all_show("shadow filter", &base, &changes, drawer(case, &mut rig));
 }
 
-/// A heap of whitewater particles about some water.
+/// Whitewater particles around some water.
 fn heap(size: vk::Extent2D) -> (Shot, Vec<[f32; 3]>, Vec<u32>, Vec<f32>) {
     let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(31, 60, 3.0, 6.0));
     let positions = scenes::world(&shot.camera, &scenes::cloud(7, 600, 2.5, 6.5));
     shot.settings.whitewater.radius = 0.3;
-    // Half of it a wall close behind some.
+    // The right half of the scene is a wall, close behind some particles.
     shot.scene_depth(|x, _| Some(if x < size.width / 2 { 8.5 } else { 5.0 }));
     let n = positions.len();
     let mut random = Random(3);
@@ -368,7 +369,8 @@ fn every_setting_of_whitewater_particles_shows() {
             s.whitewater.submerged = Submerged::Falloff { depth: 2.0, n: 2.0, m: 1.0 };
         }),
     ];
-    // Points by what a sphere holds of pixels: of the source's way alone, as WhitewaterSettings says.
+    // The number of samples depends on a sphere's size in pixels only in the reference, as
+    // `WhitewaterSettings` documents.
     let points: [Change; 2] = [
         ("whitewater.density", |s| s.whitewater.sample_density = 0.01),
         ("whitewater.min_samples", |s| s.whitewater.min_samples = 300),
@@ -411,11 +413,11 @@ fn every_setting_of_bubble_foam_shows() {
             blob([0.5 * (x - 3.0), 0.5 * (y - 2.0), 3.0 + 0.1 * z], 0.5, u32::from(i))
         })
         .collect();
-    // Of some three pixels.
+    // Blobs of about three pixels.
     let small = |i: u8| ([0.1 * f32::from(i) - 0.4, -1.3, 3.0], 0.1, 100 + u32::from(i));
     blobs.extend((0..8).map(small).map(|(place, radius, id)| blob(place, radius, id)));
     shot.blobs = blobs;
-    // The sun at the eye.
+    // The sun is in the direction of the eye.
     let eye = shot.camera.view_matrix().inverse().transform_point3(Vec3::ZERO);
     let [x, y, z] = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
     shot.settings.light.direction = (eye - Vec3::new(x, y, z)).normalize().to_array();

@@ -1,8 +1,8 @@
-//! Pass `composite`: a compute shader and a render pass give the same picture.
+//! Pass `composite`: the compute shader and the render pass give the same picture.
 //!
-//! Both compile the same source. What was measured is the same bits on SwiftShader, and on lavapipe
-//! but for the look-up in the environment, which rounds otherwise. (A driver that contracted the
-//! source otherwise in one of them would still owe each the twin's bounds, in tests of `composite`.)
+//! Both are compiled from the same source. On SwiftShader they give the same bits, and on lavapipe
+//! they do except for the look-up in the environment, which rounds differently. (Both pictures must
+//! also lie within the twin's bounds; tests of `composite` check this.)
 
 use ash::vk;
 use whitewater::water::{Fresnel, Shading};
@@ -21,9 +21,9 @@ fn water(size: vk::Extent2D, lens: Lens) -> Shot {
     Shot::new(size, lens, 0.2, &points)
 }
 
-/// A point on a face of 16 texels is off by a few roundings, 4 of 16 / 2^24, on both axes; two
-/// texels differ by 1, all of which may be reflected; a few roundings of the colour are on top, and
-/// that of the output's format.
+/// A position on a cube face of 16 texels errs by a few roundings, 4 of 16 / 2^24, on both axes.
+/// Two texels differ by at most 1, all of which may be reflected. A few roundings of the colour and
+/// that of the output's format are added.
 pub fn close(name: &str, format: vk::Format, stored: &Drawn, drawn: &Drawn) {
     let expected = drawn.output.map(|c| c.map(f64::from));
     let rounding = if format == OUTPUT { 2_f64.powi(-22) } else { 2_f64.powi(-10) };
@@ -32,7 +32,8 @@ pub fn close(name: &str, format: vk::Format, stored: &Drawn, drawn: &Drawn) {
     });
 }
 
-/// Draws shots both ways, one after the other: each starts from what the one before left.
+/// Draws shots with both kinds of shading, one after the other, so that each finds the contents of
+/// the one before.
 fn same(gpu: &Gpu, name: &str, config: &Config, shots: &[&Shot]) -> Vec<Drawn> {
     let [mut drawn, mut stored] = [Shading::Raster, Shading::Compute].map(|way| {
         let config = config.with(|it| it.composite = Some(way));
@@ -48,7 +49,7 @@ fn same(gpu: &Gpu, name: &str, config: &Config, shots: &[&Shot]) -> Vec<Drawn> {
         .collect()
 }
 
-/// Pixels of a picture that are not the scene's.
+/// Number of pixels that differ from the scene.
 fn written(drawn: &Drawn, shot: &Shot) -> usize {
     drawn.output.data.iter().zip(&shot.color).filter(|(found, scene)| found != scene).count()
 }
@@ -92,8 +93,8 @@ fn both_ways_give_the_same_picture() {
     }
 }
 
-/// Tiles are up to eight groups wide, and reach beyond the picture; those of the finest level are many: 99 of 530x33
-/// pixels, more than a row of the dispatch. Of all levels that may show.
+/// Tiles are up to eight groups wide and may extend beyond the picture. At the finest level there
+/// are many, 99 for 530x33 pixels, more than a row of the dispatch. All levels are tested.
 #[test]
 fn tiles_of_every_level_are_shaded_whole() {
     let gpu = Gpu::shared();
@@ -122,8 +123,8 @@ fn tiles_of_every_level_are_shaded_whole() {
     }
 }
 
-/// What is stored to is no attachment, and need not be in a layout of one. The layers may be read
-/// right behind the record: they are in the state that it names.
+/// An output that is stored to need not be a colour attachment, nor in a layout for one. The layers
+/// can be read right after the record, in the layout and access that it returns.
 #[test]
 fn a_stored_output_need_not_be_an_attachment() {
     let gpu = Gpu::shared();
@@ -145,7 +146,7 @@ fn a_stored_output_need_not_be_an_attachment() {
     let output = color.host_image().with(|it| it.after = written);
     let frame = shot.frame(output, depth.host_image(), cloud.particles());
     let cmd = rig.stub.begin(0);
-    // SAFETY: cmd is recording; the handles live to the end of this.
+    // SAFETY: cmd is recording, and all handles live until the end of this function.
     let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
     let backs: Vec<_> = recorded
         .layers

@@ -1,5 +1,6 @@
-//! Pass `shape` and what is drawn of it, against the twins and against what ellipsoids are for: sheets without holes, long
-//! streams, a smooth top, and as much water as with spheres.
+//! Compares pass `shape`, which finds an ellipsoid for each particle, and its depth and thickness
+//! with CPU twins. Also checks the purpose of ellipsoids: sheets without holes, long streams, a
+//! smooth surface, and as much water as with spheres.
 
 use std::f64::consts::PI;
 
@@ -37,13 +38,13 @@ fn ellipsoids(size: vk::Extent2D, splat: Splat) -> Config {
 struct Body {
     center: DVec3,
     radius: f64,
-    /// What takes the ball of the radius to it, and how far off that may be.
+    /// Matrix from a ball of `radius` to the ellipsoid, and the error of its entries.
     axes: DMat3,
     off: f64,
 }
 
-/// What the pass has left, as it was read back: centre, axes of water and spray, in the world, and the sum of the neighbours'
-/// weights.
+/// Output of pass `shape`, in world space: centre, axes of water and of spray, and the sum of the
+/// neighbours' weights.
 fn all_left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, [DMat3; 2], f64)> {
     let words = drawn.shapes.as_ref().expect("of ellipsoids");
     let each = words.chunks_exact(10).take(shot.positions.len());
@@ -61,7 +62,7 @@ fn all_left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, [DMat3; 2], f64)> {
     .collect()
 }
 
-/// The same of water.
+/// Centre and axes of water.
 fn left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, DMat3)> {
     all_left(drawn, shot).into_iter().map(|(center, [water, _], _)| (center, water)).collect()
 }
@@ -71,7 +72,7 @@ pub fn of_spray(drawn: &Drawn, shot: &Shot) -> Vec<(DMat3, f64)> {
     all_left(drawn, shot).into_iter().map(|(_, [_, spray], crowd)| (spray, crowd)).collect()
 }
 
-/// The same as `cull` has them: turned, and in 16 bits again.
+/// The ellipsoids in eye space, as pass `cull` stores them: rotated, and rounded to 16 bits again.
 fn bodies(drawn: &Drawn, shot: &Shot) -> Vec<Body> {
     let view = shot.camera_view();
     let turn = DMat3::from_mat4(view);
@@ -97,7 +98,8 @@ fn twin_settings(shot: &Shot) -> shape::Settings {
     }
 }
 
-/// World points of a lattice of a spacing that lies askew about a point of the eye's (x, y, depth), of the steps that are kept.
+/// World positions of a lattice whose distance is the particle spacing. `middle` is its centre as
+/// (x, y, depth) of the eye, `turn` its rotation, `steps` the number of points to each side.
 pub fn lattice(shot: &Shot, middle: [f32; 3], turn: DMat3, steps: [i32; 3]) -> Vec<[f32; 3]> {
     let spacing = f64::from(shot.settings.water.spacing);
     let at = DVec3::from(scenes::world(&shot.camera, &[middle])[0].map(f64::from));
@@ -107,7 +109,7 @@ pub fn lattice(shot: &Shot, middle: [f32; 3], turn: DMat3, steps: [i32; 3]) -> V
     all.map(|step| (at + spacing * place(step)).as_vec3().to_array()).collect()
 }
 
-/// The eye's frame in the world: a sheet of its x and y faces the eye.
+/// The eye's axes in world space: a sheet in its x and y faces the eye.
 pub fn facing(shot: &Shot) -> DMat3 {
     DMat3::from_mat4(shot.camera_view()).transpose()
 }
@@ -146,7 +148,7 @@ fn shapes_are_the_twins() {
         let mut shot = mixed(size, Lens::Standard);
         shot.settings.water.ellipsoids = settings;
         shot.settings.spray.strand_ratio = strand;
-        // Alone, and so close to another that there is no variance.
+        // A lone particle, and two particles so close together that their variance is 0.
         shot.positions.extend(scenes::world(&shot.camera, &[[-9.0, 9.0, 12.0], [9.0, 9.0, 12.0]]));
         let [x, y, z] = shot.positions[shot.positions.len() - 1];
         shot.positions.push([x + 1.0e-5, y, z]);
@@ -187,14 +189,14 @@ fn shapes_are_the_twins() {
     }
 }
 
-/// A hit of the ray: the ellipsoid with its radius as much larger or smaller.
+/// Distance at which the ray hits the ellipsoid, with its radius changed by `more`.
 fn hit_body(ray: DVec3, body: &Body, inverse: &DMat3, more: f64) -> Option<f64> {
     let radius = (body.radius + more).max(0.0);
     hit(*inverse * ray, &Sphere { center: *inverse * body.center, radius })
 }
 
-/// Bounds of the depth, as of spheres where the ellipsoid is one: there a centre is farther off by the inverse's norm,
-/// as is the surface by the axes' error.
+/// Bounds of the depth. The test intersects the sphere that the ellipsoid's inverse matrix gives:
+/// errors of the centre grow by the inverse's norm, and the surface adds the error of the axes.
 fn depth_bounds(bodies: &[Body], view: &View) -> Between {
     let near = view.near();
     let mut low = Image::new(view.width, view.height, EMPTY);
@@ -249,7 +251,8 @@ fn depth_is_the_nearest_ellipsoid_through_every_lens() {
     }
 }
 
-/// Of ellipsoids so wide that one covers cells of `front`, those that cannot show are left out, and no others.
+/// Ellipsoids so wide that one covers cells of image `front`. Pass `cull` drops only those that
+/// cannot be visible.
 #[test]
 fn what_is_left_out_does_not_show() {
     let gpu = Gpu::shared();
@@ -273,7 +276,7 @@ fn raster_and_compute_agree() {
     let size = extent(96, 64);
     let shot = mixed(size, Lens::Standard);
     let [raster, compute] = BOTH.map(|splat| Rig::new(&gpu, &ellipsoids(size, splat)).draw(&shot));
-    // Both lie in the twin's bounds; most to the bit.
+    // Both pictures lie within the twin's bounds, and nearly all depths are close.
     let bounds = depth_bounds(&bodies(&raster, &shot), &shot.view(size));
     compare::between("shape-agree-raster", &raster.depth, &bounds);
     compare::between("shape-agree-compute", &compute.depth, &bounds);
@@ -284,9 +287,9 @@ fn raster_and_compute_agree() {
     assert!(pairs().map(off).fold(0.0, f32::max) < 1.0e-3);
 }
 
-/// Twin of the sprite of a thickness: its shadow along the ray through its centre. A point's rho is how near the line
-/// through it along that ray comes to the centre, where the ellipsoid is a ball; the area of the shadow of a ball along w is
-/// pi det(axes) |axes^-1 w| on a plane with w.z = 1.
+/// Twin of the thickness sprite: the projection of the ellipsoid along the ray through its centre.
+/// rho is the distance of a pixel's line from the centre in the space where the ellipsoid is a
+/// ball. The ball's projection along w has area pi det(axes) |axes^-1 w| on a plane with w.z = 1.
 fn thickness_bounds(bodies: &[Body], view: &View, volume: f64) -> Between {
     let mut low = Image::new(view.width, view.height, 0.0);
     let mut high = low.clone();
@@ -314,7 +317,7 @@ fn thickness_bounds(bodies: &[Body], view: &View, volume: f64) -> Between {
         }
     }
     for (low, high) in low.data.iter_mut().zip(&mut high.data) {
-        // A sum of some hundred, or of as many units.
+        // A sum of about a hundred terms, as floats or in fixed point.
         *low = *low * (1.0 - 1.0e-4) - 1.0e-6;
         *high = *high * (1.0 + 1.0e-4) + 1.0e-6;
     }
@@ -329,7 +332,7 @@ fn thickness_is_the_twins() {
         let mut rig = Rig::new(&gpu, &ellipsoids(size, splat));
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
             let mut shot = mixed(size, lens);
-            // None is narrower than a pixel, nor so near that its sprite is cut.
+            // No sprite is narrower than a pixel or so near that it is cut.
             shot.settings.water.ellipsoids.ratio = 3.0;
             let drawn = rig.draw(&shot);
             let volume = f64::from(shot.settings.water.spacing).powi(3);
@@ -341,9 +344,10 @@ fn thickness_is_the_twins() {
     }
 }
 
-/// A block, a sheet and a stream hold as much water as their spheres, near and so far that a sprite is less than a pixel.
-/// Sums over pixels of sprites of some pixels are within a hundredth of their integrals, one of a few far ones a tenth: they
-/// meet or miss the middles of few texels.
+/// A block, a sheet and a stream hold as much water with ellipsoids as with spheres, also at a
+/// distance where a sprite is smaller than a pixel. A sum over pixels approximates the integral of
+/// sprites of several pixels to a hundredth, and of a few tiny ones to a tenth, because they cover
+/// few texel centres.
 #[test]
 fn there_is_as_much_water_as_with_spheres() {
     let gpu = Gpu::shared();
@@ -368,9 +372,10 @@ fn there_is_as_much_water_as_with_spheres() {
     }
 }
 
-/// A sheet of one layer that faces the eye: its ellipsoids are 1 : 1 : 1/4 (the variance across is 0), so that with
-/// r = 0.656 spacings half-axes are 1.041 and 0.260 of them. The lattice's farthest point, at 0.707, is covered 0.191 before the
-/// sheet, the particles 0.260: the depth differs by no more than 0.07 spacings, where spheres leave holes.
+/// A sheet of one layer that faces the eye. The variance across it is 0, so its ellipsoids are 1 :
+/// 1 : 1/4, and with r = 0.656 spacings the half-axes are 1.041 and 0.260 spacings. The surface
+/// lies 0.260 before the sheet at particles, and 0.191 at the lattice's farthest points, 0.707
+/// away. So depths differ by at most 0.07 spacings, where spheres leave holes.
 #[test]
 fn a_sheet_has_no_holes_and_is_flat() {
     let gpu = Gpu::shared();
@@ -383,7 +388,7 @@ fn a_sheet_has_no_holes_and_is_flat() {
         let drawn = Rig::new(&gpu, &ellipsoids(size, splat)).draw(&shot);
         let round = ellipsoids(size, splat).with(|it| it.kernels = Kernels::Spheres);
         let spheres = Rig::new(&gpu, &round).draw(&shot);
-        // No neighbour's neighbour is missing there.
+        // Here all neighbours of all neighbours exist.
         let inside = |x: usize, y: usize| {
             let at = shot.view(size).ray(x, y).truncate() * f64::from(far / spacing);
             at.x.abs() < 11.0 && at.y.abs() < 7.0
@@ -397,13 +402,13 @@ fn a_sheet_has_no_holes_and_is_flat() {
             count += 1;
         }
         assert!(count > 2000, "{count}");
-        // Perspective sees them from beside, by up to a third of what they rise.
+        // Perspective shifts the particles by up to a third of their height above the sheet.
         assert!(least > 0.18 && most < 0.27, "{splat:?}: {least} to {most}");
         assert!(holes > 5, "{holes}");
     }
 }
 
-/// A stream is a thread of long ellipsoids: nearly 1 : 1/4 : 1/4.
+/// A stream has long ellipsoids, nearly 1 : 1/4 : 1/4.
 #[test]
 fn a_stream_is_long() {
     let gpu = Gpu::shared();
@@ -419,13 +424,15 @@ fn a_stream_is_long() {
         let along = (axes * direction).dot(direction);
         let (values, _) = eigen(axes);
         let thin = values.min_element();
-        // Weights of 2.85, which are 0.9 of the way from 1.5 to 3: all of an ellipsoid but a power of 0.972.
+        // The neighbours' weights sum to 2.85, which is 0.9 of the way from 1.5 to 3; smoothstep
+        // gives an exponent of 0.972.
         assert!((along / thin - 4.0_f64.powf(0.972)).abs() < 0.02, "{i}: {along} {thin}");
         assert!((along * thin * thin - 1.0).abs() < 0.01, "{i}");
     }
 }
 
-/// Where neighbours are the same all round it is a sphere: 27 layers of a block, but those at its sides.
+/// Inside a block, neighbours are equally distributed, so ellipsoids are spheres. Checked for the
+/// 27 inner particles.
 #[test]
 fn inside_the_water_it_is_round() {
     let gpu = Gpu::shared();
@@ -443,8 +450,9 @@ fn inside_the_water_it_is_round() {
     assert_eq!(count, 27);
 }
 
-/// What particles of a sheet are off it is less when they are centred, by more than half; the middle of a block's sides stays
-/// where it is within a fifth of a spacing, where they would go in by 0.7 if they went all the way to their neighbours' middle.
+/// Centring reduces the distances of particles from their sheet by more than half. The middles of a
+/// block's sides move by less than a fifth of a spacing; moving fully to their neighbours' mean
+/// would be 0.7 spacings.
 #[test]
 fn centring_smooths_a_sheet_and_keeps_a_block() {
     let gpu = Gpu::shared();
@@ -471,7 +479,7 @@ fn centring_smooths_a_sheet_and_keeps_a_block() {
 
     shot.positions = lattice(&shot, [0.0, 0.0, 4.0], turn, [6, 6, 6]);
     let after = left(&rig.draw(&shot), &shot);
-    // The middles of six sides: the first and the last of each axis.
+    // The middles of four sides of the block.
     for i in [6 * 13 + 6, 12 * 169 + 6 * 13 + 6, 6 * 169 + 6, 6 * 169 + 12 * 13 + 6] {
         let there = DVec3::from(shot.positions[i].map(f64::from));
         let gone = (after[i].0 - there).length() / spacing;
@@ -498,7 +506,7 @@ fn the_unit_of_length_does_not_show() {
     let size = extent(64, 48);
     let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
     let shot = mixed(size, Lens::Infinite);
-    // A power of two: no rounding differs.
+    // Scaling by a power of two changes no rounding.
     let larger = scaled(&shot, 16.0);
     let [first, second] = [&shot, &larger].map(|shot| rig.draw(shot));
     let axes = |drawn: &Drawn, shot: &Shot| -> Vec<DMat3> {
@@ -510,7 +518,7 @@ fn the_unit_of_length_does_not_show() {
     }
 }
 
-/// A count on the GPU, packets of all, and more chunks than one draw the same.
+/// A count on the GPU, packets and chunks do not change the picture.
 #[test]
 fn counts_packets_and_chunks_do_not_show() {
     let gpu = Gpu::shared();
@@ -523,7 +531,7 @@ fn counts_packets_and_chunks_do_not_show() {
     let plain = cloud.particles();
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let n = cloud.count;
-    // More than there are: clamped by the stream.
+    // The second count is larger than the stream, which limits it.
     for count in [n, n + 1000] {
         let counted = rig.stub.data(&count.to_le_bytes(), usage);
         let count = Count::Gpu { buffer: counted.buffer, offset: 0 };
@@ -535,14 +543,15 @@ fn counts_packets_and_chunks_do_not_show() {
     let packets = whitewater::Packets { buffer: packets.buffer, offset: 0, count: 2 };
     let drawn = rig.draw_particles(&shot, &plain.with(|it| it.packets = Some(packets)));
     same_drawn("shape-packets", &drawn, &expected);
-    // Of such strides the device binds few particles at a time.
+    // With this stride the device binds few particles at a time.
     let max_stride = 1 << 19;
     let mut rig = Rig::new(&gpu, &config.with(|it| it.max_stride = max_stride));
     let drawn = rig.draw(&shot);
     same_drawn("shape-chunks", &drawn, &expected);
 }
 
-/// With foam, spray, two sheets and the sun's maps, whatever the bits: a frame ends and is finite.
+/// A frame with two sheets, spray and light maps ends and has finite results, whatever the bits of
+/// the positions.
 #[test]
 fn hostile_positions_end() {
     let gpu = Gpu::shared();
@@ -573,7 +582,7 @@ fn hostile_positions_end() {
     }
 }
 
-/// Particles that are not finite are dropped and counted, and no others change by them.
+/// Particles with invalid positions are dropped and counted, and do not change the others.
 #[test]
 fn strays_do_no_harm() {
     let gpu = Gpu::shared();
@@ -589,7 +598,7 @@ fn strays_do_no_harm() {
     assert_eq!(drawn.thickness.data, expected.thickness.data);
 }
 
-/// Each setting does something.
+/// Each setting changes the picture.
 #[test]
 fn every_setting_shows() {
     let gpu = Gpu::shared();
@@ -610,7 +619,7 @@ fn every_setting_shows() {
         change(&mut other.settings.water.ellipsoids);
         assert!(rig.draw(&other).depth.data != before, "{name} does nothing");
     }
-    // Of spheres none does.
+    // With spheres, settings of ellipsoids change nothing.
     let mut rig =
         Rig::new(&gpu, &ellipsoids(size, Splat::Compute).with(|it| it.kernels = Kernels::Spheres));
     let before = rig.draw(&shot).depth.data;
@@ -620,7 +629,7 @@ fn every_setting_shows() {
     assert!(before != Rig::new(&gpu, &ellipsoids(size, Splat::Compute)).draw(&shot).depth.data);
 }
 
-/// Its time is told, first of all.
+/// The pass reports its GPU time.
 #[test]
 fn its_time_is_told() {
     let gpu = Gpu::shared();

@@ -1,4 +1,5 @@
-//! Pass `smooth`: curvature flow against the twin on the same input and plan, and all its forms against each other.
+//! Compares pass `smooth`, curvature flow, with the CPU twin on the same input and plan, and
+//! compares all its forms with each other.
 
 use whitewater::water::{Gate, Rule, Smoothing};
 
@@ -10,7 +11,7 @@ use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens};
 use crate::support::tolerance;
 
-/// Water as it is: a block of particles, and strays before and behind it.
+/// A block of particles, and single ones before and behind it.
 fn water(size: ash::vk::Extent2D, lens: Lens) -> Shot {
     let mut points = scenes::block(3, 0.25, [14, 8, 4], [-1.8, -1.0, 4.0]);
     points.extend(scenes::cloud(4, 12, 1.5, 12.0));
@@ -44,7 +45,7 @@ fn the_surface_is_the_twins() {
                 let name = format!("smooth-{rule:?}-{level}-{lens:?}").replace(['(', ')'], "");
                 let census =
                     compare::close(&name, &drawn.surface, &expected, 0, |x, y, _| error.at(x, y));
-                // The bound must be far below what the smoothing does.
+                // The bound must be much smaller than the effect of the smoothing.
                 let mut errors: Vec<f64> =
                     error.data.iter().copied().filter(|e| *e > 0.0).collect();
                 errors.sort_by(f64::total_cmp);
@@ -75,7 +76,7 @@ pub fn forms(gpu: &Gpu) -> Vec<Smoothing> {
     forms
 }
 
-/// All do the same arithmetic: bit for bit.
+/// All forms do the same arithmetic, so surfaces are equal bit for bit.
 #[test]
 fn all_forms_give_the_same_surface() {
     let gpu = Gpu::shared();
@@ -93,7 +94,7 @@ fn all_forms_give_the_same_surface() {
                 });
                 let mut rig = Rig::new(&gpu, &config);
                 let shot = water(size, Lens::OffAxis);
-                // The second frame starts from the state that the first one left.
+                // The second frame finds the first one's contents in the images.
                 rig.draw(&shot);
                 let surface = rig.draw(&shot).surface;
                 let first = first.get_or_insert_with(|| surface.clone());

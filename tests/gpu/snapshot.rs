@@ -1,4 +1,5 @@
-//! Snapshots of the generator, against the twin.
+//! Compares snapshots of the generator, which make a whole population of particles at once, with
+//! the CPU twin.
 
 use super::*;
 use crate::hostile::spoil;
@@ -7,10 +8,11 @@ use crate::reference::generate::snapshot::{Snapshot, Stage};
 impl Making {
     fn snapshot(&mut self, fluid: &Fluid, settings: &GeneratorSettings, number: u32) -> Made {
         let data = self.upload(fluid);
-        // Its time is no matter.
+        // A snapshot does not use the time step.
         let step = step_of(&data, fluid, settings, 0.0, number);
         self.record_by(&step, |generator, cmd, step| {
-            // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+            // SAFETY: cmd is recording, the slot was waited for, and all handles live until the end
+            // of this function.
             unsafe { generator.record_snapshot(cmd, step) }
         })
         .expect("a snapshot");
@@ -18,7 +20,8 @@ impl Making {
     }
 }
 
-/// What a snapshot leaves: how many there are, were made and lost, and the particles.
+/// What a snapshot leaves: the number of particles, of those made and of those lost, and the
+/// particles.
 fn left(made: &Made) -> (u32, u32, u32, &[Particle]) {
     let [high, _, _, _, new, lost] = made.counts;
     (high, new, lost, &made.particles)
@@ -28,7 +31,7 @@ fn roomy() -> GeneratorConfig {
     config().with(|it| it.max_particles = 100_000)
 }
 
-/// A flow that is stirred at its beginning and calm after it, on a bed that slows it.
+/// A flow that is turbulent at its beginning and calm downstream, on a bed that slows it.
 fn river() -> Fluid {
     let mut random = Random(91);
     let mut fluid = Fluid::default();
@@ -47,12 +50,12 @@ fn river() -> Fluid {
     fluid
 }
 
-/// Seconds of the stages that newborn m may be of.
+/// The ages, in seconds, of the stages that newborn m may belong to.
 fn ages_of(stages: &[Stage], m: u32) -> Vec<f64> {
     let (mut least, mut most) = (0, 0);
     let mut seconds = Vec::new();
     for stage in stages {
-        // Those before take at least so many numbers, those up to here at most so many.
+        // Each earlier stage makes between counts[0] and counts[1] particles.
         most += stage.counts[1];
         if (least..most).contains(&m) && stage.counts[1] > 0 {
             seconds.push(stage.seconds);
@@ -62,14 +65,14 @@ fn ages_of(stages: &[Stage], m: u32) -> Vec<f64> {
     seconds
 }
 
-/// What a snapshot is to be compared by.
+/// Counts of what a comparison checked.
 #[derive(Default)]
 struct Seen {
     stages: u32,
-    /// Of them those that rounding does not decide on.
+    /// Stages whose number of particles does not depend on rounding.
     sure: u32,
     made: u32,
-    /// Newborns of one possible age.
+    /// Foam particles that have only one possible age.
     aged: u32,
     kinds: [u32; 3],
 }
@@ -89,7 +92,7 @@ fn assert_snapshot(
         let of = |m| twin.newborn(i, m, 0.0);
         let [least, most] =
             [0, 1].map(|side| stages.iter().map(|stage| stage.counts[side]).sum::<u32>());
-        // In the order of the fluid's particles each has its own in a row, and nothing is between.
+        // Particles are in the order of the fluid's particles that made them, without gaps.
         let found = made.particles[slot..].iter().zip(0..most);
         let found = found.take_while(|(found, m)| found.id == of(*m).id).count() as u32;
         assert!((least..=most).contains(&found), "{number}: {i} made {found} of {stages:?}");
@@ -98,15 +101,15 @@ fn assert_snapshot(
             let particle = &made.particles[slot];
             slot += 1;
             let loose = twin.potentials(i).is_none_or(|p| p.loose);
-            // Whatever its stage, all but the age is the same.
+            // Everything except the age is independent of the stage.
             let expected = Particle { age: particle.age, ..of(m) };
             let kind = if loose { particle.kind } else { expected.kind };
-            // Sines are told to 2^-11.
+            // The device's sines have an error of 2^-11.
             let off = f64::from(SPACING) / 2048.0;
             assert_same(&name, particle, &Particle { kind, ..expected }, off, 1.0);
             let seconds = ages_of(&stages, m);
             if particle.kind == twin::FOAM {
-                // A few operations on numbers that are about 1 at most.
+                // A few operations on numbers of at most about 1.
                 let is = |s: f64| (twin.foam_age(i, m, s) - particle.age).abs() <= 2.0e-6;
                 assert!(seconds.iter().any(|s| is(*s)), "{name}: {particle:?} of {stages:?}");
                 seen.aged += u32::from(seconds.len() == 1);
@@ -116,7 +119,7 @@ fn assert_snapshot(
             seen.kinds[particle.kind as usize] += 1;
         }
         seen.made += found;
-        // Of those that may make any.
+        // Only stages that may make particles count.
         let some = stages.iter().filter(|stage| stage.counts[1] > 0);
         for stage in some {
             seen.stages += 1;
@@ -128,7 +131,7 @@ fn assert_snapshot(
     assert_eq!(left(made), (high, high, 0, &made.particles[..]));
 }
 
-/// A sea with drops above it that meet.
+/// Turbulent water, with drops above it that collide.
 fn torn(number: u32) -> Fluid {
     let mut fluid = sea(number);
     for i in 0..180_u32 {
@@ -141,7 +144,7 @@ fn torn(number: u32) -> Fluid {
     fluid
 }
 
-/// Lives so short that the way back is of a few spacings.
+/// Lifetimes so short that the particles' way back is only a few spacings.
 fn short(lifetime: [f32; 2]) -> GeneratorSettings {
     settings().with(|it| {
         [it.min_lifetime, it.max_lifetime] = lifetime;
@@ -150,7 +153,8 @@ fn short(lifetime: [f32; 2]) -> GeneratorSettings {
     })
 }
 
-/// Where ways are long much is left open; the order, the ids and all but the ages are told all the same.
+/// Where ways are long, rounding leaves many ages open; the order, the ids and everything else are
+/// still compared.
 #[test]
 fn snapshots_are_the_twins() {
     let gpu = Gpu::shared();
@@ -170,7 +174,7 @@ fn snapshots_are_the_twins() {
         let made = making.snapshot(&fluid, &settings, number);
         assert_snapshot(&made, &fluid, &settings, number, &mut near);
     }
-    // One that rests, at an end of the water.
+    // A particle at rest at an end of the water.
     let mut fluid = river();
     fluid.velocities[49] = [0.0; 3];
     let settings = short([0.05, 0.15]);
@@ -237,11 +241,11 @@ fn a_snapshot_of_nothing_is_empty() {
     let mut making = Making::new(&gpu, &config());
     let nothing = Fluid::default();
     assert_eq!(left(&making.snapshot(&nothing, &settings(), 0)), (0, 0, 0, &[][..]));
-    // Nor does anything stay.
+    // A snapshot without water also removes earlier particles.
     making.step(&sea(0), &settings(), 0.03, 0);
     assert!(making.step(&sea(1), &settings(), 0.03, 1).counts[0] > 0);
     assert_eq!(left(&making.snapshot(&nothing, &settings(), 2)), (0, 0, 0, &[][..]));
-    // Nor of water that takes no part.
+    // The same for water without valid positions.
     let mut nowhere = sea(0);
     nowhere.positions.fill([f32::NAN; 3]);
     assert_eq!(left(&making.snapshot(&nowhere, &settings(), 2)), (0, 0, 0, &[][..]));
@@ -259,14 +263,14 @@ fn a_snapshot_counts_what_has_no_room() {
         let mut making = Making::new(&gpu, &config);
         for _ in 0..2 {
             let made = making.snapshot(&fluid, &settings(), 1);
-            // The first of them.
+            // The first particles are kept.
             let expected = (most, wanted, wanted - most, &all.particles[..most as usize]);
             assert!(left(&made) == expected, "{most}: {:?}", made.counts);
         }
     }
 }
 
-/// Steps may follow: what is there then moves.
+/// Steps may follow a snapshot and move its particles.
 #[test]
 fn steps_go_on_from_a_snapshot() {
     let gpu = Gpu::shared();
@@ -289,7 +293,7 @@ fn steps_go_on_from_a_snapshot() {
     assert!(seen > 300, "{seen} of {}", before.len());
 }
 
-/// Any bits, of streams and of a state that something else wrote: a step ends, in its own memory.
+/// A step ends and stays in its own memory, with any bits in the streams and in a restored state.
 #[test]
 fn hostile_bits_in_a_step() {
     let gpu = Gpu::shared();

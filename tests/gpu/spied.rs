@@ -1,5 +1,5 @@
-//! Behind a spy in the function table: a record makes no forbidden calls, memory use is constant, and every call that
-//! can fail does so cleanly.
+//! A spy in Vulkan's function table shows that a record makes no forbidden calls, that memory use
+//! is constant, and that every call that can fail is handled without leaks.
 
 use std::mem;
 
@@ -39,10 +39,10 @@ fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
     for _ in 0..3 {
         let cmd = rig.stub.begin(0);
         spy::reset();
-        // Nobody may take the allocator: a record that tries would wait for ever.
+        // The allocator stays locked: a record that used it would wait for ever.
         let allocator = rig.gpu.allocator.clone();
         let held = allocator.lock().unwrap();
-        // SAFETY: cmd is recording; the slot was waited for.
+        // SAFETY: cmd is recording, and the slot was waited for.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
         drop(held);
         for function in spy::NOT_IN_A_RECORD {
@@ -51,8 +51,8 @@ fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
         let (sets, room) = (spy::ALLOCATE_SETS.calls(), spy::MAX_SETS.load(RELAXED));
         assert!(sets <= room, "{name}: {sets} descriptor sets from a pool of {room}");
         assert!(spy::CMD_BARRIER.calls() > 5 && spy::CMD_BIND_PIPELINE.calls() > 5, "it sees");
-        // One to take it, one to give it back; the scene's colour is the output here: copied before it is
-        // drawn to, by the lit scene too.
+        // One barrier acquires each image and one releases it. The scene's colour is also the
+        // output here, so it is copied before drawing; the lit scene copies it once more.
         for image in [depth.image].into_iter().chain(shadow) {
             assert_eq!(spy::barriers_of(image), 2, "{name}");
         }
@@ -112,7 +112,8 @@ fn record_only_records() {
     }
 }
 
-/// With all that may be drawn besides, by sprites and by compute.
+/// The same checks for a frame with everything that the renderer can draw, with raster and compute
+/// splats.
 #[test]
 fn record_only_records_with_foam_spray_and_light() {
     let gpu = spied();
@@ -129,7 +130,7 @@ fn record_only_records_with_foam_spray_and_light() {
         let streams = case.streams(&rig);
         watched(name, &mut rig, &case.shot, streams.particles());
     }
-    // All that takes descriptor sets at once.
+    // All passes that need descriptor sets, in one frame.
     let convolution = Convolution { terms: 16, texels: 32, bits: 8 };
     let shadow = Some(Shadows::Convolution(convolution));
     let size = extent(48, 32);
@@ -146,7 +147,7 @@ fn record_only_records_with_foam_spray_and_light() {
     watched("in the sun", &mut rig, &shot, cloud.particles());
 }
 
-/// Drivers that count their pools' sets must have enough for every chunk.
+/// Drivers that count the sets of a pool must have enough for every chunk.
 #[test]
 fn many_chunks_have_their_descriptor_sets() {
     let gpu = spied();
@@ -165,7 +166,7 @@ fn many_chunks_have_their_descriptor_sets() {
     watched("many chunks of noise", &mut rig, &shot, cloud.particles());
 }
 
-/// Frames in a steady state make and destroy as much.
+/// Frames in a steady state destroy as many objects as they create.
 #[test]
 fn memory_is_steady() {
     let gpu = spied();
@@ -183,7 +184,7 @@ fn memory_is_steady() {
             .with(|it| it.slot = Slot(slot));
         let cmd = rig.stub.begin(slot);
         rig.collect(Slot(slot));
-        // SAFETY: cmd is recording; the slot was waited for.
+        // SAFETY: cmd is recording, and the slot was waited for.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
         rig.stub.end(slot);
         if i == 20 || i == frames - 1 {
@@ -196,7 +197,8 @@ fn memory_is_steady() {
     assert!(gpu.expect_messages().is_empty());
 }
 
-/// Which of a function's calls to fail: all of them in the long tests, else some.
+/// Which calls of a function should fail: all in the slow tests, otherwise the first, a middle and
+/// the last.
 fn chosen(calls: u32) -> Vec<u32> {
     if slow() || calls <= 3 {
         return (1..=calls).collect();
@@ -212,13 +214,14 @@ fn is_memory_error(error: &Error) -> bool {
     }
 }
 
-/// Whichever call of the construction fails: an error that names it, and nothing is left behind.
+/// Whichever call of the construction fails, there is an error that names it, and no object
+/// remains.
 #[test]
 fn a_failed_construction_leaves_nothing() {
     let gpu = spied();
     let size = extent(32, 16);
     let config = config(size).with(|it| it.depth_splat = Some(Splat::Raster));
-    // SAFETY: live handles.
+    // SAFETY: the handles are live.
     let context = || unsafe { Context::new(&gpu.host(2)) };
     let make = || context().and_then(|context| Renderer::new(&context, &config));
     spy::reset();
@@ -232,7 +235,8 @@ fn a_failed_construction_leaves_nothing() {
         for k in chosen(calls) {
             spy::reset();
             spy::forget();
-            // The allocator keeps blocks: it only asks for more when it has none.
+            // The allocator keeps memory blocks and only asks for more when it has none, so it is
+            // replaced by an empty one.
             *gpu.allocator.lock().unwrap() = gpu.make_allocator(&gpu.functions);
             function.fail(k, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
             let name = format!("{} call {k}", function.name.to_string_lossy());
@@ -240,7 +244,7 @@ fn a_failed_construction_leaves_nothing() {
                 Err(error) if is_memory_error(&error) && !error.to_string().is_empty() => {}
                 Err(error) => wrong.push(format!("{name}: {error}")),
                 Ok(renderer) => {
-                    // An allocator may ask another kind of memory in its place.
+                    // An allocator may try another memory type instead.
                     let made_up = function.name == c"vkAllocateMemory" && function.calls() > calls;
                     if !function.pending() && !made_up {
                         wrong.push(format!("{name}: no error"));
@@ -255,7 +259,7 @@ fn a_failed_construction_leaves_nothing() {
             }
             let fresh = gpu.make_allocator(&gpu.functions);
             let used = mem::replace(&mut *gpu.allocator.lock().unwrap(), fresh);
-            // What is left is told once and must not spoil the rest.
+            // Leaked memory is reported once, and must not disturb the following checks.
             if !held.is_empty() {
                 mem::forget(used);
             }
@@ -266,7 +270,7 @@ fn a_failed_construction_leaves_nothing() {
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// A second renderer makes no pipeline of its own; a context goes with the last that needs it, whichever that is.
+/// Renderers of one context share its pipelines. A context lives until its last user is destroyed.
 #[test]
 fn objects_of_a_context_share_its_pipelines() {
     let gpu = spied();
@@ -281,7 +285,7 @@ fn objects_of_a_context_share_its_pipelines() {
     assert_eq!((context.frames_in_flight(), other.frames_in_flight()), (1, 3));
     let mut second = Renderer::new(&other, &config).expect("a renderer");
     assert_eq!(made(), 0, "the same pipelines");
-    // Another configuration needs others, once.
+    // Another configuration needs other pipelines, which are created once.
     let raster = config.with(|it| it.depth_splat = Some(Splat::Raster));
     second.reconfigure(&raster).expect("raster");
     assert!(made() > 0);
@@ -297,7 +301,7 @@ fn objects_of_a_context_share_its_pipelines() {
     unsafe { second.destroy() };
     assert_eq!(spy::live(), Vec::<String>::new());
 
-    // The context last.
+    // The context is dropped last.
     let context = gpu.context(1);
     let renderer = Renderer::new(&context, &config).expect("a renderer");
     // SAFETY: as above.
@@ -307,7 +311,8 @@ fn objects_of_a_context_share_its_pipelines() {
     assert_eq!(spy::live(), Vec::<String>::new());
 }
 
-/// What is dropped without `destroy` may still be in use: its context stays.
+/// A renderer that is dropped without `destroy` may still be in use by the GPU, so its context
+/// stays.
 #[test]
 fn a_renderer_that_is_only_dropped_keeps_its_context() {
     let mut gpu = spied();
@@ -320,8 +325,8 @@ fn a_renderer_that_is_only_dropped_keeps_its_context() {
     assert!(pipelines.is_some(), "{:?}", spy::live());
 }
 
-/// Draws at one size; makes the `k`-th call of a function fail in a change to another; says what is
-/// wrong afterwards. None when the change makes fewer calls.
+/// Draws at one size, lets the `k`-th call of a function fail during a change, and returns what is
+/// wrong afterwards. Returns None if the change makes fewer calls.
 fn failed_change(
     gpu: &Gpu,
     config: &Config,
@@ -335,7 +340,7 @@ fn failed_change(
     let mut wrong = Vec::new();
     {
         let mut rig = Rig::new(gpu, config);
-        // Bitwise, whichever way the sprites are added: the thickness is left out.
+        // Compared bit for bit. Thickness is left out, because float sums depend on the order.
         let expected = rig.draw(&shot);
         spy::reset();
         function.fail(k, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
@@ -376,7 +381,7 @@ const CHANGED: [&spy::Function; 6] = [
     &spy::CREATE_COMPUTE_PIPELINES,
 ];
 
-/// After a resize that failed frames are refused before any command, until one has succeeded.
+/// After a failed resize, frames are refused before any command until another resize succeeds.
 #[test]
 fn a_failed_resize_is_made_good_by_another() {
     let gpu = spied();
@@ -388,7 +393,7 @@ fn a_failed_resize_is_made_good_by_another() {
             it.thickness_splat = Some(splat);
         });
         for function in CHANGED {
-            // All of them in the long tests, else some.
+            // All calls in the slow tests, otherwise some.
             for k in (1..=20).filter(|k| slow() || [1, 2, 4, 8, 16].contains(k)) {
                 let found = failed_change(
                     &gpu,
@@ -434,7 +439,7 @@ fn frames_are_refused_after_a_failed_resize() {
     assert!(matches!(result, Err(Error::BadInput { .. })) && commands == 0, "{commands} commands");
 }
 
-/// A reconfigure that fails leaves the renderer as it was.
+/// A failed reconfigure leaves the renderer as it was.
 #[test]
 fn a_failed_reconfigure_changes_nothing() {
     let gpu = spied();
@@ -469,7 +474,8 @@ fn a_failed_reconfigure_changes_nothing() {
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Whatever of a record's calls fails: the error says so, and after `abandon` the slot is good again.
+/// Whichever call of a record fails, there is an error, and after `abandon` the slot can be used
+/// again.
 #[test]
 fn a_failed_record_can_be_repeated() {
     let gpu = spied();
@@ -489,14 +495,14 @@ fn a_failed_record_can_be_repeated() {
             let cmd = rig.stub.begin(0);
             spy::reset();
             function.fail(k, vk::Result::ERROR_DEVICE_LOST);
-            // SAFETY: cmd is recording; the slot was waited for.
+            // SAFETY: cmd is recording, and the slot was waited for.
             let result = unsafe { rig.renderer().record(cmd, &frame) };
             spy::reset();
             match result {
                 Err(error) => assert!(error.is_device_lost(), "{error}"),
                 Ok(_) => panic!("{:?} call {k}: no error", function.name),
             }
-            // Discarded: begin resets it.
+            // The commands are discarded, because `begin` resets the command buffer.
             rig.abandon(Slot(0));
         }
     }
@@ -509,7 +515,7 @@ fn a_failed_record_can_be_repeated() {
     compare::same_color("after-failed-record", &found.output, &expected.output);
 }
 
-/// The headless renderer reports a lost device from submit and wait.
+/// The headless renderer reports a lost device from submit and from wait.
 #[test]
 fn headless_reports_a_lost_device() {
     let mut gpu = Gpu::spied();
@@ -528,8 +534,9 @@ fn headless_reports_a_lost_device() {
             Err(error) => assert!(error.is_device_lost(), "{error}"),
             Ok(()) => panic!("{:?}: no error", function.name),
         }
-        // The work was submitted where only the wait failed.
-        // SAFETY: a live device.
+        // If only the wait failed, the work was submitted and must end before the device is
+        // destroyed.
+        // SAFETY: the device is live.
         unsafe { headless.device().device.device_wait_idle() }.expect("idle");
     }
     spy::reset();

@@ -1,4 +1,5 @@
-//! Pass `spray`: droplets against the twin, and the picture that contains them.
+//! Compares pass `spray`, which draws droplets for particles of low density, with its CPU twin, and
+//! checks the picture that contains them.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -29,21 +30,22 @@ fn spraying(size: ash::vk::Extent2D) -> Config {
     config(size).with(|it| it.spray = true)
 }
 
-/// A shot with spray.
+/// A shot with the attributes that spray uses.
 #[derive(Clone)]
 struct Sprayed {
     shot: Shot,
-    /// In the world.
+    /// Velocities in world space, metres per second.
     velocities: Option<Vec<[f32; 3]>>,
     ids: Option<Vec<u32>>,
-    /// Foam and age.
+    /// Amount and age of surface foam.
     amounts: Option<Vec<[f32; 2]>>,
-    /// Whether each is a packet of its own.
+    /// Whether each particle is handed over as a packet of its own.
     packets: bool,
 }
 
 impl Sprayed {
-    /// Particles at all speeds up to `fastest` spacings a second, a quarter of them water.
+    /// Particles at all speeds up to `fastest` spacings per second. A quarter of them have the
+    /// density of water.
     fn new(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Self {
         Self::of(Shot::new(size, lens, 0.2, &scenes::cloud(31, 160, 2.0, 9.0)), fastest)
     }
@@ -58,7 +60,8 @@ impl Sprayed {
             _ => random.between(550.0, 900.0),
         });
         shot.densities = Some(densities.collect());
-        // Seen by so few pixels, droplets of many have to be larger.
+        // Droplets are enlarged, because in this small picture default ones would cover too few
+        // pixels.
         shot.settings.spray.size = 1.5;
         let ids = Some((0..count).map(|_| random.bits() as u32).collect());
         Self { shot, velocities: Some(velocities), ids, amounts: None, packets: false }
@@ -87,7 +90,7 @@ impl Sprayed {
         rig.draw_particles(&self.shot, &particles)
     }
 
-    /// As the twin takes them, with the shapes that a frame has found.
+    /// The particles as the twin takes them, with the shapes that pass `shape` found in this frame.
     fn particles(&self, drawn: &Drawn) -> Vec<Particle> {
         let shapes = drawn.shapes.as_ref().map(|_| of_spray(drawn, &self.shot));
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
@@ -125,12 +128,14 @@ impl Sprayed {
         }
     }
 
-    /// The spray is the twin's; says how often it may be added to, and how many pixels have it.
+    /// Checks the spray against the twin. Returns how many sprites may cover each pixel, and how
+    /// many pixels have spray.
     fn check(&self, name: &str, drawn: &Drawn) -> (Image<u32>, usize) {
         self.check_behind(name, drawn, drawn)
     }
 
-    /// The same before a scene: the layer lacks the water that it hides, which a frame without has.
+    /// The same check before a scene. The frame's water layer lacks what the scene hides, so the
+    /// twin takes the water of `open`, a frame without the scene.
     fn check_behind(&self, name: &str, drawn: &Drawn, open: &Drawn) -> (Image<u32>, usize) {
         let (view, scene) = (self.shot.view(self.shot.size), self.shot.scene_at(self.shot.size, 0));
         let (water, settings) = (wide(&open.depth), self.settings());
@@ -139,7 +144,8 @@ impl Sprayed {
         (twin.count, of(drawn).data.iter().filter(|x| **x > 0.0).count())
     }
 
-    /// The picture is spray over what there was: untouched where there is nothing.
+    /// Checks that the picture is the spray over `behind`, and is unchanged to the bit where there
+    /// is nothing.
     fn check_over(&self, name: &str, drawn: &Drawn, behind: &[[f32; 4]]) {
         let (look, sun) = (&self.shot.settings.spray, &self.shot.settings.light);
         let toward = DVec3::from(sun.direction.map(f64::from));
@@ -159,7 +165,7 @@ impl Sprayed {
             let part = if x > 0.0 { relief.lit(of(drawn), lit, place) } else { exact(1.0) };
             for c in 0..3 {
                 let [dark, most] = [sun.shade[c], sun.irradiance[c]].map(f64::from);
-                // Three products with what is rounded.
+                // Three products, and the rounding of their factors.
                 let albedo = off(f64::from(look.color[c]) * most / std::f64::consts::PI, 4.0);
                 let light = relief.light(part, dark / most) * albedo;
                 let (wanted, bound) =
@@ -196,20 +202,22 @@ fn spray_is_the_twins() {
             let cut = case.draw(&mut rig);
             let (_, left) = case.check_behind(&format!("{name}-cut"), &cut, &whole);
             assert!(left * 10 < covered * 9, "{name}: {left} of {covered} pixels");
-            // Water is before some of it.
+            // Water lies before some of the spray and fades it; without these particles more spray
+            // shows.
             case.shot.positions.iter_mut().step_by(4).for_each(|p| *p = [f32::NAN; 3]);
             case.shot.scene_depth(|_, _| None);
             let dry = of(&case.draw(&mut rig)).clone();
             faded += dry.data.iter().zip(&of(&whole).data).filter(|(a, b)| **a > 1.1 * **b).count();
         }
     }
-    // Only where spheres stand together.
+    // Water hides spray only where water spheres overlap, which is in few pixels.
     assert!(faded > 200, "{faded} pixels behind water");
 }
 
 type Change = (&'static str, fn(&mut SpraySettings));
 
-/// Every setting at its ends, and particles about the eye, at no place and at no speed.
+/// Checks every setting at both ends of its range, with particles around the eye and particles with
+/// invalid positions and velocities.
 #[test]
 fn spray_of_all_settings_is_the_twins() {
     let gpu = Gpu::shared();
@@ -219,7 +227,7 @@ fn spray_of_all_settings_is_the_twins() {
         ("default", |look| *look = SpraySettings::default()),
         ("source", |look| *look = SpraySettings::SOURCE),
         ("spread-0", |look| look.scatter_radius = 0.0),
-        // Droplets beyond the near plane of centres before it.
+        // Droplets may lie beyond the near plane although their particle's centre lies before it.
         ("spread-small", |look| look.scatter_radius = 0.3),
         ("spread-8", |look| look.scatter_radius = 8.0),
         ("stretch-0.05", |look| look.stretch = 0.05),
@@ -254,13 +262,13 @@ fn spray_of_all_settings_is_the_twins() {
             let mut look = SpraySettings::default().with(|it| it.size = 1.5);
             change(&mut look);
             let mut points = scenes::cloud(8, 90, from, to);
-            // Just before and just behind what they begin at.
+            // Particles just before and just behind the two distances at which spray begins.
             for limit in [scenes::NEAR, 2.0 * look.scatter_radius * radius / 0.656] {
                 points.extend([0.97, 0.99, 1.01, 1.03].map(|d| [0.0, 0.0, d * limit.max(0.01)]));
             }
             let mut case = Sprayed::of(Shot::new(size, Lens::OffAxis, radius, &points), 20.0);
             *case.look() = look;
-            // Pixels twice as wide as high.
+            // Pixels are twice as wide as they are high.
             case.shot.camera = scenes::camera(Lens::OffAxis, extent(194, 61));
             case.shot.positions[1][i] = f32::NAN;
             case.shot.positions[5][i] = -2e18;
@@ -272,14 +280,15 @@ fn spray_of_all_settings_is_the_twins() {
             densities[90..].fill(300.0);
             let drawn = case.draw(&mut rig);
             let (_, covered) = case.check(&format!("spray-{name}-{near}"), &drawn);
-            // Of the least size mist is left.
+            // Even at the smallest droplet size, mist is drawn.
             assert!(covered > 0, "{name}");
         }
     }
 }
 
-/// More particles than can be bound at once, without ids too: their number goes on from chunk to
-/// chunk. Packets are culled by the centres' boxes: nothing of what shows.
+/// There are more particles than one binding holds. Without ids, a particle's number continues from
+/// chunk to chunk. Packets are culled by boxes around the particles' centres; this must not remove
+/// any spray that shows.
 #[test]
 fn chunks_and_packets_of_spray_are_the_twins() {
     let gpu = Gpu::shared();
@@ -299,7 +308,7 @@ fn chunks_and_packets_of_spray_are_the_twins() {
     }
 }
 
-/// Spray alone, over the scene.
+/// Spray alone lies over the scene, without water.
 #[test]
 fn spray_lies_over_the_scene() {
     let gpu = Gpu::shared();
@@ -332,7 +341,8 @@ fn spray_lies_over_the_scene() {
     }
 }
 
-/// Spray of no opacity is none, whatever water and foam are: over that picture lies the other.
+/// Spray of opacity 0 is invisible. The test draws it over water and foam, and then checks that
+/// visible spray lies over that picture.
 #[test]
 fn spray_lies_over_water_and_foam() {
     let gpu = Gpu::shared();
@@ -372,7 +382,7 @@ fn without_spray_nothing_changes() {
     let mut rig = Rig::lit(&gpu, &spraying(size), 1);
     let mut case = Sprayed::new(size, Lens::Standard, 10.0);
     case.draw(&mut rig);
-    // The frame before is not seen in this one.
+    // A frame without spray shows nothing of the spray in the frame before.
     for densities in [None, Some(vec![851.0; case.shot.positions.len()])] {
         case.shot.densities = densities;
         let (drawn, expected) = (case.draw(&mut rig), case.draw(&mut plain));
@@ -380,7 +390,7 @@ fn without_spray_nothing_changes() {
         compare::same("spray-none-depth", &drawn.depth, &expected.depth);
         nearly(&drawn, &expected, "spray-none");
     }
-    // No setting of it counts where it is not drawn.
+    // In a renderer without spray, no spray setting changes the picture.
     let mut case = Sprayed::new(size, Lens::Standard, 10.0);
     let expected = case.draw(&mut plain);
     *case.look() = SpraySettings::SOURCE.with(|it| {
@@ -395,7 +405,8 @@ fn pick<T: Copy>(all: &[T], order: &[usize]) -> Vec<T> {
     order.iter().map(|i| all[*i]).collect()
 }
 
-/// In another order, and in a part of another image, it is the same but for the order of the sums.
+/// With the particles in another order and in a part of a larger image, spray is the same except
+/// for the order of the sums.
 #[test]
 fn spray_goes_by_ids_not_by_places() {
     let gpu = Gpu::shared();
@@ -425,8 +436,8 @@ fn spray_goes_by_ids_not_by_places() {
     assert_ne!(of(&still).data, of(&first).data, "the velocities show");
 }
 
-/// Odd sizes, of the frame and of the part of the image it is; smaller ones than it was made for;
-/// no particles, and all behind the eye.
+/// Frames of odd sizes, as a part of a larger image and smaller than the renderer's extent; also a
+/// frame without particles, and one whose particles all lie behind the eye.
 #[test]
 fn spray_of_any_size() {
     let gpu = Gpu::shared();
@@ -444,7 +455,8 @@ fn spray_of_any_size() {
         case.shot.densities.as_mut().expect("densities").fill(1.0);
         let drawn = case.draw(&mut rig);
         case.check_over(&format!("spray-{width}x{height}"), &drawn, &case.shot.color);
-        // Where a pixel is as wide as a fourth of the view all are too near.
+        // With so few rows a pixel covers a quarter of the view or more, and all particles are too
+        // near to be drawn.
         assert!(of(&drawn).data.iter().any(|x| *x > 0.0) == (height > 3), "{width}x{height}");
         let back = vec![[0.0, 0.0, -3.0]; case.shot.positions.len()];
         case.shot.positions = scenes::world(&case.shot.camera, &back);
@@ -457,8 +469,8 @@ fn spray_of_any_size() {
     }
 }
 
-/// A few droplets where there is nothing else, in every corner and in the midst: drawn whole at all
-/// levels of the smoothing, and where near water shows a coarser one.
+/// Few droplets in the corners and the middle, with nothing else in their tiles. They are drawn
+/// completely at all smoothing levels, and also where near water uses a coarser level.
 #[test]
 fn tiles_with_spray_alone_are_drawn() {
     let gpu = Gpu::shared();
@@ -474,7 +486,7 @@ fn tiles_with_spray_alone_are_drawn() {
         let mut rig = Rig::lit(&gpu, &levels.with(|it| it.composite = Some(shading)), 1);
         let row: Vec<_> = (-30_i8..=30).map(|x| [f32::from(x) / 4.0, 0.9, 2.0]).collect();
         let mut points = row.clone();
-        // In halves of the view.
+        // Droplet positions are given in halves of the view.
         let high = 2.0 * 30.0_f32.to_radians().tan();
         let droplets = [(-0.995, -0.98), (0.995, -0.98), (0.1, -0.5), (-0.6, -0.2), (0.7, -0.7)];
         points.extend(droplets.map(|(x, y)| [x * high * 263.0 / 150.0, y * high, 2.0]));
@@ -499,8 +511,8 @@ fn tiles_with_spray_alone_are_drawn() {
     }
 }
 
-/// One that flies straight at the eye is as at rest, at any speed: what rounding leaves of its
-/// motion across the view is no direction.
+/// A particle that flies straight at the eye is drawn as if at rest, at any speed: its motion
+/// across the view is only rounding error and must not become a direction.
 #[test]
 fn straight_at_the_eye_spray_is_round() {
     let gpu = Gpu::shared();
@@ -523,8 +535,8 @@ fn straight_at_the_eye_spray_is_round() {
     }
 }
 
-/// Stripes of shade over spray: each droplet is lit by the sun at its own place. Beside a dark one of
-/// the same particle there are others in the sun.
+/// Stripes of shade fall on spray. Each droplet is lit at its own position, so one particle has
+/// dark and bright droplets.
 #[test]
 fn each_droplet_has_its_own_sun() {
     let gpu = Gpu::shared();
@@ -541,8 +553,8 @@ fn each_droplet_has_its_own_sun() {
         let sun = Vec3::new(0.5, 0.8, 0.3).normalize();
         let light = Mat4::look_at_rh(middle + 20.0 * sun, middle, Vec3::Y);
         let view_projection = Mat4::orthographic_rh(-9.0, 9.0, -9.0, 9.0, 1.0, 40.0) * light;
-        // So many metres a texel that a comparison's filter is narrower than a stripe, and a stripe than
-        // the droplets of a particle lie apart.
+        // A stripe is wider than the comparison's filter, and narrower than the distance between a
+        // particle's droplets.
         let map = Image::from_fn(96, 96, |x, y| f32::from(u8::from((x + y / 2) / 5 % 2 == 0)));
         let image = shadows(&rig, Shadows::Map, &map);
         case.shot.settings.light.direction = sun.to_array();
@@ -578,7 +590,7 @@ fn each_droplet_has_its_own_sun() {
         compare::between(&name, of(&drawn), &twin.bounds);
         compare::between(&name, found, &twin.lit);
         let mixed = kinds.into_inner().into_values().filter(|n| n.iter().all(|n| *n > 0)).count();
-        // Of a hundred particles with spray.
+        // About a hundred particles have spray.
         assert!(mixed > 30 || droplets == 1, "{name}: {mixed} particles in sun and shade");
         let by_particle = spray(&|particle, _, by| shade.past(particle.position, by));
         let other = fails(|| compare::between("planted-own-sun", found, &by_particle.lit));
@@ -586,7 +598,8 @@ fn each_droplet_has_its_own_sun() {
     }
 }
 
-/// Torn water: a cloud, a sheet seen from its edge and one from before, a strand, a pair and lone ones.
+/// Torn water: a cloud, a sheet seen edge-on, a sheet seen from the front, a strand, a pair and
+/// single particles.
 fn torn(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Sprayed {
     let mut shot = Shot::new(size, lens, 0.1, &scenes::cloud(31, 60, 2.0, 9.0));
     let before = facing(&shot);
@@ -610,7 +623,8 @@ fn shaped(size: ash::vk::Extent2D) -> Config {
     spraying(size).with(|it| it.kernels = Kernels::Ellipsoids)
 }
 
-/// Droplets fill the ellipsoids that pass `shape` has found, mist is their shadow; one droplet is as ever.
+/// Droplets fill the ellipsoids that pass `shape` found, and mist is the ellipsoids' projection. A
+/// particle with a single droplet is drawn as without shapes.
 #[test]
 fn shaped_spray_is_the_twins() {
     let gpu = Gpu::shared();
@@ -628,7 +642,7 @@ fn shaped_spray_is_the_twins() {
             let drawn = case.draw(&mut rig);
             let (_, covered) = case.check(&name, &drawn);
             assert!(covered > 800, "{name}: {covered} pixels");
-            // Balls would be something else.
+            // Spray drawn as balls differs.
             let balls = Drawn { shapes: None, ..drawn };
             let other = fails(|| {
                 case.check("planted-balls", &balls);
@@ -638,7 +652,8 @@ fn shaped_spray_is_the_twins() {
     }
 }
 
-/// A ratio of 1, and spheres with any, are spray as it was without shapes: to the bit.
+/// A strand ratio of 1, and spheres with any ratio, give the spray of a renderer without shapes, to
+/// the bit.
 #[test]
 fn round_spray_is_as_without_shapes() {
     let gpu = Gpu::shared();
@@ -646,7 +661,8 @@ fn round_spray_is_as_without_shapes() {
     let mut ellipsoids = Rig::new(&gpu, &shaped(size));
     let mut spheres = Rig::new(&gpu, &spraying(size));
     let mut case = torn(size, Lens::Standard, 20.0);
-    // No water: its ellipsoids would hide other spray than its spheres.
+    // No particle is dense enough to be water, because water's ellipsoids would hide other spray
+    // than its spheres do.
     let mut random = Random(2);
     let densities = case.shot.densities.as_mut().expect("densities");
     densities.iter_mut().for_each(|d| *d = random.between(1.0, 600.0));
@@ -660,8 +676,9 @@ fn round_spray_is_as_without_shapes() {
     compare::same("spray-round-spheres", of(&case.draw(&mut spheres)), of(&round));
 }
 
-/// By measure: mist of a sheet that is seen from its edge is as much longer than high as its ellipsoid. With the ratio r its
-/// half-axes are those of 1 : 1 : 1/r, and the kernel's variances go by their squares.
+/// Mist of a sheet seen edge-on is as much wider than high as its ellipsoid. With ratio r the
+/// half-axes are 1 : 1 : 1/r; the test measures the image's variances, which are proportional to
+/// their squares.
 #[test]
 fn mist_of_a_sheet_is_flat() {
     let gpu = Gpu::shared();
@@ -672,7 +689,7 @@ fn mist_of_a_sheet_is_flat() {
     shot.positions = lattice(&shot, [0.0, 0.0, 3.0], edge, [4, 4, 0]);
     let middle = shot.positions.len() / 2;
     let mut case = Sprayed::of(shot, 0.0);
-    // The others are water, which is too thin to hide what is in it.
+    // The other particles are water, too thin to hide the mist.
     let densities = case.shot.densities.as_mut().expect("densities");
     densities.fill(0.0);
     densities[middle] = 100.0;
@@ -698,8 +715,9 @@ fn mist_of_a_sheet_is_flat() {
     }
 }
 
-/// A dense strip of spray between thin spray: on the side away from the sun there is less light, on the other as much as
-/// without; none of it without relief, nor where spray is even.
+/// A dense strip of spray lies in thin spray. Relief darkens the thin spray on the side of the
+/// strip away from the sun, and not on the side towards the sun. Without relief, and in even spray,
+/// nothing changes.
 #[test]
 fn relief_shades_the_side_away_from_the_sun() {
     let gpu = Gpu::shared();
@@ -712,7 +730,7 @@ fn relief_shades_the_side_away_from_the_sun() {
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut shot = Shot::new(size, Lens::Standard, 0.05, &[]);
         shot.color.fill([0.0, 0.0, 0.0, 1.0]);
-        // One droplet each, of many pixels: even but for the strip.
+        // Each particle has one droplet of many pixels, so the spray is even except for the strip.
         let grid = |x: std::ops::RangeInclusive<i16>, step: f32| {
             let row = move |y: i16| {
                 x.clone().map(move |x| [f32::from(x) * step, f32::from(y) * step, 6.0])
@@ -733,7 +751,7 @@ fn relief_shades_the_side_away_from_the_sun() {
                 (look.scatter_radius, look.relief) = (0.0, relief);
                 let cloud = rig.particles(&case);
                 let drawn = rig.draw_particles(&case, &cloud.particles());
-                // Radiance of spray, of the middle rows.
+                // Radiance of the spray: mean over the middle rows.
                 let row = |x: usize| {
                     let all = (80..100).map(|y| {
                         let kept = (-of(&drawn).at(x, y)).exp();
@@ -747,7 +765,8 @@ fn relief_shades_the_side_away_from_the_sun() {
             let (without, with) = (light(&all, 0.0), light(&all, 1.5));
             let smooth = (light(&even, 0.0), light(&even, 1.5));
             let name = format!("{shading:?} {side}");
-            // Seen from the strip's middle, away from the sun and towards it; this lens' pictures are not mirrored.
+            // Column at a distance from the strip's middle, positive away from the sun. This lens
+            // does not mirror the picture.
             let at = |all: &[f32], away: f32| all[(99.5 - side * away) as usize];
             let lost = |away| at(&with, away) / at(&without, away);
             let sides = [6.0, 8.0, 10.0, 12.0, 14.0].map(|d| [lost(d), lost(-d)]);

@@ -1,8 +1,9 @@
-//! Temporal stability of foam: no pixel changes by more than motion and phases explain.
+//! Temporal stability of foam: no pixel changes by more than motion and foam phases explain.
 //!
-//! A frame is laid over the one before by its own vectors, and what is left is a change of display values
-//! (sRGB, 0 to 1), of pixels that are well inside what the vectors are of. Sequences are drawn at two time
-//! steps too: what is continuous changes less in a shorter step, what pops does not.
+//! Each frame is compared with the frame before, looked up by its motion vectors. What remains is a
+//! change of display values (sRGB, 0 to 1), measured at pixels well inside the moving body. Some
+//! sequences are also drawn with two time steps: a continuous change gets smaller in a shorter
+//! step, and a pop does not.
 
 use glam::{DVec2, Mat4, Vec3};
 use whitewater::water::SurfaceFoamSettings;
@@ -18,12 +19,13 @@ use crate::surface_foam::Foamy;
 
 const WIDTH: u32 = 192;
 const HEIGHT: u32 = 120;
-/// One step of a display of 8 bits.
+/// One step of an 8-bit display.
 const STEP: f64 = 1.0 / 255.0;
-/// Pixels from what a vector may be of something else in: two texels of the thickness.
+/// Distance from an outline, in pixels, within which a vector may belong to another body: two
+/// texels of the thickness.
 const MARGIN: isize = 8;
 
-/// A renderer of foam that moves.
+/// A renderer of moving foam.
 fn moving(thickness_level: u32) -> Config {
     config(extent(WIDTH, HEIGHT)).with(|it| {
         it.surface_foam = true;
@@ -33,7 +35,7 @@ fn moving(thickness_level: u32) -> Config {
     })
 }
 
-/// A block of foam before the middle of the view, so many pixels from particle to particle.
+/// A block of foam in the middle of the view, with `pixels` pixels between particles.
 fn block(pixels: f32, layers: usize) -> Foamy {
     let size = extent(WIDTH, HEIGHT);
     let depth = 4.0;
@@ -71,7 +73,7 @@ fn bilinear(image: &Image<[f64; 3]>, at: DVec2) -> [f64; 3] {
     sum
 }
 
-/// A frame, and which of its pixels lie inside what their vectors are of.
+/// A frame, and which of its pixels are at least MARGIN away from an outline.
 struct Seen {
     drawn: Drawn,
     picture: Image<[f64; 3]>,
@@ -96,7 +98,7 @@ impl Seen {
         Self { drawn, picture, inside }
     }
 
-    /// What is left of each pixel's change, largest of its channels; and the change where it stands.
+    /// For each pixel, the largest change of a channel: along the vector, and at the pixel itself.
     fn changes(&self, before: &Self) -> [Vec<f64>; 2] {
         let motion = self.drawn.motion.as_ref().expect("motion");
         let mut found = [Vec::new(), Vec::new()];
@@ -119,14 +121,14 @@ impl Seen {
     }
 }
 
-/// Changes of many pixels.
+/// Statistics of the changes of many pixels.
 #[derive(Clone, Copy, Debug)]
 struct Census {
     count: usize,
     mean: f64,
-    /// 95 of a hundred are less.
+    /// The 95th percentile.
     most: f64,
-    /// Share of those of more than eight steps.
+    /// Fraction of changes of more than eight display steps.
     over: f64,
 }
 
@@ -141,20 +143,21 @@ fn census(mut all: Vec<f64>) -> Census {
     }
 }
 
-/// What goes wrong from frame to frame.
+/// A fault that makes foam flicker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fault {
-    /// Another noise a frame.
+    /// Each frame has another noise.
     Reseeded,
-    /// Noise that follows the place in the list, which changes.
+    /// Noise depends on the particle's index, which changes.
     Shuffled,
-    /// Every third particle is foam or not by turns.
+    /// Every third particle alternates between foam and water.
     Switched,
-    /// Sprites wider by a quarter by turns.
+    /// Sprites alternate between two sizes, a quarter apart.
     Resized,
 }
 
-/// Spacings of a block in pixels; how it moves, pixels a frame; the camera too.
+/// A sequence: particle spacing in pixels, amount of foam, motion in pixels per frame, and whether
+/// the camera pans.
 #[derive(Clone, Copy, Debug)]
 struct Take {
     pixels: f32,
@@ -168,7 +171,7 @@ struct Take {
 const DT: f32 = 1.0 / 60.0;
 
 impl Take {
-    /// Frame n.
+    /// Frame n of the sequence.
     fn frame(&self, n: u32) -> Foamy {
         let mut case = block(self.pixels, self.layers);
         let shot = &mut case.shot;
@@ -178,7 +181,7 @@ impl Take {
         let time = n as f32 * DT;
         shot.positions.iter_mut().for_each(|p| *p = (Vec3::from(*p) + velocity * time).to_array());
         let first = shot.camera;
-        // It looks aside by a pixel and a half a frame, and goes nearer.
+        // The camera turns by a pixel and a half per frame, and approaches.
         let pan = |n: f32| Camera {
             view: (Mat4::from_translation(Vec3::new(0.0, 0.0, 0.01 * n))
                 * Mat4::from_rotation_y(0.014 * n)
@@ -206,7 +209,7 @@ impl Take {
         case
     }
 
-    /// What is left of the changes of three frames, and what they are without the vectors.
+    /// Statistics of three frames' changes: along the vectors, and without them.
     fn changes(&self, rig: &mut Rig<'_>) -> [Census; 2] {
         let mut before = Seen::new(&self.frame(0), rig);
         let mut all = [Vec::new(), Vec::new()];
@@ -221,8 +224,8 @@ impl Take {
     }
 }
 
-/// What a display shows of a rigid body whose vectors are known: most of it is sampling, of sprites that are
-/// a texel and a half in radius at the least. At full resolution a pixel is a texel.
+/// Bounds for a rigid body whose vectors are exact. What remains is mostly sampling, of sprites
+/// with a min radius of a texel and a half; at full resolution a texel is a pixel.
 fn bounds(level: u32) -> Census {
     let [mean, most, over] = if level == 0 { [2.0, 5.0, 0.01] } else { [4.0, 8.0, 0.05] };
     Census { count: 5000, mean: mean * STEP, most: most * STEP, over }
@@ -233,7 +236,7 @@ fn is_steady(found: &Census, level: u32) -> [bool; 3] {
     [found.mean <= bounds.mean, found.most <= bounds.most, found.over <= bounds.over]
 }
 
-/// A rigid body of foam that passes by, before a camera at rest and one that goes along, near and far.
+/// A rigid body of foam passes by, before a camera at rest and one that moves, near and far.
 #[test]
 fn what_moves_as_one_does_not_flicker() {
     let gpu = Gpu::shared();
@@ -267,7 +270,7 @@ fn what_moves_as_one_does_not_flicker() {
     }
 }
 
-/// The same with each fault: no measure lets it pass.
+/// The same sequences with each fault exceed every bound.
 #[test]
 fn planted_flicker_is_seen() {
     let gpu = Gpu::shared();
@@ -284,9 +287,10 @@ fn planted_flicker_is_seen() {
     }
 }
 
-/// At rest thickness changes by the phases and the noise alone: a share of T, that of whole foam without
-/// noise. With g the strength of the noise, N its reach and L its slope by a cell, a frame adds at most
-/// df (1 + g N) + f g L r dt of it, and half a step of each sprite in either frame.
+/// At rest, the thickness changes only by phases and noise. With T the thickness of whole foam
+/// without noise, g the noise's strength, N its max and L its slope per cell, a frame changes T by
+/// a fraction of at most df (1 + g N) + f g L r dt, plus half a fixed-point step of each sprite in
+/// both frames.
 #[test]
 fn thickness_changes_by_phases_and_noise_alone() {
     let gpu = Gpu::shared();
@@ -295,7 +299,7 @@ fn thickness_changes_by_phases_and_noise_alone() {
         let mut whole = block(8.0, 3);
         whole.shot.settings.surface_foam.noise = 0.0;
         let whole = whole.draw(&mut rig).foam.expect("foam").thickness;
-        // The fastest phase.
+        // The fastest change of the foam's phase.
         let (dt, slope) = (f64::from(DT), 1.0 / 0.25);
         let mut before: Option<Image<[f32; 2]>> = None;
         let (mut moved, mut wrong) = (0, 0);
@@ -312,7 +316,8 @@ fn thickness_changes_by_phases_and_noise_alone() {
             let (g, rate) = (f64::from(look.noise), f64::from(look.noise_rate));
             let share =
                 dt * slope * (1.0 + g * noise_reach()) + foam * g * noise_slope() * rate * dt;
-            // Sprites of 2 x 0.656 spacings in radius, or of six pixels: 40 of three layers at most.
+            // Sprites have a radius of 2 x 0.656 spacings or six pixels: at most 40 of three layers
+            // overlap.
             let slack = 40.0 * spacing.log2().floor().exp2() / 2048.0;
             let now = case.draw(&mut rig).foam.expect("foam").thickness;
             if let Some(before) = &before {
@@ -333,9 +338,9 @@ fn thickness_changes_by_phases_and_noise_alone() {
     }
 }
 
-/// The pattern goes along with foam that goes as one: thickness, looked up where it was a frame before, is as it
-/// was, but for what sampling makes of it; and where it is told that no time goes by, it is not. Its phases last so
-/// long that they do not change.
+/// The pattern moves with foam that moves as a rigid body: thickness, looked up at its previous
+/// position, changes only by sampling. If the pattern's time stands still, it stays behind. Its
+/// period is so long that its phases do not change.
 #[test]
 fn the_pattern_goes_with_the_foam() {
     let gpu = Gpu::shared();
@@ -347,13 +352,13 @@ fn the_pattern_goes_with_the_foam() {
             let mut case = take.frame(n);
             let look = &mut case.shot.settings.surface_foam;
             (look.pattern, look.pattern_period, look.noise) = (pattern, 1000.0, 0.0);
-            // A tenth of a period from where both phases are as strong.
+            // A tenth of a period after both phases have equal weights.
             look.time = 350.0 + if left { 0.0 } else { f64::from(n as f32 * DT) };
             case.draw(rig).foam.expect("foam").thickness
         });
         let (mut off, mut all) = (0.0, 0.0);
         for (x, y) in (30..150).flat_map(|x| (30..90).map(move |y| (x, y))) {
-            // Whole pixels a frame.
+            // The foam moves whole pixels per frame.
             let was = f64::from(before.at(x - 12, y + 6)[0]);
             off += (f64::from(now.at(x, y)[0]) - was).abs();
             all += was;
@@ -363,14 +368,15 @@ fn the_pattern_goes_with_the_foam() {
     let [bare, carried, left] =
         [(0.0, false), (1.0, false), (1.0, true)].map(|(p, left)| share(&mut rig, p, left));
     println!("{bare:.5} without one, {carried:.5} with one, {left:.5} where it is left");
-    // A tenth of what it would be.
+    // Less than a tenth of the change of a pattern that stays behind.
     assert!(carried < bare + 0.1 * left && left > 0.2, "{bare}, {carried}, {left}");
 }
 
-/// Foam at rest has a pattern that changes by its phases alone. With s its strength, h its heights, N the reach of the
-/// noise, its logarithm changes by at most s (sum of h) N w' dt. A weight is `a / sqrt(a^2 + (1 - a)^2)` with a slope
-/// of 1.6 at most, a goes from 0 to 1 in half a period; w' is that of both. What is taken off for the finest octave is
-/// half the noise's mean square by s h w, squared.
+/// For foam at rest the pattern changes only by its phases. With s its strength, h its heights and
+/// N the noise's max, its logarithm changes by at most s (sum of h) N w' dt. A weight is `a /
+/// sqrt(a^2 + (1 - a)^2)`, whose slope is at most 1.6; a goes from 0 to 1 in half a period; w' sums
+/// both phases. The correction for the finest octave is half the noise's mean square times (s h
+/// w)^2.
 #[test]
 fn the_pattern_changes_by_its_phases_alone() {
     let gpu = Gpu::shared();
@@ -381,7 +387,7 @@ fn the_pattern_changes_by_its_phases_alone() {
     let weights = 2.0 * 1.6 * 2.0;
     let variance = 2.0 * 0.5 * 0.073 * (strength * 1.1_f64).powi(2) * 1.6 * 2.0;
     let bound = dt * (weights * strength * heights * noise_reach() + variance);
-    // Over the end of a period of either phase; and by leaps.
+    // Across the ends of both phases' periods; then with leaps in time.
     for step in [dt, 60.0 * dt] {
         let mut before: Option<Image<[f32; 2]>> = None;
         let (mut moved, mut most) = (0, 0.0_f64);
@@ -405,7 +411,8 @@ fn the_pattern_changes_by_its_phases_alone() {
     }
 }
 
-/// A sequence by time, from 0 to 1 in so many frames: the largest change of a pixel in a frame, and of all.
+/// Draws a sequence from t = 0 to 1 in `frames` frames. Returns the max change of a pixel per
+/// frame, and over the whole sequence.
 fn steps(rig: &mut Rig<'_>, frames: u32, half: u32, of: impl Fn(f32) -> Foamy) -> (f64, f64) {
     let (mut most, mut before) = (0.0_f64, None::<Seen>);
     let count = (WIDTH * HEIGHT) as usize;
@@ -433,11 +440,11 @@ fn steps(rig: &mut Rig<'_>, frames: u32, half: u32, of: impl Fn(f32) -> Foamy) -
     (most, range.map(|(i, c)| high[i][c] - low[i][c]).fold(0.0, f64::max))
 }
 
-/// Nothing pops where particles become foam and water again, and where foam moves past the end of the front
-/// layer. Over a fifth of the time no pixel changes by more than half of what it
-/// does over the whole: of what is continuous it is a fifth, or a bit more where it bends, of what pops
-/// all. Nor in any frame by more than ten times the mean that takes it from end to end: a veil's foam
-/// goes by thickness to the power 4 at most, and a display's scale is up to 2.5 times as steep in the dark.
+/// Foam appears, disappears and moves past the end of the front layer without a pop. In a fifth of
+/// the time, a continuous change is about a fifth of the whole change; a pop would be all of it, so
+/// the bound is half. In one frame no pixel changes by more than ten times the mean: thin foam goes
+/// with thickness to the power 4 at most, and the display's curve is up to 2.5 times as steep in
+/// the dark.
 #[test]
 fn foam_comes_and_goes_without_a_pop() {
     let gpu = Gpu::shared();
@@ -448,7 +455,7 @@ fn foam_comes_and_goes_without_a_pop() {
         ("passes", 0, 1, false),
         ("switched", 2, 1, true),
     ] {
-        // At full resolution in the long tests.
+        // The slow test also runs at full resolution.
         if level == 0 && !crate::support::slow() {
             continue;
         }
@@ -474,15 +481,15 @@ fn foam_comes_and_goes_without_a_pop() {
     }
 }
 
-/// A drop that is foam in part lands on a pool: two sheets become one. What one sees between its spheres and
-/// on them differs by what is mirrored alone, so that a pixel that goes from one to the other does not show.
+/// A drop that is partly foam lands on a pool, and two sheets become one. Pixels between the drop's
+/// spheres and on them differ only by reflection, so the transition does not show.
 #[test]
 fn foam_lands_without_a_pop() {
     let gpu = Gpu::shared();
     let mut rig = Rig::lit(&gpu, &moving(2).with(|it| it.sheets = 2), 1);
-    // A deep pool mirrors and bends more.
+    // A deeper pool reflects and refracts more.
     for (layers, bound) in [(3, 8.0), (10, 10.0)] {
-        // Well within the drop.
+        // Only pixels well inside the drop.
         let (most, all) = steps(&mut rig, 50, 18, |t| landing(t, layers));
         let found = format!("{layers} layers: {most:.4} of {all:.4} in a fiftieth");
         println!("{found}");
@@ -490,7 +497,7 @@ fn foam_lands_without_a_pop() {
     }
 }
 
-/// Foam that comes and goes, of particles at rest.
+/// Particles at rest whose foam grows and vanishes.
 fn growing(t: f32) -> Foamy {
     let mut case = block(6.0, 3);
     let foam = 1.0 - (2.0 * t - 1.0).abs();
@@ -498,7 +505,7 @@ fn growing(t: f32) -> Foamy {
     case
 }
 
-/// A drop of foam that comes down on a pool of so many layers, away from the eye: two sheets become one.
+/// A drop of foam sinks onto a pool of `layers` layers, and two sheets become one.
 fn landing(t: f32, layers: usize) -> Foamy {
     let mut case = block(5.0, layers);
     let spacing = case.shot.settings.water.spacing;
@@ -514,7 +521,7 @@ fn landing(t: f32, layers: usize) -> Foamy {
     case
 }
 
-/// Foam that falls back behind other foam, past the end of the front layer.
+/// Foam that moves back behind other foam, past the end of the front layer.
 fn passing(t: f32) -> Foamy {
     let mut case = block(8.0, 1);
     let spacing = case.shot.settings.water.spacing;

@@ -1,4 +1,4 @@
-//! Pass `thickness`: metres of water along z, against the twin.
+//! Compares pass `thickness`, metres of water along the view's z axis, with its CPU twin.
 
 use whitewater::water::{Amplitude, Splat};
 
@@ -45,7 +45,8 @@ fn it_is_the_twins_through_every_lens() {
     }
 }
 
-/// Many layers, large sprites, sprites before the near plane, odd sizes, quarter resolution.
+/// Many layers, large sprites, sprites before the near plane, odd sizes and a quarter of the
+/// resolution.
 #[test]
 fn sums_of_many_and_of_large_sprites() {
     let gpu = Gpu::shared();
@@ -71,8 +72,8 @@ fn sums_of_many_and_of_large_sprites() {
     }
 }
 
-/// Mean and deviation of what the pixels add up to of a sprite of a half-axis in pixels, wherever it
-/// lies against them, as a part of its integral.
+/// Mean and standard deviation of the sum over pixels of a sprite with this half-axis in pixels,
+/// over all positions within a pixel, as a fraction of its integral.
 fn sampled(half: f64) -> (f64, f64) {
     let reach = half.ceil() as i32 + 1;
     let pixels = || (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| (x, y)));
@@ -91,8 +92,9 @@ fn sampled(half: f64) -> (f64, f64) {
     (mean, square.sqrt())
 }
 
-/// The integral of the thickness over the plane the particles lie in is their volume, however small
-/// a sprite is against a pixel: none is lost between pixels, none counts for more by being widened.
+/// The integral of the thickness over the plane of the particles is their volume, however small
+/// sprites are compared with a pixel: none falls between pixels, and widened sprites do not add
+/// volume.
 #[test]
 fn the_volume_is_kept_at_every_distance() {
     let gpu = Gpu::shared();
@@ -110,7 +112,7 @@ fn the_volume_is_kept_at_every_distance() {
                 let view = Shot::new(size, Lens::Standard, 1.0, &[]).view(size).reduced(level);
                 let pixel = view.c_x() * f64::from(depth);
                 let radius = (axis * pixel / 2.0) as f32;
-                // All of every sprite in the image.
+                // All sprites lie entirely in the image.
                 let (x, y) = (view.width as f32 / 2.0 - 3.0, view.height as f32 / 2.0 - 3.0);
                 let mut random = Random(31);
                 let mut within = |n: f32| random.between(-n, n) * pixel as f32;
@@ -125,12 +127,14 @@ fn the_volume_is_kept_at_every_distance() {
                 let drawn_axis = axis.max(1.0);
                 let (mean, deviation) = sampled(drawn_axis);
                 assert!((mean - 1.0).abs() < 1e-3, "{mean}");
-                // In fixed point each of pi h^2 addends is off by up to half a unit, 1/12 squared in
-                // the mean, of the pi J h^2 that they make; the unit is of the unwidened sprite.
+                // In fixed point each of about pi h^2 terms errs by up to half a unit, with a
+                // variance of 1/12 units, of a sum of pi J h^2. The unit refers to the sprite
+                // before it is widened.
                 let unit =
                     if sum == Sum::Fixed { (drawn_axis / axis).powi(2) / UNITS } else { 0.0 };
                 let fixed = unit / (12.0 * PI).sqrt() / J / drawn_axis;
-                // Five deviations of the mean, and a thousandth for that of `sampled` and rounding.
+                // Five standard deviations of the mean, and 1/1000 for the error of `sampled` and
+                // for rounding.
                 let most = 5.0 * deviation.hypot(fixed) / f64::from(count).sqrt() + 1e-3;
                 let off = found / volume - 1.0;
                 if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
@@ -142,7 +146,7 @@ fn the_volume_is_kept_at_every_distance() {
     }
 }
 
-/// The source's unit: the same sums, times its height over ours.
+/// The source's amplitude gives the same sums, scaled by the ratio of the amplitudes.
 #[test]
 fn the_sources_amplitude() {
     let gpu = Gpu::shared();
@@ -158,7 +162,7 @@ fn the_sources_amplitude() {
         let ours = f64::from(water.spacing).powi(3) / (PI * J * axis * axis);
         let ratio = 0.8 * 2.0 * axis / ours;
         for (a, b) in volume.data.iter().zip(&source.data) {
-            // Each height is rounded a few times; a float sum once an addend.
+            // Amplitudes are rounded a few times, float sums once per term.
             let (expected, found) = (f64::from(*a) * ratio, f64::from(*b));
             assert!((found - expected).abs() <= 600.0 * U * expected, "{found}, not {expected}");
         }
@@ -166,8 +170,8 @@ fn the_sources_amplitude() {
     }
 }
 
-/// However many particles lie on one spot, no sum overflows: they are as many times one of them, to
-/// the rounding of floats. Slow: ten million, in chunks.
+/// However many particles lie on one spot, no sum overflows: it is that many times the thickness of
+/// one particle, to float rounding. The slow test has ten million, in chunks.
 #[test]
 fn any_number_of_particles_on_one_spot() {
     let gpu = Gpu::shared();
@@ -178,7 +182,8 @@ fn any_number_of_particles_on_one_spot() {
     }
     for count in counts {
         let mut rig = Rig::new(&gpu, &config(size).with(|it| it.max_particles = count));
-        // Just no spray, a particle has half the radius and four times the amplitude.
+        // A particle just dense enough not to be spray has half the radius and four times the
+        // amplitude.
         for (name, density) in [("whole", 1000.0), ("half", 350.1)] {
             let draw = |rig: &mut Rig<'_>, count: u32| {
                 let points = vec![[0.1, -0.2, 4.0]; count as usize];
@@ -190,7 +195,7 @@ fn any_number_of_particles_on_one_spot() {
             assert!(one.data.iter().any(|t| *t > 0.0), "{name}: there is water");
             for (one, many) in one.data.iter().zip(&many.data) {
                 let expected = f64::from(*one) * f64::from(count);
-                // Two conversions, a sum and a product each.
+                // Two conversions, a sum and a product for each.
                 let off = (f64::from(*many) - expected).abs();
                 assert!(off <= 8.0 * U * expected, "{count} {name}: {many}, not {expected}");
             }
@@ -198,7 +203,7 @@ fn any_number_of_particles_on_one_spot() {
     }
 }
 
-/// Sums of more than a word, of sprites that all differ: the same bits in any order.
+/// Sums of more than one word of different sprites give the same bits in any order.
 #[test]
 fn carries_come_in_any_order() {
     let gpu = Gpu::shared();
@@ -211,7 +216,7 @@ fn carries_come_in_any_order() {
     let [first, second] = [points, mixed].map(|points| {
         let shot = Shot::new(size, Lens::Standard, 1.0, &points);
         let spacing = f64::from(shot.settings.water.spacing);
-        // A word holds 256 whole amplitudes, that of a volume over its sprite's integral.
+        // A word holds 256 whole amplitudes; an amplitude is the volume over the sprite's integral.
         let word = 256.0 * spacing.powi(3) / (PI * J * 4.0);
         let thickness = rig.draw(&shot).thickness.data;
         assert!(thickness.iter().any(|t| f64::from(*t) > 2.0 * word), "{thickness:?} {word}");

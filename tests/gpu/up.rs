@@ -1,4 +1,5 @@
-//! Up directions other than +y: a scene that is rotated together with all of its directions gives the same picture.
+//! Up directions other than +y: a scene that is rotated together with all of its directions gives
+//! the same picture.
 
 use glam::{Mat4, Quat, Vec3};
 use whitewater::WhitewaterConfig;
@@ -12,7 +13,7 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent, stream};
 use crate::support::scenes::{self, Lens, Random};
 
-/// Of one world.
+/// A scene and everything that is drawn in it.
 #[derive(Clone)]
 struct World {
     shot: Shot,
@@ -23,7 +24,8 @@ struct World {
 }
 
 impl World {
-    /// Water with foam and spray in it, whitewater foam and bubbles on it, before a shore, under a low sun.
+    /// Water with foam and spray, whitewater particles and blobs in front of it, a shore and a low
+    /// sun.
     fn new() -> Self {
         let size = extent(96, 64);
         let mut points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.2, 4.0]);
@@ -49,12 +51,13 @@ impl World {
                 id,
             })
             .collect();
-        // Ground that comes out of the water, and the level at which it does.
+        // Ground that rises out of the water, and the water's level.
         shot.scene_depth(|x, y| Some(5.0 + 0.05 * f64::from(x) - 0.02 * f64::from(y)));
         shot.shore = Some(Shore::new(0.6));
         let settings = &mut shot.settings;
         settings.light.direction = Vec3::new(0.5, 0.4, 0.6).normalize().to_array();
-        // What random places of the world make is not turned with it.
+        // Patterns and noise depend on world positions and do not rotate with the scene, so they
+        // are off.
         (
             settings.surface_foam.pattern,
             settings.surface_foam.noise,
@@ -68,7 +71,7 @@ impl World {
         Self { shot, sky, velocities, foam, whitewater }
     }
 
-    /// What was y is z: exact, but for the order of sums.
+    /// The scene rotated from y up to z up: exact, except for the order of sums.
     fn z_up(&self) -> Self {
         let turned = |[x, y, z]: [f32; 3]| [x, -z, y];
         let all = |list: &[[f32; 3]]| list.iter().map(|p| turned(*p)).collect::<Vec<_>>();
@@ -90,7 +93,7 @@ impl World {
         }
         let settings = &mut shot.settings;
         settings.light.direction = turned(settings.light.direction);
-        // Of any length.
+        // The up vector may have any length.
         settings.up = [0.0, 0.0, 2.5];
         other.sky = self.sky.with(|it| {
             it.sun = turned(self.sky.sun);
@@ -122,10 +125,10 @@ impl World {
     }
 }
 
-/// Pixels farther apart than a thousandth of the brightest, of a hundred.
+/// Percentage of pixels that differ by more than a thousandth of the brightest value.
 fn apart(a: &Image<[f32; 4]>, b: &Image<[f32; 4]>) -> f64 {
     let most = a.data.iter().flat_map(|c| c[..3].to_vec()).fold(0.0, f32::max);
-    // NaN is near nothing.
+    // Written so that NaN counts as different.
     let near = |a: f32, b: f32| (a - b).abs() <= 1.0e-3 * most;
     let differs = |(a, b): &(&[f32; 4], &[f32; 4])| (0..3).any(|i| !near(a[i], b[i]));
     100.0 * a.data.iter().zip(&b.data).filter(differs).count() as f64 / a.data.len() as f64
@@ -157,7 +160,7 @@ fn a_turned_world_looks_the_same() {
         let expected = world.draw(&gpu, &config);
         let (same, other) = (z_up.draw(&gpu, &config), unsaid.draw(&gpu, &config));
         let (same, other) = (apart(&same, &expected), apart(&other, &expected));
-        // Where an outline falls by rounding.
+        // Rounding may move an outline to another pixel.
         if same >= 0.5 || other <= 5.0 {
             wrong.push(format!("{name}: {same:.2} % are apart, {other:.1} % where up is not said"));
         }
@@ -176,7 +179,7 @@ fn up_is_a_direction() {
         assert!(error.starts_with("Settings.up: "), "{error}");
         let sky = EnvironmentSource::Sky(Sky::default().with(|it| it.up = up));
         let cmd = rig.stub.begin(0);
-        // SAFETY: cmd is recording; nothing is recorded of what is refused.
+        // SAFETY: cmd is recording, and a refused call records nothing.
         let result = unsafe { rig.renderer().record_environment(cmd, Slot(0), &sky) };
         rig.stub.throw_away(0);
         assert!(matches!(result, Err(Error::BadInput { field: "Sky.up", .. })), "{result:?}");

@@ -1,4 +1,4 @@
-//! Small waves on level water: in the picture and in the caustics, against the twin.
+//! Small waves on level water, in the picture and in the caustics, compared with the CPU twin.
 
 use glam::DVec3;
 use whitewater::water::{Fresnel, Medium, Wavelets};
@@ -18,7 +18,8 @@ const SLOPE: f32 = 0.08;
 const LENGTH: f32 = 1.1;
 const TIME: f64 = 3.7;
 
-/// A block of water that faces the eye, which is above it, on a black bed; it mirrors all light.
+/// A block of water over a black bed, whose up vector points at the eye. The water mirrors all
+/// light.
 fn pool(lens: Lens) -> Shot {
     let size = extent(97, 61);
     let points = scenes::block(3, 0.25, [20, 14, 4], [-2.4, -1.6, 4.0]);
@@ -43,8 +44,8 @@ fn waves(shot: &Shot) -> Waves {
     Waves::new(f64::from(SLOPE), f64::from(LENGTH), (TIME, 9.81), up)
 }
 
-/// Asserts that the picture mirrors the sky by the twin's waves; returns over how many pixels, and by how much they turn
-/// what is mirrored.
+/// Checks that the picture mirrors the sky by the twin's waves. Returns the number of compared
+/// pixels, and the mean change of the mirrored radiance by the waves.
 fn check(rig: &Rig<'_>, shot: &Shot, drawn: &Drawn, waves: &Waves) -> (usize, f64) {
     let (size, level) = (rig.config.extent, rig.config.smoothing_level);
     let view = shot.view(size);
@@ -71,7 +72,8 @@ fn check(rig: &Rig<'_>, shot: &Shot, drawn: &Drawn, waves: &Waves) -> (usize, f6
             continue;
         }
         let still = surfaces.at(x, y).expect("a surface");
-        // Where nothing but the surface decides: in the block, on all of its thickness.
+        // Only pixels inside the block with its full thickness, whose normal comes from the
+        // smoothed surface alone.
         if still.parts.found < 1.0 || still.parts.drop > 0.0 || still.thickness < 2.5 * spacing {
             continue;
         }
@@ -85,7 +87,8 @@ fn check(rig: &Rig<'_>, shot: &Shot, drawn: &Drawn, waves: &Waves) -> (usize, f6
         surface.normal = view.view.transform_vector3(turned);
         let [seen, unmoved] =
             [&surface, &still].map(|surface| Sky::Slope.radiance(mirrored(surface, &view)));
-        // The mirrored direction turns twice as far as the normal. Radiance is 1 at most; the cube's error.
+        // The mirrored direction turns by twice the normal's angle, and the radiance changes by
+        // 0.25 per unit; the cube's error is added.
         let bound = 0.25 * 2.0 * (waves.error(place) + 1.0e-5) + 2.0 * Sky::Slope.error(8);
         for i in 0..3 {
             let found = f64::from(drawn.output.at(x, y)[i]);
@@ -108,7 +111,7 @@ fn level_water_mirrors_by_the_twins_waves() {
         let drawn = rig.draw(&shot);
         let (count, moved) = check(&rig, &shot, &drawn, &waves(&shot));
         assert!(count > 500 && moved > 0.01, "{lens:?}: {count} pixels, moved by {moved}");
-        // Waves of another time, and none.
+        // Waves at another time, of another slope, and none.
         let up = DVec3::from(shot.settings.up.map(f64::from));
         let (slope, length) = (f64::from(SLOPE), f64::from(LENGTH));
         for other in [
@@ -126,17 +129,17 @@ fn level_water_mirrors_by_the_twins_waves() {
     }
 }
 
-/// Steep water, thin water and no slope: the same bits as without waves.
+/// Steep water, thin water and waves of slope 0 give the same bits as without waves.
 #[test]
 fn only_level_water_has_waves() {
     let gpu = Gpu::shared();
     let config = config(extent(97, 61));
     let mut rig = Rig::new(&gpu, &config);
     let mut shot = pool(Lens::Standard);
-    // The face that is seen is a wall.
+    // The visible face is vertical.
     let up = shot.view(shot.size).view.inverse().transform_vector3(DVec3::Y);
     shot.settings.up = up.as_vec3().to_array();
-    // And from the side waves are on its upper edge alone.
+    // Only its upper edge can have waves.
     let mut still = shot.clone();
     still.settings.water.wavelets.slope = 0.0;
     let [with, without] = [&shot, &still].map(|shot| rig.draw(shot));

@@ -1,4 +1,5 @@
-//! Whitewater particles uploaded in parts: the picture equals that of a single upload; and errors on the way.
+//! Whitewater particles uploaded in parts give the same picture as a single upload, and wrong parts
+//! are errors.
 
 use whitewater::WhitewaterConfig;
 use whitewater::headless::{Background, Device, Headless, Picture, Whitewater};
@@ -73,7 +74,7 @@ fn parts_of_any_size_make_the_picture_of_all() {
     let cloud = Cloud::new();
     let none = cloud.draw(&mut headless);
     headless.whitewater(Some(&cloud.part(0..COUNT))).expect("all at once");
-    // Of each a word, and a position of three.
+    // A word for each of four attributes, and three for the position.
     assert!(headless.whitewater_memory() >= 28 * COUNT as u64);
     let once = cloud.draw(&mut headless);
     assert_ne!(once, none, "it shows");
@@ -81,7 +82,7 @@ fn parts_of_any_size_make_the_picture_of_all() {
         headless.whitewater(None).expect("none");
         assert_eq!(cloud.draw(&mut headless), none, "those before are gone");
         let mut parts = headless.whitewater_parts(COUNT).expect("room");
-        // One, then the others; a part of none changes nothing.
+        // One particle first, then the others. An empty part changes nothing.
         parts.push(&cloud.part(0..1)).expect("the first");
         parts.push(&cloud.part(1..1)).expect("an empty one");
         for first in (1..COUNT).step_by(size) {
@@ -93,11 +94,13 @@ fn parts_of_any_size_make_the_picture_of_all() {
     end(headless);
 }
 
-/// Packets of what is uploaded, in parts of any size, change nothing; they lie on all sides of the view.
+/// Packets of uploaded particles, in parts of any size, do not change the picture. The particles
+/// lie on all sides of the view.
 #[test]
 fn packets_of_parts_make_the_same_picture() {
     let mut cloud = Cloud::new();
-    // Along a line from the left, so that they begin and end beside the view, and one that is nowhere.
+    // The particles extend along a line that begins and ends beside the view, and one has an
+    // invalid position.
     let right = cloud.camera.view_matrix().row(0).truncate();
     let across = |p: [f32; 3]| right.dot(glam::Vec3::from(p));
     cloud.positions.sort_by(|a, b| across(*a).total_cmp(&across(*b)));
@@ -121,7 +124,7 @@ fn packets_of_parts_make_the_same_picture() {
             parts.push(&cloud.part(first..COUNT.min(first + size))).expect("a part");
         }
         parts.finish().expect("all");
-        // Six of 256.
+        // Six packets of 256 particles.
         assert!(headless.whitewater_memory() >= memory + 6 * 32, "no packets");
         assert_eq!(cloud.draw(&mut headless), expected, "in parts of {size}");
     }
@@ -130,7 +133,8 @@ fn packets_of_parts_make_the_same_picture() {
     end(headless);
 }
 
-/// More than goes through the staging buffer at a time: before those that are seen many whose lives are over.
+/// More particles than the staging buffer holds at once. Most are too old, and come before the
+/// visible ones.
 #[test]
 fn a_large_part_goes_piece_by_piece() {
     const OVER: usize = 400_001;
@@ -171,7 +175,7 @@ fn what_does_not_fit_is_an_error_and_leaves_none() {
         let (field, why) = field_and_why(result.expect_err(says));
         assert!(field == "whitewater" && why.contains(says), "{field}: {why}");
     };
-    // Too many for the renderer.
+    // More particles than the renderer has room for.
     wrong(headless.whitewater_parts(COUNT + 1).map(drop), "1501 is more than");
     let mut parts = headless.whitewater_parts(COUNT).expect("room");
     let short = Whitewater { ages: Some(&cloud.ages[..9]), ..cloud.part(0..10) };
@@ -185,13 +189,13 @@ fn what_does_not_fit_is_an_error_and_leaves_none() {
     );
     wrong(parts.finish(), "expected 1500 particles, found 1000");
     assert_eq!(cloud.draw(&mut headless), none);
-    // Given up half way.
+    // The parts are abandoned half way.
     headless.whitewater(Some(&cloud.part(0..COUNT))).expect("all at once");
     let mut parts = headless.whitewater_parts(COUNT).expect("room");
     parts.push(&cloud.part(0..1000)).expect("a part");
     drop(parts);
     assert_eq!(cloud.draw(&mut headless), none);
-    // None of none, and all of what went wrong before.
+    // An upload of 0 particles, and one of all particles after the failures.
     headless.whitewater_parts(0).expect("room").finish().expect("none");
     assert_eq!(cloud.draw(&mut headless), none);
     headless.whitewater(Some(&cloud.part(0..COUNT))).expect("all at once");

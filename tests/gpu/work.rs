@@ -1,5 +1,5 @@
-//! Only what is needed is done: particles off the screen, spheres that cannot show and tiles without water
-//! cost nothing. The pictures are the same without any of it, so that only counts can tell.
+//! Only necessary work is done: particles off the screen, hidden spheres and tiles without water
+//! are skipped. Pictures are the same without that, so the tests check counts.
 
 use whitewater::Packets;
 
@@ -10,10 +10,10 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, coarsening, config, extent};
 use crate::support::scenes::{self, LENSES, Lens};
 
-/// Edge of a tile of the smoothing, in its texels.
+/// Size of a tile of the smoothing, in its texels.
 const TILE: usize = 16;
 
-/// Two thirds and more of a cloud lie beside, behind or before the frustum.
+/// At least two thirds of a cloud lie beside, behind or before the frustum.
 #[test]
 fn particles_off_the_screen_are_culled() {
     let gpu = Gpu::shared();
@@ -23,7 +23,8 @@ fn particles_off_the_screen_are_culled() {
         let shot =
             Shot::new(size, lens, 0.05, &scenes::block(7, 0.6, [14, 14, 14], [-4.2, -4.2, -2.0]));
         let drawn = rig.draw(&shot);
-        // Single precision may see those otherwise whose bounding spheres touch a plane.
+        // In single precision, spheres that touch a plane of the frustum may count as inside or
+        // outside.
         let count = |slack: f64| {
             let mut params = CullParams::new(f64::from(shot.settings.water.radius()), 1000.0);
             params.bound += slack;
@@ -44,7 +45,7 @@ fn particles_off_the_screen_are_culled() {
     }
 }
 
-/// A packet's box is believed: particles of one that is off the screen are not looked at.
+/// Culling trusts a packet's box: particles of a packet off the screen are not tested.
 #[test]
 fn packets_off_the_screen_are_culled() {
     let gpu = Gpu::shared();
@@ -67,7 +68,7 @@ fn packets_off_the_screen_are_culled() {
     assert_eq!(drawn.work.visible, half);
 }
 
-/// Of a block ten layers deep the inner ones are covered; all its sides show.
+/// In a block ten layers deep, the inner spheres are hidden, and those on its sides are drawn.
 #[test]
 fn spheres_that_cannot_show_are_left_out() {
     let gpu = Gpu::shared();
@@ -88,16 +89,16 @@ fn spheres_that_cannot_show_are_left_out() {
     );
 }
 
-/// The list of tiles is those with water, of coarser levels those that are smoothed, and each iteration runs
-/// over those that want it: iteration i over all that want i - 1 or more (one more, which leaves the result in
-/// both images).
+/// Only tiles with water are listed, at coarser levels only those that are smoothed. Iteration i
+/// runs over all tiles that need i - 1 or more iterations; the additional one leaves the result in
+/// both images.
 #[test]
 fn tiles_without_work_are_not_listed() {
     let gpu = Gpu::shared();
-    // Six by four tiles, and what is left over.
+    // Six by four tiles, and a rest.
     let size = extent(2 * 16 * 6 + 6, 2 * 16 * 4 + 10);
     let mut rig = Rig::new(&gpu, &coarsening(config(size)));
-    // Drops near and far, so that tiles differ.
+    // Near and far drops, so that tiles need different numbers of iterations.
     let mut points = scenes::block(5, 0.3, [3, 3, 2], [-2.2, -1.4, 6.0]);
     points.extend(scenes::block(6, 0.3, [3, 3, 2], [1.0, 0.6, 3.0]));
     let shot = Shot::new(size, Lens::Standard, 0.2, &points);
