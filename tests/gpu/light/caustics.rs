@@ -1,4 +1,4 @@
-//! The caustics against the twin, and against the closed form of a flat pool.
+//! Compares caustics with the CPU twin, and with the closed form for a flat pool.
 
 use glam::{DVec2, DVec3, Vec3};
 use whitewater::water::Shadows;
@@ -18,8 +18,8 @@ use crate::support::tolerance::U;
 use super::shade::{light_views, shadows};
 use super::{SIZE, casting, maps, pool, toward, twin, water};
 
-/// Caustics of the maps that the device itself made. Each texel's light is in the bounds of where
-/// it lands; all of it is kept, but for what the rounding of four parts each may take.
+/// Caustics of the maps that the device made. The light of each texel lies within the bounds of its
+/// landing place, and the total is kept except for the rounding of four parts per texel.
 #[test]
 fn the_caustics_are_the_twins() {
     let gpu = Gpu::shared();
@@ -45,7 +45,7 @@ fn the_caustics_are_the_twins() {
                 eprintln!("{name}: {} wide, {} units, to {brightest}", wide(&bounds), wide(&units));
             }
             assert!(wide(&bounds) < 0.02 && brightest > 1.1, "{name}: {}, idle", wide(&bounds));
-            // Nothing comes near the border: as much light as without water.
+            // No light lands near the border, so the total equals that without water.
             let n = texels as usize;
             let inner = |i: usize| i > 2 && i + 3 < n;
             let landed: Vec<_> = light.landings(&maps).data.into_iter().flatten().collect();
@@ -54,7 +54,7 @@ fn the_caustics_are_the_twins() {
                 .iter()
                 .flatten()
                 .any(|at| !inner(at.v.floor() as usize) || !inner(at.v.ceil() as usize));
-            // Few large texels reach far.
+            // With only 32 texels, refracted light travels far and may leave the map.
             assert!(!lost || texels == 32, "{name}: light leaves the map");
             let all: f64 = maps.caustics.data.iter().map(|c| f64::from(*c) - 1.0).sum();
             let most = 2.0 * wet / 4096.0 + 40.0 * U * (n * n) as f64;
@@ -66,7 +66,7 @@ fn the_caustics_are_the_twins() {
     }
 }
 
-/// Small waves on a level pool focus light as the twin's do, and keep all of it.
+/// Small waves on a level pool focus light like the twin's, and keep the total.
 #[test]
 fn small_waves_focus_light() {
     let gpu = Gpu::shared();
@@ -91,8 +91,8 @@ fn small_waves_focus_light() {
     }
 }
 
-/// Light that the host's scene keeps from the water lands nowhere: of the light without its shadow map it is in the twin's
-/// bounds, and behind a map that keeps all of it there is none but what goes past the water.
+/// Water in the shadow of the host's scene refracts no sunlight. The result lies within the twin's
+/// bounds with the shadow map; if the map shades everything, only light beside the water remains.
 #[test]
 fn water_in_the_scenes_shade_bends_no_light() {
     let gpu = Gpu::shared();
@@ -105,7 +105,7 @@ fn water_in_the_scenes_shade_bends_no_light() {
     for (name, view_projection, reversed) in light_views(direction, at) {
         let depth = |along: f32| view_projection.project_point3(at + along * direction).z;
         let (before, behind) = (depth(0.8), depth(-0.8));
-        // Blocks of shade and of sun, then shade alone.
+        // Blocks of shade and of sun, then shade everywhere.
         for all in [false, true] {
             let texels = Image::from_fn(16, 16, |x, y| {
                 if all || (x / 4 + y / 4) % 2 == 0 { before } else { behind }
@@ -129,7 +129,7 @@ fn water_in_the_scenes_shade_bends_no_light() {
             let wet = || maps.front.data.iter().map(|d| f64::from(*d)).zip(&maps.caustics.data);
             let light_of = |wet: &mut dyn Iterator<Item = f32>| wet.fold(0.0_f32, f32::max);
             let most = light_of(&mut wet().filter(|(d, _)| is_surface(*d)).map(|(_, c)| *c));
-            // The map does not reach over all of the pool.
+            // The map does not cover the whole pool.
             assert!(all || most > 1.0, "{name}: {most}, idle");
             let shaded = landed(&light, &maps, &map);
             assert!(shaded > 0, "{name}: nothing is in the shade");
@@ -137,7 +137,7 @@ fn water_in_the_scenes_shade_bends_no_light() {
     }
 }
 
-/// Texels whose light the map keeps.
+/// Number of texels of water that lie in the map's shade.
 fn landed(light: &Light, maps: &Maps<'_>, map: &ShadowMap<'_>) -> usize {
     let landings = light.landings(maps);
     let n = light.texels;
@@ -149,7 +149,7 @@ fn landed(light: &Light, maps: &Maps<'_>, map: &ShadowMap<'_>) -> usize {
     landings.data.iter().enumerate().filter(|of| shaded(*of)).count()
 }
 
-/// A flat pool, each texel like the next, bends no light out of its place.
+/// On a flat pool all texels refract alike, so the light stays uniform.
 #[test]
 fn a_flat_pool_lets_the_light_pass() {
     let gpu = Gpu::shared();
@@ -167,7 +167,7 @@ fn a_flat_pool_lets_the_light_pass() {
         let found = drawn.caustics.expect("caustics");
         for (x, y) in (24..40).flat_map(|y| (24..40).map(move |x| (x, y))) {
             let light = f64::from(found.at(x, y));
-            // Of a slope all parts move alike; four roundings of 1 / 4096 each.
+            // On a slope all four parts of a texel move alike, with a rounding of 1/4096 each.
             let most = if slope == 0.0 { 32.0 * U } else { 4.0 / 4096.0 };
             assert!((light - 1.0).abs() <= most, "{slope}: {light} at ({x}, {y})");
         }

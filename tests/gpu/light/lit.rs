@@ -1,4 +1,5 @@
-//! The maps' transmitted light illuminates the scene behind the water and the highlights on it.
+//! The light that the maps transmit reaches the scene behind the water and the highlights on the
+//! water.
 
 use glam::{DVec3, Vec3};
 use whitewater::water::{Medium, Shading, Shadows};
@@ -16,7 +17,7 @@ use crate::surface_foam::Foamy;
 use super::shade::{light_views, shadows};
 use super::{SIZE, casting, even, halves, maps, twin, water};
 
-/// Particles about a tilted ground of the world at a height; they are at 0.8 to 1.2.
+/// Particles at heights of 0.8 to 1.2 over a tilted ground that is at `height` in the middle.
 pub fn grounded(lens: Lens, height: f64) -> Foamy {
     let mut shot = Shot::new(SIZE, lens, 0.06, &[]);
     let mut random = Random(8);
@@ -35,7 +36,7 @@ pub fn grounded(lens: Lens, height: f64) -> Foamy {
         (depth > 0.0 && depth < 60.0).then_some(depth)
     });
     shot.settings.surface_foam.shadow = 8.0;
-    // Half precision does not hold these.
+    // These colours are not exact in half precision.
     shot.color.iter_mut().for_each(|c| *c = c.map(|v| v * 1.0309));
     shot.light_volume = Some(LightVolume { center: [2.9, 0.7, 0.1], radius: 1.3 });
     let mut case = water(shot);
@@ -45,8 +46,8 @@ pub fn grounded(lens: Lens, height: f64) -> Foamy {
     case
 }
 
-/// The scene's point in a pixel, and metres that it may be off: by the depth's quotient, whose
-/// divisor is a difference, and by the way to the world.
+/// The scene's position in a pixel, and its error in metres: from the depth's quotient, whose
+/// divisor is a difference, and from the transform to the world.
 pub fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
     let view = shot.view(SIZE);
     let back = view.view.inverse();
@@ -55,7 +56,8 @@ pub fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
     (p, U * (8.0 * depth + 2.0 * depth * depth / view.near() + 24.0 * (p.length() + 2.0 * eye)))
 }
 
-/// Pixels without fluid are the scene in the light that the maps leave, to half precision.
+/// Checks that pixels without water, foam and spray are the scene in the light of the maps, to half
+/// precision.
 pub fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Past<'_>) {
     let (shot, light, maps) = (&case.shot, twin(&case.shot, config), maps(drawn));
     let scene = shot.scene_eye();
@@ -108,19 +110,19 @@ pub fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past:
     );
 }
 
-/// A number in half precision.
+/// Whether a value in half precision is the rounded scene colour.
 fn is_half(scene: f32, found: f32) -> bool {
     halves(f64::from(scene), f64::from(scene)).contains(&f64::from(found))
 }
 
-/// Where nothing casts within the maps the light is a mean of ones, whose weights are rounded.
+/// If nothing casts a shadow in the maps, the light is a mean of ones with rounded weights.
 pub fn is_nearly_half(scene: f32, found: f32) -> bool {
     let scene = f64::from(scene);
     let [low, high] = halves(scene * (1.0 - 16.0 * U), scene * (1.0 + 16.0 * U));
     (low..=high).contains(&f64::from(found))
 }
 
-/// The sun past the scene at a point, and in a pixel.
+/// Fraction of sunlight that the host's scene lets through, at a point and in a pixel.
 type Past<'a> = dyn Fn(DVec3, f64, (usize, usize)) -> Rounded + 'a;
 
 #[test]
@@ -128,7 +130,7 @@ fn the_lit_scene_is_what_the_maps_say() {
     let gpu = Gpu::shared();
     for shading in [Shading::Raster, Shading::Compute] {
         for in_place in [true, false] {
-            // No foam is seen beside its sprites.
+            // At thickness level 0 no foam shows beside its sprites.
             let config = casting(64).with(|it| {
                 it.composite = Some(shading);
                 it.in_place = in_place;
@@ -139,12 +141,12 @@ fn the_lit_scene_is_what_the_maps_say() {
                 (Lens::Standard, 0.4),
                 (Lens::OffAxis, 0.4),
                 (Lens::LeftHanded, 0.4),
-                // What shows lies in the midst of what casts.
+                // The visible ground lies among the particles that cast shadows.
                 (Lens::Standard, 1.0),
                 (Lens::Infinite, 0.9),
             ] {
                 let mut case = grounded(lens, height);
-                // So dark that it shows, in one channel more than in the others.
+                // With this strong shade the ambient part shows, and differently in each channel.
                 case.shot.settings.light.shade = [0.0, 0.875, 5.0];
                 if lens == Lens::OffAxis {
                     case.shot.settings.water.medium = Medium::source(0.1);
@@ -153,7 +155,7 @@ fn the_lit_scene_is_what_the_maps_say() {
                 let name = format!("lit-{shading:?}-{in_place}-{lens:?}-{height}");
                 check_lit(&name, &case, &config, &drawn, &|_, _, _| exact(1.0));
             }
-            // Nothing casts: the scene, to half precision.
+            // Without particles nothing casts a shadow: the scene is unchanged, to half precision.
             let mut none = grounded(Lens::Standard, 0.4);
             (none.shot.positions, none.amounts, none.velocities) = Default::default();
             let drawn = none.draw(&mut rig);
@@ -165,7 +167,8 @@ fn the_lit_scene_is_what_the_maps_say() {
     }
 }
 
-/// A mask and a map over what the fluid casts: where the scene is in shade nothing is darker.
+/// A mask and a map of the host combined with the water's shadow: what is already in the scene's
+/// shadow does not get darker.
 #[test]
 fn the_lit_scene_is_past_the_scene() {
     let gpu = Gpu::shared();
@@ -201,7 +204,7 @@ fn the_lit_scene_is_past_the_scene() {
     }
 }
 
-/// Where the sun does not come, neither its highlight on water nor the relief of foam is seen.
+/// Where no sun reaches the water, it has no highlight and foam has no relief.
 #[test]
 fn highlights_and_relief_are_the_suns() {
     let gpu = Gpu::shared();
@@ -212,7 +215,7 @@ fn highlights_and_relief_are_the_suns() {
     });
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = Foamy::new(SIZE, Lens::Standard, 0.0);
-    // A pane behind them all: the farther sheet shines too.
+    // A pane of water behind everything, so that the back sheet has highlights too.
     let pane = scenes::block(3, 0.3, [40, 28, 3], [-6.0, -4.2, 12.0]);
     case.shot.positions.extend(scenes::world(&case.shot.camera, &pane));
     case.amounts.resize(case.shot.positions.len(), [0.0; 2]);
@@ -220,7 +223,7 @@ fn highlights_and_relief_are_the_suns() {
     case.ids = None;
     case.amounts.iter_mut().step_by(2).for_each(|amount| amount[0] = 0.0);
     let view = case.shot.camera_view().inverse();
-    // From behind the eye: the spheres shine in their middle.
+    // The sun is behind the eye, so that spheres have their highlight in the middle.
     let sun = view.transform_vector3(DVec3::new(0.1, 0.2, 1.0)).normalize();
     case.shot.settings.light.direction = sun.as_vec3().to_array();
     for (lit, seen) in [(1.0, true), (0.0, false)] {

@@ -1,4 +1,4 @@
-//! The light's front depth and thickness against the twin.
+//! Compares the light map's front depth and thickness with the CPU twin.
 
 use whitewater::{Config, LightVolume};
 
@@ -10,7 +10,8 @@ use crate::surface_foam::Foamy;
 
 use super::{SIZE, casting, maps, particles, toward, twin};
 
-/// Front and thickness are the twin's; how many texels have something.
+/// Checks that front depth and thickness are the twin's. Returns the number of texels with
+/// particles.
 fn check_maps(name: &str, case: &Foamy, config: &Config, drawn: &Drawn) -> usize {
     let (light, particles, maps) = (twin(&case.shot, config), particles(case), maps(drawn));
     let bounds = light.front(&particles);
@@ -45,7 +46,7 @@ fn the_maps_are_the_twins() {
             let mut random = Random(i as u64);
             let n = case.shot.positions.len();
             case.shot.settings.light.direction = sun;
-            // Of the particles some are beside it, before it and behind it, some out of the view.
+            // Some particles lie beside the region, before it and behind it, some outside the view.
             let center = scenes::world(&case.shot.camera, &[[0.3, -0.2, 5.0]])[0];
             case.shot.light_volume = Some(LightVolume { center, radius: [3.0, 12.0][i % 2] });
             if i > 0 {
@@ -56,7 +57,8 @@ fn the_maps_are_the_twins() {
                 case.shot.densities = Some((0..n).map(density).collect());
             }
             case.shot.settings.spray.shade = [0.5, 0.125][i / 2 % 2];
-            // One droplet is all of a particle's spray, several are fewer the more of it is spray.
+            // A single droplet stands for all of a particle's spray. With several, fewer are drawn
+            // the more of the particle is spray.
             case.shot.settings.spray.droplets = [16, 1, 2][i % 3];
             case.shot.settings.spray.scatter_radius = [1.5, 6.0][i % 2];
             case.amounts[7][0] = f32::NAN;

@@ -1,5 +1,5 @@
-//! Passes `light`, `caustics` and `lit`: the light maps against the twin, and the picture against the maps. This module
-//! has the scenes and their input for the twin.
+//! Passes `light`, `caustics` and `lit`: the light maps are compared with the twin, and the picture
+//! with the maps. This module has the scenes and the twin's input.
 
 mod caustics;
 mod lit;
@@ -34,8 +34,7 @@ fn wide(v: [f32; 3]) -> DVec3 {
     DVec3::from(v.map(f64::from))
 }
 
-/// The numbers of half precision next to those from one to another: which of the two a store takes
-/// is the device's choice.
+/// The numbers in half precision around an interval. A store may round to either neighbour.
 fn halves(low: f64, high: f64) -> [f64; 2] {
     [(low, false), (high, true)].map(|(v, up)| {
         let near = half::f16::from_f64(v);
@@ -43,18 +42,18 @@ fn halves(low: f64, high: f64) -> [f64; 2] {
             true => near.to_f64() < v,
             false => near.to_f64() > v,
         };
-        // Positive ones are as their bits in order.
+        // For positive numbers, the order of the bits is the order of the values.
         let bits = i32::from(near.to_bits()) + i32::from(off) * if up { 1 } else { -1 };
         half::f16::from_bits(bits.max(0) as u16).to_f64()
     })
 }
 
-/// A direction that single precision holds.
+/// A normalized direction in single precision.
 fn toward(x: f32, y: f32, z: f32) -> [f32; 3] {
     Vec3::new(x, y, z).normalize().to_array()
 }
 
-/// What the twin takes of a shot.
+/// The twin's light for a shot.
 fn twin(shot: &Shot, config: &Config) -> Light {
     let (water, region) = (&shot.settings.water, shot.light_volume.expect("a region"));
     let [first, second, third] = match config.spray {
@@ -114,13 +113,13 @@ fn maps(drawn: &Drawn) -> Maps<'_> {
     }
 }
 
-/// Water alone.
+/// A shot without foam.
 fn water(shot: Shot) -> Foamy {
     let n = shot.positions.len();
     Foamy { shot, amounts: vec![[0.0; 2]; n], velocities: vec![[0.0; 3]; n], ids: None }
 }
 
-/// A pool of the world with waves in it, as the sun sees it.
+/// A pool with waves, and drops above it, around the world's origin.
 fn pool(sun: [f32; 3], wave: f32, drops: usize) -> Foamy {
     let s = 0.1_f32;
     let mut random = Random(3);
@@ -142,7 +141,7 @@ fn pool(sun: [f32; 3], wave: f32, drops: usize) -> Foamy {
     water(shot)
 }
 
-/// Everything that the sun does, of particles of all kinds.
+/// A configuration with everything that the sun lights, and particles of all kinds.
 pub fn everything(case: &mut Foamy) -> Config {
     let n = case.shot.positions.len();
     let mut random = Random(12);

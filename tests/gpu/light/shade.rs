@@ -1,4 +1,4 @@
-//! Foam in shadow: of the host's mask and map, and of foam itself.
+//! Foam in shadow: of the host's mask, of the host's map, and of foam and water.
 
 use ash::vk;
 use glam::{DVec3, Mat4, Vec3};
@@ -23,7 +23,7 @@ const SAMPLED: Access = Access::new(
     vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
 );
 
-/// A host's shadows, as a mask or as a map.
+/// A host's shadow image, as a mask or as a map.
 pub fn shadows(rig: &Rig<'_>, kind: Shadows, texels: &Image<f32>) -> Texture {
     let size = extent(texels.width as u32, texels.height as u32);
     let bytes = bytemuck::cast_slice(&texels.data);
@@ -37,14 +37,14 @@ pub fn shadows(rig: &Rig<'_>, kind: Shadows, texels: &Image<f32>) -> Texture {
     }
 }
 
-/// A mask that is the same all over.
+/// A uniform mask.
 pub fn even(rig: &Rig<'_>, sun: f32) -> (Texture, Shadow) {
     let image = shadows(rig, Shadows::Mask, &Image::new(3, 2, sun));
     let shadow = Shadow::new(image.host_image(), Mat4::ZERO.to_cols_array_2d());
     (image, shadow)
 }
 
-/// A wall of foam that nothing shows through, of one colour in the sun.
+/// An opaque wall of foam, of one colour where the sun shines.
 pub fn wall(lens: Lens) -> Foamy {
     let block = scenes::block(3, 0.1, [44, 30, 3], [-2.2, -1.5, 2.0]);
     let mut case = water(Shot::new(SIZE, lens, 0.0656, &block));
@@ -63,16 +63,17 @@ pub fn wall(lens: Lens) -> Foamy {
     case
 }
 
-/// Where a particle is in the world and how far single precision takes it from there.
+/// A particle's position in the world, and the error that single precision adds to it.
 pub fn middle(shot: &Shot, position: [f32; 3]) -> (DVec3, f64) {
     let view = shot.view(SIZE).view;
     let (p, eye) = (wide(position), view.inverse().w_axis.truncate().length());
-    // To eye space and back, by a matrix that is rounded itself.
+    // The position is transformed to eye space and back, by a matrix that is itself rounded.
     (p, U * (8.0 * view.transform_point3(p).length() + 24.0 * (p.length() + 2.0 * eye)))
 }
 
-/// The light in the foam is that of its sprites, by the sun's share in the middle of each; foam that nothing
-/// shows through is as light as that and the mask say. All kinds of light are seen.
+/// Checks that the foam layer's light is that of its sprites, by the sun's visible fraction at each
+/// centre. Opaque foam must have the colour that this light and the mask give. The test needs
+/// pixels in sun, in shade and between.
 pub fn check_foam(
     name: &str,
     case: &Foamy,
@@ -147,7 +148,7 @@ fn foam_is_in_the_shade_of_a_mask() {
             let mut whole = Image::new(width + 5, height + 3, 0.5_f32);
             whole.data.iter_mut().for_each(|v| *v = random.between(-0.5, 1.5));
             let image = shadows(&rig, Shadows::Mask, &whole);
-            // A part of the image is meant.
+            // Only a part of the image is the mask.
             let mut host = image.host_image();
             host.rect.offset = vk::Offset2D { x: 2, y: 1 };
             host.rect.extent = extent(width as u32, height as u32);
@@ -165,7 +166,7 @@ fn foam_is_in_the_shade_of_a_mask() {
     }
 }
 
-/// Views of a light: parallel and not, standard depth and reversed.
+/// Views of a light: parallel and perspective, with standard and reversed depth.
 pub fn light_views(sun: Vec3, at: Vec3) -> [(&'static str, Mat4, bool); 4] {
     let view = Mat4::look_at_rh(at + 6.0 * sun, at, Vec3::Y);
     let fov = 0.25_f32;
@@ -188,7 +189,7 @@ fn foam_is_in_the_shade_of_a_map() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = wall(Lens::Standard);
     let at = Vec3::from(scenes::world(&case.shot.camera, &[[0.1, 0.1, 2.0]])[0]);
-    // From behind the eye's shoulder.
+    // The light comes from behind the eye and from its side.
     let from = Vec3::from(scenes::world(&case.shot.camera, &[[0.5, 0.7, 0.5]])[0]);
     let sun = (from - at).normalize();
     case.shot.settings.light.direction = sun.to_array();
@@ -198,7 +199,7 @@ fn foam_is_in_the_shade_of_a_map() {
             let (before, behind) = (depth(0.6), depth(-0.6));
             let mut random = Random(4);
             let mut texels = Image::new(23, 17, 0.0_f32);
-            // Blocks of shade and of sun, and texels about the wall itself.
+            // Blocks of shade and of sun, and random depths around the wall.
             for (i, texel) in texels.data.iter_mut().enumerate() {
                 let (x, y) = (i % 23 / 6, i / 23 / 5);
                 *texel = match (x + y) % 3 {
@@ -229,11 +230,13 @@ fn foam_is_in_the_shade_of_a_map() {
     }
 }
 
-/// Foam in its own shadow and in that of water of either medium, by the light's maps, past a mask too.
+/// Foam in its own shadow and in that of water with either kind of medium, by the light maps, also
+/// together with a mask.
 #[test]
 fn foam_is_in_its_own_shade() {
     let gpu = Gpu::shared();
-    // The source's has no scattering, and a falloff of the background that takes no sunlight.
+    // The source's medium has no scattering, and its falloff of the background does not block
+    // sunlight.
     let media = [
         Medium::Physical { absorption: [9.0, 1.0, 0.5], scattering: [0.5, 0.25, 0.0] },
         Medium::Source { base: [0.3, 0.9, 0.6], falloff: [7.0, 0.25, 2.0, 20.0] },
@@ -261,7 +264,7 @@ fn foam_is_in_its_own_shade() {
         case.amounts.extend((0..n).map(|i| [(i % 2) as f32, 0.0]));
         case.velocities.resize(case.shot.positions.len(), [0.0; 3]);
         case.shot.settings.surface_foam.shadow = 2.0;
-        // Some of the wall is behind the front layer, or in part.
+        // Some of the wall lies partly or entirely behind the front layer.
         case.shot.settings.surface_foam.front_depth = 0.15;
         case.shot.settings.water.medium = medium;
         let center = at.to_array();

@@ -9,17 +9,18 @@ use crate::surface_foam::Foamy;
 
 use super::{SIZE, even, everything};
 
-/// What spray is a multiple of.
+/// Fixed-point step of the spray's optical depth.
 const STEP: f32 = Sums::SINGLE.step as f32;
 
-/// What of the spray the sun lights: all of it, nothing, or of each droplet the same part.
+/// With a uniform mask the lit part of the spray is all of it, nothing, or the same fraction of
+/// each droplet.
 #[test]
 fn spray_is_lit_by_the_sun_that_comes() {
     let gpu = Gpu::shared();
     let mut case = Foamy::new(SIZE, Lens::Standard, 10.0);
     let config = everything(&mut case).with(|it| it.light_map_size = None);
     case.shot.light_volume = None;
-    // So few that no two droplets share a pixel often.
+    // With one droplet per particle, two rarely share a pixel.
     case.shot.settings.spray.droplets = 1;
     let mut rig = Rig::lit(&gpu, &config, 1);
     let draw = |case: &mut Foamy, rig: &mut Rig<'_>, sun| {
@@ -38,7 +39,8 @@ fn spray_is_lit_by_the_sun_that_comes() {
     let (_, lit, _) = draw(&mut case, &mut rig, 0.25);
     let mut some = 0;
     for (lit, all) in lit.data.iter().zip(&all.data) {
-        // Each droplet to a step next to it, as all of it, of which ten at most share a pixel.
+        // Each droplet rounds to a neighbouring step, in the lit sum and in the whole; at most ten
+        // share a pixel.
         assert!((lit - 0.25 * all).abs() <= 10.0 * 1.25 * STEP, "{lit} of {all}");
         some += usize::from(*lit > 0.02);
     }

@@ -14,7 +14,8 @@ use crate::surface_foam::Foamy;
 use super::lit::is_nearly_half;
 use super::{SIZE, casting, even, everything, maps, pool, toward};
 
-/// Sums in whole steps: neither maps nor pictures go by the order of the particles, bit for bit.
+/// The sums are in fixed point, so the order of the particles changes neither maps nor pictures by
+/// a bit.
 #[test]
 fn the_order_of_particles_does_not_show_in_light() {
     let gpu = Gpu::shared();
@@ -36,8 +37,9 @@ fn the_order_of_particles_does_not_show_in_light() {
     }
 }
 
-/// Far from the region's middle what a texel holds times its distance has more digits than single
-/// precision: it is what it is to a rounding an addend, the thickness itself bit for bit.
+/// Far from the region's centre, a texel's thickness times distance has more digits than single
+/// precision holds: it may differ by one rounding per term. The thickness itself is equal bit for
+/// bit.
 #[test]
 fn the_order_of_particles_does_not_show_in_far_light() {
     let gpu = Gpu::shared();
@@ -75,7 +77,7 @@ fn permuted(case: &Foamy, seed: u64) -> Foamy {
     other
 }
 
-/// Frames of one pixel, of odd sizes and within a wider image.
+/// Frames of one pixel, of odd sizes, and as a part of a larger image.
 #[test]
 fn light_on_frames_of_any_size() {
     let gpu = Gpu::shared();

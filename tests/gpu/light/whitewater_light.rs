@@ -1,5 +1,5 @@
-//! Shadows of whitewater particles: their map against the twin, and the sunlight that they block on the scene, on water
-//! and on each other.
+//! Compares the light map of whitewater particles with its CPU twin, and checks the sunlight that
+//! they block on the scene, on water and on each other.
 
 use ash::vk;
 use glam::Vec3;
@@ -24,7 +24,7 @@ use crate::whitewater::ways::lists;
 use super::lit::{check_lit, grounded, seen};
 use super::{SIZE, casting, everything, maps, toward, twin, water, wide};
 
-/// With room for so many whitewater particles.
+/// `config` with room for `most` whitewater particles.
 fn whitewater_config(config: Config, most: u32) -> Config {
     let whitewater = WhitewaterConfig::new(most).with(|it| it.occlusion = Occlusion::Reference);
     config.with(|it| it.whitewater = Some(whitewater))
@@ -42,14 +42,15 @@ struct Cloud {
 }
 
 impl Cloud {
-    /// New foam of one radius.
+    /// New foam particles of one radius.
     fn of(case: Foamy, positions: Vec<[f32; 3]>, radius: f32) -> Self {
         let n = positions.len();
         let (kinds, ages, ids) = (vec![0; n], vec![0.0; n], vec![0; n]);
         Self { case, positions, kinds, radii: vec![radius; n], ages, ids }
     }
 
-    /// Of all kinds, ages and sizes, from a hundredth to some of `size`.
+    /// Particles of all kinds and ages, with radii from a hundredth of `size` to three times
+    /// `size`.
     fn mixed(case: Foamy, positions: Vec<[f32; 3]>, size: f32) -> Self {
         let mut random = Random(3);
         let mut cloud = Self::of(case, positions, size);
@@ -78,7 +79,7 @@ impl Cloud {
         self.draw_with(rig, Some(cloud.particles()))
     }
 
-    /// With other particles than its own.
+    /// Draws these whitewater particles instead of the shot's own.
     fn draw_with(&self, rig: &mut Rig<'_>, particles: Option<WhitewaterParticles>) -> Drawn {
         let amounts = rig
             .stub
@@ -105,8 +106,8 @@ fn map_of(drawn: &Drawn) -> &Image<[f32; 4]> {
     drawn.light_whitewater.as_ref().expect("a map of whitewater particles")
 }
 
-/// The map is the twin's, for suns and regions of all kinds: some of the particles lie beside the region, before
-/// and behind it, and behind the eye.
+/// The map agrees with the twin's for suns and regions of all kinds. Some particles lie beside the
+/// region, some before it, behind it and behind the eye.
 #[test]
 fn the_map_of_whitewater_particles_is_the_twins() {
     let gpu = Gpu::shared();
@@ -143,7 +144,8 @@ fn the_map_of_whitewater_particles_is_the_twins() {
             for (c, bounds) in bounds.iter().enumerate() {
                 let name = format!("light-whitewater-{texels}-{i}-{c}");
                 compare::between(&name, &found.map(|t| t[c]), bounds);
-                // Halves, and a hundredth of a texel.
+                // The bounds may be as far apart as the rounding to half precision and a hundredth
+                // of a texel allow.
                 let close = bounds.low.data.iter().zip(&bounds.high.data).filter(|(a, b)| {
                     **b - **a < 4e-3 * b.abs() + [2e-3, 0.01 * light.texel(), 0.1][c]
                 });
@@ -156,7 +158,8 @@ fn the_map_of_whitewater_particles_is_the_twins() {
     }
 }
 
-/// The scene under spray is what the maps say, with water and its own foam or without.
+/// The scene under spray has the light that the maps say, with and without water and its surface
+/// foam.
 #[test]
 fn the_scene_is_in_the_shade_of_whitewater_particles() {
     let gpu = Gpu::shared();
@@ -182,8 +185,8 @@ fn the_scene_is_in_the_shade_of_whitewater_particles() {
     }
 }
 
-/// A wide sheet of foam a metre above the ground, in a lattice so close that its thickness is even, with the sun
-/// above; its least and most thickness.
+/// A wide sheet of foam a metre above the ground, with the sun above it. Its lattice is so dense
+/// that its thickness is nearly uniform. Returns the min and max thickness.
 fn sheet(texels: u32) -> (Cloud, Config, [f64; 2]) {
     let mut case = grounded(Lens::Standard, 0.2);
     (case.shot.positions, case.amounts, case.velocities) = Default::default();
@@ -193,7 +196,7 @@ fn sheet(texels: u32) -> (Cloud, Config, [f64; 2]) {
     let place = |i: i32| step * i as f32;
     let lattice = (34..68).flat_map(|i| (-14..20).map(move |j| [place(i), 1.2, place(j)]));
     let cloud = Cloud::of(case, lattice.collect(), radius);
-    // Over a cell of the lattice.
+    // Thickness over one cell of the lattice.
     let thickness = |x: f64, z: f64| -> f64 {
         let (step, radius) = (f64::from(step), f64::from(radius));
         let near = (-4..=4).flat_map(|i| (-4..=4).map(move |j| (f64::from(i), f64::from(j))));
@@ -206,8 +209,8 @@ fn sheet(texels: u32) -> (Cloud, Config, [f64; 2]) {
     (cloud, whitewater_config(casting(texels), 4096), ends)
 }
 
-/// The ground under a sheet of a known thickness loses what the sheet covers, whatever the map's resolution; in
-/// the picture of the map it is as thick.
+/// The ground under a sheet of known thickness loses the fraction of sunlight that the sheet
+/// covers, at every resolution of the map.
 #[test]
 fn a_sheet_takes_of_the_sun_what_it_covers() {
     let gpu = Gpu::shared();
@@ -233,7 +236,8 @@ fn a_sheet_takes_of_the_sun_what_it_covers() {
             under += 1;
             for (c, (found, open)) in found.iter().zip(&shot.color[i]).take(3).enumerate() {
                 let lost = 1.0 - f64::from(*found) / f64::from(*open);
-                // Halves of the map and of the picture, of steps, of the picture's own values.
+                // The map, the picture, the fixed-point steps and the picture's original values
+                // each round to half precision.
                 let by = 4.0 / 1024.0;
                 let inside = covered[0] - by..covered[1] + by;
                 assert!(inside.contains(&lost), "{texels} ({x}, {y}) {c}: {lost}, not {covered:?}");
@@ -243,7 +247,8 @@ fn a_sheet_takes_of_the_sun_what_it_covers() {
     }
 }
 
-/// Light that foam gets of the sun alone, over what it would get without shadows, where it faces the sun; the depths.
+/// For each pixel where foam faces the sun: its direct sunlight over that without shadows. Also
+/// returns the depths.
 fn sun_on_foam(gpu: &Gpu, cloud: &Cloud, config: &Config) -> (Vec<Option<f32>>, Vec<f32>) {
     let mut open = cloud.clone();
     open.case.shot.light_volume = None;
@@ -264,7 +269,7 @@ fn sun_on_foam(gpu: &Gpu, cloud: &Cloud, config: &Config) -> (Vec<Option<f32>>, 
     ((0..depth.len()).map(part).collect(), depth)
 }
 
-/// Foam behind foam gets as much less of the sun.
+/// Foam behind the sheet of foam loses the fraction of sunlight that the sheet covers.
 #[test]
 fn foam_is_in_the_shade_of_foam() {
     let gpu = Gpu::shared();
@@ -283,11 +288,11 @@ fn foam_is_in_the_shade_of_foam() {
     let (open, low) = sun_on_foam(&gpu, &alone, &config);
     let (shaded, depth) = sun_on_foam(&gpu, &both, &config);
     let mut seen = 0;
-    // Where the few are seen past the sheet. They are no more than two on one another themselves.
+    // Pixels that show the 120 particles beside the sheet. At most two of these particles overlap.
     for i in (0..depth.len()).filter(|i| depth[*i] == low[*i] && open[*i].is_some()) {
         let Some(part) = shaded[i] else { continue };
         seen += 1;
-        // Three halves, of which two are nearly as large as their difference.
+        // Three values in half precision, two of which are nearly as large as their difference.
         let by = 0.01;
         let (part, ends) = (f64::from(part), left(most + 2.0) - by..left(least) + by);
         assert!(ends.contains(&part), "{part}, not {ends:?}");
@@ -296,7 +301,8 @@ fn foam_is_in_the_shade_of_foam() {
     assert!(seen > 30, "{seen} pixels");
 }
 
-/// One particle does not shade itself, however large and wherever the sun stands: not by a bit.
+/// One particle does not shade itself, whatever its size and the sun's direction: the light is
+/// equal to the bit.
 #[test]
 fn a_particle_does_not_shade_itself() {
     let gpu = Gpu::shared();
@@ -322,7 +328,7 @@ fn a_particle_does_not_shade_itself() {
     }
 }
 
-/// A level sheet of foam is no darker for its own shadow but by little, to where the sun grazes it.
+/// A level sheet of foam shades itself only a little, down to a grazing sun.
 #[test]
 fn a_sheet_hardly_shades_itself() {
     let gpu = Gpu::shared();
@@ -340,7 +346,7 @@ fn a_sheet_hardly_shades_itself() {
                 })
                 .collect();
             let along = (1.0 - height * height).sqrt();
-            // From behind the eye, which small foam faces.
+            // The sun stands behind the eye, because small foam faces the eye.
             shot.settings.light.direction = toward(-0.8 * along, height, 0.6 * along);
             shot.settings.light.irradiance = [3.0 * height.max(0.1); 3];
             shot.settings.light.shade = [0.0; 3];
@@ -359,8 +365,8 @@ fn a_sheet_hardly_shades_itself() {
     }
 }
 
-/// A plume of specks far smaller than a texel and of some that are not: what the ground loses is nearly the same
-/// by maps of 512 and of 1024 texels.
+/// A plume of particles, most of them far smaller than a texel. The ground loses nearly as much
+/// light with a map of 512 texels as with 1024.
 #[test]
 fn shadows_do_not_change_with_the_maps_resolution() {
     let gpu = Gpu::shared();
@@ -394,7 +400,7 @@ fn shadows_do_not_change_with_the_maps_resolution() {
     assert!(off < 0.06 * all && sum.abs() < 0.03 * all, "{} and {} of it", off / all, sum / all);
 }
 
-/// All that the sun does, of particles of all kinds.
+/// A scene with particles of all kinds, and with everything that the sun lights.
 fn all_kinds(cast: u32) -> (Cloud, Config) {
     all_kinds_of(SIZE, cast)
 }
@@ -411,7 +417,8 @@ fn all_kinds_of(size: vk::Extent2D, cast: u32) -> (Cloud, Config) {
     (Cloud::mixed(case, positions, 0.1), whitewater_config(config, 700))
 }
 
-/// Sums in whole steps: neither the map nor the picture go by the order of the particles, bit for bit.
+/// The sums are in fixed point, so the order of the particles changes neither map nor picture by a
+/// bit.
 #[test]
 fn the_order_of_whitewater_particles_does_not_show() {
     let gpu = Gpu::shared();
@@ -434,15 +441,16 @@ fn the_order_of_whitewater_particles_does_not_show() {
     }
 }
 
-/// The host's packets of particles do not show in the light, of any size; what a box beside the light's region
-/// holds casts nothing.
+/// The host's packets, whatever their size, do not change the light. Particles in boxes beside the
+/// light's region cast no shadow.
 #[test]
 fn packets_cast_as_single_particles() {
     let gpu = Gpu::shared();
     let (mut cloud, config) = all_kinds(64);
-    // Each has one of its own: what packets are grown by for those that have none is little.
+    // Every particle has its own radius. The default radius is small, because packets are grown by
+    // it.
     cloud.case.shot.settings.whitewater.radius = 1.0e-3;
-    // A region with particles on all sides.
+    // The region has particles on all sides.
     let middle =
         cloud.positions.iter().map(|p| Vec3::from(*p)).sum::<Vec3>() / cloud.positions.len() as f32;
     cloud.case.shot.light_volume = Some(LightVolume { center: middle.to_array(), radius: 1.5 });
@@ -464,7 +472,7 @@ fn packets_cast_as_single_particles() {
         compare::same_color("packets-cast", map_of(&drawn), map_of(&expected));
         compare::same_color("packets-cast-output", &drawn.output, &expected.output);
     }
-    // In the light's own axes: beside the region, and behind it.
+    // Moved along the light's own axes: beside the region and behind it.
     let sun = Vec3::from(cloud.case.shot.settings.light.direction).normalize();
     let across = sun.any_orthonormal_vector();
     for offset in [across, -across, sun.cross(across), -sun] {
@@ -476,16 +484,17 @@ fn packets_cast_as_single_particles() {
     }
 }
 
-/// In how many pieces particles and map are worked on does not show: a device that binds little at once. Neither does
-/// how they are handed in: a record that has them all, counted on the GPU.
+/// The device binds only small ranges, so particles and map are processed in pieces. This does not
+/// change the result. The particles come as interleaved records with a count on the GPU.
 #[test]
 fn pieces_do_not_show() {
     let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
-    // What is by the pixel is bound whole: 32 bytes of each.
+    // Buffers with one entry per pixel are bound whole; they hold 32 bytes per pixel.
     let (cloud, config) = all_kinds_of(extent(13, 12), 64);
     let expected = cloud.draw(&mut Rig::lit(&gpu, &config, 1));
-    // 5 rows of the map, 256 records of particles; then 19 and more particles than there are.
+    // The first range holds 5 rows of the map or 256 particle records; the second holds 19 rows and
+    // all particles.
     for range in [5 * 1024 + 100, 19 * 1024] {
         claim(&mut gpu, Claims { max_storage_buffer_range: Some(range), ..Claims::default() });
         let count = cloud.positions.len();
@@ -525,8 +534,9 @@ fn pieces_do_not_show() {
     }
 }
 
-/// Without whitewater particles the light is that of a renderer without room for them, bit for bit; so it is after a frame
-/// that had some, and where all that there are have gone. (Water is shaded by another program there.)
+/// Without whitewater particles the light equals that of a renderer without them, to the bit. This
+/// also holds after a frame with particles, and when all particles are too old. Spray and foam may
+/// differ by rounding, because there another shader runs.
 #[test]
 fn no_whitewater_particles_take_no_light() {
     let gpu = Gpu::shared();
@@ -567,8 +577,8 @@ fn no_whitewater_particles_take_no_light() {
     assert!(scene > 500, "{scene} pixels of the scene");
 }
 
-/// The sun's highlight on water, and foam of the water's own, in the shade of whitewater particles that the eye does not
-/// see.
+/// Whitewater particles that the eye does not see shade the sun's highlight on water, and surface
+/// foam.
 #[test]
 fn water_is_in_the_shade_of_foam() {
     let gpu = Gpu::shared();
@@ -586,7 +596,7 @@ fn water_is_in_the_shade_of_foam() {
             dull.amounts.fill([0.0; 2]);
             dull
         };
-        // The sun stands behind the eye; the foam, too.
+        // The sun and the whitewater particles are behind the eye.
         let [at, from] = [[0.0, 0.0, 2.6], [0.1, 0.2, 0.0]]
             .map(|p| Vec3::from(scenes::world(&case.shot.camera, &[p])[0]));
         let mut random = Random(8);
@@ -628,13 +638,13 @@ fn water_is_in_the_shade_of_foam() {
         }
         let [open, shaded] = middle;
         assert!(open > 0.5 && shaded < 0.6 * open, "{foamy}: {shaded} of {open}");
-        // No highlight there.
+        // Beside the shade only foam is lit; the highlight does not reach there.
         assert!(beside > 50 || !foamy, "{beside} pixels are beside it");
     }
 }
 
-/// As many on one spot as a word of steps can hold take all of the sun, and no more than that; where they are is known
-/// by then as well.
+/// So many particles on one spot that the fixed-point sum reaches its max. They block all sunlight,
+/// and the map's depth is still right.
 #[test]
 fn many_on_one_spot_take_all_the_sun() {
     let gpu = Gpu::shared();
@@ -649,14 +659,14 @@ fn many_on_one_spot_take_all_the_sun() {
     let light = twin(&cloud.case.shot, &casting(64));
     let far = light.place(wide([3.1, 1.2, 0.2])).1 + 0.3;
     for [_, middle, spread, _] in map_of(&drawn).data.iter().filter(|t| t[0] > 0.0) {
-        // Half a texel to a whole one, and a half float.
+        // The farthest surface is rounded to steps of a texel, and to half precision.
         let off = (f64::from(*middle) - far).abs();
         assert!(off < 0.51 * light.texel() + far.abs() / 1024.0, "{middle}, not {far}");
         assert!(f64::from(*spread) < 0.01 * light.texel(), "{spread} about one spot");
     }
 }
 
-/// The memory that is documented.
+/// The memory per texel and per particle is as documented.
 #[test]
 fn memory_is_by_the_texel() {
     let gpu = Gpu::shared();

@@ -1,4 +1,5 @@
-//! Shoreline and contact foam in the picture: a coat on the scene, under the particles' water and without it.
+//! Shoreline and contact foam in the picture: a coat over the scene, with and without the
+//! particles' water over it.
 
 use ash::vk;
 use glam::{DVec2, DVec3};
@@ -26,7 +27,7 @@ pub fn coasts(gpu: &Gpu) -> Mapped<'_> {
     coasts
 }
 
-/// Foam of both kinds, in colours and light of three different channels.
+/// Both kinds of foam, with different values in the three channels.
 pub fn look() -> ShoreSettings {
     let mut look = plain();
     (look.shoreline.color, look.shoreline.opacity) = ([0.9, 0.5, 0.25], 0.8);
@@ -35,12 +36,13 @@ pub fn look() -> ShoreSettings {
     look
 }
 
-/// A bottom under the level that comes up to it, and foam along the map's shore.
+/// A seabed that slopes away below the water level, and foam along the map's shore line.
 pub fn shot(coasts: &Mapped<'_>, points: &[[f32; 3]]) -> Shot {
     over_bottom(coasts, points, extent(96, 64), |x| 0.02 * x)
 }
 
-/// The same in a picture of such a size, over a bottom that is so many metres of depth behind the level by the pixel's x.
+/// The same with a picture of this size, and a seabed that lies `behind` metres of depth behind the
+/// water level at a pixel's x.
 fn over_bottom(
     coasts: &Mapped<'_>,
     points: &[[f32; 3]],
@@ -61,7 +63,7 @@ fn over_bottom(
     shot
 }
 
-/// The coat over a colour, by the foam that was found.
+/// Expected colour: the coat over `under`, with the amounts of foam found in the image.
 pub fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [f64; 4] {
     let part = texel.map(|v| f64::from(v) / 255.0);
     let (s, c) = (&shot.settings.shore.shoreline, &shot.settings.shore.contact);
@@ -85,8 +87,8 @@ pub fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) 
     color
 }
 
-/// Filters know a place to some u of the image's width, here of 96 texels, and a channel changes by no more than about 2 from
-/// texel to texel; sums and products are some tens.
+/// A filter places its samples to some u of the image's width, here 96 texels, and a channel
+/// changes by up to about 2 between texels; sums and products add some tens of u.
 pub const OFF: f64 = 2.0 * 4.0 * 96.0 * U + 40.0 * U;
 
 pub fn check(name: &str, shot: &Shot, drawn: &Drawn) -> u32 {
@@ -109,8 +111,9 @@ pub fn check(name: &str, shot: &Shot, drawn: &Drawn) -> u32 {
     seen
 }
 
-/// Without particles the picture is the scene with the coat; in place or not, as a part of the host's images, by draws or
-/// by compute. No Frame.shore, or no foam in it, leaves the scene as it was.
+/// Without particles the picture is the scene with the coat: with the output as scene or not, in a
+/// part of the host's images, by raster and by compute. Without `Frame.shore`, or without foam, the
+/// scene is unchanged.
 #[test]
 fn the_coat_lies_on_the_scene() {
     let gpu = Gpu::shared();
@@ -143,7 +146,8 @@ fn the_coat_lies_on_the_scene() {
     compare::same_color("shore-ways", &pictures[0], &pictures[1]);
 }
 
-/// Foam all over pictures wider than a run of tiles is drawn whole, up to their edges.
+/// Pictures wider than a run of tiles, with foam everywhere, are drawn completely up to their
+/// edges.
 #[test]
 fn rows_of_any_length_are_drawn() {
     let gpu = Gpu::shared();
@@ -159,7 +163,8 @@ fn rows_of_any_length_are_drawn() {
     }
 }
 
-/// What a frame without foam gives is what a renderer that knows none gives, bit for bit; and so is each pixel far from it.
+/// A frame without foam equals that of a renderer without shore foam, bit for bit; so does each
+/// pixel far from foam.
 #[test]
 fn no_foam_is_no_change() {
     let gpu = Gpu::shared();
@@ -187,13 +192,13 @@ fn no_foam_is_no_change() {
     }
 }
 
-/// Through the particles' water foam is seen as if it were the scene's own: over a scene of one colour, what the water shows
-/// of it is what it shows of a scene that is coated beforehand.
+/// Foam under the particles' water looks like a part of the scene: over a scene of one colour, the
+/// result equals that with the coat already in the scene's colour.
 #[test]
 fn foam_is_seen_through_water() {
     let gpu = Gpu::shared();
     let coasts = coasts(&gpu);
-    // Over the shore.
+    // The water covers the shore line.
     let points = scenes::block(3, 0.25, [14, 8, 3], [-1.6, -1.0, 3.0]);
     let mut shot = shot(&coasts, &points);
     shot.color.fill([0.3, 0.5, 0.7, 0.75]);
@@ -220,7 +225,7 @@ fn foam_is_seen_through_water() {
             let (found, expected) = (found.output.data[i], expected.output.data[i]);
             for c in 0..3 {
                 let off = (found[c] - expected[c]).abs();
-                // A place off by 1/256 in the filter moves both by a difference of two texels.
+                // Filter positions rounded to 1/256 texel, between texels that differ by at most 2.
                 assert!(off < 2.0 / 256.0, "{way:?}, {i}: {found:?}, expected {expected:?}");
             }
             changed += i32::from((expected[0] - bare.output.data[i][0]).abs() > 0.05);
@@ -230,7 +235,7 @@ fn foam_is_seen_through_water() {
     }
 }
 
-/// Contact foam on the particles' water is on top of it.
+/// Contact foam lies on top of the particles' water.
 #[test]
 fn contacts_lie_on_the_water() {
     let gpu = Gpu::shared();
@@ -265,7 +270,8 @@ fn contacts_lie_on_the_water() {
     }
 }
 
-/// Where the sun does not come foam has what comes without it: by a mask that is the sun's share itself.
+/// Foam has only the light of shade where the sun is blocked. The shadow mask is the visible
+/// fraction of the sun itself.
 #[test]
 fn foam_in_the_shade_is_darker() {
     let gpu = Gpu::shared();
@@ -303,7 +309,7 @@ fn foam_in_the_shade_is_darker() {
     check("shade", &shot, &drawn);
 }
 
-/// A surface that the scene's depth has itself is seen with the bias that says so.
+/// If the scene's depth contains the surface itself, the bias makes its foam visible.
 #[test]
 fn a_bias_lets_the_surface_be_in_the_depth() {
     let gpu = Gpu::shared();
@@ -325,23 +331,23 @@ fn a_bias_lets_the_surface_be_in_the_depth() {
     };
     let hidden = count(rig.draw(&near(0.0)));
     let seen = count(rig.draw(&near(0.2)));
-    // Only beyond what the scene's depth has.
+    // Foam that shows without the bias lies beyond 50 m, where the scene's depth is empty.
     assert!(hidden < 10 && seen > 500, "{hidden} and {seen}");
 }
 
-/// The coat is blended with where the format can be, else it is mixed with the scene's colour that is read: either shows all
-/// the foam there is, in the same colour.
+/// The coat is blended where the format permits it, and otherwise mixed with the scene colour that
+/// is read. Both show all foam, in the same colour.
 ///
-/// Of half floats a number is off by 2^-10 of itself (a device may round to 0), of eight bits by a step (either of the two that
-/// are next to it may be written: Vulkan 1.3, "Conversion from Floating-Point to Normalized Fixed-Point"); a blend rounds what it is given, the part
-/// that stays, the product and the sum.
+/// Half precision errs by 2^-10 of a value (a device may round towards 0), eight bits by a step
+/// (either neighbour may be written: Vulkan 1.3, "Conversion from Floating-Point to Normalized
+/// Fixed-Point"). A blend rounds the input, the remaining fraction, the product and the sum.
 #[test]
 fn the_coat_is_the_same_in_every_format() {
     use ash::vk::Format;
     let gpu = Gpu::shared();
     let coasts = coasts(&gpu);
     let mut shot = shot(&coasts, &[]);
-    // What is over 1 is another's matter.
+    // Values are below 1, because not every format can hold more.
     shot.settings.light.irradiance = [1.0, 2.0, 3.0];
     let mut first: Option<Image<[u8; 4]>> = None;
     for way in WAYS {

@@ -1,4 +1,4 @@
-//! Contact foam on the host's level surface and on the particles' water, against the twin.
+//! Compares contact foam on the host's water level and on the particles' water with the CPU twin.
 
 use ash::vk;
 use glam::DVec3;
@@ -15,7 +15,7 @@ use crate::support::scenes::{self, Lens};
 
 use super::SAMPLED;
 
-/// A look, and its twin on the host's surface and on the particles'.
+/// The twin of these settings, on the host's surface and on the particles' surface.
 pub fn twins(look: &ShoreSettings, spacing: f32) -> [Contact; 2] {
     let c = &look.contact;
     let depths = [c.depth, c.particle_depth.unwrap_or(4.0 * spacing)];
@@ -33,13 +33,13 @@ fn look(contact: ContactSettings) -> ShoreSettings {
     })
 }
 
-/// A web of more layers than most have, which are drawn another way.
+/// A third texture layer, which selects the general pipeline.
 fn more_layers(shot: &mut Shot) {
     shot.settings.shore.shoreline.layers[2] =
         TextureLayer { weight: 0.1, scale: 0.1, ..TextureLayer::NONE };
 }
 
-/// The depth of the scene as single precision finds it.
+/// Eye depth of the scene as the shader computes it in single precision.
 pub fn scene_of(shot: &Shot, i: usize) -> Option<Bounded> {
     let view = shot.view(shot.size);
     let device = exact(f64::from(shot.depth[i]));
@@ -47,7 +47,7 @@ pub fn scene_of(shot: &Shot, i: usize) -> Option<Bounded> {
     (z.low() > 0.0 && z.high() < 1.0e3).then_some(z)
 }
 
-/// A mask of the host's, over the view.
+/// A mask image from the host that covers the view.
 fn mask(rig: &Rig<'_>) -> (Texture, Image<f32>) {
     let image = Image::from_fn(24, 16, |x, y| (x * 5 + y * 3) as f32 % 7.0 / 5.0 - 0.1);
     let usage = vk::ImageUsageFlags::SAMPLED;
@@ -92,7 +92,7 @@ fn a_level_s_contacts_are_the_twin_s() {
     ] {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
         let level = water(&shot, DVec3::Y, 0.25);
-        // A wall that leans, and a bottom that falls away.
+        // A slanted wall, and a seabed that slopes away.
         shot.scene_depth(|x, y| {
             let z = level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]).depth.value;
             let wall = 5.0 + 0.03 * f64::from(x) - 0.01 * f64::from(y);
@@ -100,7 +100,8 @@ fn a_level_s_contacts_are_the_twin_s() {
             Some(wall.min(bottom).clamp(0.2, 80.0))
         });
         let mask = own.then(|| texture.host_image());
-        // What is before the surface by less than the bias counts as behind it: there is no foam all the same.
+        // Objects before the surface by less than the bias count as behind it; they still make no
+        // foam.
         shot.shore = Some(Shore::new(0.25).with(|it| {
             it.mask = mask;
             it.bias = 0.05;
@@ -138,15 +139,15 @@ fn a_level_s_contacts_are_the_twin_s() {
             tally.add((x, y), texel[1], twin.amount(t, masked));
         }
         tally.check(name, 100, 0.05);
-        // Of no opacity there is none.
+        // With opacity 0 there is no foam.
         shot.settings.shore.contact.opacity = 0.0;
         let found = rig.draw(&shot).shore.expect("contact foam");
         assert!(found.data.iter().all(|c| *c == [0; 4]), "{name}: of no opacity");
     }
 }
 
-/// The smoothed surface at a pixel, between its texels of two pixels a side, of those that are of the pixel's own surface;
-/// none where rounding decides which are.
+/// The smoothed surface at a pixel, interpolated between texels of 2x2 pixels that belong to the
+/// pixel's own surface. None if rounding decides which texels belong to it.
 fn smoothed(
     surface: &Image<f32>,
     (x, y): (usize, usize),
@@ -168,14 +169,15 @@ fn smoothed(
     Some(exact(z).wider(4.0 * U * front))
 }
 
-/// The smoothed depth is the surface, whatever the host has of its own.
+/// On the particles' water the surface is the smoothed depth, whatever surface the host gives.
 #[test]
 fn contacts_on_particles_are_the_twin_s() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
-    // Of posts of a pixel's width, about one a tile, few pixels have some: no tile is left out that has one.
+    // Posts one pixel wide, about one per tile: few pixels have foam, and no tile with foam may be
+    // skipped.
     for (name, lens, contact) in [
         ("posts", Lens::Reversed, ContactSettings::default()),
         ("posts, alone", Lens::OffAxis, ContactSettings::default()),
@@ -225,7 +227,7 @@ fn contacts_on_particles_are_the_twin_s() {
             let Some(scene) = scene_of(&shot, i) else { continue };
             let point = level.at_depth(level.ray([x as f64 + 0.5, y as f64 + 0.5]), z);
             let up = [level.up[0], level.up[1], level.up[2]];
-            // Where the smoothed surface lies behind what the scene has it is at it.
+            // Where the smoothed surface lies behind the scene, its distance to the scene is 0.
             let behind = scene.rising(|scene| scene.max(z.high()));
             let t = twin.part([z, behind], point.ray, up).max(0.0);
             let part = twin.masked(web, &point, [0.0; 2]);
@@ -234,7 +236,7 @@ fn contacts_on_particles_are_the_twin_s() {
             tally.add((x, y), texel[3], amount);
         }
         tally.check(name, if posts { 15 } else { 100 }, 0.05);
-        // The wall stands above the water's surface too, where one looks up to it.
+        // The wall also rises above the water's surface, where the ray points upwards.
         println!("{name}: {above} pixels look up");
         assert!(name != "vertical" || above > 50, "{name}: {above} pixels look up");
         shot.settings.shore.contact.particle_opacity = 0.0;
@@ -243,8 +245,8 @@ fn contacts_on_particles_are_the_twin_s() {
     }
 }
 
-/// A finite far plane is no place: where the scene has nothing there is nothing behind the surface, however near to the plane
-/// that comes, nor is there a bottom that the shore could be told by.
+/// A finite far plane is not a surface: without a scene there is no contact foam, however near to
+/// that plane the water comes, and no shoreline foam from the seabed's depth.
 #[test]
 fn nothing_is_not_at_the_far_plane() {
     let gpu = Gpu::shared();
@@ -278,7 +280,7 @@ fn nothing_is_not_at_the_far_plane() {
             for (i, layer) in shot.settings.shore.shoreline.layers.iter_mut().enumerate() {
                 (layer.weight, layer.scale) = (if i < layers { 0.25 } else { 0.0 }, 0.2);
             }
-            // A wall a little nearer than the plane has all of it.
+            // A wall a little nearer than the far plane has all foam.
             for (at, seen) in [(Some(0.98 * far), true), (None, false)] {
                 shot.scene_depth(|_, _| at);
                 let foam = rig.draw(&shot).shore.expect("foam");

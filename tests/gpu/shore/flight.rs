@@ -17,17 +17,18 @@ use crate::support::scenes::Lens;
 const SLOTS: u32 = 2;
 const FRAMES: u32 = 12;
 
-/// An island that has moved on from frame to frame.
+/// Centre of an island that moves from frame to frame.
 fn middle(frame: u32) -> DVec2 {
     DVec2::new(7.0 + 0.7 * f64::from(frame % 5), -5.0 - 0.5 * f64::from(frame % 3))
 }
 
-/// What it is part of, which goes along by and by.
+/// The map's area, which moves every fourth frame.
 fn area(frame: u32) -> Area {
     Area { center: [7.0 + 0.5 * (frame / 4) as f32, -5.0], ..AREA }
 }
 
-/// What a frame changes of the map: all by an image, a part by an image, all by a mesh, nothing.
+/// How a frame updates the map: all of it from an image, a part from an image, all from a mesh, or
+/// not at all.
 enum Land {
     All(Texture),
     Part(Texture, [[f32; 2]; 2]),
@@ -47,13 +48,13 @@ fn land(coasts: &Mapped<'_>, frame: u32) -> Land {
     }
 }
 
-/// All frames, one after the other, of one renderer and one map, whose first steps are so many; waited for each, or only
-/// where its slot comes again.
+/// Draws all frames with one renderer and one map, which is updated in the first `steps` frames.
+/// Waits after each frame, or only when its slot is used again.
 fn drawn(gpu: &Gpu, steps: u32, wait: bool) -> Vec<Image<[f32; 4]>> {
     let size = extent(96, 64);
     let mut coasts = Mapped::with_slots(gpu, 64, SLOTS);
     let mut rig = Rig::with_slots(gpu, &with_shore(size, Edge::Smooth), SLOTS);
-    // Nothing is uploaded between frames: that would wait.
+    // All data is uploaded before, because an upload between frames would wait.
     let mut shots: Vec<_> = (0..FRAMES)
         .map(|frame| {
             let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
@@ -88,7 +89,8 @@ fn drawn(gpu: &Gpu, steps: u32, wait: bool) -> Vec<Image<[f32; 4]>> {
                 it.after = after;
             });
             let map = coasts.map.as_mut().expect("only drop takes it");
-            // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+            // SAFETY: cmd is recording, the slot was waited for, and all handles live until the end
+            // of this function.
             unsafe { map.record_step(cmd, &step) }.expect("a step");
         }
         let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
@@ -109,7 +111,8 @@ fn drawn(gpu: &Gpu, steps: u32, wait: bool) -> Vec<Image<[f32; 4]>> {
     scenes.iter().map(|(color, _)| rig.read(&color.host_image(), &nothing).output).collect()
 }
 
-/// A map that is stepped while frames of it are in flight is to each frame what it was when that was recorded.
+/// If the map is updated while frames are in flight, each frame still shows the map at the time of
+/// its record.
 #[test]
 fn frames_in_flight_show_their_own_map() {
     let gpu = Gpu::shared();

@@ -1,5 +1,5 @@
-//! Shoreline and contact foam across changes of a renderer's size and configuration; its web, its memory and its
-//! errors.
+//! Shoreline and contact foam after changes of a renderer's size and configuration; a host's foam
+//! texture, memory and errors.
 
 use ash::vk;
 use glam::DVec2;
@@ -74,7 +74,8 @@ fn a_resize_and_a_reconfiguration_give_what_a_new_renderer_gives() {
     }
 }
 
-/// What a web of 16 bytes a texel of all levels, a noise of 256 texels, an image and lists of the extent take.
+/// Memory of the foam texture with 16 bytes per texel at all mip levels, of a noise texture with
+/// 256² texels, and of an image and lists of the frame's extent.
 #[test]
 fn memory_is_what_it_says() {
     let gpu = Gpu::shared();
@@ -89,7 +90,8 @@ fn memory_is_what_it_says() {
         of(size, Some(ShoreConfig::default().with(|it| it.texture_size = texture_size))) - without
     });
     println!("of 256 texels {small}, of 1024 {large} bytes");
-    // Halves of four channels twice, as an image and packed, and the floats they were: of all levels a third more.
+    // Four channels in half precision, stored twice, as an image and packed; all levels add a
+    // third. Then the source's floats.
     let web = |edge: f64| edge * edge * (2.0 * 8.0 * 4.0 / 3.0 + 4.0);
     let grown = (large - small) / (web(1024.0) - web(256.0));
     assert!((0.98..1.06).contains(&grown), "{grown} of what is said");
@@ -98,7 +100,7 @@ fn memory_is_what_it_says() {
     assert!((0.0..0.3e6).contains(&rest), "{rest} bytes besides");
 }
 
-/// A web of the host's takes the place of the built-in one, until that is made again.
+/// A host's foam texture replaces the built-in one until `set_up` makes that again.
 #[test]
 fn a_web_of_the_host_s_is_what_is_seen() {
     let gpu = Gpu::shared();
@@ -112,7 +114,7 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     let own = TextureLayer { weight: 1.0, scale: 0.25, angle: 30.0, speed: [0.1, 0.0] };
     *s = web_alone([6.0, 3.0], [own, TextureLayer::NONE, TextureLayer::NONE, TextureLayer::NONE]);
     let first = rig.draw(&shot).shore.expect("foam");
-    // A part of a larger image, as large as the web: a smooth pattern.
+    // A smooth pattern of the foam texture's size, as a part of a larger image.
     let n = super::WEB as usize;
     let value = |x: usize, y: usize| {
         let turn = std::f64::consts::TAU / n as f64;
@@ -134,7 +136,7 @@ fn a_web_of_the_host_s_is_what_is_seen() {
         vk::Rect2D { offset: vk::Offset2D { x: 4, y: 3 }, extent: extent(super::WEB, super::WEB) };
     let image = image.host_image().with(|it| it.rect = rect);
     let cmd = rig.stub.begin(0);
-    // SAFETY: cmd is recording; the slot's work is done; the image outlives it.
+    // SAFETY: cmd is recording, the slot's work is done, and the image outlives it.
     unsafe { rig.renderer().record_foam_texture(cmd, Slot(0), &image) }
         .expect("record_foam_texture");
     rig.stub.end(0);
@@ -152,7 +154,7 @@ fn a_web_of_the_host_s_is_what_is_seen() {
         let (at, off) = super::shared_at(super::is_shared(&shot), [x, y]);
         let point = water.at(at);
         let to = DVec2::new(point.place[0].value, point.place[1].value) - DVec2::new(7.0, -5.0);
-        // Well within the band, where v does not count.
+        // Pixels well inside the band, where v has no influence.
         if point.depth.low() <= 0.0 || !(4.0..8.0).contains(&to.length()) {
             continue;
         }
@@ -212,7 +214,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
         let why = rig.refused(&bad, None);
         assert!(why.contains(field), "{field}: {why}");
     }
-    // Light of its own may be any.
+    // Unlit contact foam may have any colour.
     let glowing = ContactSettings::default().with(|it| {
         it.lit = 0.0;
         it.color = [40.0, 9.0, 1.0];
@@ -268,7 +270,7 @@ fn bad_looks_shores_and_configurations_name_their_field() {
     assert!(why.contains("Frame.shore"), "{why}");
     let image = depth.host_image();
     let cmd = plainly.stub.begin(0);
-    // SAFETY: nothing of it may be used.
+    // SAFETY: a call with bad input uses no handle.
     let result = unsafe { plainly.renderer().record_foam_texture(cmd, Slot(0), &image) };
     plainly.stub.end(0);
     plainly.stub.wait(0);

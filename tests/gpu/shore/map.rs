@@ -1,4 +1,5 @@
-//! Pass `map`: seeds, jumps and distances against the exact nearest seed, the shoreline and closed forms.
+//! Compares pass `map`, the distances to a shore line, with the exact nearest seeds, the shore line
+//! and closed forms.
 
 use ash::vk;
 use glam::{DVec2, Mat4, Vec3};
@@ -14,7 +15,7 @@ use crate::support::host::{Data, HOST_WRITE};
 use crate::support::rig::{extent, stream};
 use crate::support::scenes::Random;
 
-/// Metres a texel of the areas here.
+/// Texel size of the areas, in metres.
 const TEXEL: f64 = 0.25;
 
 fn area(size: u32) -> Area {
@@ -26,7 +27,8 @@ fn middle(area: &Area) -> DVec2 {
     DVec2::new(f64::from(area.center[0]), f64::from(area.center[1]))
 }
 
-/// Islands and lakes: waves of falling height, the shortest of so many metres.
+/// Islands and lakes: a sum of waves with decreasing height, whose shortest wavelength is
+/// `shortest` metres.
 fn islands(area: &Area, shortest: f64, seed: u64) -> impl Fn(DVec2) -> f64 {
     let mut random = Random(seed);
     let (edge, middle, level) = (f64::from(area.edge), middle(area), f64::from(area.level));
@@ -50,8 +52,8 @@ fn grid(heights: &Image<f32>, area: &Area) -> Grid {
     Grid::new(heights.width, heights.height, area.level, &heights.data)
 }
 
-/// Of each texel that found the nearest seed the distance is the twin's. Jumps miss it for some: those have one that is
-/// nearly as near, as both are of the same piece of the line or of two between which the texel lies.
+/// Where a texel has the nearest seed, its distance is the twin's. Jump flooding misses the nearest
+/// seed for some texels; these must have a seed that is nearly as near.
 #[test]
 fn distances_are_those_to_the_nearest_seed() {
     let gpu = Gpu::shared();
@@ -76,7 +78,7 @@ fn distances_are_those_to_the_nearest_seed() {
                 }
             }
             missed += own;
-            // To the line itself.
+            // Distances to the exact line, of which seeds are samples.
             let line = Shore::new(&grid).distances(&grid, TEXEL);
             let to_line = difference(found.data.iter().map(|v| f64::from(*v)), &line);
             println!(
@@ -84,8 +86,8 @@ fn distances_are_those_to_the_nearest_seed() {
                 to_line.most / TEXEL,
                 to_line.mean / TEXEL
             );
-            // A segment is half a texel to either side of its seed: so much nearer may one of another seed seem, or farther
-            // by a jump's miss, that is of a narrow region between others: less than a texel.
+            // A seed's segment of the line extends half a texel to both sides, so another seed may
+            // be nearer to a point by that much. Jump flooding adds an error of less than a texel.
             assert!(most < 1.0, "{most} texels");
             assert!(to_line.most < 0.75 * TEXEL && to_line.mean < 0.15 * TEXEL);
         }
@@ -114,13 +116,14 @@ fn circles_and_lines_are_as_far_as_they_are() {
             (most, mean) = (most.max(off), mean + off / (128.0 * 128.0));
         }
         println!("circle of {radius} m: {most:.4} texels at most, {mean:.4} in the mean");
-        // A place in sixteenths is off by 1/32 texel each way, 0.044; of a chord of a texel 1/8r more, r in texels.
+        // Seed positions are rounded to sixteenths of a texel, an error of 1/32 along each axis,
+        // 0.044 in all. A chord of one texel adds 1/8r, with r in texels.
         let chord = TEXEL / (8.0 * radius);
         assert!(most < bounds[0] + chord && mean < bounds[1] + chord, "{most} {mean}");
     }
 }
 
-/// Triangles between the middles of the texels, and beyond the map's edge as at it.
+/// A mesh with a vertex at the middle of each texel, continued flat beyond the map's edge.
 pub struct Mesh {
     positions: Data,
     indices: Data,
@@ -169,15 +172,15 @@ impl Mesh {
     }
 }
 
-/// The largest and the mean difference of two maps, in texels.
+/// The max and the mean difference of two maps, in texels.
 fn apart(a: &Image<f32>, b: &Image<f32>) -> [f64; 2] {
     let expected: Vec<_> = b.data.iter().map(|v| f64::from(*v)).collect();
     let off = difference(a.data.iter().map(|v| f64::from(*v)), &expected);
     [off.most / TEXEL, off.mean / TEXEL]
 }
 
-/// A height of even slope is off by what its vertices are snapped by and by a depth's rounding: seeds by that over the
-/// slope, and by a sixteenth where that tips one.
+/// Heights of a mesh err by the snapping of its vertices and the rounding of depths. Seeds move by
+/// that error over the slope, and by a sixteenth of a texel where rounding changes.
 #[test]
 fn a_mesh_gives_what_its_heights_give() {
     let gpu = Gpu::shared();
@@ -188,7 +191,7 @@ fn a_mesh_gives_what_its_heights_give() {
     let height = |p: DVec2| level + 0.3 * (9.0 - p.distance(from));
     coasts.image_step(&area, &heights(&area, 128, height), None);
     let expected = coasts.distances();
-    // In two parts, of which one is turned and moved, and one that is under water.
+    // The whole mesh, and two meshes of which one has a transform and the other is under water.
     let whole = Mesh::of(&coasts, &area, height);
     let turn = Mat4::from_rotation_y(0.7) * Mat4::from_translation(Vec3::new(3.0, -1.0, 2.0));
     let back = turn.inverse();
@@ -213,13 +216,14 @@ fn a_mesh_gives_what_its_heights_give() {
         coasts.step(&area, Heights::Meshes(&meshes), None);
         let [most, mean] = apart(&coasts.distances(), &expected);
         println!("{name}: {most:.4} texels at most, {mean:.5} in the mean");
-        // Snapped by 2^-bits of a texel each way, the depth by 2^-24 of twice the edge: over the slope in texels.
+        // Vertices are snapped to 2^-bits of a texel along each axis; depths are rounded to 2^-24
+        // of twice the edge, which is divided by the slope and by a texel.
         let bits = f64::from(1_u32 << gpu.limits().sub_pixel_precision_bits);
         let depth = 8.0 * f64::from(area.edge) / (0.3 * TEXEL * f64::from(1 << 24));
         let off = 2.0 / bits + depth;
         assert!(most < off + 2.0_f64.sqrt() / 16.0 && mean < off, "{name}: {most} {mean}");
     }
-    // Of triangles of which a vertex is no number, or is not there, none is seen.
+    // Triangles with an invalid or missing vertex are not drawn.
     let mut broken: Vec<[f32; 3]> = vec![[-100.0, 9.0, -100.0], [100.0, 9.0, -100.0]];
     broken.extend([[f32::NAN, 9.0, 0.0], [0.0, f32::INFINITY, 100.0], [2.0e18, 0.0, 0.0]]);
     let broken =
@@ -229,12 +233,12 @@ fn a_mesh_gives_what_its_heights_give() {
     let alone = coasts.distances();
     coasts.step(&area, Heights::Meshes(&meshes), None);
     assert_eq!(coasts.distances().data, alone.data);
-    // No mesh at all is all sea.
+    // Without any mesh everything is sea.
     coasts.step(&area, Heights::Meshes(&[]), None);
     assert!(coasts.distances().data.iter().all(|v| *v <= -area.edge));
 }
 
-/// What is made anew where something changed is what all made anew is, as far as is asked for.
+/// Updating only the changed part gives the same map as computing all of it, up to the reach.
 #[test]
 fn a_part_made_anew_is_as_the_whole() {
     let gpu = Gpu::shared();
@@ -242,7 +246,7 @@ fn a_part_made_anew_is_as_the_whole() {
     let area = Area { reach: 3.0, ..area(128) };
     let islands = islands(&area, 3.0, 9);
     let level = f64::from(area.level);
-    // A rock that moves about, onto the land, into the sea and beyond the map.
+    // A rock moves onto the land, into the sea and beyond the map.
     let rock = |at: DVec2| move |p: DVec2| level + 1.5 - 2.0 * p.distance(at);
     let places = [[0.0, 0.0], [0.4, 0.3], [-9.0, 5.0], [12.9, -17.0], [14.0, 20.0], [3.0, -2.0]];
     let mut before: Option<DVec2> = None;
@@ -276,7 +280,8 @@ fn a_part_made_anew_is_as_the_whole() {
     }
 }
 
-/// A map whose middle moves shows the same of the world: within a texel all of it, by whole texels what both have.
+/// A map that follows a moving centre: moves within a texel change nothing, larger moves shift the
+/// map by whole texels.
 #[test]
 fn a_map_that_follows_shows_the_same() {
     let gpu = Gpu::shared();
@@ -297,7 +302,7 @@ fn a_map_that_follows_shows_the_same() {
     let by = [0, 1].map(|i| f64::from(moved[i] - corner[i]) / TEXEL);
     assert_eq!(by, [5.0, -3.0]);
     let (mut seen, mut missed) = (0, 0);
-    // Away from where the borders leave out what lies beyond.
+    // Texels away from the borders, beyond which heights are unknown.
     for j in 16..112_usize {
         for i in 16..107_usize {
             let (a, b) = (first.at(i + 5, j), other.at(i, j + 3));
@@ -324,10 +329,10 @@ fn land_alone_sea_alone_and_no_numbers() {
             let most = 2.0 * area.edge;
             assert!(coasts.distances().data.iter().all(|v| *v == sign as f32 * most));
         }
-        // At the water's height is sea.
+        // Ground exactly at the water's level is sea.
         coasts.image_step(&area, &heights(&area, size, |_| level), None);
         assert!(coasts.distances().data.iter().all(|v| *v == -2.0 * area.edge));
-        // Beside land the line goes through the first middles that are at it.
+        // Beside land the line passes through the first texel centres at the water's level.
         let [x0, _] = area.corner(size).map(f64::from);
         let half = |p: DVec2| level + f64::from(u8::from(p.x > x0 + 5.0 * TEXEL));
         coasts.image_step(&area, &heights(&area, size, half), None);
@@ -335,7 +340,7 @@ fn land_alone_sea_alone_and_no_numbers() {
             let expected = TEXEL * ((i % size as usize) as f64 - 4.0);
             assert!((f64::from(*found) - expected).abs() < 1.0e-5 * expected.abs().max(1.0), "{i}");
         }
-        // What is no number is sea: a hole in the land whose border is where it begins.
+        // Invalid heights are sea: a hole in the land that begins at their texels.
         let mut holed = heights(&area, size, |_| level + 1.0);
         for (i, bad) in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.0e30].into_iter().enumerate()
         {
@@ -352,7 +357,7 @@ fn land_alone_sea_alone_and_no_numbers() {
     }
 }
 
-/// Heights of an image of another size, and of a part of one, are taken in between.
+/// Heights of an image of another size, or of a part of an image, are interpolated.
 #[test]
 fn an_image_of_any_size_is_taken_in_between() {
     let gpu = Gpu::shared();
@@ -387,7 +392,8 @@ fn an_image_of_any_size_is_taken_in_between() {
     assert_eq!(coasts.distances().data, whole.data);
 }
 
-/// Two steps are submitted before the first is waited for, over and over: each slot has what is its own, the images are one.
+/// Two steps are submitted before the first is waited for, repeatedly. Each slot has its own data,
+/// and both write the same map.
 #[test]
 fn steps_of_two_slots_in_flight() {
     let gpu = Gpu::shared();
@@ -409,7 +415,7 @@ fn steps_of_two_slots_in_flight() {
             });
             let cmd = coasts.stub.begin(slot);
             let map = coasts.map.as_mut().expect("only drop takes it");
-            // SAFETY: the slot was waited for; the image lives to the end of this.
+            // SAFETY: the slot was waited for, and the image lives until the end of this function.
             unsafe { map.record_step(cmd, &step) }.expect("a step");
             coasts.stub.end(slot);
         }
@@ -470,7 +476,7 @@ fn bad_maps_and_steps_name_their_field() {
             it.after = after;
         });
         let map = coasts.map.as_mut().expect("only drop takes it");
-        // SAFETY: nothing of a bad step may be used.
+        // SAFETY: a step with bad input uses no handle.
         let result = coasts.stub.run(|cmd| unsafe { map.record_step(cmd, &step) });
         match result {
             Err(Error::BadInput { field: found, why }) => {

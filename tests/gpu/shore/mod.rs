@@ -1,4 +1,4 @@
-//! Shoreline foam, contact foam and the distance map, against twins and closed forms.
+//! Compares shoreline foam, contact foam and the distance map with twins and closed forms.
 
 mod composite;
 mod contact;
@@ -35,7 +35,7 @@ use crate::support::device::Gpu;
 use crate::support::host::{HOST_WRITE, Stub, Texture};
 use crate::support::rig::{Shot, config, extent};
 
-/// How distances and heights lie between a host's commands.
+/// Layout and access of distance and height images between a host's commands.
 const SAMPLED: Access = Access::new(
     vk::PipelineStageFlags2::from_raw(
         vk::PipelineStageFlags2::FRAGMENT_SHADER.as_raw()
@@ -45,7 +45,7 @@ const SAMPLED: Access = Access::new(
     vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
 );
 
-/// Edge of the web here, and what it and the noise are made of.
+/// Size of the foam texture in these tests, and the seed of texture and noise.
 const WEB: u32 = 128;
 const SEED: u32 = 3;
 
@@ -61,7 +61,7 @@ fn with_shore(size: vk::Extent2D, edge: Edge) -> Config {
     config(size).with(|it| it.shore = Some(shore_config(edge)))
 }
 
-/// A map of distances, and its host.
+/// A distance map, and the host that records its steps.
 struct Mapped<'g> {
     gpu: &'g Gpu,
     stub: Stub,
@@ -105,7 +105,7 @@ impl<'g> Mapped<'g> {
             it.after = after;
         });
         let map = self.map.as_mut().expect("only drop takes it");
-        // SAFETY: submitted at once and waited for; the handles outlive it.
+        // SAFETY: the commands are submitted at once and waited for, and the handles outlive them.
         self.stub.run(|cmd| unsafe { map.record_step(cmd, &step) })
     }
 
@@ -113,13 +113,13 @@ impl<'g> Mapped<'g> {
         self.try_step(area, heights, changed).unwrap_or_else(|error| panic!("{error}"));
     }
 
-    /// A step of the heights of an image.
+    /// A step with the heights of an image.
     fn image_step(&mut self, area: &Area, heights: &Image<f32>, changed: Option<[[f32; 2]; 2]>) {
         let image = self.image(heights);
         self.step(area, Heights::Image(image.host_image()), changed);
     }
 
-    /// Metres.
+    /// The distances in metres.
     fn distances(&self) -> Image<f32> {
         let size = extent(self.size, self.size);
         let image = self.map.as_ref().expect("only drop takes it").distances();
@@ -138,7 +138,7 @@ impl<'g> Mapped<'g> {
 impl Drop for Mapped<'_> {
     fn drop(&mut self) {
         if let Some(map) = self.map.take() {
-            // SAFETY: idle.
+            // SAFETY: the device is idle.
             unsafe {
                 let _ = self.gpu.device.device_wait_idle();
                 map.destroy();
@@ -147,7 +147,7 @@ impl Drop for Mapped<'_> {
     }
 }
 
-/// The built-in noise and web as the twin has them.
+/// The built-in noise and foam texture of the twin.
 fn textures() -> &'static [Levels<4>; 2] {
     static TEXTURES: OnceLock<[Levels<4>; 2]> = OnceLock::new();
     TEXTURES.get_or_init(|| {
@@ -156,16 +156,16 @@ fn textures() -> &'static [Levels<4>; 2] {
     })
 }
 
-/// Two level axes where this is up, as the crate has them: x and z where that is y.
+/// Two horizontal axes for this up axis, as the crate chooses them: x and z for y.
 fn level_axes(up: DVec3) -> [DVec3; 2] {
     let first = if up.x.abs() < 0.9 { DVec3::X } else { DVec3::Y };
     let east = (first - up * up.dot(first)).normalize();
     [east, east.cross(up)]
 }
 
-/// What the shader gets of a level surface, from the matrices that the crate gets, and how far single precision may be off:
-/// the inverse of a matrix of rotation and translation is sums of products of three numbers over one of them, 32u of what
-/// the largest are.
+/// The uniform data of a level surface, from the matrices that the crate gets, with their errors in
+/// single precision. The inverse of a rigid transform consists of sums of products of three numbers
+/// over one of them: 32u of the largest.
 fn water(shot: &Shot, up: DVec3, level: f64) -> Water {
     let view = shot.view(shot.size);
     let back = view.view.inverse();
@@ -188,7 +188,7 @@ fn water(shot: &Shot, up: DVec3, level: f64) -> Water {
     }
 }
 
-/// Whether pixels are shaded two by two: what most frames have.
+/// Whether pixels are shaded in pairs, by the simpler pipeline that most frames use.
 fn is_shared(shot: &Shot) -> bool {
     let Some(shore) = &shot.shore else { return false };
     let s = &shot.settings.shore.shoreline;
@@ -207,7 +207,8 @@ fn is_shared(shot: &Shot) -> bool {
         && layers <= 2
 }
 
-/// The place in pixels that what a pixel shares is of, and how many pixels it lies from there.
+/// The position at which a pair's shared values are evaluated, and the pixel's offset from there,
+/// in pixels.
 fn shared_at(is_shared: bool, pixel: [usize; 2]) -> ([f64; 2], [f64; 2]) {
     match is_shared {
         true => (pixel.map(|v| ((v & !1) + 1) as f64), pixel.map(|v| (v & 1) as f64 - 0.5)),
@@ -219,7 +220,7 @@ fn clock(look: &ShoreSettings) -> Clock {
     Clock { time: look.time, period: look.period.map(f64::from) }
 }
 
-/// The twin of a look.
+/// The twin of these settings.
 fn look_of(look: &ShoreSettings) -> foam::Shoreline {
     let (s, clock) = (&look.shoreline, clock(look));
     let noise = |n: whitewater::shore::Noise| foam::noise(n.amplitude, n.scale);
@@ -256,19 +257,20 @@ fn measure_of(measure: Measure) -> twin::Measure {
     }
 }
 
-/// What eight bits may be off: Vulkan asks for one of the two steps about a number, Direct3D for 0.6 of one (an H200 is up
-/// to 0.514 off).
+/// Max rounding error of eight bits. Vulkan permits either neighbouring step, Direct3D 0.6 of a
+/// step (an H200 errs by up to 0.514).
 const STEP: f64 = 0.6 / 255.0;
 
-/// Of amounts in eight bits: how many were compared, how many are neither nothing nor all, and how far off they are.
+/// Comparison of eight-bit amounts: number of values compared, number of those between 0 and 1, and
+/// their errors.
 #[derive(Debug, Default)]
 struct Tally {
     compared: u32,
     partial: u32,
-    /// Of the partial ones.
+    /// Sums over the values between 0 and 1.
     bound: f64,
     error: f64,
-    /// Off by more than the bound and half a step.
+    /// Number of values that err by more than the bound and half a step.
     beyond: u32,
     worst: f64,
     first: Option<String>,
@@ -292,7 +294,8 @@ impl Tally {
         }
     }
 
-    /// No pixel is off; of those that are in between so many were seen, in the mean known so well.
+    /// Checks that no value exceeds its bound, that at least `partial` values lie between 0 and 1,
+    /// and that their mean bound is at most `bound`.
     fn check(&self, name: &str, partial: u32, bound: f64) {
         let count = f64::from(self.partial.max(1));
         let (error, own) = (self.error / count, self.bound / count);

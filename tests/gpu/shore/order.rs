@@ -1,5 +1,5 @@
-//! Ordering of the shoreline passes by barriers on its buffers, of which a validation layer checks only a part: all
-//! barriers are logged, and each is left out in turn.
+//! Checks the barriers on the shoreline passes' buffers, of which a validation layer checks only a
+//! part. The test logs all barriers, and leaves out each in turn.
 
 use ash::vk;
 use whitewater::shore::Edge;
@@ -23,7 +23,8 @@ const READ: Mask = Mask::SHADER_STORAGE_READ;
 const WRITE: Mask = Mask::SHADER_STORAGE_WRITE;
 const BOTH: Mask = Mask::from_raw(READ.as_raw() | WRITE.as_raw());
 
-/// How a frame uses a buffer, in its order; of a part of it, none where a command has the rest.
+/// How a frame uses a part of a buffer, in order. An access without flags means that this command
+/// uses another part.
 type Uses = Vec<(By, Mask)>;
 
 const UPDATE: (By, Mask) = (By::Transfer, Mask::TRANSFER_WRITE);
@@ -34,15 +35,16 @@ fn compute(how: Mask) -> (By, Mask) {
     (By::Compute, how)
 }
 
-/// What of a frame there is once or not at all: a strip, contact foam on the particles' water.
+/// What a frame may have once or not at all: a strip, and contact foam on the particles' water.
 #[derive(Clone, Copy)]
 struct Has {
     strip: usize,
     contacts: usize,
 }
 
-/// A buffer's uses: by what fills it and lists tiles; by what a strip has of it, the shading of each of three lists, and what
-/// makes runs of tiles; by what lists and shades tiles of the particles' water; by the coat's draw.
+/// Uses of a buffer in order: filling it and listing tiles; drawing the strip; shading the three
+/// lists; making runs of tiles; listing and shading tiles of the particles' water; drawing the
+/// coat.
 fn uses(
     has: Has,
     filled: &[(By, Mask)],
@@ -54,13 +56,14 @@ fn uses(
     [filled, &strip, &shading.repeat(3), runs, &contacts, draw].concat()
 }
 
-/// Which tiles have foam.
+/// The marks of tiles with foam.
 fn uses_of_marks(has: Has) -> [Uses; 1] {
     let adds = [compute(BOTH)];
     [uses(has, &[UPDATE], [&adds, &adds, &[compute(READ)]], &[], &[])]
 }
 
-/// The lists of the surface; the runs of tiles that have foam; the list of the particles' water.
+/// The lists of the surface's tiles; the runs of tiles with foam; the list of tiles of the
+/// particles' water.
 fn uses_of_lists(has: Has) -> [Uses; 3] {
     let (writes, reads, none) = ([compute(WRITE)], [compute(READ)], [compute(Mask::empty())]);
     let (idle, undrawn) = (none.repeat(2), [(By::Graphics, Mask::empty())]);
@@ -71,8 +74,8 @@ fn uses_of_lists(has: Has) -> [Uses; 3] {
     ]
 }
 
-/// The arguments: of the dispatches over the surface's lists, with how many tiles each has; of the draw of those that have
-/// foam; of the dispatch over the list of the particles' water, where that is.
+/// The arguments: of the dispatches over the surface's lists, with the lists' lengths; of the draw
+/// of tiles with foam; of the dispatch over the list of the particles' water, if there is one.
 fn uses_of_arguments(has: Has) -> Vec<Uses> {
     let none = compute(Mask::empty());
     let idle = [none, none, NO_COMMAND];
@@ -86,7 +89,7 @@ fn uses_of_arguments(has: Has) -> Vec<Uses> {
     all[..2 + has.contacts].to_vec()
 }
 
-/// A use, and what is ordered after it.
+/// A use of a buffer, and the scopes that barriers order after it.
 struct Past {
     scope: Scope,
     after: Vec<Scope>,
@@ -96,8 +99,9 @@ fn is_write(access: Mask) -> bool {
     access.intersects(WRITE | Mask::TRANSFER_WRITE)
 }
 
-/// What is wrong with the order of a buffer's uses, of frame after frame: each must be after the write before it, and a write
-/// after all reads since, by a barrier between them. (Which is narrower than Vulkan, to which a chain of them will do.)
+/// What is wrong with the order of a buffer's uses over two frames. Each use must come after the
+/// write before it, and a write after all reads since the last write, by a single barrier. (Vulkan
+/// also permits a chain of barriers.)
 fn unordered(events: &[Event], buffer: vk::Buffer, uses: &[(By, Mask)]) -> Vec<String> {
     let mut wrong = Vec::new();
     let (mut past, mut count): (Vec<Past>, usize) = (Vec::new(), 0);
@@ -124,7 +128,7 @@ fn unordered(events: &[Event], buffer: vk::Buffer, uses: &[(By, Mask)]) -> Vec<S
                     continue;
                 }
                 let stage = match by {
-                    // As older layers book it (src/gpu/access.rs).
+                    // The stages that older passes use for these commands (src/gpu/access.rs).
                     By::Transfer => Stage::ALL_TRANSFER,
                     By::Compute => Stage::COMPUTE_SHADER,
                     By::Graphics => Stage::VERTEX_SHADER,
@@ -133,7 +137,8 @@ fn unordered(events: &[Event], buffer: vk::Buffer, uses: &[(By, Mask)]) -> Vec<S
                 let reads = past.iter().any(|own| !is_write(own.scope.1));
                 for (i, own) in past.iter().enumerate() {
                     let wrote = is_write(own.scope.1);
-                    // Reads are after the write before: a write after them is after that too.
+                    // If there are reads since the last write, a write only needs to come after
+                    // those reads, which come after that write.
                     let needed = wrote != (is_write(access) && reads);
                     let ordered =
                         |(to, how): &Scope| to.contains(stage) && (!wrote || how.contains(access));
@@ -156,7 +161,8 @@ fn unordered(events: &[Event], buffer: vk::Buffer, uses: &[(By, Mask)]) -> Vec<S
     wrong
 }
 
-/// What two frames after each other do with buffers; they are thrown away: what is wrong on purpose no device need survive.
+/// Records two consecutive frames and returns what they do with buffers. The commands are thrown
+/// away, so faults cannot reach the device.
 fn recorded(rig: &mut Rig<'_>, shot: &Shot) -> Vec<Event> {
     let (color, depth) = rig.scene(shot);
     let cloud = rig.particles(shot);
@@ -173,16 +179,18 @@ fn recorded(rig: &mut Rig<'_>, shot: &Shot) -> Vec<Event> {
     events
 }
 
-/// Every barrier is needed, and what goes on without it is seen: by the log; by the validation layer too, but for some.
+/// Every barrier is needed: without it the log shows an error, and mostly the validation layer does
+/// too.
 ///
-/// Those are after dispatches that change a buffer by atomics alone, which layer 1.3.239 takes for one that is read, and
-/// between dispatches of which both write one. And a device that ends a dispatch before it begins another, as lavapipe,
-/// draws the same picture without any of these barriers.
+/// The layer misses barriers after dispatches that only use atomics on a buffer, which layer
+/// 1.3.239 treats as reads, and between dispatches that both write a buffer. A device like
+/// lavapipe, which ends each dispatch before the next, draws the same picture without any of these
+/// barriers.
 #[test]
 fn each_barrier_of_the_tiles_lists_is_needed() {
     let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
-    // 25 by 22 tiles: no other buffer is as large.
+    // 25 by 22 tiles; no other buffer has this size.
     let size = extent(200, 170);
     let mut coasts = Mapped::new(&gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, |at| 0.4 * (at.x - 7.0)), None);
@@ -215,8 +223,9 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
         let beside = spy::buffers_beside(marks);
         let arguments = spy::buffers_of_size(96).into_iter().find(|own| beside.contains(own));
         let arguments = arguments.expect("in a set with the marks");
-        // Of a frame's barriers, of which the first is after the frame before, those that the layer sees to be missing:
-        // 1.3.239 and 1.4.309, seen on Debian 12 and 13, see more of them than Chromium's, which is newer.
+        // Barriers of a frame that the layer reports if they are missing; the first one orders a
+        // frame after the frame before. Versions 1.3.239 and 1.4.309, as on Debian 12 and 13,
+        // report more than the newer one of Chromium.
         let last = 3 + 2 * contacts;
         let seen: [&dyn Fn(usize) -> bool; 3] =
             if layer_version() <= vk::make_api_version(0, 1, 4, 309) {
@@ -224,7 +233,7 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
             } else {
                 [&|at| at == 1, &|at| at == last, &|at| at == 1]
             };
-        // Which of them is that before the runs.
+        // Index of the barrier before the runs.
         let of_marks = 4 + strip;
         for (name, buffer, uses, [runs, barriers], seen) in [
             ("marks", marks, uses_of_marks(has).to_vec(), [of_marks, of_marks + 1], seen[0]),
@@ -239,15 +248,16 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
             let own = |event: &&Event| matches!(event, Event::Barrier { buffer: Some(of), .. } if *of == buffer);
             assert_eq!(good.iter().filter(own).count(), 2 * barriers, "{name}: of two frames");
             assert_eq!(gpu.expect_messages(), Vec::<String>::new(), "{name}: no fault, no message");
-            // Before the first there is nothing.
+            // Before the very first barrier no use needs it.
             for nth in 1..2 * barriers {
                 spy::leave_out(buffer, nth);
                 let events = recorded(&mut rig, &shot);
                 let wrong = wrong_of(&events);
                 let messages = gpu.expect_messages();
                 println!("{name} {nth}: {} uses, {} messages", wrong.len(), messages.len());
-                // Those before the runs and before the tiles of the particles' water are for those who take a buffer for one:
-                // of their own list and arguments all is ordered before; of the runs it is after the latter.
+                // The barriers before the runs and before the tiles of the particles' water cover
+                // the whole buffer for validation. The parts used there are already ordered by
+                // others.
                 let spare =
                     buffer != marks && (runs..=runs + 2 * contacts).contains(&(nth % barriers));
                 assert!(

@@ -1,4 +1,5 @@
-//! Each setting of shoreline and contact foam does what it says: a change of any one shows in the picture.
+//! Each setting of shoreline and contact foam has an effect: a change of any one changes the
+//! picture.
 
 use whitewater::shore::{Edge, Measure, Noise, TextureLayer};
 use whitewater::{Settings, Shore};
@@ -10,13 +11,13 @@ use crate::support::device::Gpu;
 use crate::support::rig::Rig;
 use crate::support::scenes;
 
-/// Those of foam along a shore, and of contacts on a level of the host's.
+/// Settings of shoreline foam, and of contact foam on the host's water level.
 #[test]
 fn every_setting_of_foam_on_the_level_shows() {
     let gpu = Gpu::shared();
     let coasts = coasts(&gpu);
     let mut shot = shot(&coasts, &[]);
-    // Noise that is not there has no scale.
+    // The scale of a noise has an effect only if its amplitude is not 0.
     shot.settings.shore.shoreline.warp = Noise { amplitude: 0.9, scale: 1.0 / 11.0 };
     let mut rig = Rig::lit(&gpu, &with_shore(shot.size, Edge::Smooth), 1);
     let base = shot.settings.clone();
@@ -81,7 +82,7 @@ fn every_setting_of_foam_on_the_level_shows() {
     });
 }
 
-/// Those of contacts on the particles' water.
+/// Settings of contact foam on the particles' water.
 #[test]
 fn every_setting_of_contacts_on_the_particles_water_shows() {
     let gpu = Gpu::shared();

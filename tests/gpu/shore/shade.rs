@@ -16,18 +16,18 @@ use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Rig, Shot, stream};
 use crate::support::scenes;
 
-/// Texels of the shadow map, of which the first half of each row has a roof over it.
+/// Texels of the shadow map. The first half of each row is under a roof.
 const MAP: [usize; 2] = [24, 18];
 
-/// What of the sun's light is lost at a point of the level under the roof's edge: nine comparisons a texel apart, each
-/// filtered, are a box of three texels, of which so much is under the roof; beside the map nothing. None where rounding
-/// tells whether it is beside it.
+/// Fraction of sunlight lost at a point of the level near the roof's edge. Nine filtered
+/// comparisons, a texel apart, are a box of three texels; the result is the part of it under the
+/// roof. Beside the map it is 0. None if rounding decides whether the point is beside the map.
 fn under_the_roof(shot: &Shot, point: &Point, light: &Mat4, snapped: f64) -> Option<Bounded> {
     let [east, north] = point.place.map(|p| p.value);
     let p = DVec3::new(east, 0.0, north);
     let ray = point.ray.map(|r| r.value);
     let eye = shot.camera_view().inverse().w_axis.truncate().length();
-    // To eye space and back, by a matrix that is rounded itself.
+    // The point is transformed to eye space and back, by a matrix that is itself rounded.
     let by = point.depth.error * DVec3::from(ray).length()
         + snapped
         + U * (8.0 * point.depth.value + 24.0 * (p.length() + 2.0 * eye));
@@ -43,15 +43,16 @@ fn under_the_roof(shot: &Shot, point: &Point, light: &Mat4, snapped: f64) -> Opt
     let may = texels.iter().zip(MAP).all(|(t, size)| within(t.high(), t.low(), size));
     let part = (exact(0.5 * MAP[0] as f64 + 1.5) - texels[0]) / 3.0;
     match (sure, may) {
-        // Sixteen weights, of which each is rounded, are summed.
+        // A sum of sixteen rounded weights.
         (true, _) => Some(part.clamp(0.0, 1.0).wider(24.0 * U)),
         (false, true) => None,
         (false, false) => Some(exact(0.0)),
     }
 }
 
-/// By a map of the sun's, under a roof with a straight edge: the shade on the water goes by how far from the edge's shadow it
-/// is, of shoreline foam by the map of distances and by a strip as of contact foam, and the picture is as dark as that.
+/// A shadow map with a roof that has a straight edge. The shade on the water follows from the
+/// distance to the edge's shadow, for shoreline foam by a map and by a strip and for contact foam,
+/// and the picture is darker by that.
 #[test]
 fn foam_is_in_the_shade_of_a_map() {
     let gpu = Gpu::shared();
@@ -87,7 +88,8 @@ fn foam_is_in_the_shade_of_a_map() {
         shot.settings.light.direction = sun.to_array();
         let host = image.host_image();
         shot.shadow = Some(Shadow::new(host, light.to_cols_array_2d()).with(|it| it.bias = 0.1));
-        // With a strip nothing but that: of a texel that has both one of them says what the light is.
+        // With a strip there is no contact foam, because where both cover a pixel one of them
+        // determines the light.
         let is_strip = name == "strip";
         let surface = base.shore.and_then(|shore| shore.surface).filter(|_| !is_strip);
         shot.shore = Some(Shore::new(0.0).with(|it| {
@@ -102,13 +104,14 @@ fn foam_is_in_the_shade_of_a_map() {
                 continue;
             }
             let point = level.at([(i % 96) as f64 + 0.5, (i / 96) as f64 + 0.5]);
-            // A vertex is where a device snaps it to, and so is what is between them.
+            // The device snaps a strip's vertices to its sub-pixel grid, and interpolated positions
+            // with them.
             let moved = point.change.iter().flatten().map(|c| c.value.abs()).sum::<f64>();
             let snapped = if is_strip { moved / bits } else { 0.0 };
             let Some(lost) = under_the_roof(&shot, &point, &light, snapped) else { continue };
             let off = (f64::from(texel[2]) / 255.0 - lost.value).abs();
             assert!(off < lost.error + STEP + 4.0 * U, "{name}, {i}: {texel:?}, expected {lost:?}");
-            // Of 256 steps to a pixel; a device of fewer snaps a vertex as much farther.
+            // The bound holds for 256 steps per pixel; with fewer steps vertices move more.
             let told = if is_strip { 0.01 * (256.0 / bits).max(1.0) } else { 0.01 };
             assert!(lost.error < told, "{name}, {i}: {lost:?} tells little");
             seen = [0, 1].map(|k| seen[k] + u32::from(texel[k] > 0));
@@ -123,13 +126,14 @@ fn foam_is_in_the_shade_of_a_map() {
     }
 }
 
-/// Foam on the particles' water and on the host's surface behind it in one pixel, each in the sun or not by itself: a light
-/// along the view or against it, and a plane of shade between both.
+/// Foam on the particles' water and on the host's surface behind it in one pixel, each lit
+/// separately: the light shines along the view or against it, with a plane of shade between the
+/// two.
 #[test]
 fn foam_on_particles_and_behind_them_has_its_own_light() {
     let gpu = Gpu::shared();
     let coasts = coasts(&gpu);
-    // Before 3.6 m. The level is farther where they are seen.
+    // The particles end at 3.6 m, in front of the water level.
     let points = scenes::block(3, 0.25, [14, 6, 3], [-1.6, -0.6, 3.0]);
     let mut shot = shot(&coasts, &points);
     let contact = &mut shot.settings.shore.contact;

@@ -1,4 +1,4 @@
-//! Pass `shoreline`: the amount of foam per pixel along shores, against the twin.
+//! Compares the amount of shore foam per pixel, from pass `shoreline`, with its CPU twin.
 
 use ash::vk;
 use glam::{DVec2, DVec3, Mat4, Vec3};
@@ -14,14 +14,14 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::Lens;
 
-/// A height that is 0 along a bent line.
+/// Ground height relative to the water; 0 along a bent shore line.
 fn land(at: DVec2) -> f64 {
     let to = at - DVec2::new(7.0, -5.0);
     let round = to.length() * (1.0 + 0.2 * (3.0 * to.y.atan2(to.x)).sin());
     0.4 * (4.0 - round)
 }
 
-/// Heights over an area, one a texel.
+/// Samples a height function at the texel centres of an area.
 pub fn heights(area: &Area, size: u32, height: impl Fn(DVec2) -> f64) -> Image<f32> {
     let [x0, y0] = area.corner(size).map(f64::from);
     let texel = f64::from(area.edge) / f64::from(size);
@@ -35,14 +35,14 @@ pub fn heights(area: &Area, size: u32, height: impl Fn(DVec2) -> f64) -> Image<f
     image
 }
 
-/// The map of a bent shore.
+/// The distance map of a bent shore line.
 fn shore_distances(gpu: &Gpu) -> Mapped<'_> {
     let mut coasts = Mapped::new(gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
     coasts
 }
 
-/// The web alone: no noise, and no waves.
+/// Only the foam texture, without noise and waves.
 pub fn web_alone(reach: [f32; 2], layers: [TextureLayer; 4]) -> ShorelineSettings {
     ShorelineSettings::default().with(|it| {
         [it.sea_reach, it.land_reach] = reach;
@@ -62,7 +62,7 @@ pub fn web_alone(reach: [f32; 2], layers: [TextureLayer; 4]) -> ShorelineSetting
 pub const AREA: Area =
     Area { up: [0.0, 1.0, 0.0], center: [7.0, -5.0], edge: 32.0, level: 0.0, reach: 8.0 };
 
-/// Two looks into the noise, two layers: what a frame of the less general kind has.
+/// Two noise look-ups and two texture layers, which the simpler of the two pipelines can draw.
 pub fn plain() -> ShoreSettings {
     let noise = |amplitude, scale| Noise { amplitude, scale };
     let layer = |weight, scale, angle, speed| TextureLayer { weight, scale, angle, speed };
@@ -87,7 +87,7 @@ pub fn plain() -> ShoreSettings {
     })
 }
 
-/// All there is.
+/// All noises and texture layers, which need the general pipeline.
 fn rich() -> ShoreSettings {
     let mut look = plain();
     let noise = |amplitude, scale| Noise { amplitude, scale };
@@ -102,7 +102,8 @@ fn rich() -> ShoreSettings {
     look
 }
 
-/// The four texels of the map about a place as v, which may be beyond its ends, and its change a pixel.
+/// Shore coordinate v at a place, from the four texels of the map around it, and its change per
+/// pixel. v may lie outside 0 to 2. None if rounding decides which texels these are.
 fn v_by_map(
     (map, area): (&Map, &Area),
     look: &ShorelineSettings,
@@ -131,7 +132,8 @@ fn v_by_map(
     Some((v, dv))
 }
 
-/// What a pixel sees of a level with a map; none where rounding decides whether that is below it.
+/// What a pixel sees of the water level with a map. None if the pixel does not see the level, or if
+/// rounding decides that.
 pub fn pixel_by_map(
     shot: &Shot,
     water: &Water,
@@ -147,7 +149,7 @@ pub fn pixel_by_map(
     Some(Pixel { off, place: point.place, v, across: point.change, dv })
 }
 
-/// How much of a pixel is foam by the twin; none where rounding decides.
+/// Amount of foam in a pixel by the twin. None if rounding decides.
 pub fn amount(look: &ShoreSettings, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Option<Bounded> {
     let [noise, web] = textures();
     let v = pixel.own_v();
@@ -164,7 +166,7 @@ pub fn amount(look: &ShoreSettings, edge: Edge, pixel: &Pixel, at: [usize; 2]) -
     Some(if ends { Bounded::between(0.0, part.value, part.high()) } else { part })
 }
 
-/// A shot of the level with the map.
+/// Gives the shot the water level and its distance map.
 fn with_map(coasts: &Mapped<'_>, shot: &mut Shot, look: &ShoreSettings) {
     let line = Some(Shoreline::Map(coasts.shore_distances()));
     shot.shore = Some(Shore::new(AREA.level).with(|it| it.shoreline = line));
@@ -194,7 +196,7 @@ fn compared(name: &str, rig: &mut Rig<'_>, shot: &Shot, map: &Map, edge: Edge) -
     tally
 }
 
-/// The distances as they were found: what they are is the map's test.
+/// The distances that the GPU found; the tests of pass `map` check them.
 pub fn twin_map(coasts: &Mapped<'_>) -> Map {
     let found = coasts.distances();
     let values = found.data.iter().map(|v| exact(f64::from(*v))).collect();
@@ -221,7 +223,7 @@ fn a_level_s_foam_is_the_twin_s() {
     }
 }
 
-/// The same frame by the other pipeline, made to by a scene's depth of another size.
+/// The same frame drawn by the general pipeline, which a scene depth of another size selects.
 fn generally(shot: &Shot) -> Shot {
     let mut other = shot.clone();
     let vk::Extent2D { width, height } = shot.size;
@@ -230,20 +232,21 @@ fn generally(shot: &Shot) -> Shot {
     other
 }
 
-/// How many of 255 steps the foam of two pictures is apart, in the mean and at most.
+/// Mean and max difference between the foam of two pictures, in steps of 1/255.
 fn apart(a: &Image<[u8; 4]>, b: &Image<[u8; 4]>) -> (f64, u8) {
     let steps = || a.data.iter().zip(&b.data).map(|(a, b)| a[0].abs_diff(b[0]));
     (steps().map(f64::from).sum::<f64>() / a.data.len() as f64, steps().max().unwrap_or(0))
 }
 
-/// Seen straight from above, along a straight shore and without noises, what pixels share changes evenly from one to the
-/// next: shaded two by two, or each by itself where a frame has more of this or that, they have the same foam.
+/// The simpler pipeline shades pixels in pairs and shares values that change linearly. Seen
+/// straight from above, with a straight shore and no noise, this is exact, so both pipelines give
+/// the same foam.
 #[test]
 fn both_pipelines_draw_the_same() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let mut coasts = Mapped::new(&gpu, 64);
-    // Between two columns of the map: of all texels the distance is what it is in exact arithmetic.
+    // The line lies between two columns of the map, so all distances are exact numbers.
     coasts.image_step(&AREA, &heights(&AREA, 64, |at| 0.4 * (at.x - 7.0)), None);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
@@ -260,7 +263,7 @@ fn both_pipelines_draw_the_same() {
     ] {
         *noise = Noise::NONE;
     }
-    // No bend where the shore is.
+    // v is linear through the shore line if both reaches are equal.
     [s.sea_reach, s.land_reach] = [4.0; 2];
     with_map(&coasts, &mut shot, &look);
     let together = rig.draw(&shot).shore.expect("shoreline foam");
@@ -269,12 +272,14 @@ fn both_pipelines_draw_the_same() {
     let (mean, most) = apart(&together, &alone);
     println!("{partial} pixels in between: {mean:.5} steps in the mean, {most} at most");
     assert!(partial > 300, "{partial} pixels in between");
-    // What is found another way is rounded otherwise: by much less than a step, which may tip one.
+    // The two ways round differently, by much less than a step; a value may still round to the next
+    // one.
     assert!(most <= 1, "{most} steps");
 }
 
-/// Of a bent shore with noises each is what its own definition says, and in the mean they are near: where a border goes
-/// through a pixel it is elsewhere by what a noise and the distance leave out of a change that is even.
+/// With a bent shore and noise, each pipeline agrees with its own definition, and their mean
+/// difference is small: at borders of foam the shared values miss what is not linear in noise and
+/// distance.
 #[test]
 fn what_is_shared_changes_little() {
     let gpu = Gpu::shared();
@@ -303,7 +308,7 @@ fn what_is_shared_changes_little() {
     assert!(mean / 255.0 < 0.1 * covers, "{mean} steps of {covers}");
 }
 
-/// What stands before the surface hides it, what stands behind it does not.
+/// Objects in front of the water's surface hide its foam, objects behind do not.
 #[test]
 fn what_stands_before_the_surface_hides_its_foam() {
     let gpu = Gpu::shared();
@@ -330,7 +335,7 @@ fn what_stands_before_the_surface_hides_its_foam() {
     }
 }
 
-/// Clipped a pixel is foam or not; by samples it has quarters of what it covers.
+/// With `Clip` a pixel is foam or not; with `Coverage` it has a multiple of a quarter.
 #[test]
 fn edges_are_clipped_or_of_quarters() {
     let gpu = Gpu::shared();
@@ -355,7 +360,8 @@ fn edges_are_clipped_or_of_quarters() {
     }
 }
 
-/// After a period all is as it was, and what has moved for long is as sharp and as fast as at the start.
+/// After a period the foam is the same again. After a long time it is as sharp and moves as fast as
+/// at the start.
 #[test]
 fn time_goes_round_and_nothing_grows() {
     let gpu = Gpu::shared();
@@ -386,7 +392,8 @@ fn time_goes_round_and_nothing_grows() {
         off.sum::<f64>() / (255.0 * a.data.len() as f64)
     };
     assert!(differ(&first, &half) > 0.01, "half a period on it is another");
-    // What a sixtieth of a second changes, in the mean over some of a swing's times: early and late.
+    // Mean change in a sixtieth of a second, over eight times of a wave's swing, from three start
+    // times.
     let mut drawn = |time: f64| {
         with_map(&coasts, &mut shot, &plain().with(|it| it.time = time));
         rig.draw(&shot).shore.expect("shoreline foam")
@@ -399,11 +406,11 @@ fn time_goes_round_and_nothing_grows() {
         changes.sum::<f64>()
     });
     println!("a sixtieth of a second changes {early:.5}, {late:.5}, {latest:.5}");
-    // Which of a swing's times they are differs.
+    // The eight times are other phases of the swing for each start.
     assert!([late, latest].iter().all(|c| (0.4..2.5).contains(&(c / early))));
 }
 
-/// A surface of any shape, of which each pixel has the depth, and a world whose up is z.
+/// A surface of any shape that is given by its depth per pixel, and a world whose up axis is z.
 #[test]
 fn a_shaped_surface_s_foam_is_the_twin_s() {
     let gpu = Gpu::shared();
@@ -413,7 +420,7 @@ fn a_shaped_surface_s_foam_is_the_twin_s() {
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     for lens in [Lens::Standard, Lens::ReversedInfinite] {
         let mut shot = Shot::new(size, lens, 0.1, &[]);
-        // What waves make of the level.
+        // The level with waves.
         let view = shot.view(size);
         let level = water(&shot, DVec3::Y, 0.0);
         let mut other = shot.clone();
@@ -457,7 +464,7 @@ fn a_shaped_surface_s_foam_is_the_twin_s() {
     }
 }
 
-/// What turns the world so that what was up is another axis.
+/// Rotates the world so that `up` is its up axis. Returns the rotation too.
 fn turned(shot: &Shot, up: DVec3) -> (Shot, glam::DQuat) {
     let turn = glam::DQuat::from_rotation_arc(DVec3::Y, up);
     let mut other = shot.clone();
@@ -476,7 +483,7 @@ fn up_may_be_any_axis() {
         let up = up.normalize();
         let (mut shot, _) = turned(&Shot::new(size, Lens::Standard, 0.1, &[]), up);
         let water = water(&shot, up, 0.0);
-        // About where the camera looks.
+        // The area is centred where the camera looks.
         let middle = water.at([48.0, 40.0]).place.map(|p| p.value as f32);
         let area = Area { up: up.as_vec3().to_array(), center: middle, ..AREA };
         let [x, y] = middle.map(f64::from);

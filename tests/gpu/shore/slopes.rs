@@ -1,4 +1,5 @@
-//! Slopes of the web where pixels are much longer than wide: they equal those of a rotated web.
+//! Slopes of the foam texture where pixels are much longer than wide must be rotated with the
+//! texture.
 
 use glam::{Mat4, Vec3};
 use whitewater::shore::{Area, Edge, ShoreSettings, TextureLayer};
@@ -12,10 +13,10 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::Lens;
 
-/// Degrees by which the web is turned.
+/// Rotation of the texture in degrees.
 const ANGLE: f32 = 30.0;
 
-/// The web alone, of so many layers that are turned alike.
+/// Only the foam texture, with this number of layers, all rotated alike.
 fn look(layers: usize) -> ShoreSettings {
     let all = [0.3, 0.47, 0.21].map(|scale| TextureLayer {
         weight: 1.0 / layers as f32,
@@ -31,15 +32,17 @@ fn look(layers: usize) -> ShoreSettings {
     })
 }
 
-/// A way that is turned back by twice the web's angle: of a twin that turns it by the angle what a transposed turn makes.
-/// What it spans keeps its area, and with it the web its level of detail.
+/// A vector rotated back by twice the texture's angle. The twin then rotates it by the angle, which
+/// together is the transposed rotation. The area that two vectors span stays the same, and with it
+/// the texture's level of detail.
 fn transposed([x, y]: [Bounded; 2]) -> [Bounded; 2] {
     let (sine, cosine) = (2.0 * f64::from(ANGLE)).to_radians().sin_cos();
     [x * cosine + y * sine, y * cosine - x * sine]
 }
 
-/// Low over the water pixels are many times as long as wide: what a slope is along them goes by how the web is turned. Of the
-/// twin the picture is within the bounds; of one whose turn of slopes alone is transposed it is far beyond.
+/// Low over the water pixels are many times longer than wide, so slopes along them depend on the
+/// texture's rotation. The picture lies within the twin's bounds, and far outside those of a twin
+/// with transposed slopes.
 #[test]
 fn slopes_are_turned_with_the_web() {
     let gpu = Gpu::shared();
@@ -71,7 +74,7 @@ fn slopes_are_turned_with_the_web() {
             let long = point.change.map(|way| way[0].value.hypot(way[1].value));
             longest = longest.max(long[0].max(long[1]) / long[0].min(long[1]));
             let across = pixel.across.map(transposed);
-            // Of the slopes alone: the web is from where it was.
+            // Only the slopes change; the texture is read at the same position.
             let place = [0, 1].map(|i| {
                 let moved = [0, 1].map(|k| (pixel.across[k][i] - across[k][i]) * pixel.off[k]);
                 pixel.place[i] + moved[0] + moved[1]

@@ -1,4 +1,4 @@
-//! Shoreline foam from the host's strip and from the scene's depth alone.
+//! Shoreline foam from the host's strip, and from the scene's depth alone.
 
 use ash::vk;
 use glam::DVec3;
@@ -14,15 +14,15 @@ use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Rig, Shot, extent, stream};
 use crate::support::scenes::Lens;
 
-/// v of a place on the strip.
+/// v is linear in the strip's x and z: factors of x and z, and the constant.
 const ACROSS: [f64; 3] = [0.125, -0.1875, -0.75];
 
 fn v_at([x, z]: [f64; 2]) -> f64 {
     ACROSS[0] * x + ACROSS[1] * z + ACROSS[2]
 }
 
-/// A quad of the level, of two triangles; with and without indices, in a buffer with other numbers, with vertices that are
-/// no numbers and triangles of vertices that are not there.
+/// A quad on the water level, made of two triangles: with and without indices, in a buffer with
+/// other data, with invalid vertices and with indices beyond the vertices.
 #[test]
 fn a_strip_s_foam_is_the_twin_s() {
     let gpu = Gpu::shared();
@@ -34,7 +34,7 @@ fn a_strip_s_foam_is_the_twin_s() {
         [x as f32, 0.0, z as f32, v_at([x, z]) as f32]
     };
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-    // Of each vertex its place and v, after one number of another's.
+    // Position and v of each vertex, after one word of other data.
     let mut words = vec![7.0_f32];
     words.extend((0..4).flat_map(vertex));
     words.extend([f32::NAN, 0.0, 0.0, 1.0]);
@@ -66,7 +66,7 @@ fn a_strip_s_foam_is_the_twin_s() {
         let found = rig.draw(&shot).shore.expect("shoreline foam");
         let water = water(&shot, DVec3::Y, 0.0);
         let point = |x: usize, y: usize| water.at([x as f64 + 0.5, y as f64 + 0.5]);
-        // A vertex is where a device snaps it to, and so is what is between them.
+        // The device snaps vertices to its sub-pixel grid, and interpolated values with them.
         let v = |x: usize, y: usize| {
             let point = point(x, y);
             let step =
@@ -89,7 +89,7 @@ fn a_strip_s_foam_is_the_twin_s() {
                 continue;
             }
             let inner = |x: usize, y: usize| beside(point(x, y).place.map(|p| p.value), -0.1);
-            // Of the pixels whose block is all of the strip.
+            // Only pixels of 2x2 blocks that the strip covers completely.
             let (x0, y0) = (x & !1, y & !1);
             if ![(0, 0), (1, 0), (0, 1), (1, 1)].iter().all(|(i, j)| inner(x0 + i, y0 + j)) {
                 continue;
@@ -104,12 +104,12 @@ fn a_strip_s_foam_is_the_twin_s() {
                 tally.add((x, y), found.data[i][0], expected);
             }
         }
-        // Where vertices are snapped less finely than to a 256th of a pixel, as much less is known.
+        // A device with a coarser grid than 1/256 pixel has larger bounds.
         tally.check(&format!("strip-{name}"), 50, 0.08 * (256.0 / bits).max(1.0));
     }
 }
 
-/// Over a bottom that is a plane the shore is where it meets the level, wherever that is on the screen.
+/// With a plane as seabed, the shore line is where it meets the level, wherever on the screen.
 #[test]
 fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
     let gpu = Gpu::shared();
@@ -125,7 +125,7 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
         let back = view.view.inverse();
         let eye = back.w_axis.truncate();
         let at = |x: u32, y: u32| back.transform_vector3(view.ray(x as usize, y as usize));
-        // It rises beyond the line z = -6.
+        // The seabed rises towards the line z = -6 and beyond.
         let (normal, line) = (DVec3::new(0.0, 1.0, tangent), -6.0);
         shot.scene_depth(|x, y| {
             let z = -(normal.dot(eye) - tangent * line) / normal.dot(at(x, y));
@@ -142,7 +142,7 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
                 continue;
             }
             let bottom = eye + behind * at(x as u32, y as u32);
-            // The surface is seen where the bottom is below it.
+            // The water's surface is visible where the seabed is below it.
             let off = 4.0 * U * behind * behind / view.near();
             if bottom.y.abs() < 8.0 * off {
                 continue;
@@ -153,7 +153,8 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
             }
             let reach = f64::from(shot.settings.shore.shoreline.sea_reach);
             let far = -bottom.y / tangent / reach;
-            // Three depths, each off as its device depth is rounded, over a pixel's way along the bottom.
+            // Three depths, each with the rounding of its device depth, over the seabed's length in
+            // a pixel.
             let wide = behind * view.c_x().min(view.c_y());
             let v = exact(1.0 - far)
                 .wider(far * 6.0 * off / (wide * tangent) + off / (tangent * reach));
@@ -169,7 +170,7 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
     }
 }
 
-/// From under the surface one looks up through it: what is seen beyond lies above the level, and is no shore.
+/// Seen from under water, everything above the level is no shore.
 #[test]
 fn by_the_depth_alone_nothing_above_the_level_is_a_shore() {
     let gpu = Gpu::shared();
@@ -178,7 +179,7 @@ fn by_the_depth_alone_nothing_above_the_level_is_a_shore() {
     shot.settings.shore = plain();
     shot.scene_depth(|_, _| Some(20.0));
     let eye = shot.view(shot.size).view.inverse().w_axis.y as f32;
-    // Seen from above there is foam, so the look has some.
+    // Seen from above there is foam, which shows that the settings produce some.
     for (level, seen) in [(eye - 0.5, true), (eye + 0.5, false)] {
         let mut shore = Shore::new(level).with(|it| it.shoreline = Some(Shoreline::Screen));
         shore.bias = 0.0;

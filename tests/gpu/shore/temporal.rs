@@ -1,4 +1,4 @@
-//! Temporal stability: a camera that moves by fractions of a pixel, and one that flies low.
+//! Temporal stability: the camera moves by fractions of a pixel, or flies low over the water.
 
 use glam::{DVec2, DVec3, Mat4, Vec3};
 use whitewater::shore::Edge;
@@ -12,7 +12,7 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::Lens;
 
-/// A shore that goes through the view from near to far.
+/// A shore line that passes through the view from near to far.
 fn land(at: DVec2) -> f64 {
     0.3 * (at.x - 7.0 + 1.5 * (0.5 * at.y).sin())
 }
@@ -21,7 +21,8 @@ fn amounts(found: &Image<[u8; 4]>) -> Image<f64> {
     found.map(|c| f64::from(c[0]) / 255.0)
 }
 
-/// Mean absolute change of the amount at the places of a frame's pixels in the frame before, where both see them.
+/// Mean absolute change of the amount between two frames at the same points of the water, where
+/// both frames see them.
 fn change(now: (&Image<f64>, &Water), before: (&Image<f64>, &Shot)) -> f64 {
     let view = before.1.view(before.1.size);
     let (mut sum, mut count) = (0.0, 0.0);
@@ -47,7 +48,7 @@ fn change(now: (&Image<f64>, &Water), before: (&Image<f64>, &Shot)) -> f64 {
     sum / count
 }
 
-/// Where foam begins and ends along the rows and the columns of a clipped picture, a pixel.
+/// Number of borders of foam along rows and columns of a clipped picture, per pixel.
 fn borders(clipped: &Image<f64>) -> f64 {
     let mut count = 0;
     for y in 0..clipped.height - 1 {
@@ -60,9 +61,9 @@ fn borders(clipped: &Image<f64>) -> f64 {
     f64::from(count) / clipped.data.len() as f64
 }
 
-/// Where one looks in between pixels, a part f from one to the next, a border that is a ramp of a pixel is off by f(1 - f)
-/// pixels in the mean, a quarter at most, in a row as in a column; one that is a step by twice that. So much a still picture
-/// that is well sampled changes, and no more.
+/// Between pixels, a fraction f from one to the next, linear interpolation of a border that is a
+/// ramp of one pixel errs by f(1 - f) pixels in the mean, at most a quarter, along rows and
+/// columns; a step errs by twice that. A well sampled picture at rest changes no more than that.
 #[test]
 fn smooth_foam_neither_crawls_nor_sparkles() {
     let gpu = Gpu::shared();
@@ -73,7 +74,7 @@ fn smooth_foam_neither_crawls_nor_sparkles() {
     for edge in [Edge::Smooth, Edge::Clip] {
         let mut rig = Rig::new(&gpu, &with_shore(size, edge));
         for (name, step, low) in [
-            // A third of a pixel at 8 m, and a flight a metre over the water.
+            // A third of a pixel at a distance of 8 m, and a flight one metre above the water.
             ("sideways", Vec3::new(0.04, 0.0, 0.03), 0.0),
             ("low", Vec3::new(0.06, 0.0, -0.08), 1.2),
         ] {
@@ -109,7 +110,8 @@ fn smooth_foam_neither_crawls_nor_sparkles() {
     }
 }
 
-/// From afar foam covers what it covers near by: the mean of what many pixels of a tall picture say is what a low one does.
+/// From a distance foam covers as much as from near: the mean of many pixels of a high resolution
+/// equals the pixel of a low one.
 #[test]
 fn far_foam_covers_what_near_foam_does() {
     let gpu = Gpu::shared();
@@ -118,7 +120,7 @@ fn far_foam_covers_what_near_foam_does() {
     let drawn = |width: u32, edge| {
         let size = extent(width, width);
         let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
-        // From above, 20 m.
+        // From 20 m above.
         shot.camera.view =
             Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z).to_cols_array_2d();
         let shoreline = Some(Shoreline::Map(coasts.shore_distances()));
@@ -146,7 +148,8 @@ fn far_foam_covers_what_near_foam_does() {
             }
         }
         println!("{width}: covers {mean:.4}, bias {bias:.5}, mean error {off:.5}");
-        // As if what is too fine were even: of what is covered a twentieth in the mean, a fifth in each pixel.
+        // Details too fine for a pixel are replaced by their mean. Allowed are a bias of a tenth of
+        // the covered fraction, and 0.35 of it as the mean error of a pixel.
         assert!(bias.abs() < 0.1 * mean && off < 0.35 * mean, "{bias} {off} of {mean}");
     }
 }

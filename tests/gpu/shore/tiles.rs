@@ -1,4 +1,4 @@
-//! The shaded tiles: all tiles with foam, wherever the surface is seen from and whatever stands in it.
+//! Every tile with foam is shaded, wherever the camera is and whatever stands in the water.
 
 use glam::{DVec3, Mat4, Vec3};
 use whitewater::shore::{Edge, Measure, TextureLayer};
@@ -12,7 +12,7 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::Lens;
 
-/// From where, along what, and what is up.
+/// Name, position of the eye, view direction, up vector.
 type View = (&'static str, Vec3, Vec3, Vec3);
 
 const VIEWS: [View; 5] = [
@@ -23,12 +23,13 @@ const VIEWS: [View; 5] = [
     ("steep", Vec3::new(6.0, 5.0, -1.0), Vec3::new(0.1, -1.0, -0.4), Vec3::Y),
 ];
 
-/// How far behind the surface posts stand, of the depth of contact foam: up to where little is left of it.
+/// Distance of a post behind the surface, in units of the contact foam's depth; at 1 no foam is
+/// left.
 const BEHIND: [f64; 5] = [0.02, 0.9, 0.5, 0.93, 0.7];
 
-/// Posts of a pixel's width stand in the water far apart, about one a tile, before nothing or a bottom so deep that it has
-/// no foam; a wall hides some of it. Every pixel has the twin's foam: no tile is left out that has some, in the corner of a
-/// tile or of the picture, whose size is no number of tiles.
+/// Posts one pixel wide stand in the water, about one per tile, before nothing or before a seabed
+/// too deep for foam; a wall hides some. Every pixel has the twin's foam, so no tile with foam is
+/// skipped, also in the corner of a tile or of the picture, whose size is not a multiple of a tile.
 #[test]
 fn no_tile_with_foam_is_left_out() {
     let gpu = Gpu::shared();
@@ -49,7 +50,7 @@ fn no_tile_with_foam_is_left_out() {
         for (k, lens) in lenses.into_iter().enumerate() {
             let measure = [Measure::Distance, Measure::View, Measure::Vertical];
             let measure = measure[(k + view.len()) % 3];
-            // By their heights what is seen from below is nowhere behind it.
+            // Seen from below, nothing lies vertically behind the surface.
             let measure = if view == "from below" { Measure::View } else { measure };
             let name = format!("{view}, {lens:?}, {measure:?}");
             let mut shot = Shot::new(size, lens, 0.1, &[]);
@@ -65,7 +66,7 @@ fn no_tile_with_foam_is_left_out() {
                 it.mask = 0.0;
             });
             if k == 1 {
-                // More layers than most have.
+                // A third texture layer selects the general pipeline.
                 look.shoreline.layers[2] =
                     TextureLayer { weight: 0.05, ..look.shoreline.layers[0] };
             }
@@ -85,7 +86,7 @@ fn no_tile_with_foam_is_left_out() {
                 if !(z > 0.0 && z < 60.0) {
                     return None;
                 }
-                // What a metre of depth is by the measure.
+                // Fraction of the contact depth per metre of depth, by this measure.
                 let part = twins(&look, 0.1)[0].part([exact(z), exact(z + 1.0)], point.ray, up_row);
                 let part = part.value;
                 let behind = BEHIND[(x + y) as usize % 5];
@@ -108,7 +109,7 @@ fn no_tile_with_foam_is_left_out() {
                     continue;
                 }
                 let scene = scene_of(&shot, i);
-                // Beyond that a depth tells nothing.
+                // At greater distances depths are too inaccurate.
                 if z.low() <= 0.0 || z.high() > 60.0 {
                     continue;
                 }

@@ -1,4 +1,5 @@
-//! Without a sea, a renderer that may draw foam on one draws the same, bit for bit, as a renderer that may not.
+//! Without shore foam in the frame, a renderer that supports it draws the same bits as one that
+//! does not.
 
 use glam::{DVec2, Mat4};
 use whitewater::headless::scene::{Material, Mesh, Scene};
@@ -26,8 +27,8 @@ fn same(name: &str, found: &Drawn, expected: &Drawn) {
     compare::same(&format!("{name}-spray"), &spray(found), &spray(expected));
 }
 
-/// Of water, foam, spray and shadows: without [`Frame::shore`], with one that is of nothing, and with a sea that nothing
-/// stands in, after a frame with foam.
+/// Water, foam, spray and shadows are compared without [`Frame::shore`], with one that has no
+/// surface, and with a sea in which nothing stands, each after a frame with foam.
 ///
 /// [`Frame::shore`]: whitewater::Frame::shore
 #[test]
@@ -68,7 +69,7 @@ fn without_a_sea_nothing_is_another() {
     }
 }
 
-/// A picture of the stand-in scene's, which has no sea.
+/// A picture of a stand-in scene without a sea.
 fn headless(config: &Config) -> Vec<[f32; 4]> {
     let mut headless = Headless::new(Gpu::own().take_device(), config).expect("headless");
     let floor = Mesh::plane([0.0, -1.0, 0.0], [30.0; 2], Material::named("island").expect("one"));
@@ -89,7 +90,7 @@ fn headless(config: &Config) -> Vec<[f32; 4]> {
     color
 }
 
-/// The tool's renderer may draw shores of any scene that has some.
+/// The command-line tool's renderer always supports shores, also for scenes without one.
 #[test]
 fn a_scene_without_a_sea_is_the_same() {
     let plain = config(SIZE).with(|it| {
