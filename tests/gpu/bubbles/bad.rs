@@ -1,4 +1,4 @@
-//! Bad blobs, looks and configurations: errors that name the field.
+//! Bad blobs, looks and configurations give errors that name the field.
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSettings, Film};
@@ -61,7 +61,7 @@ fn bad_blobs_are_errors_before_any_command() {
     let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     let mut refused = |field: &str, frame: &Frame<'_>| {
         spy::reset();
-        // SAFETY: nothing of a bad frame may be used.
+        // SAFETY: a frame with bad input uses no handle.
         let result = unsafe { rig.renderer().record(cmd, frame) };
         let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
         match result {
@@ -90,15 +90,15 @@ fn bad_blobs_are_errors_before_any_command() {
             }),
         );
     }
-    // SAFETY: a good frame, though all of its blobs are none.
+    // SAFETY: the frame is good, although all its blobs are invalid.
     unsafe { rig.renderer().record(cmd, &frame.with(|it| it.bubbles = Some(good))) }
         .expect("record");
     rig.stub.end(0);
     rig.stub.wait(0);
-    // A renderer that knows of none.
+    // A renderer without bubble foam.
     let mut plain = Rig::with_slots(&gpu, &config(size), 1);
     let cmd = plain.stub.begin(0);
-    // SAFETY: nothing of a bad frame may be used.
+    // SAFETY: a frame with bad input uses no handle.
     let result = unsafe { plain.renderer().record(cmd, &frame.with(|it| it.bubbles = Some(good))) };
     plain.stub.end(0);
     plain.stub.wait(0);

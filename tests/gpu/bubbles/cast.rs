@@ -1,4 +1,4 @@
-//! Blobs as the sun sees them: the light that they leave to the scene.
+//! The shadow of blobs: the sunlight that they leave to the scene.
 
 use glam::{DVec3, Vec3};
 use whitewater::LightVolume;
@@ -9,11 +9,13 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 
-/// What of a blob casts, and what it leaves (glsl/bubbles/cast.comp, glsl/include/sunlight.glsl).
+/// Radius of the core that casts a shadow, and the fraction of light that it leaves
+/// (glsl/bubbles/cast.comp, glsl/include/sunlight.glsl).
 const CORE: f64 = 0.78;
 const LEFT: f64 = 0.15;
 
-/// A ball's shadow on a wall, with light from the side: as dark as it gets within it, none beside it.
+/// A blob's shadow on a wall, with light from the side: fully dark inside its outline, no shadow
+/// outside.
 #[test]
 fn a_blob_casts_the_shadow_of_its_core() {
     let gpu = Gpu::shared();
@@ -50,7 +52,7 @@ fn a_blob_casts_the_shadow_of_its_core() {
         let soap = drawn.soap.as_ref().expect("bubble foam");
         let view = shot.view(size);
         let back = view.view.inverse();
-        // Of the map of blobs: four of its texels are looked at, and it is as fine as that.
+        // The filter covers four texels of the blobs' map, which has half the resolution.
         let blur = 3.0 * f64::from(2.0 * region.radius) / f64::from(edge / 2);
         let (mut dark, mut light) = (0, 0);
         for y in 0..drawn.output.height {

@@ -11,11 +11,11 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{Lens, Random};
 
-/// How many of these sums of numbers from 0 to 1 would have to be drawn to see one that far off: five standard deviations.
+/// Allowed deviation of a mean, in standard errors.
 const RARE: f64 = 5.0;
 
-/// Together they cover what all of them would; none that is left is small, and each changes little from distance to
-/// distance.
+/// The kept blobs cover as much as all of them would. None of them is small, and each changes only
+/// a little from distance to distance.
 #[test]
 fn what_is_left_covers_as_much() {
     let ids: Vec<u32> = (0..40_000).map(|i| 3 * i + 1).collect();
@@ -36,14 +36,15 @@ fn what_is_left_covers_as_much() {
         for i in 0..400 {
             let pixels = |i: u32| 0.99_f64.powf(f64::from(i));
             let [near, far] = [i, i + 1].map(|i| pixels(i) * scale(pixels(i), 1.0, *id));
-            // The share is a fiftieth less, and a blob shrinks while its number is 1 to 1.5 shares, over half a share; what
-            // is left has about a pixel.
+            // From one distance to the next the kept fraction falls by a fiftieth. A blob shrinks
+            // while its number is between 1 and 1.5 times the fraction, within half of the
+            // fraction, and is about a pixel large.
             assert!((near - far).abs() < 0.02 * 1.5 / 0.5 + 0.01, "{id}: {near} and {far} at {i}");
         }
     }
 }
 
-/// Blobs of one size at a distance each.
+/// Blobs of one size, each at another distance.
 fn cloud(shot: &Shot, radius: f32) -> Vec<Bubble> {
     let mut random = Random(9);
     let mut one = |i: u32| {
@@ -93,14 +94,15 @@ fn those_left_are_the_twins() {
         let off = pairs.filter(|(a, b)| !same(**a, **b)).count();
         let there = expected.depth.data.iter().filter(|z| is_surface((**z).into())).count();
         println!("{lens:?}: {gone} gone, {grown} grown of {all}; {off} of {there} pixels off");
-        // Radii differ by rounding: a pixel at an outline or between two bubbles may show the other.
+        // Radii differ by rounding, so a pixel at an outline or between two bubbles may show the
+        // other bubble.
         assert!(there > 250 && 200 * off <= there, "{off} of {there} pixels");
         assert!(found.range[2] <= expected.range[2], "{:?} and {:?}", found.range, expected.range);
     }
     assert_ne!(order(1), order(2));
 }
 
-/// A wall of foam over the whole view, of blobs so large.
+/// A wall of foam across the whole view, of blobs with this radius.
 fn wall(shot: &Shot, radius: f32) -> Vec<Bubble> {
     let mut random = Random(4);
     let apart = 1.2 * radius;
@@ -121,8 +123,8 @@ fn wall(shot: &Shot, radius: f32) -> Vec<Bubble> {
         .collect()
 }
 
-/// Of foam whose blobs are smaller than pixels each pixel shows the mean of what is in it: it neither sparkles nor changes its
-/// brightness with the distance.
+/// Where blobs are smaller than pixels, each pixel shows their mean: the foam does not sparkle, and
+/// its brightness does not depend on the distance.
 #[test]
 fn far_foam_is_even_and_as_bright_as_near_foam() {
     let gpu = Gpu::shared();

@@ -1,4 +1,5 @@
-//! The film's table against a sum of all light inside a film, and that sum against known properties of films.
+//! Compares the film's table with a sum of all reflections inside a film, and this sum with known
+//! properties of films.
 
 use whitewater::bubbles::{BubbleConfig, Film, FilmFresnel, Spectrum};
 
@@ -23,7 +24,7 @@ fn a_film_that_is_nothing_reflects_nothing() {
 fn light_of_four_times_the_films_path_is_reflected_most() {
     let at = |d| twin::reflectance(1.0, INDEX, d, 550.0, Face::Exact);
     let quarter = 550.0 / (4.0 * INDEX);
-    // 4 R / (1 + R)^2 of the face's R.
+    // 4 R / (1 + R)^2, with R the reflectance of one face.
     let face: f64 = ((INDEX - 1.0) / (INDEX + 1.0)).powi(2);
     assert!((at(quarter) - 4.0 * face / (1.0 + face).powi(2)).abs() < 1e-12);
     let most = (0..2000).map(|i| 0.1 * f64::from(i)).max_by(|a, b| at(*a).total_cmp(&at(*b)));
@@ -45,9 +46,9 @@ fn no_more_comes_back_than_there_was() {
     }
 }
 
-/// What one value of the table may be off. Sums of terms of at most 1, each of some thirty roundings (the phase is up to
-/// ten turns, of which a rounding is 10 · 2π u); weights by exponentials, 3 + 2x ulp, of which x is at most 40 where a
-/// weight is more than rounding; and half precision, one step.
+/// Error of one value of the table: sums of terms of at most 1, with about thirty roundings each
+/// (the phase is up to ten turns, a rounding of which is 10 · 2π u); weights by exponentials, 3 +
+/// 2x ulp, with x at most 40 where a weight matters; and one step of half precision.
 pub fn bound(value: f64, sizes: f64) -> f64 {
     let terms = 81.0 * U + U * (30.0 + 4.0 * 63.0) + U * (6.0 + 4.0 * 40.0);
     2.0 * sizes * terms + (value.abs() / 1024.0).max(1.0 / f64::from(1 << 24))

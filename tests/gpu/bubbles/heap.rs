@@ -1,4 +1,4 @@
-//! Moving blobs against the twin, and invariants of any heap.
+//! Compares a step of moving blobs with the CPU twin, and checks invariants of any heap.
 
 use ash::vk;
 use glam::{DVec3, Vec3};
@@ -16,7 +16,7 @@ use crate::support::host::{HOST_WRITE, Stub};
 use crate::support::rig::stream;
 use crate::support::scenes::Random;
 
-/// A heap in a host.
+/// A blob simulation and the host that records its steps.
 pub struct Running {
     stub: Stub,
     pub heap: Option<BlobSimulation>,
@@ -33,12 +33,12 @@ impl Running {
         Self::stepped(gpu, (blobs, velocities), field, 0, None)
     }
 
-    /// Whose blobs may split so often.
+    /// A simulation whose blobs may split this often.
     pub fn halving(gpu: &Gpu, blobs: &[Bubble], max_splits: u32) -> Self {
         Self::stepped(gpu, (blobs, &[]), None, max_splits, None)
     }
 
-    /// In the same command buffer a step is recorded too.
+    /// `step` is recorded in the same command buffer that sets the blobs.
     fn stepped(
         gpu: &Gpu,
         (blobs, velocities): (&[Bubble], &[[f32; 3]]),
@@ -66,7 +66,7 @@ impl Running {
         });
         let largest = blobs.iter().map(|b| b.ball[3]).fold(0.01, f32::max);
         let drifts = stream(&speeds, 0, 12);
-        // SAFETY: submitted at once, the buffers live to its end.
+        // SAFETY: the commands are submitted at once, and the buffers live until their end.
         stub.run(|cmd| unsafe {
             heap.record_set(cmd, Slot(0), &set, Some(&drifts), largest).expect("set");
             step.map_or(Ok(()), |step| heap.record_step(cmd, step)).expect("a step");
@@ -118,7 +118,7 @@ impl Drop for Running {
     }
 }
 
-/// Blobs in a box, some in each other.
+/// Blobs at random positions in a box; some overlap.
 pub fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bubble> {
     let mut random = Random(seed);
     (0..count)
@@ -136,9 +136,10 @@ pub fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bub
 
 pub const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
 
-/// Against all pairs: every step from where the GPU was, so that errors don't grow. A velocity is a sum of some twenty
-/// forces, each of some fifty roundings of its largest term, of which damping's and the push's may be as large as the
-/// stiffness times a radius: 64 u of that, times dt. Places: dt of that, and a rounding of their own.
+/// The twin tests all pairs, and starts every step from the GPU's state, so that errors do not
+/// grow. A velocity is a sum of about twenty forces with about fifty roundings each; a force is at
+/// most about the stiffness times a radius. So the bound is 64 u of that, times dt; for positions
+/// it is dt times that, and the position's own rounding.
 #[test]
 fn a_step_is_the_twins() {
     let gpu = Gpu::shared();
@@ -226,7 +227,7 @@ fn the_order_of_blobs_is_no_matter_to_a_heap() {
     let gpu = Gpu::shared();
     let settings = BlobSimulationSettings::default();
     let mut random = Random(2);
-    // Loose ones, and more in one bucket than are looked at.
+    // Blobs with space between them, and more blobs in one grid cell than the pass examines.
     for (count, edge, steps) in [(300, [0.8, 1.0, 0.8], 20), (1200, [0.004; 3], 2)] {
         let blobs = cloud(count, edge, [0.05, 0.1], 6);
         let order = random.order(blobs.len());
@@ -244,7 +245,7 @@ fn the_order_of_blobs_is_no_matter_to_a_heap() {
     }
 }
 
-/// A block slides down a slope that is steeper than the friction holds and lies on one that is not.
+/// A blob slides down a slope without friction, and rolls with much friction.
 #[test]
 fn blobs_slide_down_a_slope_that_is_steep() {
     let gpu = Gpu::shared();
@@ -267,7 +268,7 @@ fn blobs_slide_down_a_slope_that_is_steep() {
         (b.speed.dot(DVec3::new(cosine.into(), f64::from(-sine), 0.0)), b.spin.z)
     };
     let g = 9.81;
-    // Without friction it slides: g sin; with much it rolls: 5/7 of that, at v = w r.
+    // Without friction the acceleration is g sin; rolling it is 5/7 of that, with v = w r.
     let (free, spin) = run(30.0, 0.0);
     assert!((free - 0.5 * g).abs() < 0.02 * g && spin.abs() < 1e-6, "{free} m/s, {spin}");
     let (rolling, spin) = run(30.0, 5.0);
@@ -275,7 +276,7 @@ fn blobs_slide_down_a_slope_that_is_steep() {
     assert!((rolling + 0.1 * spin).abs() < 0.02 * rolling, "{rolling} m/s, {spin} 1/s");
 }
 
-/// A ball of triangles as a field: its distances, and blobs that run against it.
+/// The distance field of a sphere of triangles: its distances, and a blob that falls on it.
 #[test]
 fn a_mesh_is_solid_by_its_field() {
     let gpu = Gpu::shared();
@@ -296,7 +297,7 @@ fn a_mesh_is_solid_by_its_field() {
     }
     let field = DistanceField::of_mesh(&triangles, 0.08, 0.4).expect("a field");
     let [nx, ny, _] = field.points.map(|n| n as usize);
-    // The triangles lie inside the ball by as much as their edges' arcs.
+    // The triangles lie inside the sphere by up to the height of the arcs over their edges.
     let inside = radius * (1.0 - (std::f32::consts::PI / n as f32).cos().powi(2));
     for (i, d) in field.distances.iter().enumerate() {
         let at = [i % nx, i / nx % ny, i / nx / ny];
@@ -367,7 +368,7 @@ fn what_is_no_blob_and_none_do_nothing() {
     }
 }
 
-/// A slot's command buffer may set the blobs and move them at once.
+/// One command buffer may set the blobs and move them.
 #[test]
 fn blobs_are_set_and_moved_in_one_command_buffer() {
     let gpu = Gpu::shared();
@@ -400,7 +401,7 @@ fn hostile_bits_in_a_heap() {
         for _ in 0..5 {
             running.step(1.0 / 60.0, &BlobSimulationSettings::default(), &[FLOOR]).expect("a step");
         }
-        // Those that were not spoiled, each by itself, are blobs still.
+        // Blobs with valid values stay valid.
         let left = running.blobs().iter().filter(|b| b.place.is_finite() && b.radius > 0.0).count();
         assert!(left >= 100, "{left} of 100 sound blobs");
     }

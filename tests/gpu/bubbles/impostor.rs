@@ -1,4 +1,5 @@
-//! Intersections of rays with a blob's impostors, against all of its bubbles.
+//! Compares the ray-casting of blob impostors with intersections of rays with all bubbles of a
+//! blob.
 
 use glam::{DVec3, Quat, Vec3};
 use whitewater::bubbles::{Blob, BubbleConfig, BubbleSort, Impostor};
@@ -13,12 +14,12 @@ use crate::support::scenes::{Lens, Random};
 
 pub const NONE: u32 = 0xffff_ffff;
 
-/// The templates of a configuration.
+/// The bubbles of each template of a configuration.
 pub fn templates(config: &BubbleConfig) -> Vec<Vec<[f32; 4]>> {
     (0..config.variants).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles).bubbles).collect()
 }
 
-/// A turned blob at a place before the camera of tests.
+/// A blob at `at` in eye space, with a random orientation.
 pub fn blob(shot: &Shot, at: [f32; 3], radius: f32, id: u32, random: &mut Random) -> Bubble {
     let [x, y, z] = crate::support::scenes::world(&shot.camera, &[at])[0];
     let axis = Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 1.0).normalize();
@@ -26,7 +27,7 @@ pub fn blob(shot: &Shot, at: [f32; 3], radius: f32, id: u32, random: &mut Random
     Bubble { ball: [x, y, z, radius], turn: turn.to_array(), id }
 }
 
-/// Each pixel's ray: where the eye is, and along what, an eye depth long.
+/// The eye in world space, and each pixel's ray, whose length is one unit of eye depth.
 pub fn rays(shot: &Shot) -> (DVec3, Image<DVec3>) {
     let view = shot.view(shot.size);
     let back = view.view.inverse();
@@ -39,7 +40,7 @@ pub fn rays(shot: &Shot) -> (DVec3, Image<DVec3>) {
     (eye, along)
 }
 
-/// What a pixel sees of each blob by brute force: depth, blob, bubble; the nearest first.
+/// Each pixel's hits by brute force: depth, index of the blob, index of the bubble; nearest first.
 fn seen(shot: &Shot, bubbles: &BubbleConfig) -> Image<Vec<(f64, usize, usize)>> {
     let templates = templates(bubbles);
     let (eye, rays) = rays(shot);
@@ -67,8 +68,9 @@ fn draw(gpu: &Gpu, shot: &Shot, bubbles: BubbleConfig) -> Soaped {
     Rig::lit(gpu, &config, 1).draw(shot).soap.expect("bubble foam")
 }
 
-/// How often the first bubble is the right one, how often there is one where there is none or the other way round,
-/// of the pixels in which there is one; and the error of the depth where there is, in radii of the blob: mean, worst.
+/// Four numbers: the fraction of pixels with the right first bubble, the fraction of pixels where
+/// only one of the two finds a bubble, and the mean and max error of the depth in radii of the
+/// blob.
 fn errors(found: &Soaped, expected: &Image<Vec<(f64, usize, usize)>>, radius: f64) -> [f64; 4] {
     let (mut right, mut missed, mut all) = (0, 0, 0);
     let (mut sum, mut worst, mut met) = (0.0, 0.0_f64, 0);
@@ -92,7 +94,8 @@ fn errors(found: &Soaped, expected: &Image<Vec<(f64, usize, usize)>>, radius: f6
     [part(right), part(missed), sum / f64::from(met), worst]
 }
 
-/// With the source's sizes and steps, and how it goes with them (in docs/bubble-foam.md as a plot).
+/// Both impostors with their default sizes and steps, and the error for other sizes and steps
+/// (plotted in docs/bubble-foam.md).
 #[test]
 fn impostors_find_the_first_bubble() {
     let gpu = Gpu::shared();
@@ -129,7 +132,7 @@ fn impostors_find_the_first_bubble() {
     }
 }
 
-/// A heap of blobs that lie over and in each other.
+/// A heap of blobs that overlap.
 pub fn heap(shot: &Shot, count: u32) -> Vec<Bubble> {
     let mut random = Random(5);
     (0..count)
@@ -159,7 +162,7 @@ fn layers_are_the_nearest_blobs_in_order() {
         let (mut same, mut all) = (0, 0);
         for (layers, hits) in found.layers.iter().zip(&expected.data) {
             for (k, hit) in hits.iter().take(4).enumerate() {
-                // Behind what is opaque none is asked for.
+                // Pass `cast` skips layers behind opaque ones.
                 all += usize::from(layers[k] != NONE);
                 same += usize::from(layers[k] != NONE && (layers[k] >> 8) as usize == hit.1);
             }
@@ -215,14 +218,14 @@ fn what_is_no_blob_is_not_drawn_and_none_changes_nothing() {
         [x, y, z, f32::NAN],
     ];
     shot.blobs = bad.map(|ball| Bubble { ball, ..good }).to_vec();
-    // Behind the eye, and beside the view.
+    // Blobs behind the eye and beside the view.
     shot.blobs.push(blob(&shot, [0.0, 0.0, -4.0], 0.5, 1, &mut random));
     shot.blobs.push(blob(&shot, [30.0, 0.0, 4.0], 0.5, 1, &mut random));
     let nothing = rig.draw(&shot);
     assert_eq!(nothing.output.data, shot.color);
     let [_, _, seen, dropped, taken] = nothing.soap.expect("bubble foam").range;
     assert_eq!([seen, dropped, taken], [0, 5, 0], "on the screen, no balls, in lists");
-    // A turn that is none is none.
+    // A turn of 0 counts as no rotation.
     shot.blobs = vec![Bubble { turn: [0.0; 4], ..good }];
     let still = rig.draw(&shot);
     let [nearest, farthest, seen, dropped, taken] = still.soap.as_ref().expect("bubble foam").range;
@@ -235,7 +238,7 @@ fn what_is_no_blob_is_not_drawn_and_none_changes_nothing() {
     shot.blobs = vec![Bubble { turn: [0.0, 0.0, 0.0, 2.0], ..good }];
     assert_eq!(rig.draw(&shot).output.data, still.output.data);
     assert_ne!(still.output.data, shot.color);
-    // The scene before it hides it.
+    // A scene in front of the blob hides it.
     shot.scene_depth(|x, _| (x < 32).then_some(2.0));
     let half = rig.draw(&shot).soap.expect("bubble foam");
     for (i, z) in half.depth.data.iter().enumerate() {
@@ -244,7 +247,7 @@ fn what_is_no_blob_is_not_drawn_and_none_changes_nothing() {
     assert!(half.depth.data.iter().any(|z| is_surface((*z).into())));
 }
 
-/// Opacities of draws are of half precision.
+/// Billboards find the same layers as the tiles. Blended opacities have half precision.
 #[test]
 fn billboards_find_what_the_tiles_do() {
     let gpu = Gpu::shared();
@@ -264,28 +267,30 @@ fn billboards_find_what_the_tiles_do() {
         for (a, b) in one.layers.iter().zip(&other.layers) {
             let last = layers as usize;
             for k in 0..last {
-                // Tiles end where nothing can be seen any more.
+                // Tiles stop where nothing more is visible.
                 all += usize::from(a[k] != NONE);
                 differ += usize::from(a[k] != NONE && a[k] != b[k]);
             }
-            // They look no farther either where all layers are there and leave nothing of what is behind.
+            // Tiles also stop when all layers are found and hide what is behind them.
             let [x, y] = [a, b].map(|words| f32::from_bits(words[last]));
             let ended = a[last - 1] != NONE && y > x;
             assert!((x - y).abs() < 1.0 / 1024.0 || ended, "opacity {x} and {y}");
         }
         for (a, b) in one.color.data.iter().zip(&other.color.data) {
-            // What is behind may still shine through by a 256th; colours are of half precision.
+            // What is behind may still have a weight of 1/256; colours have half precision.
             off += usize::from((0..4).any(|c| (a[c] - b[c]).abs() > (1.0 + a[c]) / 200.0));
         }
         assert!(off <= 2 * differ, "{off} pixels differ, {differ} layers");
-        // Equal depths, and what two compilations of one shader round differently at an edge.
+        // Layers may differ at equal depths, and at edges where two compilations of a shader round
+        // differently.
         let part = differ as f64 / f64::from(all as u32);
         println!("{lens:?}: {differ} of {all} layers differ");
         assert!(all > 1000 && part < 0.002, "{lens:?}: {differ} of {all} layers differ");
     }
 }
 
-/// Of blobs at exactly one depth none is lost, and the one with the lower number comes first; behind them comes another.
+/// Of several blobs at exactly one depth all become layers, the one with the lower index first; the
+/// blob behind them follows.
 #[test]
 fn blobs_at_one_depth_are_all_layers() {
     let gpu = Gpu::shared();

@@ -1,4 +1,4 @@
-//! Bubble foam across changes of a renderer's size and configuration.
+//! Bubble foam after changes of a renderer's size and configuration.
 
 use whitewater::bubbles::{BubbleConfig, BubbleSort, Film, Impostor};
 
@@ -45,7 +45,7 @@ fn a_resize_gives_what_a_new_renderer_gives() {
     }
 }
 
-/// What bubble foam is made of is made anew where it is another, and the host is told so; else it is kept.
+/// Templates and tables are made again only if they change, and the host is told so.
 #[test]
 fn a_reconfiguration_gives_what_a_new_renderer_gives() {
     let gpu = Gpu::shared();
@@ -95,7 +95,7 @@ fn a_reconfiguration_gives_what_a_new_renderer_gives() {
         ("again", true, base),
     ];
     let mut rig = Rig::lit(&gpu, &of(Some(base)), 1);
-    // Each takes two renderers: all in the long tests.
+    // Each case needs two renderers, so the normal test takes only some.
     let few = ["layers", "film", "none", "again"];
     for (name, anew, bubbles) in goes {
         if !slow() && !few.contains(&name) {

@@ -1,4 +1,4 @@
-//! Bubble foam, against brute force and closed forms.
+//! Compares bubble foam with brute force and closed forms.
 
 mod bad;
 mod cast;

@@ -1,4 +1,4 @@
-//! Whitewater foam that becomes blobs near the camera.
+//! Whitewater foam near the camera becomes blobs of soap bubbles.
 
 use glam::{DVec3, Vec3, Vec4};
 use whitewater::WhitewaterConfig;
@@ -16,7 +16,7 @@ use crate::support::scenes::{self, Lens, Random};
 const FOAM: u32 = 0;
 const RINGS: f64 = 1024.0;
 
-/// Whitewater particles of all kinds and ages.
+/// Whitewater particles.
 #[derive(Clone)]
 struct Cloud {
     shot: Shot,
@@ -26,17 +26,17 @@ struct Cloud {
     ids: Vec<u32>,
 }
 
-/// Radius of all of them before their numbers divide it.
+/// Radius of all particles, before it is divided by a number from the id.
 const RADIUS: f32 = 0.3;
 
 impl Cloud {
-    /// So many, their eye depths by their place.
+    /// `count` particles, whose index gives the eye depth.
     fn new(count: usize, depth: impl Fn(usize) -> f32) -> Self {
         let mut shot = Shot::new(extent(96, 80), Lens::ReversedInfinite, 0.1, &[]);
         let center = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
         shot.light_volume = Some(LightVolume { center, radius: 4.0 });
         shot.settings.whitewater.radius = RADIUS;
-        // As they grow some are small: what merges is another test's.
+        // Keeps blobs that are small on the screen, whose merging another test checks.
         shot.settings.bubbles.min_pixels = 0.0;
         shot.settings.bubbles.crossfade = Crossfade { near: 2.0, far: 3.0, size: 1.25 };
         let mut random = Random(6);
@@ -76,7 +76,7 @@ impl Cloud {
         view.transform_point3(DVec3::from(self.positions[i].map(f64::from))).length()
     }
 
-    /// What of one is its blob's where there is room, of all.
+    /// Fraction of a particle that is drawn as a blob, if there is room.
     fn part(&self, i: usize) -> f64 {
         let Crossfade { near, far, .. } = self.shot.settings.bubbles.crossfade;
         let [near, far] = [near, far].map(f64::from);
@@ -84,12 +84,12 @@ impl Cloud {
         if self.kinds[i] == FOAM { 1.0 - t * t * (3.0 - 2.0 * t) } else { 0.0 }
     }
 
-    /// The blobs that they are.
+    /// The blobs that the particles become.
     fn blobs(&self) -> Vec<Bubble> {
         self.blobs_of(RADIUS)
     }
 
-    /// Of such a radius.
+    /// The blobs that particles of this radius become.
     fn blobs_of(&self, radius: f32) -> Vec<Bubble> {
         let size = f64::from(self.shot.settings.bubbles.crossfade.size);
         (0..self.positions.len())
@@ -105,7 +105,7 @@ impl Cloud {
     }
 }
 
-/// As near.comp has it.
+/// The orientation by the formula of near.comp.
 fn turn(id: u32) -> [f32; 4] {
     let uniform = |n: u32| {
         let hash = pcg(id.wrapping_add(pcg(n.wrapping_add(pcg(1)))));
@@ -131,17 +131,18 @@ fn with(cloud: &Cloud, bubbles: BubbleConfig) -> Config {
     })
 }
 
-/// Pixels that differ by more than rounding moves them.
+/// Number of pixels that differ by more than rounding explains.
 fn off(a: &Drawn, b: &Drawn) -> usize {
     let apart =
         |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|c| (a[c] - b[c]).abs() > 0.01 * (1.0 + a[c]));
     a.output.data.iter().zip(&b.output.data).filter(|pair| apart(*pair)).count()
 }
 
-/// Eye depths of particles by their place.
+/// A name, and a function from a particle's index to its eye depth.
 type Depths = (&'static str, fn(usize) -> f32);
 
-/// Near ones are blobs, as the host's would be, far ones sprites, and in between both are less.
+/// Near foam is drawn as blobs, like blobs from the host; far foam as sprites; between the two
+/// distances both are drawn, reduced.
 #[test]
 fn foam_near_the_eye_is_blobs() {
     let gpu = Gpu::shared();
@@ -151,7 +152,7 @@ fn foam_near_the_eye_is_blobs() {
     ];
     for (name, depth) in depths {
         let mut cloud = Cloud::new(40, depth);
-        // Others of them, near too, stay what they are.
+        // Particles of other kinds stay sprites, also near the camera.
         for i in (0..40).step_by(10) {
             cloud.kinds[i] = 1 + i as u32 / 10 % 2;
         }
@@ -162,7 +163,7 @@ fn foam_near_the_eye_is_blobs() {
         other.shot.blobs = cloud.blobs();
         let seen = soap.range[2] as usize;
         assert!(seen > 10 && seen <= other.shot.blobs.len(), "{name}: {seen} blobs");
-        // Sprites that nothing is left of are too old.
+        // A particle drawn as a whole blob has no sprite. Here a max age hides these sprites.
         for i in 0..40 {
             if cloud.part(i) == 1.0 {
                 other.ages[i] = 1.0;
@@ -186,7 +187,7 @@ fn foam_near_the_eye_is_blobs() {
             let plain = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, bubbles(64)), 1));
             assert!(off(&found, &plain) > all / 2, "{name}: sprites do not look so");
         } else {
-            // Where both are, sprites are less than the whole.
+            // Where both are drawn, the sprites have less than their whole thickness.
             let thick = |drawn: &Drawn| {
                 let whitewater = drawn.whitewater.as_ref().expect("foam");
                 whitewater.thickness.data.iter().map(|t| f64::from(t[0])).sum::<f64>()
@@ -197,7 +198,8 @@ fn foam_near_the_eye_is_blobs() {
     }
 }
 
-/// Where there is no room for all the nearest are blobs and the rest sprites, whatever their order.
+/// If there are more candidates than `max_blobs`, the nearest become blobs and the others stay
+/// sprites, whatever their order.
 #[test]
 fn where_blobs_have_no_room_sprites_stay() {
     let gpu = Gpu::shared();
@@ -212,7 +214,7 @@ fn where_blobs_have_no_room_sprites_stay() {
     let ends = rings[30];
     let expected = rings.iter().filter(|ring| **ring < ends).count() as u32;
     let [_, _, seen, dropped, _] = one.soap.as_ref().expect("bubble foam").range;
-    // Where the far end is nearer, the last blobs are next to nothing, and those at it are none.
+    // The selection is by distance rings. The last selected blobs may be too small to be drawn.
     assert_eq!(dropped, 0);
     assert!(seen <= expected && seen + 2 >= expected, "{seen} of {expected} blobs");
     let mut other = cloud.clone();
@@ -222,7 +224,7 @@ fn where_blobs_have_no_room_sprites_stay() {
     }
     let again = other.draw(&mut rig);
     compare::same_color("near-order", &again.output, &one.output);
-    // Sprites beyond are whole: as where there are no blobs.
+    // Sprites of particles that are no blobs are as thick as in a renderer without blobs.
     let plain = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, bubbles(30)), 1));
     let alone = (0..one.output.data.len()).filter(|i| {
         let thickness =
@@ -230,13 +232,14 @@ fn where_blobs_have_no_room_sprites_stay() {
         thickness(&plain) > 0.0 && (thickness(&one) - thickness(&plain)).abs() < 1.0e-3
     });
     assert!(alone.count() > 100);
-    // None at all.
+    // All particles are too old.
     cloud.ages.fill(1.0);
     let none = cloud.draw(&mut rig);
     assert_eq!(none.output.data, cloud.shot.color);
 }
 
-/// A dense patch of foam before a wall, or beside the view, and a sun that throws its shadow into the view.
+/// A dense patch of foam around `from` in eye space, and a sun that casts its shadow on a wall.
+/// Returns also the patch's mean distance.
 fn shading(from: [f32; 3]) -> (Cloud, f64) {
     const WALL: f64 = 5.0;
     let mut cloud = Cloud::new(0, |_| 0.0);
@@ -256,19 +259,20 @@ fn shading(from: [f32; 3]) -> (Cloud, f64) {
     shot.settings.light.irradiance = [2.0; 3];
     shot.settings.light.shade = [0.0; 3];
     shot.settings.whitewater.radius = 0.15;
-    // Thinner than blobs: their shadows differ.
+    // Sprites are less opaque than blobs, so their shadows differ.
     shot.settings.whitewater.half_intensity_thickness *= 2.0;
     shot.light_volume = Some(LightVolume { center: there.to_array(), radius: 5.0 });
     cloud.positions = scenes::world(&shot.camera, &eye);
     cloud.kinds = vec![FOAM; eye.len()];
     cloud.ages = vec![0.0; eye.len()];
-    // None is smaller than the others.
+    // With these ids all particles have the same radius.
     cloud.ids = (0..eye.len() as u32).map(|i| 5 * i).collect();
     let away = (0..eye.len()).map(|i| cloud.distance(i)).sum::<f64>() / eye.len() as f64;
     (cloud, away)
 }
 
-/// What of the light is left on the wall where no foam is before it, in the mean of where much of it is lost to any.
+/// Mean fraction of light left on the wall, over pixels that show no foam and are dark in at least
+/// one of the pictures.
 fn left(drawn: &[Drawn], lit: &Drawn) -> Vec<f64> {
     let share = |drawn: &Drawn, i: usize| {
         f64::from(drawn.output.data[i][0]) / f64::from(lit.output.data[i][0])
@@ -287,8 +291,8 @@ fn left(drawn: &[Drawn], lit: &Drawn) -> Vec<f64> {
     drawn.iter().map(mean).collect()
 }
 
-/// Foam that is blobs has the shadow of blobs, and half-way one between that and the sprites': what casts as a blob does not cast as
-/// a sprite too, on the wall or on itself.
+/// Foam drawn as blobs has the blobs' shadow, and while it fades a shadow between that and the
+/// sprites'. A particle does not cast both shadows, neither on the wall nor on itself.
 #[test]
 fn foam_that_is_handed_over_casts_one_shadow() {
     let gpu = Gpu::shared();
@@ -318,10 +322,10 @@ fn foam_that_is_handed_over_casts_one_shadow() {
     let [sprites, blobs, handed, half] = left(&all, &lit)[..] else { unreachable!() };
     println!("sprites {sprites:.4}, blobs {blobs:.4}, handed over {handed:.4}, half-way {half:.4}");
     assert!(sprites > blobs + 0.1, "they differ");
-    // Two divisions and a half or two of the map: nothing that one sees.
+    // Two divisions and one or two roundings to half precision in the map.
     assert!((handed - blobs).abs() < 1.0e-3, "{handed}, of blobs alone {blobs}");
     assert!((blobs..sprites).contains(&half), "{half} is not between {blobs} and {sprites}");
-    // Nor are the blobs in the shade of their own sprites.
+    // The sprites' shadow must not fall on their own blobs.
     let light = |drawn: &Drawn| {
         let soap = drawn.soap.as_ref().expect("bubble foam");
         soap.color.data.iter().map(|c| f64::from(c[0])).sum::<f64>()
@@ -331,7 +335,7 @@ fn foam_that_is_handed_over_casts_one_shadow() {
     assert!((both - alone).abs() < 0.01 * alone, "{both} and {alone}");
 }
 
-/// Beside the view there are no blobs: what would be one still casts its sprite's shadow into the view.
+/// Foam beside the view is not drawn as blobs, and still casts its sprites' shadow into the view.
 #[test]
 fn foam_beside_the_view_casts_the_shadow_of_sprites() {
     let gpu = Gpu::shared();
@@ -354,7 +358,7 @@ fn foam_beside_the_view_casts_the_shadow_of_sprites() {
     compare::same_color("near-beside", &all[1].output, &all[0].output);
 }
 
-/// 36 bytes a blob, and some KiB.
+/// 36 bytes per blob, and some KiB.
 #[test]
 fn it_takes_the_memory_it_says() {
     let gpu = Gpu::shared();
@@ -385,7 +389,7 @@ fn bad_crossfades_are_errors() {
     let frame = cloud.shot.frame(color.host_image(), depth.host_image(), fluid.particles());
     let bad = frame.with(|it| it.bubbles = Some(blobs.streams()));
     let cmd = rig.stub.begin(0);
-    // SAFETY: nothing of a bad frame may be used.
+    // SAFETY: a frame with bad input uses no handle.
     let result = unsafe { rig.renderer().record(cmd, &bad) };
     assert!(matches!(result, Err(Error::BadInput { field: "Frame.bubbles", .. })));
     for (field, crossfade) in [

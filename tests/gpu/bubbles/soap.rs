@@ -1,4 +1,5 @@
-//! Pass `soap` against its twin, in a uniform environment and in one with a gradient to one side, without a sun.
+//! Compares pass `soap` with its CPU twin, in a uniform environment and in one with a gradient,
+//! without a sun.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
@@ -22,25 +23,26 @@ use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{Lens, Random};
 use crate::support::tolerance::U;
 
-/// Of the environment; halves hold it and its half.
+/// Radiance of the environment; half precision represents it and its half exactly.
 const RADIANCE: DVec3 = DVec3::new(1.0, 0.625, 1.75);
 
-/// Edge of the core's picture in texels (src/bubbles/templates.rs).
+/// Size of the core's image in texels (src/bubbles/templates.rs).
 const PICTURE_SIZE: usize = 256;
 
-/// How far a ray may be turned by rounding: the eye's and a blob's place are sums of some ten numbers, each as long as
-/// the way from one to the other or a few times that.
+/// Max angle by which rounding turns a ray: the positions of eye and blob are sums of about ten
+/// numbers, each up to a few times their distance.
 const TURNED: f64 = 64.0 * U;
 
-/// Where turning a ray so little changes a colour by more, it shows another wall, or none.
+/// If turning a ray by that angle changes its colour by more than this, the ray may hit another
+/// wall or none.
 const JUMP: f64 = 1.0 / 128.0;
 
-/// One step of half precision.
+/// One step of half precision at this value.
 pub fn half_step(value: f64) -> f64 {
     (value.abs() / 1024.0).max(1.0 / f64::from(1 << 24))
 }
 
-/// Nothing of noise or pattern.
+/// Settings without noise and pattern.
 pub fn even(film: f32) -> BubbleSettings {
     BubbleSettings::default().with(|it| {
         it.film = film;
@@ -69,34 +71,34 @@ fn twin(look: &BubbleSettings, side: DVec3) -> Look {
     }
 }
 
-/// A renderer, and what the twin knows of it.
+/// A renderer, and the inputs of its twin.
 pub struct Scene<'g> {
     pub rig: Rig<'g>,
     bubbles: BubbleConfig,
     templates: Vec<Template>,
     films: &'static Table,
     picture: &'static Picture,
-    /// Of the environment.
+    /// Gradient of the environment.
     side: DVec3,
 }
 
-/// A pixel by the twin.
+/// A pixel of the twin.
 #[derive(Clone)]
 pub struct Expected {
     pub pixel: Pixel,
-    /// How far the picture may be off it.
+    /// Error bound of the picture.
     pub off: [f64; 4],
-    /// How much it changes where the ray is turned as much as rounding may.
+    /// Change of the colour if the ray turns by the rounding angle.
     change: f64,
 }
 
 impl<'g> Scene<'g> {
-    /// In an environment that grows towards a side.
+    /// An environment whose radiance grows linearly towards `side`.
     fn new(gpu: &'g Gpu, side: DVec3) -> Self {
         Self::of(gpu, side, 3, config(extent(112, 96)))
     }
 
-    /// The same of so many layers, by a configuration.
+    /// The same with this number of layers, and another configuration.
     pub fn of(gpu: &'g Gpu, side: DVec3, layers: u32, config: Config) -> Self {
         let bubbles = BubbleConfig::new(64).with(|it| {
             it.variants = 3;
@@ -124,12 +126,12 @@ impl<'g> Scene<'g> {
         Self { rig, bubbles, templates, films, picture, side }
     }
 
-    /// Blobs whose bubbles are large enough to be seen, wholly before the camera.
+    /// Blobs whose bubbles are several pixels large, entirely in front of the camera.
     fn shot(&self, lens: Lens, many: bool) -> Shot {
         self.shot_in(lens, many, (0.1, &[]))
     }
 
-    /// The same with water of particles of a radius.
+    /// The same with water particles of this radius.
     pub fn shot_in(&self, lens: Lens, many: bool, (radius, points): (f32, &[[f32; 3]])) -> Shot {
         let mut shot = Shot::new(self.rig.config.extent, lens, radius, points);
         let mut random = Random(11);
@@ -150,7 +152,8 @@ impl<'g> Scene<'g> {
         shot
     }
 
-    /// What the pixels show by the twin. The layers are the frame's: which they are is the impostors' test.
+    /// What the pixels show by the twin. The layers are those of the frame; the tests of the
+    /// impostors check them.
     pub fn expected(&self, shot: &Shot, drawn: &Drawn) -> Image<Expected> {
         let found = drawn.soap.as_ref().expect("bubble foam");
         let look = twin(&shot.settings.bubbles, self.side);
@@ -183,8 +186,8 @@ impl<'g> Scene<'g> {
                 let off = turned.iter().map(|other| (other.color[c] - pixel.color[c]).abs());
                 off.fold(0.0, f64::max)
             });
-            // The environment, what is gathered of it, and the picture are of half precision. Sums and products are some
-            // tens a film.
+            // The environment, its prefiltered light and the image have half precision. Each film
+            // adds some tens of sums and products.
             let off = [0, 1, 2, 3].map(|c| {
                 let value = pixel.color[c];
                 let halves = if c < 3 { 3.0 } else { 1.0 };
@@ -199,8 +202,8 @@ impl<'g> Scene<'g> {
     }
 }
 
-/// The water on a pixel's ray, so many metres long on one of depth: from its depth on as much as there is, between the
-/// texels about it that have some.
+/// The water on a pixel's ray; `length` is the ray's length per metre of depth. It begins at the
+/// pixel's depth and has the thickness interpolated between the surrounding texels that have water.
 pub fn water(shot: &Shot, drawn: &Drawn, (x, y): (usize, usize), length: f64) -> Water {
     let depth = f64::from(drawn.depth.at(x, y));
     if !is_surface(depth) {
@@ -217,7 +220,7 @@ pub fn water(shot: &Shot, drawn: &Drawn, (x, y): (usize, usize), length: f64) ->
     Water { medium: medium(shot), from: length * depth, metres }
 }
 
-/// As the settings have it.
+/// The water's medium as the twin takes it.
 fn medium(shot: &Shot) -> Medium {
     let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
     match shot.settings.water.medium {
@@ -233,7 +236,7 @@ fn medium(shot: &Shot) -> Medium {
     }
 }
 
-/// Blobs that lie over and in each other.
+/// Blobs that overlap.
 fn heap(shot: &Shot, random: &mut Random) -> Vec<Bubble> {
     (0..16)
         .map(|id| {
@@ -245,14 +248,14 @@ fn heap(shot: &Shot, random: &mut Random) -> Vec<Bubble> {
         .collect()
 }
 
-/// Errors of a picture.
+/// Statistics of a picture's errors.
 #[derive(Default)]
 struct Errors {
     sum: f64,
     worst: f64,
-    /// Of what it may be off.
+    /// Max error as a fraction of its bound.
     part: f64,
-    /// Pixels that are off by more.
+    /// Number of pixels beyond their bound.
     beyond: u32,
 }
 
@@ -270,7 +273,7 @@ impl Errors {
     }
 }
 
-/// How often something is to be seen, at least: two blobs, three, a wall, a plug.
+/// Min number of pixels that show two blobs, three blobs, a wall, a plug.
 type Seen = [u32; 4];
 
 #[test]
@@ -352,7 +355,7 @@ fn films_walls_cores_and_plugs_are_the_twins() {
     assert!(500 * jumps < all, "{jumps} of {all} pixels may show another wall by rounding");
 }
 
-/// The environment's texels are wide, and so is the cone that a pixel sees by a small bubble: only the mean is told.
+/// The environment's texels and the cones of small bubbles are wide, so only the mean is compared.
 #[test]
 fn films_and_cores_show_where_the_light_comes_from() {
     let gpu = Gpu::shared();

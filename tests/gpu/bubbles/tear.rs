@@ -1,4 +1,4 @@
-//! Blobs that split when they are torn off.
+//! Blobs that split when they separate from the heap.
 
 use std::collections::HashMap;
 
@@ -28,7 +28,7 @@ fn volume(blobs: &[Blob]) -> f64 {
     blobs.iter().map(|b| b.radius.powi(3)).sum()
 }
 
-/// What is beside one that it touches, in its own volume.
+/// Volume of the blobs that touch this one, relative to its own volume.
 fn beside(blobs: &[Blob], own: &Blob, settings: &BlobSimulationSettings) -> f64 {
     let touches = |other: &&Blob| {
         let reach = f64::from(settings.reach) * (own.radius + other.radius);
@@ -38,7 +38,8 @@ fn beside(blobs: &[Blob], own: &Blob, settings: &BlobSimulationSettings) -> f64 
     volume(&blobs.iter().filter(touches).copied().collect::<Vec<_>>()) / own.radius.powi(3)
 }
 
-/// It becomes a clump that hangs together, of the same volume at every time, without a jump.
+/// A lone blob becomes a connected clump, whose volume is the same at every time and changes
+/// without jumps.
 #[test]
 fn a_lone_blob_becomes_a_clump() {
     let gpu = Gpu::shared();
@@ -51,12 +52,12 @@ fn a_lone_blob_becomes_a_clump() {
     for step in 0..300 {
         running.step(DT, &free(), &[]).expect("a step");
         let now = running.blobs();
-        // A cube root by powers of two is off by 2^-20; halves of halves are rounded at most four times.
+        // A cube root by powers of two errs by 2^-20, and halves are rounded at most four times.
         let volume = volume(&now);
         assert!((volume / whole - 1.0).abs() < 1.0e-5, "{volume} of {whole} at {step}");
         for (now, last) in now.iter().zip(&last) {
-            // A half grows to 0.79 of the radius in half a second; its whole shrinks by three quarters of that at its
-            // fastest: the volume goes by 3 p².
+            // A new half grows to 0.79 of the radius in half a second. The other half shrinks at
+            // most three quarters as fast, because volume goes with 3 p².
             let change = (now.radius - last.radius).abs();
             let fastest = f64::from(DT / free().split_duration) * f64::from(radius);
             assert!(change <= fastest, "{} to {} at {step}", last.radius, now.radius);
@@ -83,7 +84,7 @@ fn a_lone_blob_becomes_a_clump() {
     }
 }
 
-/// In a heap those split that the rule says, and no others.
+/// In a heap, exactly those blobs split for which the rule holds.
 #[test]
 fn what_has_enough_beside_it_stays_whole() {
     let gpu = Gpu::shared();
@@ -93,7 +94,7 @@ fn what_has_enough_beside_it_stays_whole() {
     });
     let mut random = Random(3);
     let mut blobs = cloud(300, [0.9, 0.8, 0.9], [0.07, 0.11], 9);
-    // Some are thrown out.
+    // Some blobs are thrown out of the heap.
     for blob in &mut blobs[..20] {
         blob.ball[0] += random.between(1.2, 6.0);
     }
@@ -101,7 +102,7 @@ fn what_has_enough_beside_it_stays_whole() {
     let mut running = Running::halving(&gpu, &blobs, max_splits);
     let step = settings.with(|it| it.substeps = 1);
     let (mut split, mut whole) = (0, 0);
-    // Since its last split; what parts does not split.
+    // Step of each blob's last split. A blob that is still splitting does not split again.
     let mut parting: HashMap<usize, u32> = HashMap::new();
     let mut halved = vec![0_u32; blobs.len() << max_splits];
     for i in 0..240 {
@@ -119,7 +120,7 @@ fn what_has_enough_beside_it_stays_whole() {
             let splits = before[child].radius == 0.0 && after[child].radius > 0.0;
             assert!(!(splits && parts), "{k} splits as it parts");
             let company = beside(&live, &before[k], &settings);
-            // Where a sum of volumes, or whether one is touched, is a matter of rounding, either may be.
+            // Near the limits of touching or of the volume, rounding decides.
             let near = live.iter().any(|other| {
                 let reach = f64::from(settings.reach) * (before[k].radius + other.radius);
                 let far = before[k].place.distance(other.place);

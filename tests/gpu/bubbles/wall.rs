@@ -1,12 +1,12 @@
-//! Construction of the walls: a wall passes through the common circle of two bubbles, and its tangent there bisects the
-//! angle.
+//! Construction of the walls: a wall passes through the common circle of two bubbles, and its
+//! tangent there bisects the angle between them.
 
 use glam::DVec3;
 
 use crate::reference::bubbles::wall::{angle, between, common};
 use crate::support::scenes::Random;
 
-/// Pairs of bubbles that intersect, the larger first.
+/// Pairs of bubbles that intersect, the larger one first.
 fn pairs(count: usize) -> impl Iterator<Item = ((DVec3, f64), (DVec3, f64))> {
     let mut random = Random(41);
     (0..count).map(move |_| {
@@ -28,7 +28,7 @@ fn walls_pass_through_the_common_circle_and_halve_its_angle() {
             let m = common(a, b, turn);
             let scale = a.1.max(wall.radius);
             assert!((m.distance(wall.center) - wall.radius).abs() < 1e-9 * scale, "{a:?} {b:?}");
-            // The radius at M against those of both bubbles: its tangent lies as far from one as from the other.
+            // The wall's radius at M makes equal angles with those of both bubbles.
             let normal = (m - wall.center).normalize();
             let to = [a, b].map(|(c, _)| (c - m).normalize().dot(normal));
             assert!((to[0] + to[1]).abs() < 1e-6, "{to:?} of {a:?} {b:?}");

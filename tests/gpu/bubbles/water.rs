@@ -1,4 +1,4 @@
-//! Blobs inside particle water and in front of it.
+//! Blobs in the particles' water and in front of it.
 
 use glam::DVec3;
 use whitewater::Config;
@@ -14,12 +14,13 @@ use crate::support::tolerance::U;
 
 const RADIUS: f32 = 0.2;
 
-/// Water of much colour, which takes most of the light in a metre, and some that gives much back.
+/// A strongly coloured medium that absorbs most light within a metre, and one that scatters much of
+/// it.
 const CLEAR: Medium = Medium::Physical { absorption: [0.9, 0.4, 0.2], scattering: [0.0, 0.0, 0.0] };
 const TURBID: Medium =
     Medium::Physical { absorption: [0.7, 0.3, 0.1], scattering: [0.1, 0.4, 0.3] };
 
-/// In the left part of the picture, from so deep on, so many particles deep.
+/// A block of water in the left part of the picture, from this depth on, `deep` particles deep.
 fn block(depth: f32, deep: usize) -> Vec<[f32; 3]> {
     scenes::block(3, 0.25, [8, 14, deep], [-1.8, -1.6, depth])
 }
@@ -28,8 +29,8 @@ fn small(thickness_level: u32) -> Config {
     config(extent(112, 96)).with(|it| it.thickness_level = thickness_level)
 }
 
-/// Layers before water, in it and behind it: each is seen through as much of it as lies before that layer, whatever the
-/// other layers are, and hides as much of the water's own light as there is behind it.
+/// Layers before, in and behind water: each layer is seen through the water in front of it,
+/// whatever the other layers are, and hides the water's own light from behind it.
 #[test]
 fn layers_in_water_are_the_twins() {
     let gpu = Gpu::shared();
@@ -72,8 +73,9 @@ fn layers_in_water_are_the_twins() {
     }
 }
 
-/// In water that gives no light and lies before all foam each colour is that in air, less what so much water takes of it, and
-/// as much is hidden: also where the water ends long before the foam.
+/// Water that scatters no light and lies before all foam: a colour is that in air, times the
+/// water's transmittance, and the opacity is unchanged. This also holds if the water ends long
+/// before the foam.
 #[test]
 fn water_before_foam_takes_of_its_colour_alone() {
     let gpu = Gpu::shared();
@@ -102,18 +104,18 @@ fn water_before_foam_takes_of_its_colour_alone() {
         lost.sort_by(f64::total_cmp);
         println!("{deep}: least {:.3}, most {:.3} of red", lost[0], lost[lost.len() - 1]);
         assert!(lost[lost.len() / 4] < 0.7 && lost[lost.len() - 1] == 1.0, "{deep}");
-        // Two roundings to halves, of the one and of the other.
+        // Both colours are rounded to half precision.
         let found = wet.soap.expect("bubble foam").color;
         let off = |x: usize, y: usize| left.at(x, y).map(|v| v * 2.0 / 1024.0 + 1.0e-6);
         compare::close_color("soap-water-before", &found, &left, off);
     }
 }
 
-/// More layers than the first opaque one change nothing, in water as little as in air.
+/// Layers behind the first opaque one do not matter, neither in water nor in air.
 #[test]
 fn opaque_foam_has_one_colour_in_water_however_many_layers() {
     let gpu = Gpu::shared();
-    // Nothing of a film: of two layers the first is all there is to see.
+    // The opaque core has no film before it, so only the first layer is visible.
     let look = even(380.0).with(|it| {
         [it.core_opaque_radius, it.core_outer_radius] = [1.9, 2.0];
         it.fill_holes = false;
@@ -135,8 +137,8 @@ fn opaque_foam_has_one_colour_in_water_however_many_layers() {
     assert!(means.iter().all(|mean| *mean == means[0]), "{means:?}");
 }
 
-/// What the composite makes of it: in the water foam hides what lies behind it and no more, so that what the surface mirrors, the
-/// sun's highlight there and the water's own light before the foam are there once; before the water it hides those too.
+/// Foam in water hides only what lies behind it, so reflection, highlight and the water's own light
+/// before the foam appear once. Foam in front of the water hides those too.
 #[test]
 fn foam_in_water_hides_what_is_behind_it_alone() {
     let gpu = Gpu::shared();
@@ -152,7 +154,8 @@ fn foam_in_water_hides_what_is_behind_it_alone() {
             shot.settings.light.direction = [0.2, 0.4, 0.9];
             let whole = scene.rig.draw(&shot);
             let soap = whole.soap.as_ref().expect("bubble foam");
-            // Of the same water what it shows by itself: its surface alone, and that before white, tell what that mirrors.
+            // The same water without foam, then its surface alone before black and before white,
+            // which gives its reflection.
             let mut bare = Shot { blobs: Vec::new(), ..shot.clone() };
             let water = scene.rig.draw(&bare).output;
             bare.settings.water.medium =
@@ -175,7 +178,8 @@ fn foam_in_water_hides_what_is_behind_it_alone() {
                 let [all, surface, lit] = [&water, &black, &white].map(rgb);
                 let under = f64::from(soap.depth.at(x, y)) > f64::from(whole.depth.at(x, y));
                 let seen = if under {
-                    // From the back: what is behind, by its share, without the surface; then that over all.
+                    // From back to front: what is behind the foam, without the surface; then the
+                    // surface over it.
                     let below = all - surface;
                     surface + below * (1.0 - alpha) + (lit - surface) * soap_light
                 } else {
@@ -188,7 +192,8 @@ fn foam_in_water_hides_what_is_behind_it_alone() {
                     let [foam, front] = [soap.depth.at(x, y), whole.depth.at(x, y)].map(f64::from);
                     if is_surface(foam) && is_surface(front) {
                         (wet, dry) = if foam > front { (wet + 1, dry) } else { (wet, dry + 1) };
-                        // The smoothed surface lies this near: rounding, or smoothing, decides which of them is first.
+                        // At this distance, rounding or smoothing decides whether foam or surface
+                        // is in front.
                         let unsure = (foam - front).abs() <= near;
                         let most = expected.at(x, y).into_iter().fold(1.0, f64::max);
                         *off.at_mut(x, y) = [if unsure { 1.0e3 } else { 64.0 * U * most }; 4];

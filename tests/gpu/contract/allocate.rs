@@ -1,4 +1,5 @@
-//! The host's own allocator: one `vkAllocateMemory` per object, as in the simplest engine.
+//! An allocator from the host that calls `vkAllocateMemory` once per object, as in the simplest
+//! engine.
 
 use std::collections::HashMap;
 use std::error::Error as AnyError;
@@ -18,23 +19,23 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, config, extent};
 use crate::support::scenes::Lens;
 
-/// Each object has memory of its own.
+/// An allocator that gives each object its own memory.
 struct Dedicated {
     device: ash::Device,
     types: vk::PhysicalDeviceMemoryProperties,
-    /// Names of the objects, by the number that their memory's owner holds.
+    /// Names of the live objects, by the number in their memory's owner.
     alive: Mutex<HashMap<u64, String>>,
     made: AtomicU64,
-    /// Refuses objects whose name begins so.
+    /// Refuses objects whose name begins with this.
     refused: Option<&'static str>,
 }
 
-/// The owner of a [`Memory`]: the number of the object.
+/// The owner of a [`Memory`]: the object's number.
 struct Number(u64);
 
 impl Dedicated {
     fn new(gpu: &Gpu, refused: Option<&'static str>) -> Arc<Self> {
-        // SAFETY: live handles.
+        // SAFETY: the handles are live.
         let types = unsafe { gpu.instance.get_physical_device_memory_properties(gpu.physical) };
         let device = gpu.functions.clone();
         Arc::new(Self { device, types, alive: Mutex::default(), made: AtomicU64::new(0), refused })
@@ -45,7 +46,8 @@ impl Dedicated {
     }
 }
 
-// SAFETY: each object has a VkDeviceMemory to itself, of a type that it allows, mapped as its location says and coherent.
+// SAFETY: each object has its own VkDeviceMemory, of a type that it allows; host-visible memory is
+// mapped and coherent.
 unsafe impl Allocate for Dedicated {
     fn allocate(
         &self,
@@ -67,7 +69,7 @@ unsafe impl Allocate for Dedicated {
         let info = vk::MemoryAllocateInfo::default()
             .allocation_size(request.requirements.size)
             .memory_type_index(index as u32);
-        // SAFETY: a valid allocation; the memory is mapped once and stays so.
+        // SAFETY: the allocation is valid, and the memory is mapped once and stays mapped.
         let (memory, pointer) = unsafe {
             let memory = self.device.allocate_memory(&info, None)?;
             let all = vk::WHOLE_SIZE;
@@ -84,7 +86,7 @@ unsafe impl Allocate for Dedicated {
         let handle = memory.memory();
         let Number(number) = memory.into_owner().expect("of this allocator");
         self.alive.lock().unwrap().remove(&number).expect("freed once");
-        // SAFETY: the caller's promise; mapped memory is unmapped by it.
+        // SAFETY: the caller promises that the memory is unused; freeing it also unmaps it.
         unsafe { self.device.free_memory(handle, None) };
     }
 }
@@ -106,7 +108,7 @@ fn draw(gpu: &Gpu, size: vk::Extent2D) -> [Drawn; 2] {
     [first, rig.draw(&water(half, Lens::ReversedInfinite))]
 }
 
-/// Every object's memory comes from the host's allocator, goes back to it, and nothing is drawn otherwise.
+/// All memory comes from the host's allocator and goes back to it, and the pictures do not change.
 #[test]
 fn an_allocator_of_the_hosts_draws_the_same_bits() {
     let size = extent(65, 43);
@@ -123,7 +125,8 @@ fn an_allocator_of_the_hosts_draws_the_same_bits() {
     assert_eq!(gpu.allocations(), Vec::<String>::new(), "none is of another");
 }
 
-/// What it says stands in the error, with the object's name; what was made before goes back.
+/// The error contains the allocator's message and the object's name; memory allocated before goes
+/// back.
 #[test]
 fn what_an_allocator_refuses_is_named() {
     let mut gpu = Gpu::own();

@@ -1,4 +1,5 @@
-//! Bad frames and configurations: an error that names the field, before any command is recorded.
+//! Bad frames and configurations give an error that names the field, before any command is
+//! recorded.
 
 use ash::vk;
 use whitewater::water::{Convolution, Shading, Shadows};
@@ -15,7 +16,7 @@ use crate::support::{compare, spy};
 use super::life::convolved;
 use super::water;
 
-/// A good frame to spoil.
+/// A good frame, in which one input is made invalid.
 struct Good<'a> {
     frame: Frame<'a>,
     settings: Settings,
@@ -23,7 +24,7 @@ struct Good<'a> {
 
 type Spoil = (&'static str, &'static str, fn(&mut Good<'_>));
 
-/// Every way a frame can be wrong, with the field that the error names.
+/// Every way a frame can be invalid, with the field that the error names.
 fn spoils() -> Vec<Spoil> {
     vec![
         ("slot", "Frame.slot", |g| g.frame.slot = Slot(3)),
@@ -221,12 +222,12 @@ fn spoils() -> Vec<Spoil> {
     ]
 }
 
-/// The scene's depth as it were the light's.
+/// A shadow map: the scene's depth image stands in for the light's.
 fn shadow(frame: &Frame<'_>) -> Shadow {
     Shadow::new(frame.scene_depth, glam::Mat4::IDENTITY.to_cols_array_2d())
 }
 
-/// The sun's way where the configuration has it.
+/// The ways in which the light's inputs can be invalid.
 fn sunny_spoils() -> Vec<Spoil> {
     fn shadow_of<'a>(g: &'a mut Good<'_>) -> &'a mut Shadow {
         g.frame.shadow.as_mut().expect("a good one")
@@ -280,7 +281,7 @@ fn bad_frames_in_the_sun(kind: Shadows) {
         spoil(&mut bad);
         let Good { frame, settings } = bad;
         spy::reset();
-        // SAFETY: nothing of a bad frame may be used.
+        // SAFETY: a frame with bad input uses no handle.
         let result =
             unsafe { rig.renderer().record(cmd, &frame.with(|it| it.settings = &settings)) };
         let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
@@ -294,13 +295,14 @@ fn bad_frames_in_the_sun(kind: Shadows) {
             other => panic!("{name}: {:?}", other.map(|_| "no error")),
         }
     }
-    // SAFETY: a good frame.
+    // SAFETY: the frame is good.
     unsafe { rig.renderer().record(cmd, &good) }.expect("record");
     rig.stub.end(0);
     rig.stub.wait(0);
 }
 
-/// Each is found before the first command; the command buffer is still good for the next record.
+/// Each error is found before the first command, so the command buffer can be used for the next
+/// record.
 #[test]
 fn bad_frames_are_errors_before_any_command() {
     let mut gpu = Gpu::spied();
@@ -325,7 +327,7 @@ fn bad_frames_are_errors_before_any_command() {
         spy::reset();
         let renderer = rig.renderer();
         let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-            // SAFETY: nothing of a bad frame may be used.
+            // SAFETY: a frame with bad input uses no handle.
             unsafe { renderer.record(cmd, &frame) }
         }));
         let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
@@ -347,7 +349,7 @@ fn bad_frames_are_errors_before_any_command() {
     }
     rig.stub.throw_away(1);
     let cmd = rig.stub.begin(1);
-    // SAFETY: a good frame.
+    // SAFETY: the frame is good.
     unsafe { rig.renderer().record(cmd, &good) }.expect("record");
     rig.stub.end(1);
     rig.stub.wait(1);
@@ -356,7 +358,7 @@ fn bad_frames_are_errors_before_any_command() {
     assert!(wrong.is_empty(), "not found as they should be:\n{}", wrong.join("\n"));
 }
 
-/// The output as its own scene needs a renderer that copies it.
+/// Using the output as its own scene needs a renderer that copies it (`in_place`).
 #[test]
 fn the_output_as_scene_needs_in_place() {
     let gpu = Gpu::shared();
@@ -431,7 +433,7 @@ fn bad_configurations_are_errors() {
         assert!(matches!(result, Err(Error::BadInput { field: "Host.frames_in_flight", .. })));
     }
     let host = gpu.host(1).with(|it| it.queue_family = 77);
-    // SAFETY: live handles; the family is only looked up.
+    // SAFETY: the handles are live, and the family is only looked up.
     let result = unsafe { Context::new(&host) }.map(|_| ());
     assert!(matches!(result, Err(Error::BadInput { field: "Host.queue_family", .. })));
     let depth = good.with(|it| it.output_format = vk::Format::D32_SFLOAT);
@@ -453,7 +455,7 @@ fn bad_configurations_are_errors() {
         let result = rig.renderer().resize(size);
         assert!(matches!(result, Err(Error::BadInput { field: "Config.extent", .. })));
     }
-    // As it was.
+    // The failed calls leave the renderer as it was.
     let shot = water(size, Lens::Standard);
     let expected = Rig::new(&gpu, &good).draw(&shot);
     compare::same_color("after-bad-resize", &rig.draw(&shot).output, &expected.output);

@@ -1,4 +1,5 @@
-//! Missing features and limits of a device, memory use and timed passes, as documented.
+//! Checks missing features and limits of a device, memory use and timed passes against the
+//! documentation.
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort};
@@ -16,7 +17,7 @@ use crate::support::{compare, slow};
 use super::life::convolved;
 use super::{sunny, water};
 
-/// Engines keep these in resources that threads share, and make them on threads of their own.
+/// Engines share these objects between threads, or create them on other threads.
 const _: () = {
     const fn shared<T: Send + Sync>() {}
     shared::<Context>();
@@ -44,7 +45,8 @@ fn a_device_with_nothing_optional_draws_the_same() {
     compare::same_color("bare", &found.output, &expected.output);
 }
 
-/// An old driver: an instance and a device of Vulkan 1.2, barriers of 1.0. Bit for bit the same, silent under validation.
+/// An old driver: instance and device of Vulkan 1.2, with the barriers of Vulkan 1.0. The picture
+/// is the same bit for bit, and validation reports nothing.
 #[test]
 fn a_device_of_vulkan_1_2_draws_the_same() {
     let size = extent(64, 48);
@@ -80,14 +82,15 @@ fn a_device_of_vulkan_1_2_draws_the_same() {
     }
 }
 
-/// Below Vulkan 1.3 what stores without a format says that it needs the feature; water without it does not.
+/// Below Vulkan 1.3, passes that store to images without a format report that they need the
+/// feature; plain water does not need it.
 #[test]
 fn an_old_device_says_what_it_lacks() {
     let options =
         whitewater::headless::DeviceOptions { vulkan_1_2: true, bare: true, ..Default::default() };
     let gpu = Gpu::own_with(&options);
     let host = gpu.host(1).with(|it| it.enabled = EnabledFeatures::default());
-    // SAFETY: live handles; the device goes last.
+    // SAFETY: the handles are live, and the device is destroyed last.
     let context = unsafe { Context::new(&host) }.expect("a context");
     let config = config(extent(16, 16));
     let lacks = |config: Config| match Renderer::new(&context, &config) {
@@ -102,7 +105,7 @@ fn an_old_device_says_what_it_lacks() {
     unsafe { renderer.destroy() };
 }
 
-/// A mocked offer: what this device has may not be there elsewhere.
+/// Changes what the device reports, to test errors for features that this device does have.
 #[test]
 fn what_a_device_lacks_is_named() {
     let gpu = Gpu::shared();
@@ -154,7 +157,7 @@ fn what_a_device_lacks_is_named() {
     let shown = convolving(8).with(|it| it.extent = extent(32, 16));
     assert!(matches!(small.check(&shown), Err(Error::BadInput { field: "Config.shadow", .. })));
     unfoamed.check(&noise).expect("what the raster splats blend is enough for noise");
-    // Foam's chunks are 64 particles at least.
+    // A chunk of surface foam holds at least 64 particles.
     let mut narrow = offer;
     narrow.limits.max_storage_buffer_range = (1 << 20) + 256;
     let wide = |foam| {
@@ -171,11 +174,13 @@ fn what_a_device_lacks_is_named() {
     unstored.check(&drawn).expect("nothing is stored to the output");
 }
 
-/// A device made by an instance of an older Vulkan: what its driver could do is not there, and what ash puts in the
-/// place of a function that is not panics.
+/// If the host's instance has an older Vulkan version, newer functions are missing although the
+/// driver has them. ash replaces a missing function by one that panics, so `Context::new` must
+/// report an error.
 #[test]
 fn an_instance_of_an_older_vulkan_is_an_error() {
-    // SAFETY: the library outlives all made here, which is destroyed before its end; nothing is submitted.
+    // SAFETY: the library outlives all objects made here, which are destroyed before its end;
+    // nothing is submitted.
     unsafe {
         let entry = ash::Entry::load().expect("a loader");
         let of_1_3 = Gpu::shared();
@@ -196,7 +201,7 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
                 .queue_priorities(&priorities)];
             let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
             let device = instance.create_device(physical, &info, None).expect("a device");
-            // Where what it enabled says too much, too.
+            // The error is also reported if the host claims features that the device does not have.
             for enabled in [EnabledFeatures::default(), of_1_3.enabled] {
                 let host = of_1_3.host(1).with(|it| {
                     it.instance = &instance;
@@ -204,7 +209,8 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
                     it.device = &device;
                     it.enabled = enabled;
                 });
-                // Some drivers have the functions of their own version whatever the instance's is.
+                // Some drivers load the functions of their own version, whatever the instance's
+                // version is.
                 let has = |name: &std::ffi::CStr| {
                     instance.get_device_proc_addr(device.handle(), name.as_ptr()).is_some()
                 };
@@ -226,7 +232,7 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
     }
 }
 
-/// A table of functions with one that is not there.
+/// Function tables in which one function is missing.
 #[test]
 fn functions_that_are_not_loaded_are_named() {
     let gpu = Gpu::shared();
@@ -263,7 +269,7 @@ fn functions_that_are_not_loaded_are_named() {
             it.device = &functions;
             it.enabled = enabled;
         });
-        // SAFETY: live handles; nothing is made.
+        // SAFETY: the handles are live, and nothing is created.
         match unsafe { Context::new(&host) } {
             Err(Error::Missing { what, .. }) => assert!(what.contains(name), "{name}: {what}"),
             other => panic!("{name}: {:?}", other.map(|_| ())),
@@ -271,14 +277,14 @@ fn functions_that_are_not_loaded_are_named() {
     }
 }
 
-/// 64 bytes of device memory a particle beside the input is the promise.
+/// The documentation promises at most 64 bytes of device memory per particle besides the input.
 #[test]
 fn ten_million_particles_have_room() {
     let gpu = Gpu::shared();
     let count = 10_000_000;
     let config = config(extent(64, 48)).with(|it| it.max_particles = count);
     let foam = config.with(|it| it.surface_foam = true);
-    // SAFETY: live handles; nothing is recorded.
+    // SAFETY: the handles are live, and nothing is recorded.
     let state = unsafe {
         Renderer::new(&gpu.context(1), &foam).expect("room for foam").destroy();
         let state = SurfaceFoamState::new(&gpu.context(1), &SurfaceFoamStateConfig::new(count))
@@ -297,8 +303,9 @@ fn ten_million_particles_have_room() {
     assert!(memory.buffers < 64 * u64::from(count), "{memory:?}");
 }
 
-/// The memory table of the crate's documentation: bytes a pixel and a particle. Images are padded
-/// and aligned as the driver likes: by a hundredth more than a device says of images by themselves, and some KiB an object.
+/// Bytes per pixel and per particle as in the memory table of the crate's documentation. A driver
+/// pads and aligns images; the tolerance is a hundredth more than the device reports for single
+/// images, and some KiB per object.
 #[test]
 fn memory_is_as_documented() {
     let gpu = Gpu::shared();
@@ -318,15 +325,15 @@ fn memory_is_as_documented() {
         (memory.images + memory.buffers) as f64
     };
     for (width, height, count) in [(1280, 720, 65_536), (1920, 1080, 1 << 20)] {
-        // Renderers take a second or two to compile: of the larger size a part, of the smaller every other one, and
-        // all in the long tests.
+        // A renderer takes a second or two to compile. The normal test checks a few configurations
+        // of the larger size and every second of the smaller; the slow test checks all.
         let whole = slow() || width == 1280;
         let step = if slow() { 1 } else { 2 };
         let (pixels, n) = (f64::from(width * height), f64::from(count));
         let spare = 0.01 + gpu.padding(extent(width, height));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
-        // The light's maps, and a lit scene in place of the copied one, which is of half precision
-        // too; in a texel of foam a sum more.
+        // The light maps; the lit scene replaces the copied scene and has half precision too. With
+        // foam each texel has one more sum.
         let ways = [(None, false), (Some(256), false), (Some(256), true), (Some(1024), false)];
         for (cast, foam) in ways.into_iter().step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
@@ -345,7 +352,8 @@ fn memory_is_as_documented() {
             let off = (found - said).abs();
             assert!(off < spare * said + 512.0 * 1024.0, "{cast:?}, {foam}: {found}, said {said}");
         }
-        // Motion: a vector; of a texel of 16 pixels 64 bytes of sums and two depths.
+        // Motion has a vector per pixel, and per thickness texel of 16 pixels 64 bytes of sums and
+        // two depths.
         for (thickness_level, said) in [(0, 48.0), (1, 26.0), (2, 12.5), (3, 9.125)]
             .into_iter()
             .step_by(step)
@@ -368,8 +376,8 @@ fn memory_is_as_documented() {
             let off = (found - said * pixels).abs();
             assert!(off < spare * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
         }
-        // Bubble foam: of a pixel its depth, colour and layers, of a tile its lists; the blobs; the film's table, and a
-        // picture of the core.
+        // Bubble foam has depth, colour and layers per pixel and lists per tile; then the blobs,
+        // the film's table and an image of the core.
         for (sort, layers, each) in [
             (BubbleSort::Tiles, 3, 14.5 + 16.0),
             (BubbleSort::Tiles, 1, 14.5 + 8.0),
@@ -403,7 +411,7 @@ fn memory_is_as_documented() {
                 "{sort:?}, {layers}: {more}, said {said}"
             );
         }
-        // Ellipsoids: grid, shapes and lists.
+        // Ellipsoids have a grid, shapes and lists.
         if whole {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config = Config::new(extent(width, height), format, count)
@@ -418,7 +426,7 @@ fn memory_is_as_documented() {
             let said = 108.0 * n - slack..112.0 * n + slack;
             assert!(said.contains(&more), "ellipsoids: {more}, said {said:?}");
         }
-        // Noise: a number a texel of its own, and its sprites.
+        // Noise has one number per texel of its level, and sprites.
         for level in (0..4).step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config =
@@ -436,11 +444,11 @@ fn memory_is_as_documented() {
                 "{level}: {more}, said {said}"
             );
         }
-        // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
-        // boundary, a cell of 64 four numbers. Of the smoothing two numbers and a plan, a quarter of a pixel each: 3 bytes, of
-        // which coarser levels beside each other take half as much again, with the back sheet's three quarters.
-        // Foam: of a texel 4 bytes of depth, 16 of thickness, 4 of water before it and its sum of 8, and three
-        // sums and two depths beside each other.
+        // With two sheets, a texel of 16 pixels has 16 more bytes of thickness, 16 of sums and a
+        // boundary, and a cell of 64 pixels four numbers. The smoothing has two numbers and a plan
+        // for a quarter of the pixels, 3 bytes; coarser levels add half as much, and the back sheet
+        // three quarters. With foam, a texel has 4 bytes of depth, 16 of thickness, 4 of the water
+        // before it with a sum of 8, and three sums and two depths that share memory with others.
         for (sheets, coarsening, foam, spray, smoothing, more) in [
             (1, 3, false, false, 4.5, 0.0),
             (1, 0, false, false, 3.0, 0.0),
@@ -460,7 +468,8 @@ fn memory_is_as_documented() {
             let found = needed(width, height, count, (sheets, coarsening, foam, spray));
             let off = (found - said).abs();
             let name = format!("{width}x{height}, {sheets} sheets, foam {foam}, spray {spray}");
-            // A driver may keep a border round each face of the cube: two texels more each way, of all levels.
+            // A driver may keep a border around each face of the cube map: two texels more along
+            // each axis, at all mip levels.
             let border: f64 = (0..9).map(|mip| 48.0 * 4.0 * f64::from((256 >> mip) + 1)).sum();
             let most = spare * said + 512.0 * 1024.0 + border;
             assert!(off < most, "{name}: {found}, said {said}");
@@ -468,7 +477,8 @@ fn memory_is_as_documented() {
     }
 }
 
-/// Every pass has a scope; starts never fall, nothing is negative. Durations are no matter.
+/// Every pass has a timer scope. Start times never decrease and durations are not negative; their
+/// values do not matter.
 #[test]
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
@@ -525,7 +535,8 @@ fn timings_name_every_pass() {
     assert!(lit < at("composite"), "{names:?}");
 }
 
-/// A host of Vulkan 1.2 that leaves out a feature is told which one, before it creates the device.
+/// If a Vulkan 1.2 host does not plan to enable a needed feature, the check names it before the
+/// host creates the device.
 #[test]
 fn what_a_selection_of_features_lacks_is_named() {
     let gpu = Gpu::shared();

@@ -1,4 +1,4 @@
-//! Frames in flight: slots, records between read-backs, two renderers on one device.
+//! Frames in flight: slots, read-backs between records, two renderers on one device.
 
 use whitewater::water::{Convolution, Shading, Shadows};
 use whitewater::{Frame, Recorded, Slot};
@@ -12,7 +12,7 @@ use crate::support::scenes::{LENSES, Lens};
 
 use super::{sunny, water};
 
-/// What a frame in flight needs to stay alive.
+/// Resources that a frame in flight needs.
 pub struct Flight {
     color: Texture,
     _depth: Texture,
@@ -21,7 +21,7 @@ pub struct Flight {
     pub expected: Drawn,
 }
 
-/// Records a shot into a slot and submits it without waiting.
+/// Records a shot in a slot and submits it without waiting.
 pub fn launch(rig: &mut Rig<'_>, slot: u32, shot: &Shot, expected: Drawn) -> Flight {
     let (color, depth) = rig.scene(shot);
     let cloud = rig.particles(shot);
@@ -29,7 +29,8 @@ pub fn launch(rig: &mut Rig<'_>, slot: u32, shot: &Shot, expected: Drawn) -> Fli
         .frame(color.host_image(), depth.host_image(), cloud.particles())
         .with(|it| it.slot = Slot(slot));
     let cmd = rig.stub.begin(slot);
-    // SAFETY: cmd is recording, the slot was waited for, the handles live in the flight.
+    // SAFETY: cmd is recording, the slot was waited for, and the handles live in the returned
+    // Flight.
     let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
     rig.stub.end(slot);
     Flight { color, _depth: depth, _cloud: cloud, recorded, expected }
@@ -40,7 +41,7 @@ pub fn output_of(rig: &Rig<'_>, flight: &Flight) -> Image<[f32; 4]> {
     rig.read(&flight.color.host_image(), &nothing).output
 }
 
-/// Three frames are submitted before the first is waited for, over and over, with a resize between.
+/// Three frames are submitted before the first is waited for, repeatedly, with resizes between.
 #[test]
 fn three_slots_in_flight_with_a_resize() {
     for composite in [Shading::Raster, Shading::Compute] {
@@ -75,7 +76,7 @@ fn in_flight(composite: Shading) {
             let found = output_of(&rig, &flight);
             compare::same_color(&format!("flight-{frame}"), &found, &flight.expected.output);
         }
-        // Twice in a row, and with frames of all slots in flight.
+        // Resizes twice in a row, and with frames of all slots in flight.
         if [4, 5, 11, 13].contains(&frame) {
             rig.resize(sizes[frame % sizes.len()]);
             assert!(rig.renderer().retired() > 0, "the old images wait for their frames");
@@ -96,8 +97,8 @@ fn in_flight(composite: Shading) {
     assert_eq!(rig.renderer().retired(), 0, "all slots are back");
 }
 
-/// A filtered shadow map is made anew in images that all slots share: two frames of different maps, one
-/// submitted before the other is done, over and over, are as each by itself.
+/// All slots share the images of a filtered shadow map. Frames with different maps, submitted
+/// before the other is done, must be as each by itself.
 #[test]
 fn filtered_shadows_of_two_slots_in_flight() {
     let gpu = Gpu::shared();
@@ -113,7 +114,7 @@ fn filtered_shadows_of_two_slots_in_flight() {
         (shot.settings.water.specular, shot.settings.water.shininess) = (0.5, 4.0);
         shot
     });
-    // Half in the shade, to one side or to the other.
+    // One half of each picture is in shade.
     shots[0].scene_depth(|x, _| (x < 48).then_some(1.0));
     shots[1].scene_depth(|_, y| (y < 32).then_some(1.0));
     let _maps = shots.each_mut().map(|shot| sunny(&rig, shot));
@@ -139,7 +140,7 @@ fn filtered_shadows_of_two_slots_in_flight() {
     }
 }
 
-/// The last frame's layers are those of its own record.
+/// The layers that a record returns contain its own frame.
 #[test]
 fn layers_are_read_between_records() {
     let gpu = Gpu::shared();
@@ -177,7 +178,7 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
             shots[i].camera,
             &shots[i].settings,
         );
-        // SAFETY: cmd is recording; both renderers' slot 0 was waited for.
+        // SAFETY: cmd is recording, and slot 0 of both renderers was waited for.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
     }
     first.stub.end(0);

@@ -1,4 +1,5 @@
-//! Every kind of host image: depth formats of the scene, in place and separate, any layout and access.
+//! Every kind of host image: depth formats of the scene, output as scene or separate, any layout
+//! and access.
 
 use ash::vk;
 use whitewater::water::{Kernels, Shading};
@@ -13,7 +14,7 @@ use crate::support::scenes::Lens;
 
 use super::{sunny, water};
 
-/// Every depth format there is, sizes that differ, and a device with nothing optional.
+/// Every depth format, and scene depths of other sizes than the frame.
 #[test]
 fn every_kind_of_scene_depth() {
     let gpu = Gpu::shared();
@@ -43,7 +44,8 @@ fn every_kind_of_scene_depth() {
                 continue;
             }
             shot.depth_format = format;
-            // The wall is far from the water on both sides: its rounding is no matter.
+            // The wall is far from the water on both sides, so the format's rounding does not
+            // matter.
             let found = wall(&mut shot, depth_extent);
             let name = format!("scene-depth-{}-{}", format.as_raw(), depth_extent.width);
             compare::same_color(&name, &found.output, &expected.output);
@@ -73,14 +75,15 @@ fn in_place_and_apart_give_the_same_picture() {
         let inside = Rig::lit(&gpu, &make(true), 1).draw(&shot);
         let apart = Rig::lit(&gpu, &make(false), 1).draw(&shot);
         compare::same_color("in-place", &inside.output, &apart.output);
-        // A renderer for in-place frames draws others too.
+        // A renderer with `in_place` also draws frames whose scene is a separate image.
         let mut rig = Rig::lit(&gpu, &make(true), 1);
         rig.config.in_place = false;
         compare::same_color("in-place-apart", &rig.draw(&shot).output, &apart.output);
     }
 }
 
-/// The host's images come back in the state that was asked for, from any they were in.
+/// The host's images come from any layout and access, and are left in those that the host asked
+/// for.
 #[test]
 fn images_are_taken_from_and_left_in_any_state() {
     for composite in [Shading::Raster, Shading::Compute] {
@@ -120,7 +123,7 @@ fn in_any_state(composite: Shading) {
         let scene_depth = depth.host_image().with(|it| it.after = general);
         let frame = shot.frame(output, scene_depth, cloud.particles());
         let cmd = rig.stub.begin(0);
-        // SAFETY: cmd is recording; the handles live to the end of this.
+        // SAFETY: cmd is recording, and all handles live until the end of this function.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
         rig.stub.end(0);
         rig.stub.wait(0);
@@ -129,8 +132,9 @@ fn in_any_state(composite: Shading) {
     }
 }
 
-/// Particles that commands write before the frame and over again after it: whatever reads them, in whatever stage, comes
-/// between, and gives what particles of the CPU's give.
+/// The device writes the particles before the frame and overwrites them after it. All passes that
+/// read them, in all stages, must come between, so the picture equals that of particles from the
+/// CPU.
 #[test]
 fn particles_that_the_device_writes_are_waited_for() {
     const COPIED: Access = Access::new(
@@ -183,7 +187,8 @@ fn particles_that_the_device_writes_are_waited_for() {
             for (data, bytes) in buffers.iter().zip(all).take(2 + usize::from(whitewater.is_some()))
             {
                 for (at, part) in (0_u64..).step_by(65536).zip(bytes.chunks(65536)) {
-                    // SAFETY: cmd is recording outside a render pass; the buffer may be copied to.
+                    // SAFETY: cmd is recording outside a render pass, and the buffer may be copied
+                    // to.
                     unsafe { rig.stub.functions().cmd_update_buffer(cmd, data.buffer, at, part) };
                 }
             }
@@ -210,7 +215,8 @@ fn particles_that_the_device_writes_are_waited_for() {
         });
         let cmd = rig.stub.begin(0);
         written(&rig, cmd);
-        // SAFETY: cmd is recording, the slot's work is done, all of the frame outlives it.
+        // SAFETY: cmd is recording, the slot's work is done, and everything in the frame outlives
+        // it.
         let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
         written(&rig, cmd);
         rig.stub.end(0);

@@ -145,7 +145,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
-    // Each takes two renderers: every third one, and all in the long tests.
+    // Each configuration needs two renderers, so the normal test takes every third one.
     let some = configs.into_iter().step_by(if slow() { 1 } else { 3 });
     for (i, config) in some.chain([base]).enumerate() {
         let anew = rig.renderer().reconfigure(&config).expect("reconfigure");
@@ -161,7 +161,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
         let name = format!("reconfigure-{i}");
         let now = launch(&mut rig, i as u32 % 2, &shot, expected);
-        // The frame before is still out when the configuration changes.
+        // The frame before is still in flight when the configuration changes.
         rig.stub.wait(i as u32 % 2);
         compare::same_color(&name, &output_of(&rig, &now), &now.expected.output);
         drop(flight.replace(now));
@@ -189,7 +189,7 @@ fn an_abandoned_frame_does_no_harm() {
             .frame(color.host_image(), depth.host_image(), cloud.particles())
             .with(|it| it.slot = Slot(slot));
         let cmd = rig.stub.begin(slot);
-        // SAFETY: cmd is recording; the slot's work is done.
+        // SAFETY: cmd is recording, and the slot's work is done.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
         rig.stub.throw_away(slot);
         rig.renderer().resize(size).expect("resize");
@@ -213,7 +213,7 @@ fn a_plain_drop_is_safe() {
     rig.draw(&water(size, Lens::Standard));
 }
 
-/// The layer reports what is left at the end of the device; the allocator is empty.
+/// The layer reports objects that still exist at the device's end, and the allocator must be empty.
 #[test]
 fn destroy_leaves_nothing() {
     let gpu = Gpu::own();
@@ -228,7 +228,7 @@ fn destroy_leaves_nothing() {
     }
 }
 
-/// Frames that would read what nobody recorded are refused, by the name of the call.
+/// A frame that would read contents nobody recorded is refused, with the name of the missing call.
 #[test]
 fn what_was_not_recorded_is_named() {
     let gpu = Gpu::shared();
@@ -247,7 +247,7 @@ fn what_was_not_recorded_is_named() {
         other => panic!("{other:?}"),
     };
     let cmd = rig.stub.begin(0);
-    // SAFETY: nothing of what is refused is recorded; the rest is submitted once, in this order.
+    // SAFETY: refused calls record nothing; the rest is submitted once, in this order.
     unsafe {
         let none = fresh.record(cmd, &frame).err();
         assert_eq!(call(none), "Renderer::record_setup");

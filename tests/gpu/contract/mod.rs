@@ -1,5 +1,5 @@
-//! The contract: frames in flight, resize, retired objects, bad input, abandoned frames, every kind of host image, and
-//! what the renderer reports about itself.
+//! The contract with the host: frames in flight, resize, retired objects, bad input, abandoned
+//! frames, every kind of host image, and what the renderer reports about itself.
 
 mod allocate;
 mod bad;
@@ -21,8 +21,8 @@ fn water(size: vk::Extent2D, lens: Lens) -> Shot {
     Shot::new(size, lens, 0.2, &points)
 }
 
-/// The sun's way as a rig's configuration asks for it, by the depth of a scene. It lies before the
-/// water: a shot is in the shade where the map says so.
+/// Gives a shot the light's inputs that the rig's configuration needs. The scene's depth serves as
+/// shadow map; it lies before the water, so it shades the shot.
 pub fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
     let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
     shot.light_volume = rig.config.light_map_size.map(|_| LightVolume { center, radius: 4.0 });

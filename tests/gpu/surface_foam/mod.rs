@@ -1,4 +1,5 @@
-//! Pass `surface_foam`: sprites against the twin, and that foam is not drawn as water.
+//! Compares the sprites of pass `surface_foam` with the CPU twin, and checks that foam is not drawn
+//! as water.
 
 mod picture;
 mod source;
@@ -27,14 +28,14 @@ fn foaming(size: ash::vk::Extent2D) -> Config {
 #[derive(Clone)]
 pub struct Foamy {
     pub shot: Shot,
-    /// Foam and age.
+    /// Amount and age of foam per particle.
     pub amounts: Vec<[f32; 2]>,
-    /// In the world.
+    /// Velocities in world space, metres per second.
     pub velocities: Vec<[f32; 3]>,
     pub ids: Option<Vec<u32>>,
 }
 
-/// Its buffers.
+/// The buffers of a shot's attributes.
 pub struct Streams {
     cloud: Cloud,
     amounts: Data,
@@ -53,10 +54,10 @@ impl Streams {
 }
 
 impl Foamy {
-    /// Particles of all amounts of foam, at all speeds up to `fastest` spacings a second.
+    /// Particles with all amounts of foam, at all speeds up to `fastest` spacings per second.
     pub fn new(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Self {
         let mut shot = Shot::new(size, lens, 0.2, &scenes::cloud(31, 160, 2.0, 9.0));
-        // Both phases of the pattern show.
+        // At this time both phases of the pattern have weight.
         shot.settings.surface_foam.time = 1.13;
         let mut random = Random(5);
         let most = fastest * shot.settings.water.spacing / 3.0_f32.sqrt();
@@ -88,7 +89,7 @@ impl Foamy {
         rig.draw_particles(&self.shot, &streams.particles())
     }
 
-    /// As the twin takes them.
+    /// The sprites as the twin takes them.
     pub fn sprites(&self) -> Vec<Sprite> {
         let view = self.shot.camera_view();
         let wide = |v: &[f32; 3]| DVec3::from(v.map(f64::from));
@@ -131,12 +132,12 @@ fn wide(image: &Image<f32>) -> Image<f64> {
     image.map(|d| if *d < 1e9 { f64::from(*d) } else { EMPTY })
 }
 
-/// Depth and thicknesses of a frame are the twin's.
+/// Checks that a frame's depth and thicknesses are the twin's.
 fn check(name: &str, case: &Foamy, drawn: &Drawn, level: u32) {
     check_sprites(name, case, &case.sprites(), drawn, level);
 }
 
-/// Of sprites in the light that they say.
+/// The same check with these sprites, which include their sunlight.
 pub fn check_sprites(name: &str, case: &Foamy, sprites: &[Sprite], drawn: &Drawn, level: u32) {
     let (shot, found) = (&case.shot, of(drawn));
     let (view, settings) = (shot.view(shot.size), case.settings());
@@ -170,7 +171,7 @@ fn foam_is_the_twins() {
         for lens in lenses {
             for (fastest, pattern) in [(0.0, 1.0), (40.0, 1.0), (40.0, 0.0)] {
                 let mut case = Foamy::new(size, *lens, fastest);
-                // In its place a noise.
+                // The case without the pattern has noise instead.
                 let look = &mut case.shot.settings.surface_foam;
                 (look.pattern, look.noise) = (pattern, 1.0 - pattern);
                 let name = format!("foam-{level}-{splat:?}-{lens:?}-{fastest}-{pattern}");
@@ -186,7 +187,8 @@ fn foam_is_the_twins() {
     }
 }
 
-/// Sprites of all sizes in a group of the compute path, about those that it draws together: none is left out.
+/// The compute path draws the sprites of a group together; none may be lost where their sizes
+/// differ.
 #[test]
 fn near_sprites_of_all_sizes_are_the_twins() {
     let gpu = Gpu::shared();
@@ -194,7 +196,7 @@ fn near_sprites_of_all_sizes_are_the_twins() {
     let config = foaming(size).with(|it| it.thickness_level = 0);
     let mut rig = Rig::lit(&gpu, &config, 1);
     let mut case = Foamy::new(size, Lens::Standard, 0.0);
-    // One after the other a little smaller, and anywhere between the texels.
+    // Each sprite is a little smaller than the one before, at varying positions within a texel.
     let eye: Vec<_> = (0..512)
         .map(|i| (0.3 + 0.005 * i as f32, 0.0031 * (i % 7) as f32, 0.0037 * (i % 5) as f32))
         .map(|(z, x, y)| [z * x, z * y, z])
@@ -207,7 +209,8 @@ fn near_sprites_of_all_sizes_are_the_twins() {
     check("near sprites", &case, &drawn, 0);
 }
 
-/// A quarter that is foam: three quarters of the water, in spheres of three quarters of the radius.
+/// Particles that are a quarter foam have three quarters of the water, in spheres of three quarters
+/// of the radius.
 #[test]
 fn what_is_foam_is_no_water() {
     let gpu = Gpu::shared();
@@ -238,7 +241,7 @@ fn what_is_foam_is_no_water() {
         let bounds = |share: &dyn Fn(usize, usize, f64) -> (f64, f64)| {
             tolerance::thickness_where(&splats, |x, y, sphere| share(x, y, -sphere.center.z))
         };
-        // The share is a difference and a quotient, and back again.
+        // The fraction is a difference and a quotient, multiplied back.
         let whole = (0.75 * (1.0 - 4.0 * U), 0.75 * (1.0 + 4.0 * U));
         compare::between(&format!("{name}-all"), &drawn.thickness, &bounds(&|_, _, _| whole));
         let before = bounds(&|x, y, z| {
@@ -246,7 +249,7 @@ fn what_is_foam_is_no_water() {
             if !is_surface(foam) {
                 return whole;
             }
-            // Centres are 16u of the depth off; the ramp's slope is 1.5 a spacing.
+            // Centres err by 16u of the depth; the ramp's slope is 1.5 per spacing.
             let share = |z: f64| 1.0 - smoothstep(-0.5 * spacing, 0.5 * spacing, z - foam);
             let slack = 32.0 * U * z;
             let (low, high) = (share(z + slack), share(z - slack));
@@ -260,8 +263,8 @@ fn what_is_foam_is_no_water() {
     }
 }
 
-/// The same picture by other instructions: the composite of foam splits the water in two, of which one
-/// part is nothing; an exponential and a few products more.
+/// The same picture by another shader: composite with foam splits the water in two parts, one of
+/// which is empty here. This adds an exponential and a few products.
 pub(crate) fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
     for (i, (found, wanted)) in drawn.output.data.iter().zip(&expected.output.data).enumerate() {
         let near = found
@@ -272,7 +275,8 @@ pub(crate) fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
     }
 }
 
-/// All foam is no water at all; no foam, NaN, or none of the stream, is the picture without the pass.
+/// Whole foam is not drawn as water. Without foam, with NaN or without the stream the picture is
+/// that of a renderer without the pass.
 #[test]
 fn without_foam_nothing_changes() {
     let gpu = Gpu::shared();
@@ -294,14 +298,14 @@ fn without_foam_nothing_changes() {
     let drawn = case.draw(&mut rig);
     assert!(drawn.depth.data.iter().all(|z| *z >= 1e9), "more than whole foam is no water");
     assert!(of(&drawn).depth.data.iter().any(|z| *z < 1e9));
-    // Neither position nor velocity may be anything.
+    // Foam with an invalid velocity is not drawn.
     case.amounts.fill([0.5, 1.0]);
     case.velocities.fill([f32::NAN, 0.0, 0.0]);
     let drawn = case.draw(&mut rig);
     assert!(of(&drawn).depth.data.iter().all(|z| *z >= 1e9));
 }
 
-/// A sprite that is stretched to be seen, away from its disc: the pass reads velocities and ids.
+/// The pass reads velocities and ids: they change the sprites.
 #[test]
 fn motion_and_ids_show() {
     let gpu = Gpu::shared();
@@ -317,7 +321,8 @@ fn motion_and_ids_show() {
     assert_ne!(of(&still).thickness.data, of(&others).thickness.data);
 }
 
-/// Sums of whole steps are exact: the order of the particles is no matter, bit for bit, nor is the way.
+/// Sums in fixed point are exact, so the order of the particles does not change a bit, nor does the
+/// kind of splat.
 #[test]
 fn the_order_of_particles_does_not_show_in_foam() {
     let gpu = Gpu::shared();
@@ -357,7 +362,8 @@ fn the_order_of_particles_does_not_show_in_foam() {
     assert!(most > 0.2 && most < 4.0, "spray, of sums that are exact: {most}");
 }
 
-/// More particles than can be bound at once, without ids too: their number goes on from chunk to chunk.
+/// More particles than one binding holds, with ids and without. Without ids, a particle's number
+/// continues from chunk to chunk.
 #[test]
 fn chunks_of_foam_are_the_twins() {
     let gpu = Gpu::shared();
@@ -377,7 +383,7 @@ fn chunks_of_foam_are_the_twins() {
     }
 }
 
-/// Any number of sprites may lie on one spot: a sum ends at 2^24 steps, and does not begin again.
+/// Any number of sprites may overlap: a sum saturates at 2^24 steps and does not wrap around.
 #[test]
 fn sums_of_foam_end_where_they_are_full() {
     let gpu = Gpu::shared();
@@ -405,8 +411,8 @@ fn sums_of_foam_end_where_they_are_full() {
     }
 }
 
-/// Where the scene is before foam none of it is seen, to the pixel, in texels that both share; beside it
-/// foam is seen.
+/// The outline of an object before the foam is exact to the pixel, also in texels that contain
+/// both: no foam on the object, foam beside it.
 #[test]
 fn the_scenes_outline_in_foam_is_sharp() {
     let gpu = Gpu::shared();
@@ -420,7 +426,7 @@ fn the_scenes_outline_in_foam_is_sharp() {
             (vec![[1.0, 0.0]; block.len()], vec![[0.0; 3]; block.len()]);
         wall.ids = None;
         let before = |x: u32| (x / 7).is_multiple_of(2);
-        // By more than a spacing.
+        // The object is more than a spacing before the foam.
         wall.shot.scene_depth(|x, _| before(x).then_some(1.0));
         let drawn = wall.draw(&mut rig);
         let mut foamy = 0;
@@ -433,13 +439,15 @@ fn the_scenes_outline_in_foam_is_sharp() {
     }
 }
 
-/// Odd sizes, of the frame and of the part of the image it is; no particles; all behind the eye.
+/// Frames of odd sizes as a part of a larger image; frames without particles, and with all
+/// particles behind the eye.
 #[test]
 fn foam_of_any_size() {
     let gpu = Gpu::shared();
     for (width, height) in [(1, 1), (1, 7), (3, 5), (17, 33), (130, 9)] {
         let size = extent(width, height);
-        // At full resolution: the middle of a wider texel may be out of the view, which is culled.
+        // At full resolution, because the centre of a larger texel may lie outside the view, where
+        // sprites are culled.
         let config = foaming(size).with(|it| it.thickness_level = 0);
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = Foamy::new(size, Lens::Reversed, 20.0);

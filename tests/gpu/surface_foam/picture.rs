@@ -1,4 +1,4 @@
-//! The picture with foam, computed from its layers.
+//! Compares the picture with surface foam with one computed from its layers.
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
@@ -12,7 +12,7 @@ use crate::support::rig::{Drawn, Rig, extent};
 use crate::support::scenes::{self, Lens};
 use crate::support::tolerance::U;
 
-/// All at full resolution, and a picture of floats.
+/// All layers at full resolution, and an output of 32-bit floats.
 pub(super) fn whole(size: ash::vk::Extent2D, shading: Shading) -> Config {
     foaming(size).with(|it| {
         it.composite = Some(shading);
@@ -23,8 +23,8 @@ pub(super) fn whole(size: ash::vk::Extent2D, shading: Shading) -> Config {
     })
 }
 
-/// Opaque foam before all water has its own colour, whatever is behind it; foam alone lies over the
-/// scene by Beer's law; both ways of shading agree.
+/// Opaque foam in front of water has its own colour, whatever lies behind it. Foam alone covers the
+/// scene by Beer's law. Both kinds of shading agree.
 #[test]
 fn foam_covers_what_is_behind_it() {
     let gpu = Gpu::shared();
@@ -32,7 +32,7 @@ fn foam_covers_what_is_behind_it() {
     for shading in [Shading::Raster, Shading::Compute] {
         let mut rig = Rig::lit(&gpu, &whole(size, shading), 1);
         let mut case = Foamy::new(size, Lens::Standard, 10.0);
-        // A particle of foam alone, before the eye.
+        // A single foam particle before the eye, without other water.
         case.shot.positions = scenes::world(&case.shot.camera, &[[0.0, 0.0, 2.0]]);
         case.amounts = vec![[1.0, 0.0]];
         case.velocities = vec![[0.0; 3]];
@@ -61,13 +61,13 @@ fn foam_covers_what_is_behind_it() {
                 let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
                 let foam = thick + (thin - thick) * back;
                 let expected = foam + (f64::from(scene[c]) - foam) * kept;
-                // exp: 3 + 2|x| ulp; the mixes and the light a few more.
+                // exp errs by 3 + 2|x| ulp; mixing and light add a few.
                 let bound = 40.0 * U * (1.0 + expected);
                 assert!((f64::from(*found) - expected).abs() <= bound, "{found} not {expected}");
             }
         }
         assert!(seen > 100, "{seen} pixels with foam");
-        // Behind a wall of foam there is nothing to be seen.
+        // Opaque foam before the whole view hides the scene.
         let mut wall = Foamy::new(size, Lens::Standard, 0.0);
         let block = scenes::block(3, 0.1, [40, 28, 3], [-2.0, -1.4, 2.0]);
         wall.shot.positions = scenes::world(&wall.shot.camera, &block);
@@ -90,8 +90,9 @@ fn foam_covers_what_is_behind_it() {
     }
 }
 
-/// Thin foam is torn into threads with clear holes between them, where its frontmost lies in the world, and that it carries
-/// along. In the holes there may be water with bubbles. None of it where cells are less than two pixels wide, and as smooth foam without it.
+/// Lace tears thin foam into threads with clear holes between them. The pattern is fixed to the
+/// foam's position in the world and moves with it; aerated water shows in the holes. Where a cell
+/// is less than two pixels wide, foam looks as without lace.
 #[test]
 fn thin_foam_is_torn_into_lace() {
     let gpu = Gpu::shared();
@@ -107,7 +108,7 @@ fn thin_foam_is_torn_into_lace() {
             case.shot.positions = scenes::world(&case.shot.camera, &points);
             case.amounts = vec![[1.0, 0.0]; points.len()];
             let spacing = case.shot.settings.water.spacing;
-            // Of whole steps.
+            // The pattern's velocities are whole steps.
             let velocity = [3.0, -1.5, 0.5].map(|v| v * spacing);
             case.velocities = vec![velocity; points.len()];
             case.ids = None;
@@ -120,7 +121,7 @@ fn thin_foam_is_torn_into_lace() {
             let smooth = case.draw(&mut rig);
             case.shot.settings.surface_foam.lace = 0.8;
             case.shot.settings.surface_foam.lace_size = 0.01;
-            // Two differences from 1.
+            // The difference of two values, each 1 minus another.
             let fine = case.draw(&mut rig);
             let both = smooth.output.data.iter().flatten().zip(fine.output.data.iter().flatten());
             for (a, b) in both {
@@ -162,9 +163,11 @@ fn thin_foam_is_torn_into_lace() {
                     let much = 1.0 + told * (covered / hidden.max(0.05) - 1.0);
                     let back = (-5.0 * front * long * much).exp();
                     let seen = hidden + told * (covered - hidden);
-                    // What rounds a place: 16u of the cells from the origin, 5u of where a phase begins, by the most that what
-                    // closes it grows a cell: twice 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope
-                    // draws places apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest.
+                    // Rounding of a position: 16u of the number of cells from the origin, and 5u of
+                    // the phase's offset. It is multiplied by the steepest change per cell of the
+                    // function that closes holes: twice 2 r / r^2 of the bubbles, weighted parts
+                    // over widths, and the noise's distortion, 1 + 0.3 27 / 2.6. Threads end with a
+                    // smoothstep, whose slope is at most 1.5 over its width.
                     let steepest =
                         5.8 * (0.42 + 0.34 / 0.4 + 0.24 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
                     let origin = to_world.w_axis.truncate().length() / cell;
@@ -176,7 +179,8 @@ fn thin_foam_is_torn_into_lace() {
                         let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
                         let foam = thick + (thin - thick) * back;
                         let scene = f64::from(case.shot.color[i][c]);
-                        // Water with bubbles, where smooth foam would hide as much of it.
+                        // Behind thin foam the water is aerated, in proportion to what smooth foam
+                        // would hide.
                         let bubbly = [0.1, 0.5, 0.3][c];
                         let scene = scene + (bubbly - scene) * f64::from(aeration) * hidden;
                         let expected = scene + (foam - scene) * seen;
@@ -190,7 +194,7 @@ fn thin_foam_is_torn_into_lace() {
                         offs.push(off);
                     }
                 }
-                // The bound is of the worst place there may be; they are nearly all much nearer.
+                // The bound holds for the worst position; most pixels must be much closer.
                 let mean = offs.iter().sum::<f64>() / offs.len() as f64;
                 assert!(mean < 1.0e-4, "{lens:?}: {mean} in the mean");
                 assert!(
@@ -202,8 +206,10 @@ fn thin_foam_is_torn_into_lace() {
     }
 }
 
-/// Metres of the water behind the frontmost foam that lie before the middle of what is seen of all, by the layers of
-/// a frame at full resolution; `long`: metres along the ray to one along z, `after`: all of it. Of foam without a veil, of an extinction of 2.
+/// Thickness of the water that lies behind the frontmost foam and before the middle of the visible
+/// foam, in metres, from the layers of a frame at full resolution. `long`: metres along the ray per
+/// metre of depth; `after`: thickness of all water behind the frontmost foam. The foam's extinction
+/// is 2.
 fn between(drawn: &Drawn, (x, y): (usize, usize), (spacing, long): (f64, f64), after: f64) -> f64 {
     let found = of(drawn);
     let [all, _] = found.thickness.at(x, y).map(f64::from);
@@ -219,7 +225,8 @@ fn between(drawn: &Drawn, (x, y): (usize, usize), (spacing, long): (f64, f64), a
     wet.min(after)
 }
 
-/// A pool that faces the eye, foam deep in it, and a veil of another foam that floats before a part of it.
+/// A pool that faces the eye, with foam deep inside, and a thin veil of other foam that covers a
+/// part of the pool.
 pub(super) fn veiled(size: ash::vk::Extent2D) -> Foamy {
     let mut case = Foamy::new(size, Lens::Standard, 0.0);
     let mut points = scenes::block(3, 0.2, [22, 16, 14], [-2.1, -1.5, 2.6]);
@@ -245,7 +252,8 @@ pub(super) fn veiled(size: ash::vk::Extent2D) -> Foamy {
     case
 }
 
-/// Foam under a veil has the water before it that is there: by hand, from the layers.
+/// Foam under a veil is seen through the water in front of it. The expected colour is computed from
+/// the layers.
 #[test]
 fn foam_under_a_veil_lies_under_water() {
     let gpu = Gpu::shared();
@@ -289,7 +297,8 @@ fn foam_under_a_veil_lies_under_water() {
                 let scene = f64::from(case.shot.color[i][c]);
                 let behind = through(scene, t - before - between);
                 let expected = through(over(behind, all), before + between);
-                // Metres in exponents of a few; of a mean of distances, which is a quotient of a difference.
+                // Exponents of a few units, with metres from a mean distance, which is a quotient
+                // of a difference.
                 let bound = 400.0 * U * (1.0 + expected);
                 let found = f64::from(color[c]);
                 assert!((found - expected).abs() <= bound, "({x}, {y}) {c}: {found}, {expected}");
@@ -299,7 +308,8 @@ fn foam_under_a_veil_lies_under_water() {
     }
 }
 
-/// The last of foam before water: its thickness is wider than its depth, and shows in tiles that hold no more.
+/// Thin foam before water: its thickness sprite is larger than its depth sprite, and shows also in
+/// tiles that have no foam depth.
 #[test]
 fn the_last_of_foam_shows_in_every_tile() {
     const TILE: usize = 16;
@@ -333,7 +343,7 @@ fn the_last_of_foam_shows_in_every_tile() {
         };
         let mut alone = 0;
         for (i, [t, _]) in found.thickness.data.iter().enumerate() {
-            // Enough to hide all behind it.
+            // The foam is thick enough to hide everything behind it.
             if 1.0e4 * t > 10.0 {
                 let apart = white.output.data[i][1] - black.output.data[i][1];
                 assert!(apart > 0.05, "{shading:?}: no foam in pixel {i}: {apart}");
@@ -344,7 +354,8 @@ fn the_last_of_foam_shows_in_every_tile() {
     }
 }
 
-/// Foam turned to the sun is lighter, by the slope of its front layer from texel to texel.
+/// Foam that faces the sun is lighter. Its normal follows from the slope of its front layer between
+/// texels.
 #[test]
 fn the_relief_of_foam_follows_the_sun() {
     let gpu = Gpu::shared();
@@ -358,7 +369,7 @@ fn the_relief_of_foam_follows_the_sun() {
         let mut case = Foamy::new(size, lens, 0.0);
         case.shot.positions = scenes::world(&case.shot.camera, &[[0.1, 0.0, 2.0]]);
         (case.amounts, case.velocities, case.ids) = (vec![[1.0, 0.0]], vec![[0.0; 3]], None);
-        // Opaque at once.
+        // The foam is opaque at any thickness.
         (
             case.shot.settings.surface_foam.extinction,
             case.shot.settings.surface_foam.min_thickness,
@@ -381,7 +392,7 @@ fn the_relief_of_foam_follows_the_sun() {
             if z >= 1e9 || height(x, y, 0, 0) < 1e-4 {
                 continue;
             }
-            // In the middle of a texel: differences of both neighbours, of three rows.
+            // The slope in the middle of a texel: central differences, weighted over three rows.
             let at = |i: isize, j: isize| height(x, y, i, j);
             let three = |of: &dyn Fn(isize) -> f64| 0.125 * (of(-1) + 6.0 * of(0) + of(1));
             let rise = DVec2::new(
@@ -394,7 +405,7 @@ fn the_relief_of_foam_follows_the_sun() {
             let factor = (1.0 + 0.6 * (normal.dot(sun) - sun.z)).clamp(0.3, 1.3);
             let expected = factor * f64::from(flat.output.at(x, y)[0]);
             let found = f64::from(drawn.output.at(x, y)[0]);
-            // The rise is a difference of two sums; the quotients and the unit length a few u more.
+            // The rise is a difference of two sums; quotients and normalizing add a few u.
             let bound = U * (40.0 + 16.0 * height(x, y, 0, 0) / wide.abs().min_element());
             assert!(
                 (found - expected).abs() <= bound * (1.0 + expected),
@@ -407,8 +418,8 @@ fn the_relief_of_foam_follows_the_sun() {
     }
 }
 
-/// What foam within six spacings, eight ways, leaves of the light on it: turned away from the sun the light in the shade, and
-/// less of that in hollows.
+/// Foam around a pixel, six spacings away in eight directions, shades its foam: foam that faces
+/// away from the sun only has the light of shade, and foam in hollows less of all light.
 #[test]
 fn the_shape_of_a_splash_lights_its_foam() {
     const AROUND: f64 = 6.0;
@@ -477,8 +488,9 @@ fn the_shape_of_a_splash_lights_its_foam() {
             let factor = (0.25 + 0.75 * of_sun) * (1.0 + 0.8 * (sky - 1.0));
             let expected = factor * f64::from(flat.output.at(x, y)[0]);
             let found = f64::from(drawn.output.at(x, y)[0]);
-            // A place to 32 texels from a pixel is off by 64u, between depths that may be two reaches apart; of the eight's
-            // sum over four reaches the angle, of which smoothstep's steepest is 1.5 / 1.1.
+            // A position up to 32 texels away errs by 64u, between depths up to two reaches apart.
+            // The angle is a sum of eight of these over four reaches, and smoothstep's slope is at
+            // most 1.5 / 1.1.
             let bound = 1.4 * 8.0 * (2.0 * 64.0 + 16.0 * z / reach) / 4.0 * U + 100.0 * U;
             assert!((found - expected).abs() <= bound * expected, "{found}, not {expected}");
             shaded += usize::from(turned < 0.5);
@@ -490,8 +502,9 @@ fn the_shape_of_a_splash_lights_its_foam() {
     }
 }
 
-/// Each rung of the ladder against what its layers say: water behind the frontmost foam, foam by both
-/// rules of its colour, water before it; and the whole adds light.
+/// The picture adds one layer after another: water behind the frontmost foam, foam by both rules of
+/// its colour, water before it, then reflected light. Each partial picture is compared with its
+/// layers.
 #[test]
 fn the_ladder_adds_a_layer_a_rung() {
     let gpu = Gpu::shared();
@@ -556,8 +569,8 @@ fn the_ladder_adds_a_layer_a_rung() {
                 let c1 = lost(c0, all - before);
                 let c2 = color + (c1 - color) * kept;
                 let c3 = lost(c2, before);
-                // Exponentials of at most a few, 3 + 2|x| ulp each; the power's logarithm 16 ulp
-                // times its exponent; quotients and mixes a few more.
+                // Exponents of at most a few, 3 + 2|x| ulp each; the power errs by its exponent
+                // times 16 ulp of a logarithm; quotients and mixes add a few.
                 let bound = 400.0 * U * (1.0 + c0);
                 for (name, drawn, expected) in [
                     ("scene", &scene, c0),

@@ -1,4 +1,4 @@
-//! The picture as the thesis composes it, against its twin, on the layers read back.
+//! Compares the picture composed as in the thesis with its CPU twin, on the layers read back.
 
 use glam::DVec3;
 use whitewater::water::{Compositing, Fresnel, Medium, Shading};
@@ -16,8 +16,8 @@ const FALLOFF: [f32; 4] = [0.7, 0.6, 0.5, 0.8];
 const REFLECTANCE: f32 = 0.25;
 const FOAM: f32 = 2.0;
 
-/// A pool with foam deep in it and a veil before a part of it: with the front layer, with none and with much; and
-/// without foam.
+/// A pool with foam deep inside and a veil of foam over a part of it; then the same pool without
+/// foam.
 #[test]
 fn the_sources_picture_is_the_twins() {
     let gpu = Gpu::shared();
@@ -33,7 +33,7 @@ fn the_sources_picture_is_the_twins() {
         let water = &mut case.shot.settings.water;
         water.compositing = Compositing::Source;
         water.medium = Medium::Source { base: BASE, falloff: FALLOFF };
-        // The same from every side.
+        // The reflectance is the same from every direction.
         water.fresnel = Fresnel::Source { bias: REFLECTANCE, scale: 0.0, power: 1.0 };
         let [open, veiled, under] = check(&case, &case.draw(&mut rig));
         assert!(open > 100 && veiled > 50 && under > 100, "{open} {veiled} {under}");
@@ -45,7 +45,8 @@ fn the_sources_picture_is_the_twins() {
     }
 }
 
-/// How many pixels have no foam, a veil and little water before it, and water before it.
+/// Counts the pixels without foam, those with a veil and little water before it, and those with
+/// foam under water.
 fn check(case: &Foamy, drawn: &Drawn) -> [usize; 3] {
     let view = case.shot.view(case.shot.size);
     let falloffs = Falloffs {
@@ -62,7 +63,7 @@ fn check(case: &Foamy, drawn: &Drawn) -> [usize; 3] {
             continue;
         }
         let t = f64::from(drawn.thickness.data[i]);
-        // Without foam all is before it.
+        // Without foam all water counts as before it.
         let (foam, layer, before) = drawn.foam.as_ref().map_or((0.0, 0.0, t), |found| {
             let [foam, layer] = found.thickness.data[i].map(f64::from);
             (foam, layer, f64::from(found.before.data[i]).min(t))
@@ -80,7 +81,8 @@ fn check(case: &Foamy, drawn: &Drawn) -> [usize; 3] {
         kinds[0] += usize::from(foam == 0.0 && t > 0.5);
         kinds[1] += usize::from(foam > 0.01 && before < 0.05);
         kinds[2] += usize::from(foam > 0.01 && before > 0.5);
-        // Metres in exponents of a few, as of the other composite; one more product and sum.
+        // Exponents of a few units in metres, as in the other composite, and one more product and
+        // sum.
         let bound = 500.0 * U * (1.0 + expected.max_element());
         for c in 0..3 {
             let (found, expected) = (f64::from(color[c]), expected[c]);

@@ -10,8 +10,9 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::{self, Lens, Random};
 
-/// The blur by its definition: a Gaussian over a disc, σ half its radius, cut at it, not across gaps in depth. With what of the
-/// weights over the square round the disc lies beside it: a square's is as far from it at most, for values up to 1 apart.
+/// The blur by its definition: a Gaussian over a disc, with σ half the radius, that does not cross
+/// gaps in depth. Returns also the fraction of the weights over the surrounding square that lies
+/// outside the disc; for values up to 1 apart, a blur over the square differs by at most that.
 fn disc(
     values: &Image<f64>,
     front: &Image<Option<Seen>>,
@@ -39,7 +40,8 @@ fn disc(
     (sum / inside, 1.0 - inside / all)
 }
 
-/// Foam of a radius in pixels that covers the picture, of whose wall behind it the right half is far away.
+/// Foam with this radius in pixels that covers the picture. The wall behind it exists only in the
+/// left half.
 fn sheet(radius: f32) -> Whitewater {
     let size = extent(192, 128);
     let mut cloud = Whitewater::new(Lens::Standard);
@@ -80,10 +82,11 @@ fn a_wide_blur_is_nearly_the_gaussian() {
     let size = extent(192, 128);
     let mut rig =
         Rig::lit(&gpu, &whitewater_config(size).with(|it| it.whitewater = Some(whitewater)), 1);
-    // 12 radii: within what is read pixel by pixel, and beyond it, up to more than the picture.
+    // The kernel is 12 radii wide: small enough to be read pixel by pixel, and beyond that up to
+    // more than the picture.
     for radius in [2.0_f32, 4.0, 9.0, 30.0] {
         let mut cloud = sheet(radius);
-        // The source's, but once.
+        // One case has the source's width.
         cloud.shot.settings.whitewater.blur = if radius == 4.0 { 3.0 } else { 1.5 };
         let foam = cloud.draw(&mut rig).whitewater.expect("whitewater particles");
         let (front, by, view) = (seen(&foam), cloud.occlusion(), cloud.shot.view(size));
@@ -106,8 +109,9 @@ fn a_wide_blur_is_nearly_the_gaussian() {
             let gap = 2.0 * there.h * there.depth / view.focal().y.abs();
             let (expected, beside) = disc(&zeta, &front, (wide, gap), (x, y));
             let off = (f64::from(foam.light.at(x, y)[3]) - expected).abs();
-            // The square's corners; of a Gaussian of at least 11 points to a side, so 5.5 of them in σ, some 4 pi 5.5^2 / 2
-            // count, for which four standard deviations of their mean; three halves.
+            // The square's corners; then the sampling error of at least 11 points along each axis,
+            // which are 5.5 in σ: about 4 pi 5.5^2 / 2 points count, and four standard deviations
+            // of their mean are allowed; then three roundings to half precision.
             let allowed = beside * (high - low)
                 + 4.0 * (spread / (2.0 * std::f64::consts::PI * 5.5 * 5.5)).sqrt()
                 + 3.0 / 1024.0;

@@ -12,7 +12,8 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Rig, extent};
 use crate::support::scenes::{self, LENSES, Lens};
 
-/// The fluid that shades foam is the smoothed surface where there is one near the spheres, in near views too.
+/// The fluid around foam is the smoothed surface where it is near the spheres, also at coarser
+/// levels.
 #[test]
 fn the_fluid_round_foam_is_smooth() {
     let gpu = Gpu::shared();
@@ -39,7 +40,8 @@ fn the_fluid_round_foam_is_smooth() {
         let off = |(smooth, sphere): (&f64, &f32)| (smooth - f64::from(*sphere)).abs();
         let moved = expected.data.iter().zip(&drawn.depth.data).map(off).filter(|off| *off > 0.01);
         let moved = moved.count();
-        // Weights and a mean of four: 8 roundings of what is at most the falloff, and one of the depth.
+        // Weights and a mean of four values: 8 roundings of at most the falloff, and one of the
+        // depth.
         let ulp = f64::from(f32::EPSILON);
         compare::close("whitewater-fluid", &fluid, &expected, 0, |_, _, v| {
             8.0 * ulp * f64::from(falloff) + ulp * v
@@ -48,8 +50,9 @@ fn the_fluid_round_foam_is_smooth() {
     }
 }
 
-/// A fluid of the host's, of another size than the frame and a part of its image, is the surface that foam is before or
-/// behind; the nearer one where there is water of ours too.
+/// A fluid image from the host decides whether foam is before or behind the surface; the image may
+/// have another size and be a part of a larger one. Where there is also particle water, the nearer
+/// of both counts.
 #[test]
 fn foam_is_told_by_a_fluid_of_the_hosts() {
     let gpu = Gpu::shared();
@@ -73,7 +76,7 @@ fn foam_is_told_by_a_fluid_of_the_hosts() {
         let expected = Image::from_fn(fluid.width, fluid.height, |x, y| {
             if sea.at(x, y) < scene.at(x, y) { sea.at(x, y).min(EMPTY) } else { EMPTY }
         });
-        // A depth is the inverse of a sum of two terms, each rounded, that is 1 at the near plane.
+        // A depth is the inverse of a sum of two rounded terms, which is 1 at the near plane.
         let off = |v: f64| 4.0 * f64::from(f32::EPSILON) * v * (1.0 + v / view.near());
         let most = |_, _, v: f64| if v < EMPTY { off(v) } else { 0.0 };
         compare::close("whitewater-host", &fluid, &expected, 0, most);
@@ -81,7 +84,7 @@ fn foam_is_told_by_a_fluid_of_the_hosts() {
         let mut ours = 0;
         for (i, sphere) in both.depth.data.iter().map(|v| f64::from(*v)).enumerate() {
             let (found, host) = (f64::from(nearest.data[i]), f64::from(fluid.data[i]));
-            // The nearer of both, where the smoothing can't turn them round.
+            // The nearer of both, where smoothing cannot change their order.
             if (sphere - host).abs() > 2.0 * falloff {
                 assert!(
                     (found < host) == (sphere < host),

@@ -1,5 +1,5 @@
-//! Many particles on one spot, such as dead ones parked at the origin: their sums saturate, the frame ends, and nothing
-//! else is lost.
+//! Many particles on one spot, such as dead ones parked at the origin: their sums saturate, the
+//! frame ends, and other particles are not affected.
 
 use whitewater::{WhitewaterConfig, WhitewaterSplat};
 
@@ -26,8 +26,9 @@ fn many_on_one_spot_are_as_many_as_there_is_room_for() {
     assert!((32_768.0..32_770.0).contains(&most), "half a word of 16.16: {most}");
 }
 
-/// Of a particle well under water the share before the surface is nothing, beside a sum that is full: adding nothing to it
-/// must end, and must not keep the particle from the sums that follow, whichever comes first.
+/// A particle well under water contributes nothing to the sum before the surface, which is already
+/// saturated there. Adding 0 to it must end, and must not keep the particle from the other sums, in
+/// either order of the particles.
 #[test]
 fn a_heap_before_the_water_hides_nothing_under_it() {
     let gpu = Gpu::shared();

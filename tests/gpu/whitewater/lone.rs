@@ -1,4 +1,5 @@
-//! Isolated foam of one or a few pixels: its light must be right and steady without neighbours' samples.
+//! Isolated foam of one or a few pixels: its light must be correct and steady, although
+//! neighbouring pixels have no samples.
 
 use glam::{DVec2, DVec3};
 use whitewater::Settings;
@@ -13,23 +14,24 @@ use crate::support::scenes::{self, Lens};
 /// Eye depth of the wall in the middle of the picture.
 const WALL: f64 = 6.0;
 
-/// Sixteen particles on a wall, one at each place in a block of four by four pixels, so far apart that none is near another.
+/// Sixteen isolated particles on a wall, one at each position in a block of 4x4 pixels.
 struct Lone {
     cloud: Whitewater,
-    /// The pixels that their middles lie in.
+    /// The pixels that contain the particles' centres.
     pixels: Vec<[usize; 2]>,
-    /// The wall's normal, in the world.
+    /// The wall's normal in world space.
     normal: DVec3,
 }
 
 impl Lone {
-    /// Spheres of so many pixels on a wall whose depth grows by a slope, their middles so far from those of the pixels.
+    /// Particles with a radius in pixels, on a wall whose depth changes with this slope, at this
+    /// offset from pixel centres.
     fn new(settings: Settings, radius: f64, slope: DVec2, offset: DVec2) -> Self {
         let mut cloud = Whitewater::new(Lens::Standard);
         cloud.shot = Shot::new(SIZE, Lens::Standard, 0.2, &scenes::cloud(31, 1, 30.0, 31.0));
         cloud.shot.settings = settings;
         let view = cloud.shot.view(SIZE);
-        // Where n . p is the same as in the middle.
+        // Plane with the same n . p as in the middle.
         let wall = |x: usize, y: usize| WALL / (1.0 - slope.dot(view.ray(x, y).truncate()));
         cloud.shot.scene_depth(|x, y| Some(wall(x as usize, y as usize)));
         let pixels: Vec<_> = (0..16).map(|i| [22 + 13 * (i % 4), 11 + 13 * (i / 4)]).collect();
@@ -44,7 +46,8 @@ impl Lone {
                 let wall = wall(x, y);
                 let world = radius * view.c_y() * wall;
                 radii.push(world as f32);
-                // Small ones are three quarters of a pixel; their fronts are there a twentieth before the wall.
+                // A sphere drawn smaller than three quarters of a pixel is widened to that. Its
+                // front is a twentieth of the radius before the wall.
                 let before = (1.0 - offset.length_squared() / radius.max(0.75).powi(2)).sqrt();
                 let ray = view.ray_at(DVec2::new(x as f64, y as f64) + 0.5 + offset);
                 let depth = wall + (before - 0.05) * world;
@@ -62,7 +65,7 @@ impl Lone {
         self.cloud.draw(rig).whitewater.expect("whitewater particles")
     }
 
-    /// Something of each, with a name for it.
+    /// Calls a function for each particle's pixel.
     fn each(&self, mut act: impl FnMut(usize, usize)) {
         self.pixels.iter().for_each(|&[x, y]| act(x, y));
     }
@@ -73,8 +76,9 @@ fn rig<'a>(gpu: &'a Gpu, irradiance: Irradiance) -> Rig<'a> {
     Rig::lit(gpu, &whitewater_config(SIZE).with(|it| it.whitewater = Some(whitewater)), 1)
 }
 
-/// Radii in pixels, slopes of the wall, and where in a pixel: over a whole one on a slant. On a sloped wall only where it covers
-/// no other pixel: there it would be before the wall by many of its radii.
+/// Radii in pixels, slopes of the wall, and offsets along a diagonal of the pixel. On a sloped wall
+/// the offsets are halved so that foam covers only its own pixel: in others it would be many radii
+/// before the wall.
 fn cases() -> impl Iterator<Item = (f64, DVec2, DVec2)> {
     let slopes = [DVec2::ZERO, DVec2::new(0.8, 0.0), DVec2::new(-0.3, 0.6)];
     let offsets = (0..5).map(|i| 0.23 * DVec2::new(f64::from(i) - 2.0, 2.0 - 0.8 * f64::from(i)));
@@ -95,7 +99,8 @@ fn lone_foam_on_a_wall_is_half_hidden() {
     let mut rig = rig(&gpu, Irradiance::Prefiltered);
     let mut settings = scenes::settings(0.2);
     let look = &mut settings.whitewater;
-    // The share itself, however far behind; of foam itself nothing hides.
+    // The settings give the occluded fraction unchanged, from any distance; foam itself occludes
+    // nothing.
     (
         look.reach,
         [look.shadow_scale, look.shadow_exponent, look.shadow_offset],
@@ -116,8 +121,9 @@ fn lone_foam_on_a_wall_is_half_hidden() {
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// With the default look what is hidden is what a thousand points find in the picture, on any pixel: on a wall that faces the eye
-/// 25/84 (`a_flat_sheet_hides_half`). And what is smaller than a pixel faces as that wall does.
+/// With the default look, the occlusion is what a thousand samples find in the picture, in any
+/// pixel: on a wall that faces the eye 25/84 (`a_flat_sheet_hides_half`). Foam smaller than a pixel
+/// has the normal of that wall.
 #[test]
 fn lone_foam_is_as_dark_wherever_it_moves() {
     let gpu = Gpu::shared();
@@ -135,19 +141,19 @@ fn lone_foam_is_as_dark_wherever_it_moves() {
         let by = Occlusion { counts: [1000.0; 2], ..lone.cloud.occlusion() };
         let view = lone.cloud.shot.view(SIZE);
         lone.each(|x, y| {
-            // Back from the shadow to the share.
+            // Inverts the shadow's formula, which gives the occluded fraction.
             let share = (f64::from(foam.light.at(x, y)[3]) + 0.05).powf(1.0 / 1.5);
             let expected = by.omega(&layers, &view, &all, (x, y)).expect("foam").value;
             if slope == DVec2::ZERO && offset.length() < 0.1 {
                 assert!((expected - 25.0 / 84.0).abs() < 0.02, "{radius}: {expected}");
             }
-            // What a slope hides in reach is a mean of thirty pairs, of 0 to 1/2 each and 0.15 about their mean: two and a half
-            // standard errors, were they drawn by chance.
+            // On a slope the occlusion is a mean of about thirty sample pairs, each between 0 and
+            // 1/2 with a deviation of 0.15: two and a half standard errors.
             let allowed = if slope == DVec2::ZERO { 0.05 } else { 2.5 * 0.15 / 30.0_f64.sqrt() };
             if (share - expected).abs() > allowed {
                 wrong.push(format!("{radius} {slope} {offset} ({x}, {y}): {share} of {expected}"));
             }
-            // Within a pixel the picture knows no slope.
+            // Within a single pixel no slope is visible.
             let [nx, ny, nz, _] = foam.normal.at(x, y).map(f64::from);
             let off = DVec3::new(nx, ny, nz).angle_between(lone.normal);
             widest = widest.max(if slope == DVec2::ZERO { off } else { 0.0 });
@@ -157,7 +163,8 @@ fn lone_foam_is_as_dark_wherever_it_moves() {
     assert!(widest < 0.5, "normals {widest} from the wall's");
 }
 
-/// Light that is the same from everywhere is half of it, by few directions too; also where no sphere is asked for.
+/// In a uniform environment foam gets half of the light, even with few sampled directions and
+/// without search spheres.
 #[test]
 fn lone_foam_gets_half_of_an_even_light() {
     let gpu = Gpu::shared();
@@ -170,7 +177,7 @@ fn lone_foam_gets_half_of_an_even_light() {
         let foam = lone.draw(&mut rig);
         lone.each(|x, y| {
             let light = foam.light.at(x, y)[0];
-            // Halves: the environment, the image and its two blurs.
+            // Half precision: the environment, the image and its two blurs.
             assert!((light - 0.5).abs() < 4.0 / 1024.0, "{passes} passes, ({x}, {y}): {light}");
         });
     }

@@ -1,5 +1,5 @@
-//! Passes `splat`, `radiance` and `blur`: foam of whitewater particles against the twin, and the picture that contains
-//! it.
+//! Compares the foam of whitewater particles (passes `splat`, `radiance` and `blur`) with the CPU
+//! twin, and checks the picture that contains this foam.
 
 mod blur;
 mod fluid;
@@ -32,10 +32,13 @@ use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::Between;
 
 const SIZE: vk::Extent2D = vk::Extent2D { width: 93, height: 61 };
-/// A rounding to half precision: Vulkan leaves it whether to the nearest or towards zero.
+/// Relative error of a rounding to half precision. Vulkan permits rounding to nearest and towards
+/// zero.
 const HALF: f64 = 1.0 / 1024.0;
-/// A normal as it is kept: towards the eye, over the sum of its parts, of which two are kept, turned, in two bytes. Half a
-/// step of 1/127 of each is as much of their length and of the third; stretched by a length of 1/sqrt 3 at least; halves.
+/// Error of a stored normal. It is divided by the sum of its components' absolute values, and two
+/// combinations of x and y are stored in a byte each. Half a step of both bytes, 0.5/127, moves (x,
+/// y) and z by at most 0.5/127 each. Normalizing divides by a length of at least 1/sqrt 3. The
+/// image has half precision.
 const TURNED: f64 = SQRT_3 * std::f64::consts::SQRT_2 * 0.5 / 127.0 + 2.0 * HALF;
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
@@ -44,14 +47,14 @@ fn whitewater_config(size: vk::Extent2D) -> Config {
     config(size).with(|it| it.whitewater = Some(whitewater))
 }
 
-/// The same by a way to draw them.
+/// `whitewater_config` with this way to splat the particles.
 fn by(way: WhitewaterSplat, size: vk::Extent2D) -> Config {
     let config = whitewater_config(size);
     let whitewater = config.whitewater.map(|whitewater| whitewater.with(|it| it.splat = Some(way)));
     config.with(|it| it.whitewater = whitewater)
 }
 
-/// Those that there are.
+/// The ways to splat that the device supports.
 fn ways(gpu: &Gpu) -> Vec<WhitewaterSplat> {
     let mut ways = vec![WhitewaterSplat::Compute, WhitewaterSplat::Raster];
     if gpu.enabled.buffer_int64_atomics {
@@ -73,13 +76,13 @@ struct Whitewater {
     radii: Option<Vec<f32>>,
     ages: Vec<f32>,
     ids: Option<Vec<u32>>,
-    /// Its scene is a fluid of the host's.
+    /// The host's fluid that covers foam, if there is one.
     fluid: Option<Shot>,
 }
 
 impl Whitewater {
-    /// Particles of all kinds, ages and sizes from a fiftieth of a pixel on, before and behind some water and a
-    /// scene whose right half is near.
+    /// Particles of all kinds and ages, with radii from a fiftieth of a pixel, before and behind
+    /// some water and a scene whose right half is nearer.
     fn new(lens: Lens) -> Self {
         let mut shot = Shot::new(SIZE, lens, 0.2, &scenes::cloud(31, 40, 3.0, 9.0));
         shot.scene_depth(|x, _| Some(if x < SIZE.width / 2 { 8.5 } else { 6.0 }));
@@ -172,7 +175,7 @@ fn doubles(image: &Image<f32>) -> Image<f64> {
     image.map(|v| f64::from(*v))
 }
 
-/// The frontmost as the images have it.
+/// The frontmost foam of each pixel, as the images store it.
 fn seen(drawn: &DrawnWhitewater) -> Image<Option<Seen>> {
     let (depth, with) = (&drawn.occluders, &drawn.normal);
     Image::from_fn(depth.width, depth.height, |x, y| {
@@ -205,7 +208,8 @@ fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
     }
 }
 
-/// Other shapes, lives and sizes than the source's, with its falloff and without.
+/// The same comparison for shapes, lives and sizes that differ from the source's, with and without
+/// its falloff under water.
 #[test]
 fn foam_of_any_shape_is_the_twins() {
     let gpu = Gpu::shared();
@@ -223,14 +227,15 @@ fn foam_of_any_shape_is_the_twins() {
     }
 }
 
-/// Light is scaled, by more than its clamp at an albedo of 1 where it is asked for.
+/// The setting `scale` multiplies the foam's radiance, also beyond the brightness that an albedo of
+/// 1 gives.
 #[test]
 fn foam_shines_as_bright_as_it_is_asked_to() {
     let gpu = Gpu::shared();
     let mut rig = Rig::lit(&gpu, &whitewater_config(SIZE), 1);
     let mut cloud = Whitewater::new(Lens::Standard);
     cloud.shot.positions.clear();
-    // Of what is behind it nothing is left.
+    // The foam is opaque and the scene black, so the picture is the foam's radiance alone.
     (cloud.shot.settings.whitewater.half_intensity_thickness, cloud.shot.color) =
         (1.0e-6, vec![[0.0; 4]; (SIZE.width * SIZE.height) as usize]);
     let mut draw = |scale: f32| {
@@ -240,13 +245,14 @@ fn foam_shines_as_bright_as_it_is_asked_to() {
     let (one, three) = (draw(1.0), draw(3.0));
     let bright = one.data.iter().filter(|v| **v > 0.05).count();
     assert!(bright > 500, "{bright} pixels of foam");
-    // A product.
+    // The twin of a scaled picture is a single product.
     compare::close("whitewater-scale", &three, &one.map(|v| 3.0 * f64::from(*v)), 0, |_, _, v| {
         1.0e-5 * v + 1.0e-6
     });
 }
 
-/// Footprints that are widened to a pixel are much longer the other way.
+/// Pixels are far from square, so a footprint widened to one pixel is much longer along the other
+/// axis.
 #[test]
 fn pixels_may_be_far_from_square() {
     let gpu = Gpu::shared();
@@ -280,7 +286,8 @@ fn foam_is_the_twins_of(rig: &mut Rig<'_>, cloud: &Whitewater, name: &str, least
         for x in 0..seen.width {
             let Some(Seen { depth, h, normal }) = seen.at(x, y) else { continue };
             let candidates = bounds.candidates.at(x, y);
-            // That of smaller ones is made of what stands round them.
+            // The normals of foam less than two pixels high depend on their surroundings; another
+            // test checks them.
             let shaped = 0.5 * h * view.extent().y >= 2.0;
             let fits = candidates.iter().any(|one| {
                 (one.depth.v - depth).abs() <= one.depth.e
@@ -306,7 +313,8 @@ fn intensity_is_the_formula() {
         let [above, below, ..] = foam.thickness.at(x, y);
         twin::intensity(f64::from(above) + f64::from(below), f64::from(0.7_f32), f64::from(1.6_f32))
     });
-    // pow is exp2 of a product with log2: 3 ulp and 2^-21 beyond, of numbers to 4; the rest 4 ulp.
+    // pow is exp2 of a product with log2: 3 ulp, and 2^-21 absolute for numbers up to 4; the other
+    // operations add 4 ulp.
     compare::close(
         "whitewater-intensity",
         &channel(&foam.occluders, 1),
@@ -335,7 +343,8 @@ fn shadow_is_the_twins() {
         [look.min_samples, look.max_samples] = [8, 96];
         [look.shadow_scale, look.shadow_exponent, look.shadow_offset] = [2.0, 0.8, -0.02];
         let foam = cloud.draw(&mut rig).whitewater.expect("whitewater particles");
-        // Of a block of four each pixel has a part of the points.
+        // Each pixel of a 2x2 block takes a part of the samples, so the fast way needs a blur over
+        // the block.
         let least_blur = if occlusion == Occluding::Fast { 4.0 } else { 0.0 };
         let (front, by) = (seen(&foam), Occlusion { least_blur, ..cloud.occlusion() });
         let view = cloud.shot.view(SIZE);
@@ -348,7 +357,8 @@ fn shadow_is_the_twins() {
         };
         let shadowed = omega.data.iter().flatten().filter(|o| by.zeta(o.low) > 0.05).count();
         assert!(shadowed > 200, "{lens:?}: {shadowed} pixels in shadow");
-        // A mean of positive weights: of lower ends it is lower. Three roundings to halves.
+        // The blur is a mean with positive weights, so blurring the lower ends gives a lower end.
+        // The images round three times to half precision.
         let blurred = |end: fn(&twin::Omega) -> f64| {
             let zeta = omega.map(|o| [o.map_or(0.0, |o| by.zeta(end(&o))), 0.0, 0.0, 0.0]);
             twin::blur(&zeta, &front, &view, &by).map(|v| v[0])
@@ -363,7 +373,8 @@ fn shadow_is_the_twins() {
     }
 }
 
-/// Normals of all sizes: a sphere's, and of small ones where the space about them is open.
+/// Checks normals of foam of all sizes: large foam has its sphere's normal, small foam faces the
+/// open space around it.
 fn facings_are_the_twins(
     cloud: &Whitewater,
     foam: &DrawnWhitewater,
@@ -374,14 +385,14 @@ fn facings_are_the_twins(
     let scene = cloud.shot.scene_at(SIZE, 0);
     let fluid = doubles(&channel(&foam.occluders, 2));
     let bounds = foam_bounds(&cloud.particles(), &view, &cloud.twin_settings(), &scene, &fluid);
-    // Those told by the space about them alone, in part, by their spheres alone.
+    // Number of normals checked by their source: open space alone, a mixture, the sphere alone.
     let mut told = [0; 3];
     for (x, y) in (0..front.height).flat_map(|y| (0..front.width).map(move |x| (x, y))) {
         let (Some(seen), Some(omega)) = (front.at(x, y), omega.at(x, y)) else { continue };
         let [one] = &bounds.candidates.at(x, y)[..] else { continue };
         let kept = (one.normal.v, one.normal.e + TURNED);
         let (facing, e) = omega.facing(&view, seen.h, kept);
-        // Halves.
+        // The images have half precision.
         let off = (seen.normal - facing).length();
         assert!(
             off <= e + 2.0 * HALF,
@@ -396,8 +407,9 @@ fn facings_are_the_twins(
     assert!(told.iter().all(|count| *count > 100), "{told:?} can tell");
 }
 
-/// Foam of a size in pixels on an endless wall: half of each sphere lies behind that, whatever the foam's size and
-/// so the number of samples of the reference (of whose first sixteen it is less than a third).
+/// Foam of a given size in pixels lies on an endless wall, which hides half of each sphere. So the
+/// fast shadow is 0.5 at all distances, although the number of samples changes with the foam's
+/// size.
 #[test]
 fn fast_shadow_does_not_change_with_the_distance() {
     let gpu = Gpu::shared();
@@ -406,7 +418,7 @@ fn fast_shadow_does_not_change_with_the_distance() {
         &whitewater_config(SIZE).with(|it| it.whitewater = Some(WhitewaterConfig::new(8000))),
         1,
     );
-    // Larger ones have spheres that leave the picture.
+    // Larger foam has occlusion spheres that leave the picture.
     for pixels in [0.02_f32, 0.1, 0.5, 1.5] {
         let mut cloud = Whitewater::new(Lens::Standard);
         cloud.shot = Shot::new(SIZE, Lens::Standard, 0.2, &scenes::cloud(31, 1, 30.0, 31.0));
@@ -416,11 +428,11 @@ fn fast_shadow_does_not_change_with_the_distance() {
         let radius = pixels * depth / (0.5 * SIZE.height as f32) / view.focal().y.abs() as f32;
         let look = &mut cloud.shot.settings.whitewater;
         look.reach = OcclusionReach::Metres(1.0e9);
-        // The share itself.
+        // Scale and exponent 1 and offset 0 give the occluded fraction unchanged.
         [look.shadow_scale, look.shadow_exponent, look.shadow_offset] = [1.0, 1.0, 0.0];
-        // Of foam itself nothing hides.
+        // Foam this transparent does not occlude other foam.
         look.half_intensity_thickness = 1.0e6;
-        // One in the middle of each pixel, its front at the wall.
+        // One particle in the middle of each pixel, with its front at the wall.
         let (depth, scale) = (depth + 0.95 * radius, cloud.shot.camera.projection_matrix());
         let middle = |i: u32, n: u32, scale: f32| ((2 * i + 1) as f32 / n as f32 - 1.0) / scale;
         let points: Vec<_> = (0..SIZE.width * SIZE.height)
@@ -449,8 +461,9 @@ fn fast_shadow_does_not_change_with_the_distance() {
     }
 }
 
-/// Light is found where tiles of 8x8 pixels have foam, be it in one pixel, whichever; elsewhere there is none, nor anything of
-/// the frame before.
+/// Pass `radiance` works on tiles of 8x8 pixels. A tile whose only foam is one pixel gets light,
+/// wherever in the tile that pixel is. Pixels without foam have no light, also none from the frame
+/// before.
 #[test]
 fn the_foam_of_a_single_pixel_has_light() {
     let gpu = Gpu::shared();
@@ -464,7 +477,7 @@ fn the_foam_of_a_single_pixel_has_light() {
     let view = cloud.shot.view(SIZE);
     let (width, height) = (SIZE.width as usize, SIZE.height as usize);
     for frame in 0..8 {
-        // In each tile another pixel, over the frames each in some.
+        // Each frame has one pixel with foam in each tile, and another pixel in the next frame.
         let of_tile = |i: usize| {
             let (across, own) = (width.div_ceil(8), (8 * frame + 9 * i) % 64);
             [8 * (i % across) + own % 8, 8 * (i / across) + own / 8]
@@ -494,7 +507,7 @@ fn the_foam_of_a_single_pixel_has_light() {
     }
 }
 
-/// An environment of one colour, and no sun.
+/// Gives the frame an environment of one colour and no direct sun.
 fn even(rig: &mut Rig<'_>, shot: &mut Shot, color: [f32; 4]) {
     rig.environment(extent(16, 8), &[color; 128]);
     shot.settings.light.shade = shot.settings.light.irradiance;
@@ -515,7 +528,7 @@ fn light_of_an_even_environment_is_half_of_it() {
         even(&mut rig, &mut cloud.shot, [1.0, 2.0, 0.25, 1.0]);
         let foam = cloud.draw(&mut rig).whitewater.expect("whitewater particles");
         let front = seen(&foam);
-        // Of points all round there are more or less on a side: the twin knows how many.
+        // Sampled points are not equally many on all sides, so the twin computes their mean cosine.
         let expected = match irradiance {
             Irradiance::Prefiltered => front.map(|seen| seen.map(|_| DVec3::splat(0.5))),
             Irradiance::Sampled => {
@@ -527,7 +540,8 @@ fn light_of_an_even_environment_is_half_of_it() {
         let expected = twin::blur(&both, &front, &cloud.shot.view(SIZE), &cloud.occlusion());
         for (i, part) in [1.0, 2.0, 0.25].into_iter().enumerate() {
             let expected = expected.map(|light| light[1 + i] * part);
-            // Halves: the environment, its sum, three images, a normal of unit length; few operations.
+            // Seven values in half precision: the environment, its sum, three images and a unit
+            // normal; then few operations.
             let tolerance = |_: usize, _: usize, v: f64| 8.0 * HALF * v;
             compare::close("whitewater-light", &channel(&foam.light, i), &expected, 0, tolerance);
         }
@@ -546,7 +560,7 @@ fn both_ways_to_gather_light_agree() {
         let mut rig =
             Rig::lit(&gpu, &whitewater_config(SIZE).with(|it| it.whitewater = Some(whitewater)), 1);
         let mut cloud = Whitewater::new(Lens::Standard);
-        // Bright above, dark below.
+        // The environment is bright above and dark below.
         let texels: Vec<_> =
             (0..128).map(|i| [1.5 - (i / 16) as f32 / 7.0, 0.5, 0.5, 1.0]).collect();
         rig.environment(extent(16, 8), &texels);
@@ -562,7 +576,7 @@ fn both_ways_to_gather_light_agree() {
         .filter(|v| **v > 0.0)
         .fold((9.0_f32, 0.0_f32), |(a, b), v| (a.min(*v), b.max(*v)));
     assert!(high > 1.3 * low, "the side that is turned up is lighter: {low} to {high}");
-    // 512 points: their mean cosine differs by a fiftieth from side to side.
+    // With 512 sampled points, their mean cosine differs by a fiftieth between directions.
     compare::close("whitewater-gathered", &sampled, &doubles(&once), 0, |_, _, v| 0.03 * v);
 }
 
@@ -598,7 +612,8 @@ fn foam_lies_over_the_scene() {
             let expected =
                 Image::from_fn(foam.light.width, foam.light.height, |x, y| expected(x, y)[i]);
             let name = format!("whitewater-over-{i}");
-            // As `intensity_is_the_formula`, of the difference to the background; a mean.
+            // The tolerance of `intensity_is_the_formula`, for the difference from the background,
+            // which is blended in.
             compare::close(&name, &channel(&drawn.output, i), &expected, 0, |_, _, v| {
                 1e-5 * (1.0 + v)
             });
@@ -615,7 +630,7 @@ fn bubbles_lie_under_the_water() {
     let config = whitewater_config(SIZE).with(|it| it.max_particles = 20_000);
     let mut rig = Rig::lit(&gpu, &config, 1);
     let draw = |rig: &mut Rig<'_>, depth: Option<f32>| {
-        // A wall of water from 4 to 7, and a cloud of bubbles before, in and behind it.
+        // A wall of water from 4 to 7 m, and foam before, in or behind it.
         let block = scenes::block(3, 0.2, [40, 28, 15], [-4.0, -2.8, 4.0]);
         let mut shot = Shot::new(SIZE, Lens::Standard, 0.656 * 0.2, &block);
         even(rig, &mut shot, [1.0, 1.0, 1.0, 1.0]);
@@ -674,7 +689,7 @@ fn without_particles_nothing_changes() {
     let plain = Rig::lit(&gpu, &config(SIZE), 1).draw(&cloud.shot).output;
     let mut rig = Rig::lit(&gpu, &whitewater_config(SIZE), 1);
     let none = rig.draw(&cloud.shot).output;
-    // Another shader: its compiler may round otherwise.
+    // This configuration runs another shader, whose compiler may round differently.
     let doubles = plain.map(|c| c.map(f64::from));
     compare::close_color("whitewater-none", &none, &doubles, |_, _| [1e-6; 4]);
     let nothing = |positions, ages| Whitewater { positions, ages, ..cloud.clone() };
@@ -784,7 +799,7 @@ fn water_takes_the_sun_from_foam() {
     let of = |cast: Option<u32>| {
         let mut rig =
             Rig::lit(&gpu, &whitewater_config(SIZE).with(|it| it.light_map_size = cast), 1);
-        // A slab of water between the sun and foam, both before the eye.
+        // A slab of water lies between the sun and the foam; the eye sees both.
         let mut shot = Shot::new(SIZE, Lens::Standard, 0.0656, &[]);
         shot.settings.light.direction = [0.0, 1.0, 0.0];
         let region =

@@ -1,5 +1,5 @@
-//! The host's packets of whitewater particles: culled packets make no visible difference, and particles in no packet
-//! are not drawn.
+//! The host's packets of whitewater particles: culling packets makes no visible difference, and
+//! particles in no packet are not drawn.
 
 use ash::vk;
 use whitewater::WhitewaterSplat;
@@ -25,13 +25,13 @@ fn with_packets(way: WhitewaterSplat, max_stride: u32) -> Config {
     config.with(|it| it.whitewater = whitewater)
 }
 
-/// Packets of some of the particles, with boxes that hold them whole.
+/// Packets of ranges of particles, with boxes that contain their spheres.
 pub fn boxes(positions: &[[f32; 3]], radii: Option<&[f32]>, ranges: &[(u32, u32)]) -> Vec<u8> {
     let corners = |(p, r): (&[f32; 3], f32)| [p.map(|v| v - r), p.map(|v| v + r)];
     let radius = |i: usize| radii.map_or(0.0, |radii| radii[i]);
     let all: Vec<_> =
         positions.iter().enumerate().flat_map(|(i, p)| corners((p, radius(i)))).collect();
-    // Two corners a particle.
+    // Two corners per particle stand for its sphere.
     let mut shot = Shot::new(SIZE, Lens::Standard, 1.0, &[]);
     shot.positions = all;
     let twice: Vec<_> = ranges.iter().map(|(first, n)| (2 * first, n.saturating_mul(2))).collect();
@@ -52,7 +52,7 @@ fn draw(rig: &mut Rig<'_>, cloud: &Whitewater, packets: &[u8]) -> Drawn {
     rig.draw_whitewater(&cloud.shot, &water.particles(), Some(particles))
 }
 
-/// Particles on all sides of the view, near each other in space where they are in order.
+/// Particles on all sides of the view, sorted so that consecutive ones are near each other.
 fn around(lens: Lens) -> Whitewater {
     let mut cloud = Whitewater::new(lens);
     let n = cloud.positions.len();
@@ -90,13 +90,13 @@ fn around(lens: Lens) -> Whitewater {
     }
 }
 
-/// The same picture to the bit as of each particle by itself, from packets of any size, in any order, cut
-/// through by chunks.
+/// The picture is the same to the bit as with single particles, for packets of any size and in any
+/// order, also if chunks cut them.
 #[test]
 fn what_packets_pass_over_does_not_show() {
     let gpu = Gpu::shared();
     let range = u64::from(gpu.limits().max_storage_buffer_range);
-    // Chunks of 150 particles.
+    // A chunk holds 150 particles.
     let short = (range / 150).next_multiple_of(4).min(1 << 20) as u32;
     for way in ways(&gpu) {
         for (max_stride, lens) in [(12, LENSES[0]), (short, LENSES[1])] {
@@ -109,7 +109,8 @@ fn what_packets_pass_over_does_not_show() {
                 for size in [1, 3, 64, 83] {
                     let mut ranges: Vec<_> =
                         (0..n).step_by(size).map(|i| (i, (size as u32).min(n - i))).collect();
-                    // The last one counts beyond the particles, and beyond 32 bits.
+                    // The last packet's count reaches beyond the particles, and its end beyond 32
+                    // bits.
                     ranges.last_mut().expect("some").1 = u32::MAX - 1;
                     ranges.reverse();
                     let packets = boxes(&cloud.positions, cloud.radii.as_deref(), &ranges);
@@ -122,7 +123,8 @@ fn what_packets_pass_over_does_not_show() {
     }
 }
 
-/// Those in no packet are not drawn, nor those whose box is beside the view: the boxes are what is asked.
+/// Particles in no packet are not drawn, nor are those whose box lies beside the view: culling
+/// tests only the boxes.
 #[test]
 fn particles_are_where_their_packets_are() {
     let gpu = Gpu::shared();
@@ -150,7 +152,7 @@ fn particles_are_where_their_packets_are() {
             let name = format!("whitewater-packets-beside-{offset:?}");
             compare::same_color(&name, &found.output, &expected.output);
         }
-        // No packet, no particle.
+        // Without packets no particle is drawn.
         let none = Whitewater { positions: Vec::new(), ..cloud.clone() };
         let expected = rig.draw_particles(&none.shot, &rig.particles(&none.shot).particles());
         let found = draw(&mut rig, &cloud, &[]);

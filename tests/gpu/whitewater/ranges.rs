@@ -11,7 +11,8 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig};
 use crate::support::scenes::{self, Lens, Random};
 
-/// So many particles on one spot that their thickness to the power of the exponent is beyond single precision.
+/// So many particles on one spot that thickness to the power of the exponent overflows single
+/// precision.
 #[test]
 fn thick_foam_is_opaque_by_any_exponent() {
     let gpu = Gpu::shared();
@@ -40,8 +41,8 @@ fn thick_foam_is_opaque_by_any_exponent() {
         let expected = foam.thickness.map(|t| {
             twin::intensity(f64::from(t[0]) + f64::from(t[1]), half.into(), exponent.into())
         });
-        // pow is exp2 of a product of up to 330 with log2: 3 ulp and 2^-21 beyond, of each; the share falls or grows by no
-        // more than a quarter of that.
+        // pow is exp2 of a product of up to 330 with log2: 3 ulp and 2^-21 absolute each. The
+        // opacity changes by at most a quarter of that relative error.
         let off = |_: usize, _: usize, v: f64| 1.0e-4 * v.min(1.0 - v) + 1.0e-6;
         compare::close("whitewater-opaque", &channel(&foam.occluders, 1), &expected, 0, off);
         is_finite(&drawn, &format!("{half} {exponent}"));
@@ -62,7 +63,7 @@ fn is_finite(drawn: &Drawn, name: &str) {
     }
 }
 
-/// What lies before the water has all of its light, whatever the falloff's exponents.
+/// Foam before the water keeps all of its intensity, whatever the falloff's exponents.
 #[test]
 fn foam_before_the_water_has_no_falloff() {
     let gpu = Gpu::shared();
@@ -75,7 +76,7 @@ fn foam_before_the_water_has_no_falloff() {
         for (n, m) in [(0.1, 16.0), (0.1, 0.1), (16.0, 0.1), (16.0, 16.0)] {
             cloud.shot.settings.whitewater.submerged = Submerged::Falloff { depth: 1.0, n, m };
             let foam = cloud.draw(&mut rig).whitewater.expect("whitewater particles");
-            // Another pipeline; a step of the sum for each of the few in a pixel.
+            // Another pipeline, and one fixed-point step for each of the few particles in a pixel.
             compare::close(
                 "whitewater-before",
                 &channel(&foam.thickness, 0),
@@ -87,7 +88,7 @@ fn foam_before_the_water_has_no_falloff() {
     }
 }
 
-/// Where nothing is hidden there is no shadow, whatever its exponent.
+/// If nothing is occluded there is no shadow, whatever the shadow's exponent.
 #[test]
 fn foam_in_the_open_has_no_shadow() {
     let gpu = Gpu::shared();
@@ -96,7 +97,7 @@ fn foam_in_the_open_has_no_shadow() {
     cloud.shot.positions.clear();
     cloud.shot.scene_depth(|_, _| None);
     let look = &mut cloud.shot.settings.whitewater;
-    // Nothing of it hides.
+    // The foam is so transparent that it does not occlude itself.
     (
         look.half_intensity_thickness,
         look.exponent,
@@ -107,7 +108,7 @@ fn foam_in_the_open_has_no_shadow() {
     assert!(f64::from(most) < HALF, "{most}");
 }
 
-/// What reaches nowhere hides nothing; however far before it nothing is.
+/// With a reach of almost 0 nothing is occluded.
 #[test]
 fn occluders_without_reach_hide_nothing() {
     let gpu = Gpu::shared();
@@ -121,7 +122,7 @@ fn occluders_without_reach_hide_nothing() {
     assert!(f64::from(most) < HALF, "{most}");
 }
 
-/// One setting after the other at each end of its range, then all of them at ends that chance picks.
+/// Each setting at both ends of its range, then all settings at random ends.
 #[test]
 fn no_setting_in_its_range_makes_nan() {
     type Turn = fn(&mut WhitewaterSettings, bool);
@@ -167,7 +168,7 @@ fn no_setting_in_its_range_makes_nan() {
     for way in ways(&gpu) {
         let mut rig = Rig::lit(&gpu, &by(way, SIZE), 1);
         let mut cloud = Whitewater::new(Lens::Standard);
-        // Few, and some without a radius.
+        // Few particles, some without a radius of their own.
         cloud.positions.truncate(60);
         for (name, ages) in [(" whole", 0.0), (" nearly gone", 0.999_999_94)] {
             cloud.ages = vec![ages; 60];

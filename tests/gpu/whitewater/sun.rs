@@ -4,7 +4,8 @@ use whitewater::{EnvironmentSource, Equirectangular, Recorded, Slot};
 
 use super::*;
 
-/// Foam gathers what the map without the sun gives, to the last bit, though the map shows it: in both ways.
+/// If the host says which part of the map is the sun, foam gathers only the light of the map
+/// without it, bit for bit, in both ways to gather.
 #[test]
 fn the_sun_of_a_map_is_not_gathered() {
     let gpu = Gpu::shared();
@@ -13,7 +14,7 @@ fn the_sun_of_a_map_is_not_gathered() {
         let mut rig =
             Rig::new(&gpu, &whitewater_config(SIZE).with(|it| it.whitewater = whitewater));
         let mut cloud = Whitewater::new(Lens::Standard);
-        // The light's own sun apart.
+        // Without the light's direct part.
         cloud.shot.settings.light.shade = cloud.shot.settings.light.irradiance;
         let gathered = |rig: &mut Rig<'_>| {
             let light = cloud.draw(rig).whitewater.expect("whitewater particles").light;
@@ -33,7 +34,8 @@ fn the_sun_of_a_map_is_not_gathered() {
     }
 }
 
-/// A configuration that begins to sample the environment has it made anew: what it had was not for that.
+/// A configuration that begins to sample the environment has to make the cube again, because the
+/// old one lacks what sampling needs.
 #[test]
 fn to_sample_the_environment_makes_it_anew() {
     let gpu = Gpu::shared();
@@ -43,7 +45,8 @@ fn to_sample_the_environment_makes_it_anew() {
     };
     let mut rig = Rig::new(&gpu, &of(Irradiance::Prefiltered));
     let before = rig.renderer().memory().images;
-    // Six faces of 8 bytes a texel, and their mips. A driver may keep a border round each, and align the whole.
+    // Six faces with 8 bytes per texel, and their mip levels. A driver may add a border around each
+    // face and align the whole.
     let size = rig.config.environment_size;
     let faces = |border: u32| -> u64 {
         let edges = (0..=size.ilog2()).map(|mip| u64::from((size >> mip) + 2 * border));
@@ -59,7 +62,8 @@ fn to_sample_the_environment_makes_it_anew() {
     }
 }
 
-/// An environment that changes while a frame is in flight is to that frame what it was when the frame was recorded.
+/// If the environment changes while a frame is in flight, the frame still uses the one at the time
+/// of its record.
 #[test]
 fn the_environment_changes_between_frames_in_flight() {
     let gpu = Gpu::shared();
@@ -94,7 +98,8 @@ fn the_environment_changes_between_frames_in_flight() {
                 ));
                 let cmd = rig.stub.begin(slot);
                 let renderer = rig.renderer();
-                // SAFETY: cmd is recording, the slot was waited for, the handles live to the end of the round.
+                // SAFETY: cmd is recording, the slot was waited for, and the handles live until the
+                // end of the round.
                 let recorded = unsafe {
                     renderer
                         .record_environment(cmd, Slot(slot), &source)

@@ -1,5 +1,5 @@
-//! All paths that draw whitewater particles: they agree, for streams of any layout, after changes, within the stated
-//! memory.
+//! All kinds of splat for whitewater particles agree, for streams of any layout and after changes,
+//! within the documented memory.
 
 use ash::vk;
 use whitewater::{Count, Renderer, WhitewaterParticles};
@@ -12,7 +12,7 @@ use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
 use crate::support::scenes::{self, LENSES, Lens};
 
-/// All ways leave the same.
+/// All kinds of splat give the same images.
 #[test]
 fn all_ways_are_the_same() {
     let gpu = Gpu::shared();
@@ -29,7 +29,8 @@ fn all_ways_are_the_same() {
     }
 }
 
-/// But for what pipelines of their own round otherwise: a falloff ends in a difference of what is nearly equal.
+/// The same except for rounding, which differs between pipelines; a falloff ends in a difference of
+/// nearly equal numbers.
 fn same(way: WhitewaterSplat, found: &Drawn, expected: &Drawn) {
     compare::same_but_rounded(&format!("whitewater-{way:?}"), &found.output, &expected.output);
     let [found, expected] = [found, expected].map(|drawn| drawn.whitewater.as_ref().expect("foam"));
@@ -42,8 +43,8 @@ fn same(way: WhitewaterSplat, found: &Drawn, expected: &Drawn) {
     }
 }
 
-/// Of two spheres that meet a pixel at the same depth, to the left and to the right of its middle, compute takes the same
-/// one in any order.
+/// If two spheres meet a pixel at the same depth, to the left and to the right of its centre,
+/// compute chooses the same one in any order.
 #[test]
 fn the_frontmost_of_equals_is_the_same() {
     let gpu = Gpu::shared();
@@ -57,7 +58,8 @@ fn the_frontmost_of_equals_is_the_same() {
             .step_by(4)
             .flat_map(|x| (4..SIZE.height - 4).step_by(4).map(move |y| (x, y)))
     };
-    // All of one side, and then all of the other: neighbours may be drawn at a time.
+    // First all spheres on one side, then all on the other, because neighbours may be drawn
+    // together.
     let points: Vec<_> = [-0.1, 0.1]
         .into_iter()
         .flat_map(|aside| grid().map(move |(x, y)| (x, y, aside * radius)))
@@ -83,15 +85,15 @@ fn the_frontmost_of_equals_is_the_same() {
             same(way, &draw(way, points), &expected);
         }
     }
-    // By quads the first of them is, which tells that there were some.
+    // Raster takes the first of them, which shows that there are such pixels.
     let [one, other] = [&points, &turned].map(|points| draw(WhitewaterSplat::Raster, points));
     let normals = [one, other].map(|drawn| drawn.whitewater.expect("foam").normal.data);
     let equals = normals[0].iter().zip(&normals[1]).filter(|(a, b)| a != b).count();
     assert!(equals > 100, "{equals} pixels with two at one depth");
 }
 
-/// More large ones than their list has room for: an invocation does what a group does, as where they
-/// come in chunks with a list each.
+/// More large particles than their list holds: single invocations draw the rest like groups do. The
+/// result equals that of several chunks with a list each.
 #[test]
 fn more_large_ones_than_there_is_room_for() {
     let gpu = Gpu::shared();
@@ -100,13 +102,13 @@ fn more_large_ones_than_there_is_room_for() {
     let points = scenes::cloud(7, 30_000, 5.0, 6.0);
     let n = points.len();
     cloud.positions = scenes::world(&cloud.shot.camera, &points);
-    // At the depth of the farthest 18 pixels wide and more.
+    // Every particle is at least 18 pixels wide.
     let scale = cloud.shot.camera.projection_matrix().y_axis.y.abs() * 0.5 * SIZE.height as f32;
     cloud.radii = Some(vec![5.0 * 9.0 * 6.0 / scale; n]);
     (cloud.kinds, cloud.ages, cloud.ids) = (vec![0; n], vec![0.0; n], Some(vec![4; n]));
     let range = u64::from(gpu.limits().max_storage_buffer_range);
     for way in ways(&gpu).into_iter().filter(|way| *way != WhitewaterSplat::Raster) {
-        // A chunk of all, and chunks of a few thousand.
+        // One chunk for all, and chunks of a few thousand particles.
         let [found, expected] = [12, range as u32 / 5000 / 4 * 4].map(|max_stride| {
             let config = by(way, SIZE);
             let max_particles = n as u32;
@@ -122,7 +124,7 @@ fn more_large_ones_than_there_is_room_for() {
     }
 }
 
-/// The same particles in other buffers.
+/// The same particles in buffers with other layouts.
 #[test]
 fn streams_of_any_shape_are_the_same() {
     let gpu = Gpu::shared();
@@ -136,7 +138,8 @@ fn streams_of_any_shape_by(gpu: &Gpu, way: WhitewaterSplat) {
     let mut rig = Rig::lit(gpu, &by(way, SIZE), 1);
     let nameless = Whitewater { ids: None, ..cloud.clone() };
     let expected = [&cloud, &nameless].map(|cloud| cloud.draw(&mut rig));
-    // A record has them all: 48 bytes, behind 20 of something else; a chunk holds a part of them.
+    // Interleaved records of 48 bytes, after 20 bytes of other data; with the large stride a chunk
+    // holds only a part of the particles.
     let range = u64::from(gpu.limits().max_storage_buffer_range);
     let strides = [48, (range / 150).next_multiple_of(4).min(1 << 20) as u32];
     let [whole, chunked] = strides;
@@ -203,8 +206,8 @@ fn size_and_configuration_change() {
     }
 }
 
-/// Bytes of the lists of large particles: 64 KiB and 16 bytes for what is bound at once, a dispatch of 64 an
-/// invocation each.
+/// Bytes of the lists of large particles: 64 KiB and 16 bytes per chunk. A chunk is what one
+/// binding holds, or what a dispatch with groups of 64 invocations can process.
 pub fn lists(gpu: &Gpu, most: u32) -> f64 {
     let bound = (gpu.limits().max_storage_buffer_range - 256) / 12;
     f64::from(most.div_ceil(bound.min(64 * 65_535))) * (65_536.0 + 16.0)
