@@ -107,7 +107,7 @@ fn record_only_records() {
     for (name, config) in configs {
         let mut rig = Rig::new(&gpu, &config);
         let (shot, cloud) = (water(size), rig.particles(&water(size)));
-        let velocities = Some(stream(&cloud.positions, 0, 12)); // any
+        let velocities = Some(stream(&cloud.positions, 0, 12)); // any values will do
         watched(name, &mut rig, &shot, cloud.particles().with(|it| it.velocities = velocities));
     }
 }

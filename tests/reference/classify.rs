@@ -1,114 +1,114 @@
-//! Twin of the foam phases (Bagar 2010, thesis, Sec. 3.2, "Foam formation"): a particle turns to foam and back by its
-//! Weber number, each time after a random delay of its own.
+//! Twin of the foam phases (Bagar 2010, thesis, Sec. 3.2, "Foam formation"): a particle turns to
+//! foam and back by its Weber number, each time after a random delay.
 //!
-//! Unlike the other twins all is in `f32`, each operation rounded by itself in the order written,
-//! so that the phases are the GPU's bit for bit.
+//! Unlike the other twins this one computes in `f32`, with each operation rounded in the order
+//! written, so that the phases are the GPU's bit for bit.
 
 use std::collections::HashMap;
 
-/// The id that no particle may have: nothing is kept of it.
+/// An id that stands for no particle; no state is kept for it.
 pub const NO_ID: u32 = 0xffff_ffff;
 
-/// What the phases go by.
+/// Settings of the phases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Seeds the random times.
+    /// Seed of the random times.
     pub seed: u32,
-    /// The Weber number of a unit density at a unit speed.
+    /// The Weber number at a density and a speed of 1.
     pub scale: f32,
     /// From this Weber number on water turns to foam.
     pub threshold: f32,
-    /// The mean time in which foam turns back to water.
+    /// Mean time in which foam turns back to water.
     pub foam_lifetime: f32,
-    /// The density of a particle that has none yet: where it is 0, less or not a number.
+    /// Density of a particle whose own is 0, negative or NaN.
     pub rest_density: f32,
-    /// The velocity of the air.
+    /// Velocity of the air.
     pub air: [f32; 3],
 }
 
 impl Settings {
-    /// The defaults for a scale and a threshold.
+    /// The defaults with this scale and threshold.
     pub fn new(scale: f32, threshold: f32) -> Self {
         let (foam_lifetime, rest_density) = (1.0, 1000.0);
         Self { seed: 0, scale, threshold, foam_lifetime, rest_density, air: [0.0; 3] }
     }
 
-    /// The density of a particle.
+    /// Density of a particle, or the rest density.
     fn density(&self, own: f32) -> f32 {
         if own > 0.0 { own } else { self.rest_density }
     }
 }
 
-/// A particle of a step.
+/// A particle in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// What it is known by from step to step.
+    /// Id, the same in all steps.
     pub id: u32,
-    /// Its velocity.
+    /// Velocity.
     pub velocity: [f32; 3],
-    /// Its density.
+    /// Density.
     pub density: f32,
 }
 
-/// Where a particle is between water and foam.
+/// The phase of a particle between water and foam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Phase {
-    /// All water.
+    /// Entirely water.
     #[default]
     Water,
-    /// On the way to foam.
+    /// Turning to foam.
     WaterToFoam,
-    /// All foam.
+    /// Entirely foam.
     Foam,
-    /// On the way back.
+    /// Turning back to water.
     FoamToWater,
 }
 
-/// What is kept of an id; a new one has all at 0.
+/// State of an id; for a new one everything is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Entry {
-    /// The phase that the next step acts by.
+    /// The phase at the beginning of the next step.
     pub phase: Phase,
-    /// How many transitions have drawn a random number.
+    /// Number of transitions that have used a random number.
     pub transitions: u32,
-    /// What is left of the way; not touched in between.
+    /// Time left until the transition ends; unused in the phases water and foam.
     pub timer: f32,
-    /// How long the whole way takes.
+    /// Duration of the whole transition.
     pub lifetime: f32,
     /// Time since the id was first seen.
     pub age: f32,
 }
 
-/// What a step says of a particle.
+/// Result of a step for a particle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Out {
-    /// How much of it is foam, from 0 to 1.
+    /// Amount of foam, from 0 to 1.
     pub foam: f32,
     /// Time since its id was first seen.
     pub age: f32,
-    /// Its phase after the step.
+    /// Phase after the step.
     pub phase: Phase,
 }
 
-/// The ids of the last step.
+/// State of all ids of the last step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Phases {
-    /// The state of each after it.
+    /// State of each id after the step.
     pub map: HashMap<u32, Entry>,
-    /// How many changed their phase in it.
+    /// Number of ids whose phase changed.
     pub changed: u32,
-    /// How many of these drew a random number: those that left water or foam.
+    /// Number of those that used a random number because they left water or foam.
     pub drawn: u32,
 }
 
 impl Phases {
-    /// The state of an id, if it was in the last step.
+    /// State of an id, if it was in the last step.
     pub fn entry(&self, id: u32) -> Option<&Entry> {
         self.map.get(&id)
     }
 
-    /// Steps the particles and says of each, in their order, what became of it. Ids that are not
-    /// among them are forgotten. An id (but [`NO_ID`]) must not come twice.
+    /// Steps the particles and returns their results in the same order. Ids without a particle are
+    /// forgotten. An id other than [`NO_ID`] must not occur twice.
     pub fn step(&mut self, settings: &Settings, dt: f32, particles: &[Particle]) -> Vec<Out> {
         let before = std::mem::take(self);
         let mut outs = Vec::with_capacity(particles.len());
@@ -134,9 +134,9 @@ impl Phases {
 }
 
 impl Entry {
-    /// One transition at most, by the phase that it begins with. Returns the foam.
+    /// At most one transition, from the phase at the beginning. Returns the amount of foam.
     fn step(&mut self, settings: &Settings, dt: f32, particle: &Particle) -> f32 {
-        // False for a Weber number that is not a number.
+        // False if the Weber number is NaN.
         let density = settings.density(particle.density);
         let foams = weber(settings, particle.velocity, density) >= settings.threshold;
         match self.phase {
@@ -180,7 +180,7 @@ impl Entry {
         random(settings.seed, self.transitions, id)
     }
 
-    /// Sets out on a way.
+    /// Begins a transition of this duration.
     fn draw(&mut self, phase: Phase, lifetime: f32) {
         self.phase = phase;
         self.lifetime = lifetime;
@@ -189,15 +189,15 @@ impl Entry {
     }
 }
 
-/// The Weber number against the air: density times squared speed times the scale.
+/// Weber number relative to the air: density times squared speed times the scale.
 pub fn weber(settings: &Settings, velocity: [f32; 3], density: f32) -> f32 {
     let [x, y, z] = [0, 1, 2].map(|axis| velocity[axis] - settings.air[axis]);
     let v2 = (x * x + y * y) + z * z;
     (density * v2) * settings.scale
 }
 
-/// The foam of a particle without an id: half where the Weber number is at the threshold. What is
-/// not a number has none.
+/// Amount of foam of a particle without an id: a half where the Weber number is at the threshold.
+/// NaN gives none.
 pub fn stateless(settings: &Settings, velocity: [f32; 3], density: f32) -> f32 {
     let foam = weber(settings, velocity, settings.density(density)) / settings.threshold - 0.5;
     if foam.is_nan() { 0.0 } else { foam.clamp(0.0, 1.0) }
@@ -210,10 +210,10 @@ pub fn pcg(value: u32) -> u32 {
     (word >> 22) ^ word
 }
 
-/// A random number in 0..1 from the seed, the transitions so far and the id.
+/// A random number in 0..1 from the seed, the number of transitions so far and the id.
 pub fn random(seed: u32, transitions: u32, id: u32) -> f32 {
     let hash = pcg(id.wrapping_add(pcg(transitions.wrapping_add(pcg(seed)))));
-    // 24 bits: exact.
+    // 24 bits are exact.
     (hash >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
@@ -221,10 +221,10 @@ pub fn random(seed: u32, transitions: u32, id: u32) -> f32 {
 mod tests {
     use super::*;
 
-    /// 2^24: what the random numbers count in.
+    /// 2^24: random numbers are multiples of its inverse.
     const UNIT: f64 = 16_777_216.0;
 
-    /// The Weber number of [`particle`] is its density.
+    /// With these settings, the Weber number of [`particle`] is its density.
     fn settings() -> Settings {
         Settings { seed: 42, rest_density: 0.0, ..Settings::new(1.0, 10.0) }
     }
@@ -233,7 +233,7 @@ mod tests {
         Particle { id, velocity: [0.0, 1.0, 0.0], density: weber }
     }
 
-    /// Steps one particle alone.
+    /// Steps a single particle.
     fn one(phases: &mut Phases, dt: f32, id: u32, weber: f32) -> Out {
         phases.step(&settings(), dt, &[particle(id, weber)])[0]
     }
@@ -244,7 +244,8 @@ mod tests {
 
     #[test]
     fn the_hash_is_pcg() {
-        // 0: the state is the increment 0xac564b05, its top digit 10, so it is shifted by 14.
+        // For 0 the state is the increment 0xac564b05, whose top four bits are 10, so it is shifted
+        // by 14.
         assert_eq!(0xac56_4b05_u32 >> 14, 0x0002_b159);
         assert_eq!(0x0002_b159 ^ 0xac56_4b05_u32, 0xac54_fa5c);
         assert_eq!(pcg(0), 129_708_002);
@@ -278,17 +279,17 @@ mod tests {
     #[test]
     fn the_weber_number_is_rounded_in_order() {
         let unit = Settings::new(1.0, 1.0);
-        // 1 + 2^-24 ties to the even 1, twice; the two small squares together would not.
+        // 1 + 2^-24 ties to the even 1, twice; the sum of both small squares first would not.
         let small = 1.0 / 4096.0;
         assert_eq!(weber(&unit, [1.0, small, small], 1.0), 1.0);
         assert_eq!(weber(&unit, [small, small, 1.0], 1.0), 1.0 + f32::EPSILON);
-        // (1 + 2^-12)^2 = 1 + 2^-11 + 2^-24 ties to 1 + 2^-11; with another 2^-24 and the
-        // product not rounded it would be 1 + 2^-11 + 2^-23.
+        // (1 + 2^-12)^2 = 1 + 2^-11 + 2^-24 ties to 1 + 2^-11. With another 2^-24 added before the
+        // product is rounded, the result would be 1 + 2^-11 + 2^-23.
         let big = 1.0 + small;
         for velocity in [[big, small, 0.0], [small, big, 0.0], [small, 0.0, big]] {
             assert_eq!(weber(&unit, velocity, 1.0), 1.0 + 2.0 * small);
         }
-        // Density comes before the scale: this overflows first.
+        // The density is multiplied before the scale, so this overflows.
         let tiny = Settings::new(1e-30, 1.0);
         assert_eq!(weber(&tiny, [1e10, 0.0, 0.0], 1e20), f32::INFINITY);
     }
@@ -298,12 +299,13 @@ mod tests {
         let mut phases = Phases::default();
         let dt = 0.125;
 
-        // Below the threshold it stays water.
+        // Below the threshold the particle stays water.
         let out = one(&mut phases, dt, 7, 9.999);
         assert_eq!(out, Out { foam: 0.0, age: 0.0, phase: Phase::Water });
         assert_eq!((entry(&phases, 7), phases.changed), (Entry::default(), 0));
 
-        // At the threshold it sets out, in a time of 0.25 + 0.25 * 7461844 / 2^24 = 0.361190140...
+        // At the threshold it begins to turn to foam, in a time of 0.25 + 0.25 * 7461844 / 2^24 =
+        // 0.361190140...
         let out = one(&mut phases, dt, 7, 10.0);
         assert_eq!(out, Out { foam: 0.0, age: 0.125, phase: Phase::WaterToFoam });
         let lifetime = 0.361_190_14_f32;
@@ -317,7 +319,7 @@ mod tests {
         };
         assert_eq!((entry(&phases, 7), phases.changed, phases.drawn), (way, 1, 1));
 
-        // Slow water does not turn it back on the way.
+        // A lower speed does not stop the transition.
         for left in [0.236_190_14, 0.111_190_14] {
             let out = one(&mut phases, dt, 7, 0.0);
             assert_eq!(out.phase, Phase::WaterToFoam);
@@ -330,12 +332,12 @@ mod tests {
         assert_eq!((phases.changed, phases.drawn), (1, 0));
         assert_eq!(entry(&phases, 7).timer, -0.013_809_86);
 
-        // Foam it stays at the threshold.
+        // At the threshold foam stays foam.
         let out = one(&mut phases, dt, 7, 10.0);
         assert_eq!(out, Out { foam: 1.0, age: 0.625, phase: Phase::Foam });
         assert_eq!(phases.changed, 0);
 
-        // And back in a time of 0.5 + 11415383 / 2^24 = 1.180409848..., which ties to the even.
+        // It turns back in a time of 0.5 + 11415383 / 2^24 = 1.180409848..., which ties to even.
         let out = one(&mut phases, dt, 7, 9.999);
         assert_eq!(out, Out { foam: 1.0, age: 0.75, phase: Phase::FoamToWater });
         let lifetime = 1.180_409_9_f32;
@@ -349,7 +351,7 @@ mod tests {
         };
         assert_eq!((entry(&phases, 7), phases.changed, phases.drawn), (way, 1, 1));
 
-        // Fast water does not turn it back on the way: 9 steps are 1.125.
+        // A higher speed does not stop the transition: 9 steps are 1.125.
         for step in 1..=9_u8 {
             let out = one(&mut phases, dt, 7, 99.0);
             let left = lifetime - f32::from(step) * dt;
@@ -368,7 +370,7 @@ mod tests {
 
     #[test]
     fn timers_are_rounded_at_each_step() {
-        // 22 steps of 1/60 there and 71 back, and the rest to the bit.
+        // 22 steps of 1/60 to foam, 71 back, and the remaining time to the bit.
         let mut phases = Phases::default();
         let dt = 1.0 / 60.0;
         assert_eq!(one(&mut phases, dt, 7, 10.0).phase, Phase::WaterToFoam);
@@ -420,7 +422,7 @@ mod tests {
         phases.step(&long, 0.125, &[particle(7, 0.0)]);
         assert_eq!(entry(&phases, 7).lifetime, 2.360_819_8);
 
-        // None at all: over in the next step, even one without time.
+        // With a lifetime of 0 foam ends in the next step, even in one of 0 s.
         phases.map.insert(7, foam);
         let none = Settings { foam_lifetime: 0.0, ..settings() };
         assert_eq!(phases.step(&none, 0.125, &[particle(7, 0.0)])[0].foam, 1.0);
@@ -478,7 +480,8 @@ mod tests {
         let (mut forwards, mut backwards) = (Phases::default(), Phases::default());
         let mut drawn = 0;
         for step in 0..200 {
-            // Gusts, and an eighth that comes and goes.
+            // The Weber number changes every 10 steps, and an eighth of the particles comes and
+            // goes.
             let mut particles: Vec<_> = (0..64)
                 .filter(|id| id % 8 != 0 || step / 50 % 2 == 0)
                 .map(|id| particle(id, 20.0 * random(9, step / 10, id)))
@@ -500,7 +503,7 @@ mod tests {
         let foam = |weber| stateless(&settings(), [0.0, 1.0, 0.0], weber);
         assert_eq!([0.0, 5.0, 7.5, 10.0, 15.0, 99.0].map(foam), [0.0, 0.0, 0.25, 0.5, 1.0, 1.0]);
         assert_eq!([-10.0, f32::INFINITY, f32::NAN].map(foam), [0.0, 1.0, 0.0]);
-        // 0 / 0 is not a number.
+        // 0 / 0 is NaN.
         assert_eq!(stateless(&Settings::new(1.0, 0.0), [0.0; 3], 1.0), 0.0);
         assert_eq!(stateless(&Settings::new(1.0, 0.0), [1.0; 3], 1.0), 1.0);
     }

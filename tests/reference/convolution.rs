@@ -1,5 +1,5 @@
-//! Pass `convolution`: the Fourier basis of a shadow map, and its reconstruction (Annen et al. 2007, with the
-//! differences that the pass's header lists).
+//! Twin of pass `convolution`: the Fourier basis of a shadow map, and its reconstruction (Annen et
+//! al. 2007, with the differences that the pass's header lists).
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -10,10 +10,10 @@ use super::Image;
 use crate::support::rounded::{Rounded, exact, off};
 use crate::support::tolerance::U;
 
-/// What Vulkan allows a sine or a cosine about 0.
+/// Error that Vulkan permits for sine and cosine.
 const WAVE: f64 = 1.0 / 2048.0;
 
-/// How the basis is made and read.
+/// How the basis is computed and evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Filter {
     pub terms: usize,
@@ -25,20 +25,20 @@ pub struct Filter {
     pub scale: f64,
 }
 
-/// A host's shadow map, the part that is meant.
+/// A host's shadow map, only the part that is used.
 pub struct Convolved<'a> {
     pub depth: &'a Image<f32>,
     pub view_projection: DMat4,
     pub bias: f64,
-    /// To the sun.
+    /// Direction to the sun.
     pub sun: DVec3,
     pub reversed: bool,
     pub filter: Filter,
-    /// Ramp and span, found once.
+    /// Ramp and span, computed once.
     pub found: OnceLock<(f64, Option<[Rounded; 2]>)>,
 }
 
-/// The read basis, all pages side by side.
+/// The basis as read back, all pages side by side.
 pub type Pages = Image<[f32; 4]>;
 
 impl Filter {
@@ -46,19 +46,19 @@ impl Filter {
         (2 * k - 1) as f64 * PI
     }
 
-    /// Weight of term k from 1 on.
+    /// Weight of term k, counted from 1.
     fn weight(&self, k: usize) -> f64 {
         let part = (k as f64 - 0.5) / self.terms as f64;
         2.0 / Self::c(k) * (-self.damping * part * part).exp()
     }
 
-    /// The step at t from the contact.
+    /// The step function at a distance t from the contact.
     pub fn step(&self, t: f64) -> f64 {
         let sum: f64 = (1..=self.terms).map(|k| self.weight(k) * (Self::c(k) * t).sin()).sum();
         0.5 + self.scale * sum
     }
 
-    /// Where the step first is whole, or highest, as far as the pass looks.
+    /// Where the step first reaches 1, or its first max, within the range that the pass searches.
     fn ramp(&self) -> f64 {
         let most = 0.85 / self.terms as f64;
         let at = |i: usize| self.step(most * i as f64 / 256.0);
@@ -72,26 +72,26 @@ impl Convolved<'_> {
         if self.reversed { depth <= 0.0 } else { depth >= 1.0 }
     }
 
-    /// What is even away from the light, of a device depth so exact.
+    /// Linear distance along the light, for a device depth with an error.
     fn along(&self, z: Rounded) -> Rounded {
         let rows = self.view_projection.transpose();
         let (depth, w) = (rows.z_axis, rows.w_axis);
         if w.truncate().length() == 0.0 {
             return if self.reversed { -z } else { z };
         }
-        // The plane through that depth, by its distance from the light.
+        // The plane with that depth, by its distance from the light.
         let from = depth.truncate().dot(w.truncate()) / w.truncate().length_squared();
         let by = depth.w - from * w.w;
         let by = Rounded { v: by, e: 12.0 * U * (depth.w.abs() + (from * w.w).abs()) };
         by / (z - off(from, 12.0))
     }
 
-    /// From where on the step is whole.
+    /// Distance from the contact at which the step is complete.
     pub fn ramp(&self) -> f64 {
         self.found.get_or_init(|| (self.filter.ramp(), self.find_span())).0
     }
 
-    /// Nearest and farthest depth of what is there.
+    /// Nearest and farthest depth in the map.
     fn span(&self) -> Option<[Rounded; 2]> {
         self.found.get_or_init(|| (self.filter.ramp(), self.find_span())).1
     }
@@ -105,7 +105,7 @@ impl Convolved<'_> {
         })
     }
 
-    /// Place of an even depth in the span.
+    /// Position of a linear depth in the span.
     fn place(&self, [near, far]: [Rounded; 2], even: Rounded) -> Rounded {
         let least = 1e-5 * near.v.abs().max(far.v.abs()) + 1e-30;
         let length = far - near;
@@ -113,21 +113,21 @@ impl Convolved<'_> {
         (even - near) / length * off(1.0 - 4.0 * self.ramp(), 64.0)
     }
 
-    /// How far a texel's depth lies behind another depth, in the span's unit.
+    /// Distance of a texel's depth behind another depth, in units of the span.
     pub fn behind(&self, texel: f32, z: f64) -> f64 {
         let (Some(span), false) = (self.span(), self.open(texel)) else { return 1.0 };
         let place = |z: f64| self.place(span, self.along(exact(z))).v;
         place(f64::from(texel)) - place(z)
     }
 
-    /// The map's texels in one of the basis', and the basis' size.
+    /// Width in texels of the map that a texel of the basis covers, and the size of the basis.
     pub fn size(&self) -> (usize, [usize; 2]) {
         let [w, h] = [self.depth.width, self.depth.height];
         let edge = w.max(h).div_ceil(self.filter.texels);
         (edge, [w.div_ceil(edge), h.div_ceil(edge)])
     }
 
-    /// Half the box in the basis' texels.
+    /// Half of the filter's width, in texels of the basis.
     fn reach(&self) -> f64 {
         (0.5 * self.filter.width / self.size().0 as f64).max(0.5)
     }
@@ -138,7 +138,7 @@ impl Convolved<'_> {
         Image::from_fn(image.width, image.height, |x, y| {
             let mut sum = [0.0; 2];
             for i in -most..=most {
-                // What of the texel lies in the box.
+                // Fraction of the texel inside the box.
                 let weight = (reach + 0.5 - (i as f64).abs()).clamp(0.0, 1.0) / (2.0 * reach);
                 let at = image.clamped(x as isize + i * step[0], y as isize + i * step[1]);
                 sum = [sum[0] + weight * at[0], sum[1] + weight * at[1]];
@@ -172,16 +172,17 @@ impl Convolved<'_> {
         self.boxed(&self.boxed(&blocks, [1, 0]), [0, 1])
     }
 
-    /// How far off a number of the basis may be.
+    /// Error of a number of the basis.
     pub fn basis_error(&self, k: usize) -> f64 {
-        // The place of a texel turns by c_k; an ulp of half the turns, one of the whole angle.
+        // The error of a texel's position is multiplied by c_k; then half an ulp of the number of
+        // turns, and one of the angle.
         let there = self.depth.data.iter().filter(|d| !self.open(**d));
         let places = self.span().into_iter().flat_map(|span| {
             there.clone().map(move |d| self.place(span, self.along(exact(f64::from(*d)))).e)
         });
         let place = places.fold(64.0 * U, f64::max);
         let turned = Filter::c(k) * place + 8.0 * U * Filter::c(k);
-        // A page is stored in half precision twice, which may be cut off; sums of so many.
+        // Pages are stored in half precision twice, which may truncate; then the sums.
         let (edge, taps) = (self.size().0 as f64, 2.0 * self.reach() + 3.0);
         let sums = U * (edge * edge + 2.0 * taps + 8.0);
         let stored = match self.filter.bits {
@@ -191,13 +192,13 @@ impl Convolved<'_> {
         WAVE + turned + 2.0 / 2048.0 + sums + stored
     }
 
-    /// Where a page begins.
+    /// First texel of a page.
     pub fn corner(&self, page: usize) -> [usize; 2] {
         [page / 2, page % 2].map(|i| i * (self.filter.texels + 2) + 1)
     }
 
-    /// The share of the sun at a point which is so many metres off, by the basis that was read; `bits`
-    /// of the place between texels are kept.
+    /// Fraction of sunlight at a point with this error in metres, from the basis as read back. A
+    /// filter keeps `bits` bits of the position between texels.
     pub fn past(&self, pages: &Pages, p: DVec3, by: f64, bits: u32) -> Rounded {
         let Some(place) = self.seen(p, by) else { return exact(1.0) };
         let Some(span) = self.span() else { return exact(1.0) };
@@ -241,18 +242,19 @@ impl Convolved<'_> {
             }
         }
         let moved = at[0].e + at[1].e + 2.0 * f64::powi(2.0, -(bits as i32));
-        // Texels are a few hundred at most: their place in the whole image is so exact.
+        // Error of the position in the whole image, which is a few hundred texels wide.
         let moved = moved + 4.0 * U * pages.width.max(pages.height) as f64;
         let lit = Rounded { v: sum.v, e: sum.e + moved * (high - low) }.clamp(0.0, 1.0);
         if unsure { Rounded { v: lit.v, e: lit.e + 1.0 - lit.v } } else { lit }
     }
 
-    /// Place in the map 0 to 1 and depth of a point, and whether it may be outside; none: it is.
+    /// Position in the map, 0 to 1, and depth of a point, and whether it may be outside. None if it
+    /// is outside.
     pub fn seen(&self, p: DVec3, by: f64) -> Option<([Rounded; 2], Rounded, bool)> {
         let p = p + self.bias * self.sun.normalize();
         let rows = self.view_projection.transpose();
         let clip = self.view_projection * p.extend(1.0);
-        // Four products and sums a row, two roundings of the point.
+        // Four products and sums per row, and two roundings of the point.
         let row = |v: f64, row: glam::DVec4| {
             let length = row.truncate().length();
             let e = length * (by + 2.0 * U * p.length())

@@ -1,23 +1,23 @@
-//! Twin of the culling (thesis Sec. 4.3): bounding spheres against
-//! the frustum, spray apart by density, and the radius of thin water,
-//! `r (0.5 + 0.5 smoothstep(threshold, full, density / rest))`.
+//! Twin of the culling (thesis Sec. 4.3): bounding spheres against the frustum, spray selected by
+//! density, and the radius of thin water, `r (0.5 + 0.5 smoothstep(threshold, full, density /
+//! rest))`.
 
 use super::{Sphere, View, smoothstep};
 use glam::{DVec3, DVec4};
 
-/// What the culling goes by.
+/// Settings of the culling.
 #[derive(Clone, Copy, Debug)]
 pub struct CullParams {
-    /// The drawn radius of a whole particle.
+    /// Drawn radius of a whole particle.
     pub radius: f64,
-    /// The density of water at rest.
+    /// Rest density of water.
     pub rest_density: f64,
-    /// Below this fraction of the rest density a particle is spray.
+    /// Fraction of the rest density below which a particle is spray.
     pub density_threshold: f64,
-    /// From this fraction on a particle has its whole radius.
+    /// Fraction from which on a particle has its whole radius.
     pub density_full: f64,
-    /// The bounding sphere's radius in (density-scaled) drawn radii: 2 keeps all that adds to the
-    /// thickness.
+    /// Radius of the bounding sphere in (density-scaled) drawn radii: 2 contains everything that
+    /// adds to the thickness.
     pub bound: f64,
 }
 
@@ -28,7 +28,7 @@ impl CullParams {
     }
 }
 
-/// What is left, in the order of the particles.
+/// The remaining particles, in their order.
 #[derive(Clone, Debug, Default)]
 pub struct Culled {
     /// Water in the frustum.
@@ -39,13 +39,13 @@ pub struct Culled {
     pub spray: Vec<Sphere>,
     /// The particle of each sphere in `spray`.
     pub spray_index: Vec<usize>,
-    /// Particles whose position or density is not a finite number.
+    /// Number of particles whose position or density is not finite.
     pub dropped: usize,
 }
 
-/// The planes of the frustum in eye space, pointing inwards: the sums and differences of the
-/// projection's rows that are not negative inside, `-w <= x, y <= w` and `0 <= z <= w`. A far
-/// plane at infinity has no direction and is left out.
+/// The planes of the frustum in eye space, pointing inwards: sums and differences of the
+/// projection's rows that are not negative inside, `-w <= x, y <= w` and `0 <= z <= w`. A far plane
+/// at infinity has no direction and is omitted.
 pub fn frustum(view: &View) -> Vec<DVec4> {
     let [x, y, z, w] = [0, 1, 2, 3].map(|row| view.projection.row(row));
     [w + x, w - x, w + y, w - y, z, w - z]
@@ -55,8 +55,8 @@ pub fn frustum(view: &View) -> Vec<DVec4> {
         .collect()
 }
 
-/// Culls the particles. Without densities all are water at rest; a density of 0 (or less) means a
-/// fresh particle, which is at rest too.
+/// Culls the particles. Without densities all are water at rest; so is a particle whose density is
+/// 0 or less, because the host has not computed it yet.
 pub fn cull(
     positions: &[[f32; 3]],
     densities: Option<&[f32]>,
@@ -122,7 +122,7 @@ mod tests {
         for depth in
             [Depth::Standard, Depth::Reversed, Depth::StandardInfinite, Depth::ReversedInfinite]
         {
-            // Half angle 45 degrees: the side planes are x = d and the like.
+            // A half angle of 45 degrees: the side planes are x = d and the like.
             let p = projection(DVec2::new(1.0, -1.0), DVec2::ZERO, depth);
             let eye = DMat4::from_translation(DVec3::new(-3.0, 0.0, 0.0));
             let view = View::new(eye, p, 8, 8).expect("a valid view");

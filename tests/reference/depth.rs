@@ -1,11 +1,11 @@
-//! Twin of the depth splats (thesis Sec. 4.6.1): the nearest intersection of the pixel's ray with any
-//! sphere. With `w = (s_x, s_y, -1)` the ray, `t w` lies at the depth t, and the near root is
-//! `t = (w.c - sqrt(w^2 (r^2 - |c - w (w.c) / w^2|^2))) / w^2`.
+//! Twin of the depth splats (thesis Sec. 4.6.1): the nearest intersection of a pixel's ray with any
+//! sphere. With the ray `w = (s_x, s_y, -1)`, `t w` has the depth t, and the near root is `t = (w.c
+//! - sqrt(w^2 (r^2 - |c - w (w.c) / w^2|^2))) / w^2`.
 
 use super::{EMPTY, Image, Sphere, View};
 use glam::{DVec2, DVec3};
 
-/// The depth at which a ray enters a sphere, if it meets it: negative behind the eye.
+/// Depth at which a ray enters a sphere, if it meets it; negative behind the eye.
 pub fn hit(ray: DVec3, sphere: &Sphere) -> Option<f64> {
     let length_squared = ray.length_squared();
     let middle = ray.dot(sphere.center) / length_squared;
@@ -14,13 +14,13 @@ pub fn hit(ray: DVec3, sphere: &Sphere) -> Option<f64> {
     (inside >= 0.0).then(|| middle - (inside / length_squared).sqrt())
 }
 
-/// The depth of the nearest sphere in each pixel. A hit nearer than the near plane counts for
-/// nothing; the far root never replaces it.
+/// Depth of the nearest sphere in each pixel. A hit before the near plane is dropped, and not
+/// replaced by the far root.
 pub fn splat(spheres: &[Sphere], view: &View) -> Image<f64> {
     splat_where(spheres, view, |_, _, _| true)
 }
 
-/// The same of those spheres that count at a pixel.
+/// The same with only those spheres that count at a pixel.
 pub fn splat_where(
     spheres: &[Sphere],
     view: &View,
@@ -80,7 +80,8 @@ mod tests {
         let view = view(DVec2::ONE, DVec2::ZERO, 5, 5);
         let at = |d: f64| Sphere { center: DVec3::new(0.0, 0.0, -d), radius: 1.0 };
         assert!((splat(&[at(7.0), at(5.0), at(9.0)], &view).at(2, 2) - 4.0).abs() < 1e-12);
-        // The eye within, the near root before the near plane (0.1), behind the eye.
+        // The eye is inside, the near root lies before the near plane (0.1), or the sphere is
+        // behind the eye.
         for d in [0.5, 1.05, -3.0] {
             assert_eq!(splat(&[at(d)], &view).at(2, 2), EMPTY);
         }

@@ -1,14 +1,14 @@
-//! Twin of the environment: the cube of an equirectangular image and of the built-in sky, and its
-//! mips. Cube faces as the Vulkan specification selects them ("Cube Map Face Selection"); the map's
-//! columns run round the horizon, west to east as seen from its middle, its rows from the zenith
-//! down.
+//! Twin of the environment: the cube map of an equirectangular image and of the built-in sky, and
+//! its mip levels. Cube faces are selected as in the Vulkan specification ("Cube Map Face
+//! Selection"). The map's columns go around the horizon, from west to east as seen from the middle;
+//! its rows go down from the zenith.
 
 use super::{Image, smoothstep};
 use crate::support::tolerance::U;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Of each face +x −x +y −y +z −z: its axis, and the directions in which s and t grow.
+/// For each face +x −x +y −y +z −z: its axis, and the directions of increasing s and t.
 const FACES: [[DVec3; 3]; 6] = [
     [DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y],
     [DVec3::NEG_X, DVec3::Z, DVec3::NEG_Y],
@@ -18,13 +18,13 @@ const FACES: [[DVec3; 3]; 6] = [
     [DVec3::NEG_Z, DVec3::NEG_X, DVec3::NEG_Y],
 ];
 
-/// The direction through a position (0 to 1) on a face; not of unit length.
+/// The direction through a position (0 to 1) on a face; not normalized.
 pub fn direction(face: usize, st: DVec2) -> DVec3 {
     let [axis, s, t] = FACES[face];
     axis + s * (2.0 * st.x - 1.0) + t * (2.0 * st.y - 1.0)
 }
 
-/// The face a direction meets, and where on it.
+/// The face that a direction meets, and the position on it.
 pub fn face_of(d: DVec3) -> (usize, DVec2) {
     let face = (0..6).max_by(|a, b| FACES[*a][0].dot(d).total_cmp(&FACES[*b][0].dot(d)));
     let face = face.unwrap_or(0);
@@ -32,25 +32,24 @@ pub fn face_of(d: DVec3) -> (usize, DVec2) {
     (face, (DVec2::new(s.dot(d), t.dot(d)) / axis.dot(d) + 1.0) / 2.0)
 }
 
-/// Where a direction is found in an equirectangular map, in its texels: the middle column lies
-/// along −z, the right quarter along +x. A positive turn carries the map from −z towards −x, as a
-/// right-handed rotation about +y does.
+/// Position of a direction in an equirectangular map, in texels: the middle column is −z, the
+/// column at three quarters is +x. A positive turn moves the map from −z towards −x, like a
+/// right-handed rotation about +y.
 pub fn map_position(d: DVec3, turn: f64, width: usize, height: usize) -> DVec2 {
     let east = d.x.atan2(-d.z) + turn;
     let down = DVec2::new(d.x, d.z).length().atan2(d.y);
     DVec2::new((east / TAU + 0.5) * width as f64, down / PI * height as f64)
 }
 
-/// A map's values round a position.
+/// A map's values around a position.
 pub struct Sample {
-    /// The bilinear mean of the four texels; the map closes on itself from left to right.
+    /// Bilinear mean of four texels; the map wraps around horizontally.
     pub value: DVec3,
-    /// How much the value changes, at most, where the position moves by a texel in x or in y.
+    /// Max change of the value per texel in x and in y.
     pub slope: [DVec3; 2],
 }
 
-/// A sample of a map. `nudge`: by how many texels the position may be off, which may take it to
-/// other texels.
+/// Samples a map. `nudge`: error of the position in texels, which may select other texels.
 pub fn sample(map: &Image<[f32; 4]>, at: DVec2, nudge: DVec2) -> Sample {
     let texel = |x: isize, y: isize| {
         let x = x.rem_euclid(map.width as isize);
@@ -74,15 +73,17 @@ pub fn sample(map: &Image<[f32; 4]>, at: DVec2, nudge: DVec2) -> Sample {
     Sample { value: top.lerp(bottom, f.y), slope }
 }
 
-/// The four positions on a face whose mean a texel of the cube is: the middles of its quarters.
+/// The four positions on a face that are averaged for a texel of the cube: the centres of its
+/// quarters.
 pub fn quarters(x: usize, y: usize, size: usize) -> [DVec2; 4] {
     [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)]
         .map(|(dx, dy)| DVec2::new(x as f64 + dx, y as f64 + dy) / size as f64)
 }
 
-/// The air, in kilometres (scattering per km at sea level; what an aerosol takes from a ray is 0.11 more than it scatters;
-/// scale heights): Rayleigh's 13.5e-3 at 550 nm of Bruneton and Neyret 2008 by the fourth power of the wavelength, an optical
-/// depth of the aerosol of 0.1 at 550 nm by its power 1.3, at 645, 553 and 443 nm.
+/// Constants of the air in km: scattering per km at sea level, extinction of the aerosol (0.11 more
+/// than it scatters) and scale heights. Rayleigh: 13.5e-3 at 550 nm (Bruneton and Neyret 2008), by
+/// the fourth power of the wavelength. Aerosol: an optical depth of 0.1 at 550 nm, by the power
+/// 1.3. Wavelengths are 645, 553 and 443 nm.
 const EARTH: f64 = 6360.0;
 const TOP: f64 = 6420.0;
 const RAYLEIGH: DVec3 = DVec3::new(7.14e-3, 13.21e-3, 32.08e-3);
@@ -90,25 +91,26 @@ const MIE: DVec3 = DVec3::new(67.7e-3, 82.7e-3, 110.4e-3);
 const MIE_LOSS: f64 = 1.11;
 const HEIGHTS: DVec2 = DVec2::new(8.0, 1.2);
 
-/// Steps of the quadrature: along a ray and from there to the sun; both grow as odd numbers.
+/// Steps of the quadrature: along a ray, and from there to the sun. Their lengths grow like odd
+/// numbers.
 #[derive(Clone, Copy)]
 pub struct Steps {
     pub along: usize,
     pub sun: usize,
 }
 
-/// Those of the built-in sky.
+/// The steps of the built-in sky.
 pub const SKY_STEPS: Steps = Steps { along: 24, sun: 12 };
 
-/// A value and how far single precision may be off it.
+/// A value and its error in single precision.
 #[derive(Clone, Copy)]
 pub struct Rounded<T> {
     pub value: T,
     pub error: T,
 }
 
-/// How far from a point inside the air it ends. The root's square is a difference of squares of
-/// the radius, three roundings and a root of 10u.
+/// Distance from a point in the air to the air's end. The root's argument is a difference of
+/// squared radii with three roundings; the root errs by 10u.
 fn air_ends(p: DVec3, d: DVec3) -> Rounded<f64> {
     let b = p.dot(d);
     let square = b * b - p.length_squared() + TOP * TOP;
@@ -117,9 +119,9 @@ fn air_ends(p: DVec3, d: DVec3) -> Rounded<f64> {
     Rounded { value: root - b, error }
 }
 
-/// Rayleigh's and Mie's density at a point `t` along a ray whose length there is off by
-/// `uncertain`. The height is the root (10u) of a sum of squares (5u before the root), less the
-/// earth's radius; the cosine is of 10u. An exponential is off by (6 + 4 |x|) u.
+/// Density of Rayleigh and Mie scattering at distance t along a ray, where t errs by `uncertain`.
+/// The height is the root (10u) of a sum of squares (5u before the root), minus the earth's radius;
+/// the cosine errs by 10u. An exponential errs by (6 + 4 |x|) u.
 fn density(p: DVec3, t: f64, uncertain: f64) -> Rounded<DVec2> {
     let height = (p.length() - EARTH).max(0.0) / HEIGHTS;
     let off = (U * (12.5 * p.length() + 10.0 * t) + uncertain) / HEIGHTS;
@@ -127,7 +129,7 @@ fn density(p: DVec3, t: f64, uncertain: f64) -> Rounded<DVec2> {
     Rounded { value, error: value * (off + U * (6.0 + 4.0 * height)) }
 }
 
-/// Density times length from a point up to the end of the air, by midpoints.
+/// Density times length from a point to the end of the air, by midpoints.
 fn optical_depth(p: DVec3, d: DVec3, steps: usize) -> Rounded<DVec2> {
     let end = air_ends(p, d);
     let mut sum = Rounded { value: DVec2::ZERO, error: DVec2::ZERO };
@@ -152,10 +154,11 @@ fn transmittance(depth: Rounded<DVec2>) -> Rounded<DVec3> {
     Rounded { value, error }
 }
 
-/// The radiance of the sky under a sun of unit irradiance, seen 50 m above the sea. A ray's light is
-/// what one scattering turns from the sun into it; rays lower than 0.003 are that one. What scatters
-/// more often adds 0.072 h / (h + 0.12) of the sun's height h where the air without its aerosol is thick. Under the horizon
-/// the ground, a whitewater 0.22 in the light of sun and sky, fades in down to 0.12.
+/// Radiance of the sky under a sun of unit irradiance, seen 50 m above the sea. A ray has the light
+/// of single scattering; rays lower than 0.003 have that of 0.003. Multiple scattering adds 0.072 h
+/// / (h + 0.12), with h the sun's height, where the air without its aerosol is thick. Below the
+/// horizon, the ground with an albedo of 0.22 in the light of sun and sky fades in, completely at
+/// -0.12.
 pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
     let eye = DVec3::Y * (EARTH + 0.05);
     let d = direction.with_y(direction.y.max(0.003)).normalize();
@@ -166,7 +169,7 @@ pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
     let mut error = [DVec3::ZERO; 2];
     for i in 0..steps.along {
         let [from, to] = [i, i + 1].map(|i| end.value * (i as f64 / n).powi(2));
-        // The square by pow: log2(1/24) to 3 ulp, exp2 of twice that.
+        // The square is computed by pow: log2(1/24) errs by 3 ulp, exp2 by twice that.
         let uncertain = end.error + 100.0 * U * to;
         let (t, size) = ((from + to) / 2.0, to - from);
         let p = eye + d * t;
@@ -174,7 +177,7 @@ pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
         let off = here.error * size + here.value * 2.0 * uncertain;
         let here = here.value * size;
 
-        // The sun is never lower than 0.05 under the point's own horizon.
+        // The sun is taken at most 0.05 below the point's own horizon.
         let up = p.normalize();
         let cosine = up.dot(sun);
         let level = (sun - up * cosine).normalize_or_zero();
@@ -197,7 +200,7 @@ pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
     let rayleigh = RAYLEIGH * (3.0 / (16.0 * PI) * (1.0 + mu * mu));
     let mie = MIE * 3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + mu * mu)
         / ((2.0 + g * g) * beyond.powf(1.5));
-    // pow: log2 to 2^-21 near 1 or 3 ulp of at most 4.1; the cosine is of 10u.
+    // pow: log2 errs by 2^-21 near 1, or 3 ulp of at most 4.1; the cosine errs by 10u.
     let phase = U * (40.0 + 3.0 * g * 10.0 / beyond);
     let once = sum[0] * rayleigh + sum[1] * mie;
     let thick = (-(RAYLEIGH * passed.value.x)).exp();
@@ -216,7 +219,7 @@ pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
         error: 0.22 * lit * daylight.error + 20.0 * U,
     };
     let below = 1.0 - smoothstep(-0.12, 0.0, direction.y);
-    // Its slope is 1.5 over 0.12 at most.
+    // The max slope of the smoothstep is 1.5 over 0.12.
     let mixing = (ground.value - air.value).abs() * (1.5 / 0.12 * 8.0 + 8.0) * U;
     Rounded {
         value: air.value.lerp(ground.value, below),
@@ -236,7 +239,7 @@ mod tests {
                 let (found, at) = face_of(direction(face, st) * 3.0);
                 assert!(found == face && (at - st).length() < 1e-12);
             }
-            // s × t looks outwards on every face or inwards on every face: no face is mirrored.
+            // s × t points inwards on every face, so no face is mirrored.
             assert_eq!(s.cross(t), -axis);
         }
     }
@@ -258,7 +261,7 @@ mod tests {
         assert!((at(turned, turn) - DVec2::new(200.0, 100.0)).length() < 1e-9);
     }
 
-    /// What the quadrature of the built-in sky is worth: a few parts in a hundred.
+    /// The error of the built-in sky's quadrature is a few hundredths.
     #[test]
     fn the_skys_steps_are_enough() {
         let fine = Steps { along: 400, sun: 200 };
@@ -276,7 +279,7 @@ mod tests {
         assert!(worst > 1e-4 && worst < 0.04, "{worst}");
     }
 
-    /// Uniform numbers from 0 to 1 (splitmix64).
+    /// Uniform random numbers from 0 to 1 (splitmix64).
     struct Dice(u64);
 
     impl Dice {
@@ -288,14 +291,14 @@ mod tests {
         }
     }
 
-    /// Of sunlight, what comes down to level ground of albedo 0.2 scattered, however often: photons in layers of air and
-    /// aerosol over a plane.
+    /// Fraction of sunlight that reaches level ground with an albedo of 0.2 after any number of
+    /// scatterings: photons in plane layers of air and aerosol.
     fn scattered(channel: usize, height: f64, photons: usize) -> f64 {
         let mut dice = Dice(7 + channel as u64);
         let sea = [RAYLEIGH[channel], MIE_LOSS * MIE[channel]];
         let above = |z: f64| [0, 1].map(|i| sea[i] * HEIGHTS[i] * (-z / HEIGHTS[i]).exp());
         let whole: f64 = above(0.0).iter().sum();
-        // Height at an optical depth from the top, by halving.
+        // Height at an optical depth from the top, by bisection.
         let height_of = |depth: f64| {
             let (mut low, mut high) = (0.0, 200.0);
             for _ in 0..40 {
@@ -317,7 +320,7 @@ mod tests {
                 let turn = DVec2::from_angle(TAU * dice.roll());
                 if depth >= whole {
                     down += if order > 0 { weight } else { 0.0 };
-                    // Diffuse ground.
+                    // Diffuse reflection by the ground.
                     let square = dice.roll();
                     let across = turn * square.sqrt();
                     ray = DVec3::new(across.x, (1.0 - square).sqrt(), across.y);
@@ -327,13 +330,14 @@ mod tests {
                 let z = height_of(depth);
                 let here = [0, 1].map(|i| sea[i] * (-z / HEIGHTS[i]).exp());
                 let cosine = if dice.roll() * (here[0] + here[1]) < here[0] {
-                    // Rayleigh's 3/8 (1 + c^2), by its inverse.
+                    // Rayleigh's 3/8 (1 + c^2), sampled by its inverse.
                     let q = 4.0 * dice.roll() - 2.0;
                     let root = (q + (q * q + 1.0).sqrt()).cbrt();
                     root - root.recip()
                 } else {
                     weight /= MIE_LOSS;
-                    // Of Henyey and Greenstein: its mean cosine is that of the sky's phase function but for a hundredth.
+                    // Henyey-Greenstein: its mean cosine differs from that of the sky's phase
+                    // function by a hundredth.
                     let g = 0.76_f64;
                     let part = (1.0 - g * g) / (1.0 - g + 2.0 * g * dice.roll());
                     (1.0 + g * g - part * part) / (2.0 * g)
@@ -346,8 +350,8 @@ mod tests {
         height * down / photons as f64
     }
 
-    /// The term for what scatters often makes the sky as bright as it is: its light on level ground is within 6 % of a Monte
-    /// Carlo solution, and three standard errors of that.
+    /// With the term for multiple scattering the sky is as bright as it should be: its light on
+    /// level ground is within 6 % of a Monte Carlo solution, plus three standard errors of that.
     #[test]
     fn the_sky_is_as_bright_as_air_makes_it() {
         for degrees in [35.0_f64, 53.0, 90.0] {
@@ -356,7 +360,7 @@ mod tests {
             let (rings, turns) = (12, 24);
             let mut light = DVec3::ZERO;
             for (i, j) in (0..rings).flat_map(|i| (0..turns).map(move |j| (i, j))) {
-                // Even in the square of the cosine: weighted by it.
+                // Uniform in the squared cosine, which weights directions by the cosine.
                 let square = (f64::from(i) + 0.5) / f64::from(rings);
                 let turn = DVec2::from_angle(TAU * (f64::from(j) + 0.5) / f64::from(turns));
                 let across = turn * (1.0 - square).sqrt();

@@ -1,8 +1,9 @@
-//! Twin of the choice among the levels of the smoothing: a surface that would take n iterations at the
-//! first one, as many as `smooth::plan` says without what it adds, takes n / 4^k at the k-th. As long as
-//! n is no more than a quarter of the cap (without that) it shows the first; up to half the cap the second
-//! fades in; from there to the whole cap it shows the second, which then takes a quarter of it at most, and so on.
-//! A level is smoothed where it shows or would if n were a quarter more or a fifth less.
+//! Twin of the selection of smoothing levels. A surface that needs n iterations at the first level
+//! (as in `smooth::plan`, without the additional ones) needs n / 4^k at level k. Up to n of a
+//! quarter of the cap (without the additional ones) the first level is shown; up to half the cap
+//! the second fades in; from there to the whole cap the second is shown, which needs at most a
+//! quarter of the cap, and so on. A level is smoothed where it is shown, or would be if n were a
+//! quarter larger or a fifth smaller.
 
 use glam::DVec2;
 
@@ -12,18 +13,18 @@ use super::{Image, View, is_surface};
 /// The levels of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
-    /// Of the frame, at full resolution.
+    /// View of the frame at full resolution.
     pub view: View,
     /// The configured level.
     pub first: u32,
-    /// How many coarser ones there are.
+    /// Number of coarser levels.
     pub coarser: u32,
-    /// What is smoothed, and the cap.
+    /// Settings of the smoothing, with the cap.
     pub params: Params,
 }
 
 impl Levels {
-    /// n over a quarter of the cap.
+    /// n divided by a quarter of the cap.
     pub fn nearness(&self, slope: DVec2, depth: f64) -> f64 {
         let (x, y) = (self.view.c_x(), self.view.c_y());
         let sigma = self.params.sigma_w / (x * depth * f64::from(1 << self.first));
@@ -32,16 +33,16 @@ impl Levels {
         4.0 * spread * sigma * sigma / (f64::from(self.params.cap) - MORE).max(1.0)
     }
 
-    /// Of a pixel at full resolution.
+    /// The nearness of a pixel at full resolution.
     pub fn nearness_at(&self, (x, y): (usize, usize), depth: f64) -> f64 {
         self.nearness(self.view.ray(x, y).truncate(), depth)
     }
 
-    /// The level that shows, from the first one on, and how much of the next one.
+    /// The shown level, counted from the first, and the fraction of the next coarser one.
     pub fn shown(&self, nearness: f64) -> (usize, f64) {
         let coarser = self.coarser as usize;
         for level in 0..coarser {
-            // The next fades in from 1 to 2, 4 to 8, 16 to 32.
+            // The next level fades in from 1 to 2, 4 to 8, 16 to 32.
             let own = nearness / 4.0_f64.powi(level as i32);
             if own < 2.0 {
                 let part = own.max(1.0).log2();
@@ -51,14 +52,15 @@ impl Levels {
         (coarser, 0.0)
     }
 
-    /// Whether a level is smoothed there, counted from the first; that is the finest of its sheet, the coarsest.
+    /// Whether a level, counted from the first, is smoothed at this nearness; it may be the finest
+    /// or the coarsest of its sheet.
     pub fn is_wanted(&self, nearness: f64, level: u32, finest: bool, coarsest: bool) -> bool {
         let own = nearness / 4.0_f64.powi(level as i32);
         (finest || own >= 0.25 / 1.25) && (coarsest || own <= 2.0 * 1.25)
     }
 
-    /// The coarsest level that is made in each tile of the first one: in a tile of 16 by 16 texels that by the
-    /// nearest water in it which would show it if it took a quarter more iterations. Depth at full resolution.
+    /// The coarsest level that each tile of the first level needs (16x16 texels): by the nearest
+    /// water in it, if that needed a quarter more iterations. `depth`: at full resolution.
     pub fn needed(&self, depth: &Image<f64>) -> Image<u32> {
         let texels = self.view.reduced(self.first);
         let blocks = super::reduce::nearest(depth, self.first);
@@ -78,7 +80,7 @@ impl Levels {
         })
     }
 
-    /// Whether a tile of a coarser level is made: any of those under it needs it.
+    /// Whether a tile of a coarser level is computed: if any tile under it needs the level.
     pub fn is_made(&self, needed: &Image<u32>, level: u32, (x, y): (usize, usize)) -> bool {
         let side = 1_usize << level;
         let rows = y * side..((y + 1) * side).min(needed.height);
@@ -87,8 +89,8 @@ impl Levels {
         under.any(|(x, y)| needed.at(x, y) >= level)
     }
 
-    /// A coarser level's image of a frame, without what is left of a frame before: that is farther than a tile
-    /// from those that are made.
+    /// A coarser level's image without remains of earlier frames, which are more than a tile away
+    /// from computed tiles.
     pub fn made<T: Copy + Send + Sync>(
         &self,
         needed: &Image<u32>,
@@ -104,14 +106,14 @@ impl Levels {
     }
 }
 
-/// A frame's smoothed surfaces: of its first level, then of the coarser ones.
+/// The smoothed surfaces of a frame: of the first level, then of the coarser ones.
 pub struct Smoothed<'a> {
     pub levels: Levels,
     pub surfaces: Vec<&'a Image<f32>>,
 }
 
 impl Smoothed<'_> {
-    /// Depth of the surface in a pixel: of the level that shows most there.
+    /// Depth of the surface in a pixel, from the level with the larger weight.
     pub fn at(&self, at: (usize, usize), front: f32, falloff: f32) -> f64 {
         let Levels { first, .. } = self.levels;
         let (level, fade) = self.levels.shown(self.levels.nearness_at(at, f64::from(front)));

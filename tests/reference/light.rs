@@ -1,10 +1,11 @@
-//! Twin of the sunlight: the light maps, the caustics computed from them, and the light that reaches the scene.
+//! Twin of the sunlight: the light maps, the caustics computed from them, and the light that
+//! reaches the scene.
 //!
-//! The light's space is (u, v, d): place in the maps of a ball's silhouette, metres along the
-//! light.
-//! Numbers come as [`Rounded`] or between two where single precision decides something: the first
-//! particle of a texel, a multiple of a step, whether two depths are of one surface. A decision
-//! that rounding may turn opens the bounds by what it decides, and by nothing else.
+//! The light's space is (u, v, d): position in the maps, which cover a ball's silhouette, and
+//! metres along the light. Numbers are [`Rounded`], or bounds where single precision decides
+//! something: the first particle of a texel, a multiple of a step, whether two depths belong to one
+//! surface. Where rounding may change a decision, the bounds widen by the effect of that decision
+//! only.
 
 mod whitewater;
 
@@ -17,77 +18,79 @@ use crate::support::tolerance::{Between, U};
 use glam::{DMat4, DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Drawn radius of a whole particle over the spacing.
+/// Drawn radius of a particle of full density, in spacings.
 const RADIUS: f64 = 0.656;
-/// Parts that the light of a texel is counted in.
+/// The light of a texel is counted in this many units.
 const UNITS: f64 = 4096.0;
-/// Water over air.
+/// Refractive index of air divided by that of water.
 const ETA: f64 = 1.0 / 1.333;
-/// The waves that bend light are wider than an eighth of the depth, as far as eight texels go.
+/// Light is refracted by waves that are longer than this fraction of the water's thickness, up to
+/// this number of texels.
 const WAVES: (f64, f64) = (1.0 / 8.0, 8.0);
 
-/// What casts.
+/// A particle that casts a shadow.
 #[derive(Clone, Copy, Debug)]
 pub struct Particle {
     pub position: DVec3,
-    /// `None`: at rest.
+    /// `None`: the rest density.
     pub density: Option<f64>,
-    /// NaN: none.
+    /// Amount of foam; NaN counts as none.
     pub foam: f64,
 }
 
-/// What the light's maps go by.
+/// Inputs of the light maps.
 #[derive(Clone, Debug)]
 pub struct Light {
-    /// World direction to the sun.
+    /// Direction to the sun in world space.
     pub sun: DVec3,
-    /// The ball.
+    /// Centre of the ball that the maps cover.
     pub center: DVec3,
     pub radius: f64,
-    /// Edge of the maps.
+    /// Width of the maps in texels.
     pub texels: usize,
     pub spacing: f64,
-    /// Below the first no water, from the second on all of it, from the third on no spray.
+    /// Density below which there is no water, from which all of a particle is water, and from which
+    /// none is spray.
     pub densities: [f64; 3],
-    /// What a particle's spray takes of the light over what as much foam does.
+    /// Light that a particle's spray blocks, relative to as much foam.
     pub shade: f64,
-    /// Whether a particle has several droplets, so that its spray takes less the fewer it has.
+    /// Whether a particle has several droplets, so that its spray blocks less the fewer are drawn.
     pub several: bool,
-    /// Half-axis of the shadow of nothing but spray, where it is wider than water's.
+    /// Half-axis of the shadow of a particle that is only spray, if that is wider than water's.
     pub spread: f64,
-    /// Of the smoothing, in drawn radii.
+    /// Width of the smoothing and falloff of its depth, in drawn radii.
     pub width: f64,
     pub falloff: f64,
-    /// Lost per metre of water and of foam.
+    /// Extinction per metre of water and of foam.
     pub extinction: [f64; 3],
     pub foam_extinction: f64,
-    /// Of whitewater particles: half and exponent of what they cover.
+    /// Whitewater particles: thickness of half intensity, and exponent.
     pub intensity: [f64; 2],
     /// Small waves on level water.
     pub waves: Option<Waves>,
 }
 
-/// A frame's maps.
+/// The maps of a frame.
 #[derive(Clone, Debug)]
 pub struct Maps<'a> {
     pub front: &'a Image<f32>,
     pub thickness: &'a Image<[f32; 4]>,
     pub caustics: &'a Image<f32>,
-    /// Whitewater particles, where they cast.
+    /// Map of the whitewater particles, if they cast shadows.
     pub whitewater: Option<&'a Image<[f32; 4]>>,
 }
 
-/// What of a particle is drawn.
+/// The parts of a particle that are drawn.
 struct Share {
-    /// How much of a body it is.
+    /// Fraction of the drawn radius.
     bulk: Rounded,
-    /// How much of it is spray.
+    /// Fraction that is spray.
     spray: Rounded,
-    /// Water and foam.
+    /// Fractions of water and of foam.
     parts: [Rounded; 2],
 }
 
-/// Sure or not.
+/// Result of a comparison; `Maybe` if rounding decides.
 #[derive(Clone, Copy, PartialEq)]
 enum Is {
     Yes,
@@ -95,7 +98,7 @@ enum Is {
     Maybe,
 }
 
-/// Whether a number is at most another.
+/// Whether a is at most b.
 fn at_most(a: Rounded, b: Rounded) -> Is {
     match a.v - b.v {
         less if less < -(a.e + b.e) => Is::Yes,
@@ -109,17 +112,17 @@ impl Light {
         RADIUS * self.spacing
     }
 
-    /// Metres of a texel.
+    /// Width of a texel in metres.
     pub fn texel(&self) -> f64 {
         2.0 * self.radius / self.texels as f64
     }
 
-    /// What sums are multiples of.
+    /// The sums' fixed-point step.
     pub fn step(&self) -> f64 {
         self.spacing.log2().floor().exp2() / 2048.0
     }
 
-    /// Place in texels, whose centres are at +0.5, and metres along the light.
+    /// Position in texels, whose centres are at +0.5, and metres along the light.
     pub fn place(&self, p: DVec3) -> (DVec2, f64) {
         let sun = self.sun.normalize();
         let up = if sun.y.abs() > 0.99 { DVec3::X } else { DVec3::Y };
@@ -130,7 +133,7 @@ impl Light {
         ((across + 0.5) * self.texels as f64, -sun.dot(from))
     }
 
-    /// The point at a place of the maps, metres along the light.
+    /// The world position at a place of the maps and metres along the light.
     pub fn point(&self, at: DVec2, depth: f64) -> DVec3 {
         let sun = self.sun.normalize();
         let up = if sun.y.abs() > 0.99 { DVec3::X } else { DVec3::Y };
@@ -139,16 +142,16 @@ impl Light {
         self.center + right * across.x + sun.cross(right) * across.y - sun * depth
     }
 
-    /// Metres that a coordinate may be off. The axes are unit vectors of components to 16u, as
-    /// vectors 28u, by a scale that is rounded twice; they turn what lies off the middle. The
-    /// offset is a sum of four, and so is the product with a point: 8u of what cancels, 4u of the
-    /// map.
+    /// Error of a coordinate in metres. The axes are unit vectors whose components err by 16u, 28u
+    /// as vectors, and are scaled with two roundings; this error grows with the distance from the
+    /// centre. The offset is a sum of four terms, like the product with a point: 8u of the terms
+    /// that cancel, 4u of the map's coordinate.
     pub fn off(&self, p: DVec3) -> f64 {
         let from = p - self.center;
         U * (36.0 * from.length() + 8.0 * (p.length() + self.center.length()) + 8.0 * self.radius)
     }
 
-    /// None if nothing of it is drawn.
+    /// None if nothing of the particle is drawn.
     fn shares(&self, particle: &Particle) -> Option<Share> {
         if !particle.position.to_array().iter().all(|c| c.abs() < 1e18) {
             return None;
@@ -159,7 +162,7 @@ impl Light {
             None => (exact(1.0), exact(0.0)),
             Some(density) => {
                 let [all, full, none] = self.densities.map(|d| off(d, 1.0));
-                // Between two that are as good as one it is all or nothing.
+                // A ramp narrower than this is a step.
                 let step = |end: Rounded| match end.v > all.v + 1e-6 {
                     true => smoothstep(all, end, exact(density)),
                     false => exact(f64::from(u8::from(density > all.v))),
@@ -171,7 +174,8 @@ impl Light {
         };
         let own = bulk * foam;
         let water = bulk * (exact(1.0) - foam);
-        // By the part of the droplets that there are, 0.3 or more.
+        // Proportional to the drawn fraction of the droplets, which is at least 0.3, and to their
+        // enlarged size.
         let torn = match self.several {
             true => (exact(4.0) * (exact(1.0) - spray)).clamp(f64::from(0.3_f32), 1.0),
             false => exact(1.0),
@@ -180,7 +184,8 @@ impl Light {
         (water.v > 0.0 || foam.v > 0.0).then_some(Share { bulk, spray, parts: [water, foam] })
     }
 
-    /// The texels whose centres lie within metres of a place, and how far, metres.
+    /// The texels whose centres lie within `reach` metres of a place, with their distances in
+    /// metres.
     fn within(&self, at: DVec2, reach: f64) -> impl Iterator<Item = (usize, usize, f64)> {
         let (n, t) = (self.texels, self.texel());
         let range = move |at: f64| {
@@ -196,7 +201,7 @@ impl Light {
         )
     }
 
-    /// The map of the first fluid: each disc as much larger and smaller as its place is uncertain.
+    /// Depth of the first water. Each disc is enlarged and shrunk by the error of its position.
     pub fn front(&self, particles: &[Particle]) -> Between {
         let (n, t, r) = (self.texels, self.texel(), self.r());
         let mut low = Image::new(n, n, EMPTY);
@@ -221,9 +226,9 @@ impl Light {
         Between { low, high }
     }
 
-    /// The map of thicknesses, channel by channel. Kernel and amplitude add 40u; a multiple of the
-    /// step is next to any number in between, by chance of the particle's place and the texel, whose
-    /// sum is rounded by 2u; sums of them are exact up to 2^24.
+    /// The thicknesses, channel by channel. Kernel and amplitude add 40u. A contribution becomes a
+    /// neighbouring multiple of the step, chosen by a random number of the particle and the texel,
+    /// whose sum is rounded by 2u. Sums of steps are exact up to 2^24.
     pub fn thickness(&self, particles: &[Particle]) -> [Between; 4] {
         let (n, step) = (self.texels, self.step());
         let empty = || Between { low: Image::new(n, n, 0.0), high: Image::new(n, n, 0.0) };
@@ -274,7 +279,7 @@ impl Light {
         }
         for (i, sum) in sums[2..].iter_mut().enumerate() {
             for (at, most) in most.data.iter().enumerate() {
-                // Beyond what is exact, an ulp an addend.
+                // Beyond the exact range, one ulp for each contribution.
                 let exact = most[i] < 16_777_216.0 * step * slab;
                 let slack = if exact { 0.0 } else { particles.len() as f64 * U * most[i] };
                 sum.low.data[at] -= slack;
@@ -284,14 +289,14 @@ impl Light {
         sums
     }
 
-    /// The farthest apart that two depths of one surface are.
+    /// Max difference between two depths of one surface.
     fn apart(&self) -> Rounded {
         off(self.falloff * self.r(), 2.0)
     }
 
-    /// A row or a column of the front, smoothed. The sums of n weights and products add 2 (n + 3)
-    /// u of the depth; a weight is off by its exponent, 48u, which counts by what the depths
-    /// differ.
+    /// The front depth smoothed along rows or columns. Sums of n weights and products err by 2 (n +
+    /// 3) u of the depth. A weight errs by its exponent, 48u, in proportion to the differences
+    /// between depths.
     fn smoothed(&self, front: &Image<Rounded>, along: (isize, isize)) -> Image<Rounded> {
         let sigma = (self.width * self.r() / self.texel()).max(1e-3);
         let reach = (2.5 * sigma).ceil().min(64.0) as isize;
@@ -329,13 +334,13 @@ impl Light {
         })
     }
 
-    /// The front, smoothed.
+    /// The front depth smoothed along both axes.
     fn surface(&self, maps: &Maps<'_>) -> Image<Rounded> {
         let front = maps.front.map(|d| exact(f64::from(*d)));
         self.smoothed(&self.smoothed(&front, (1, 0)), (0, 1))
     }
 
-    /// The normal with small waves on it.
+    /// Adds small waves to a normal.
     fn with_waves(
         &self,
         waves: &Waves,
@@ -348,20 +353,21 @@ impl Light {
         let right = up.cross(sun).normalize();
         let axes = [right, sun.cross(right), -sun];
         let place = self.point(DVec2::new(x as f64, y as f64) + 0.5, depth.v);
-        // The slope's error, and by how much it changes as far as the place may be off.
+        // The slope's error, and its change within the error of the position.
         let off = depth.e + self.off(place);
         let slope = waves.slope(place, 0.0);
         let error = waves.error(place) + waves.steepest() * off;
         let slope = axes.map(|axis| Rounded { v: axis.dot(slope), e: error + 16.0 * U });
         let normal: DVec3 = axes.iter().zip(&n).map(|(axis, n)| *axis * n.v).sum();
         let loose = n.iter().map(|n| n.e).sum::<f64>() + 16.0 * U;
-        // A smoothstep over 0.5 grows by 1.5 over that at most.
+        // A smoothstep over 0.5 has a slope of at most 1.5 / 0.5.
         let level = Rounded { v: waves.level(normal), e: 1.5 / 0.5 * loose + 8.0 * U };
         let along = dot(slope, n);
         normalize([0, 1, 2].map(|i| n[i] - level * (slope[i] - along * n[i])))
     }
 
-    /// Where the light of each texel with water goes, in texels from the first one's centre on.
+    /// Where the light of each texel with water lands, in texels from the centre of the first
+    /// texel.
     pub fn landings(&self, maps: &Maps<'_>) -> Image<Option<[Rounded; 2]>> {
         let front = self.surface(maps);
         let (t, s) = (off(self.texel(), 2.0), self.spacing);
@@ -372,7 +378,7 @@ impl Light {
             }
             let [x_water, foam, ..] = maps.thickness.at(x, y).map(|v| exact(f64::from(v)));
             let sides = 0.5 * WAVES.0 * x_water.v / self.texel();
-            // Either of two numbers of texels where rounding decides.
+            // If rounding decides, the reach is one of two numbers of texels.
             let reaches = [1.0 - 8.0 * U, 1.0 + 8.0 * U]
                 .map(|e| (sides * e).round().clamp(1.0, WAVES.1) as isize);
             let rise = [(1, 0), (0, 1)].map(|(dx, dy)| {
@@ -411,8 +417,8 @@ impl Light {
         })
     }
 
-    /// Light over what comes without water, and how many parts each texel holds. past: of the sun's light at a point that
-    /// may be so many metres off, what the host's scene leaves.
+    /// Light relative to that without water, and the units that each texel holds. `past`: fraction
+    /// of sunlight that the host's scene lets through at a point with this error in metres.
     pub fn caustics(
         &self,
         maps: &Maps<'_>,
@@ -427,7 +433,7 @@ impl Light {
             let middle = DVec2::new((from % n) as f64, (from / n) as f64) + 0.5;
             let p = self.point(middle, depth.v);
             let sun = past(p, depth.e + self.off(p));
-            // The part of the way from a texel to the next falls to nothing at either side.
+            // A texel's light is divided linearly between the four texels around its landing place.
             let hat = |at: Rounded, i: isize| {
                 let part = 1.0 - (at.v - i as f64).abs();
                 [(part - at.e).max(0.0), (part + at.e).clamp(0.0, 1.0)]
@@ -465,8 +471,8 @@ impl Light {
         (sums, Between { low, high })
     }
 
-    /// Share of sunlight that fluid leaves at a point which is so many metres off, per channel,
-    /// and by which the caustics change it.
+    /// Fraction of sunlight that water and foam let through at a point with this error in metres,
+    /// for each channel, and the factor by which caustics change it.
     pub fn at(&self, maps: &Maps<'_>, p: DVec3, by: f64) -> ([Rounded; 3], Rounded) {
         let (at, d) = self.place(p);
         let (at, n) = (at - 0.5, self.texels as f64);
@@ -497,14 +503,15 @@ impl Light {
             let caustics = exact(f64::from(maps.caustics.clamped(i, j)));
             let mean = z / if x.v > 1e-9 { x } else { exact(1e-9) };
             let far = (d - mean - exact(0.5) * x).clamp(0.0, f64::INFINITY);
-            // Far behind the water it is spread.
+            // Far behind the water caustics are blurred out.
             let sharp = one / (one + far / self::off(8.0 * self.spacing, 1.0));
             [kept[0], kept[1], kept[2], below * sharp, caustics, covered]
         };
         let (i, j) = (base.x as isize, base.y as isize);
         let mean = |c: usize| {
             let (mut sum, mut least, mut most) = (exact(0.0), f64::INFINITY, f64::NEG_INFINITY);
-            // The three cells a side that a place near a border may be in.
+            // If the place is near a texel's border, the cells on both sides are possible, three
+            // along each axis.
             for (dx, dy) in (-1..3).flat_map(|y| (-1..3).map(move |x| (x, y))) {
                 let value = texel(i + dx, j + dy)[c];
                 (least, most) = (least.min(value.v), most.max(value.v));
@@ -519,17 +526,17 @@ impl Light {
         let focus = mean(4).clamp(0.0, 3.0);
         let gain = one + (focus - one) * mean(3);
         let kept = [0, 1, 2].map(mean);
-        // Alone what is lost is a mean.
+        // The light lost to whitewater particles is a mean of its own.
         let left = one - mean(5);
         let kept = if maps.whitewater.is_some() { kept.map(|kept| kept * left) } else { kept };
-        // So near to the border it may be outside as well.
+        // The place may also lie outside the maps.
         let open = |v: Rounded| Rounded { e: v.e + (1.0 - v.v).abs(), ..v };
         if inside(-moved) { (kept, gain) } else { (kept.map(open), open(gain)) }
     }
 }
 
-/// Light of a colour of the scene where so much of the sun is past the scene; `shade` over light
-/// in the sun.
+/// Colour of the scene in this light. `shade`: light in shade relative to that in the sun; `past`:
+/// fraction of sunlight that the host's scene lets through.
 pub fn lit(color: f64, shade: f64, past: Rounded, through: Rounded, gain: Rounded) -> Rounded {
     let sun = exact(1.0) - off(shade, 5.0).clamp(0.0, 1.0);
     off(color, 1.0) * (exact(1.0) + sun * past * (through * gain - exact(1.0)))
@@ -540,19 +547,19 @@ pub struct ShadowMap<'a> {
     pub depth: &'a Image<f32>,
     pub view_projection: DMat4,
     pub bias: f64,
-    /// To the sun.
+    /// Direction to the sun.
     pub sun: DVec3,
-    /// Its depth falls away from the light.
+    /// Whether depth decreases away from the light.
     pub reversed: bool,
 }
 
 impl ShadowMap<'_> {
-    /// The share of the sun at a point which is so many metres off: a mean of comparisons, those
-    /// that rounding may turn count half and as much error.
+    /// Fraction of sunlight at a point with this error in metres: a mean of comparisons. A
+    /// comparison that rounding may change counts a half, with an error of a half.
     pub fn past(&self, p: DVec3, by: f64) -> Rounded {
         let p = p + self.bias * self.sun.normalize();
         let clip = self.view_projection * p.extend(1.0);
-        // Four products and sums a row, two roundings of the point.
+        // Four products and sums per row, and two roundings of the point.
         let rows = self.view_projection.transpose();
         let error = |row: glam::DVec4| {
             let most = row.truncate().length() * (by + 2.0 * U * p.length());

@@ -1,9 +1,9 @@
-//! CPU twins: each water pass computed in plain `f64` from its equations, to check the GPU's images.
+//! CPU twins: each pass computed in plain `f64` from its equations, to check the GPU's images.
 //!
-//! Conventions. Eye space is right-handed, the camera looks down -z, y is up; a depth is the
-//! positive eye depth `d = -z`, [`EMPTY`] where nothing is seen. Clip space is Vulkan's: row 0 of
-//! an image is at ndc y = -1, device depth lies in 0..1, reversed or infinite as the projection
-//! has it. Pixel centres are at +0.5.
+//! Conventions. Eye space is right-handed, the camera looks along -z, and y is up. A depth is the
+//! positive eye depth `d = -z`, or [`EMPTY`] where nothing is visible. Clip space is Vulkan's: row
+//! 0 of an image is at ndc y = -1, and device depth lies in 0..1; the projection may reverse it or
+//! have no far plane. Pixel centres are at +0.5.
 
 use glam::{DMat4, DVec2, DVec3};
 use std::fmt;
@@ -37,7 +37,7 @@ pub mod whole_steps;
 /// The depth of a pixel without a surface.
 pub const EMPTY: f64 = 1e10;
 
-/// Whether a depth means a surface: what single precision makes of [`EMPTY`] does not.
+/// Whether a depth belongs to a surface. [`EMPTY`] rounded to single precision does not.
 pub fn is_surface(depth: f64) -> bool {
     depth < 1e9
 }
@@ -69,7 +69,7 @@ impl<T: Clone> Image<T> {
         Self { width, height, data }
     }
 
-    /// The image over the given values, or nothing if they are not `width * height`.
+    /// The image with these values, or None if their number is not `width * height`.
     pub fn from_vec(width: usize, height: usize, data: Vec<T>) -> Option<Self> {
         (data.len() == width * height).then_some(Self { width, height, data })
     }
@@ -81,7 +81,7 @@ impl<T: Clone> Image<T> {
         self.data[y * self.width + x].clone()
     }
 
-    /// The value at (x, y), or nothing outside.
+    /// The value at (x, y), or None outside.
     pub fn checked(&self, x: isize, y: isize) -> Option<T> {
         let inside = x >= 0 && y >= 0 && (x as usize) < self.width && (y as usize) < self.height;
         inside.then(|| self.data[y as usize * self.width + x as usize].clone())
@@ -93,18 +93,18 @@ impl<T: Clone> Image<T> {
         self.data[y * self.width + x].clone()
     }
 
-    /// The value at (x, y), to write to.
+    /// A mutable reference to the value at (x, y).
     pub fn at_mut(&mut self, x: usize, y: usize) -> &mut T {
         assert!(x < self.width && y < self.height, "({x}, {y}) is outside the image");
         &mut self.data[y * self.width + x]
     }
 
-    /// The image of a function of each value: one channel of a picture, say.
+    /// The image of a function of each value, for example one channel.
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> Image<U> {
         Image { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
     }
 
-    /// The four texels bilinear filtering blends at a position in pixels, clamped to the image,
+    /// The four texels that bilinear filtering uses at a position in pixels, clamped to the image,
     /// in the order (0,0), (1,0), (0,1), (1,1), and their weights.
     pub fn bilinear(&self, position: DVec2) -> [(isize, isize, f64); 4] {
         let h = position - 0.5;
@@ -120,7 +120,7 @@ impl<T: Clone> Image<T> {
 }
 
 impl<T: Send> Image<T> {
-    /// The image of a function of the pixel, by rows on all cores.
+    /// The image of a function of the pixel, computed by all cores.
     pub fn from_fn(width: usize, height: usize, f: impl Fn(usize, usize) -> T + Sync) -> Self {
         let rows = |rows: Range<usize>| -> Vec<T> {
             rows.flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| f(x, y)).collect()
@@ -149,7 +149,7 @@ impl<T: Send> Image<T> {
     }
 }
 
-/// A camera and the image it looks through.
+/// A camera and the size of its image.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     /// World to eye space.
@@ -163,7 +163,7 @@ pub struct View {
 }
 
 impl View {
-    /// A view; says what is wrong with a projection that is none of ours.
+    /// A view, or an error for a projection that is not supported.
     ///
     /// # Errors
     /// The projection is orthographic, skewed or not finite, or the image is empty.
@@ -208,24 +208,25 @@ impl View {
         self.ray_at(DVec2::new(x as f64 + 0.5, y as f64 + 0.5))
     }
 
-    /// The eye ray (s_x, s_y, -1) through a position in pixels: times the depth d it is the point
-    /// seen there. `ndc = (P00 x + P20 z) / -z = P00 s_x - P20`, hence `s_x = (ndc + P20) / P00`.
+    /// The eye ray (s_x, s_y, -1) through a position in pixels. Multiplied by a depth d it is the
+    /// point seen there: `ndc = (P00 x + P20 z) / -z = P00 s_x - P20`, hence `s_x = (ndc + P20) /
+    /// P00`.
     pub fn ray_at(&self, position: DVec2) -> DVec3 {
         let ndc = 2.0 * position / self.extent() - 1.0;
         ((ndc + self.shift()) / self.focal()).extend(-1.0)
     }
 
-    /// Where a slope (x/d, y/d) is seen, in pixels: the inverse of [`View::ray_at`].
+    /// The position in pixels of a slope (x/d, y/d): the inverse of [`View::ray_at`].
     pub fn pixel_of_slope(&self, slope: DVec2) -> DVec2 {
         (slope * self.focal() - self.shift() + 1.0) * 0.5 * self.extent()
     }
 
-    /// Where an eye-space point before the camera is seen, in pixels.
+    /// The position in pixels of an eye-space point in front of the camera.
     pub fn project(&self, point: DVec3) -> DVec2 {
         self.pixel_of_slope(point.truncate() / -point.z)
     }
 
-    /// The signed change of a ray's slope from one pixel to the next, along x and along y.
+    /// The signed change of a ray's slope per pixel, along x and along y.
     pub fn slope_step(&self) -> DVec2 {
         2.0 / (self.extent() * self.focal())
     }
@@ -240,33 +241,33 @@ impl View {
         self.projection.w_axis.z / eye_depth - self.projection.z_axis.z
     }
 
-    /// The eye depth of the near plane, whichever way round the depth runs: the nearer of the
-    /// planes of device depth 0 and 1 (a far plane at infinity divides by zero or turns negative).
+    /// Eye depth of the near plane, also for reversed depth: the nearer of the planes with device
+    /// depth 0 and 1 (an infinite far plane gives infinity or a negative number).
     pub fn near(&self) -> f64 {
         let planes = [self.eye_depth(0.0), self.eye_depth(1.0)];
         planes.into_iter().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min)
     }
 
-    /// The eye depth of the far plane, none if it is at infinity (or beyond).
+    /// Eye depth of the far plane, or None if it is at infinity (or beyond).
     pub fn far(&self) -> Option<f64> {
         let (a, b) = (self.eye_depth(0.0), self.eye_depth(1.0));
         (a.is_finite() && b.is_finite() && a > 0.0 && b > 0.0).then(|| a.max(b))
     }
 
-    /// C_x: the world width of a pixel at depth 1.
+    /// C_x: world width of a pixel at depth 1.
     pub fn c_x(&self) -> f64 {
         self.slope_step().x.abs()
     }
 
-    /// C_y: the world height of a pixel at depth 1.
+    /// C_y: world height of a pixel at depth 1.
     pub fn c_y(&self) -> f64 {
         self.slope_step().y.abs()
     }
 
-    /// The view of the image whose pixels are blocks of `2^level` of this one's, the last of them
-    /// sticking out where the extent is odd. Its projection is wider by what sticks out,
-    /// `k = ceil(w / 2^level) 2^level / w`, so that its rays are those of the blocks' centres,
-    /// `ndc = 2 (i + 0.5) 2^level / w - 1 = k ndc' + k - 1`, and its C is `2 2^level / (w |P00|)`.
+    /// The view of an image whose pixels are blocks of `2^level` pixels of this one. For an odd
+    /// extent the last blocks extend beyond it, and the projection is wider by `k = ceil(w /
+    /// 2^level) 2^level / w`. So its rays pass through the blocks' centres, `ndc = 2 (i + 0.5)
+    /// 2^level / w - 1 = k ndc' + k - 1`, and its C is `2 2^level / (w |P00|)`.
     pub fn reduced(&self, level: u32) -> Self {
         let block = 1_usize << level;
         let (width, height) = (self.width.div_ceil(block), self.height.div_ceil(block));
@@ -280,8 +281,9 @@ impl View {
         Self { view: self.view, projection, width, height }
     }
 
-    /// The pixels that may see anything of a box in eye space: its middle and half extent in x and
-    /// y, and its nearest and farthest depth. All of them if it comes near the eye's plane.
+    /// The pixels that may see a part of a box in eye space, given by its centre and half extent in
+    /// x and y and its nearest and farthest depth. All pixels if the box comes near the eye's
+    /// plane.
     pub fn footprint(
         &self,
         middle: DVec2,
@@ -296,7 +298,7 @@ impl View {
         let others = [(middle + half) / nearest, (middle + half) / farthest];
         let a = self.pixel_of_slope(corners[0].min(corners[1]));
         let b = self.pixel_of_slope(others[0].max(others[1]));
-        // One pixel to spare; a negative focal length swaps the two. The casts saturate.
+        // One pixel is added; a negative focal length swaps the two corners. The casts saturate.
         let (low, high) = (a.min(b) - 1.5, a.max(b) + 1.5);
         let range = |low: f64, high: f64, extent: usize| {
             let start = (low.max(0.0) as usize).min(extent);
@@ -316,22 +318,22 @@ pub fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
 /// holds the rest.
 pub const BINS: [f64; 7] = [0.01, 0.1, 0.25, 0.5, 1.0, 2.0, 10.0];
 
-/// What [`compare`] found.
+/// Result of [`compare`].
 #[derive(Clone, Debug)]
 pub struct Census {
     /// Pixels with a value in both images.
     pub compared: usize,
-    /// Those whose error exceeds the tolerance or that are not a number.
+    /// Pixels whose error exceeds the tolerance or is NaN.
     pub failed: usize,
-    /// Pixels empty in one image only: silhouettes, if they are few.
+    /// Pixels that are empty in only one image; a few of them at outlines are normal.
     pub coverage_mismatch: usize,
     /// Pixels empty in both images.
     pub empty: usize,
     /// The largest error in multiples of its tolerance; infinite for a NaN.
     pub worst: f64,
-    /// The pixel of that error and there the actual and the expected value.
+    /// The pixel with that error, its actual and its expected value.
     pub worst_at: Option<(usize, usize, f64, f64)>,
-    /// The first pixel that is empty in one image only.
+    /// The first pixel that is empty in only one image.
     pub mismatch_at: Option<(usize, usize, f64, f64)>,
     /// The mean absolute error of the compared pixels that are numbers.
     pub mean_abs: f64,
@@ -340,7 +342,8 @@ pub struct Census {
 }
 
 impl Census {
-    /// Whether no compared pixel failed and at most so many differ in coverage.
+    /// Whether no compared pixel failed, and at most `coverage_mismatch` pixels are empty in only
+    /// one image.
     pub fn passes(&self, coverage_mismatch: usize) -> bool {
         self.failed == 0 && self.coverage_mismatch <= coverage_mismatch
     }
@@ -374,8 +377,8 @@ impl fmt::Display for Census {
     }
 }
 
-/// Compares an image with its twin; `tolerance(x, y, expected)` is the largest error allowed at a
-/// pixel. Values of 1e9 and more are empty. The extents must agree.
+/// Compares an image with its twin. `tolerance(x, y, expected)` is the max error of a pixel. Values
+/// of 1e9 or more are empty. Both images must have the same size.
 pub fn compare(
     actual: &Image<f32>,
     expected: &Image<f64>,
@@ -436,7 +439,7 @@ pub(crate) mod tests {
     use super::*;
     use glam::DVec4;
 
-    /// How device depth runs in a test projection.
+    /// Kind of device depth of a test projection.
     #[derive(Clone, Copy, PartialEq)]
     pub(crate) enum Depth {
         Standard,
@@ -445,7 +448,7 @@ pub(crate) mod tests {
         ReversedInfinite,
     }
 
-    /// A projection of near 0.1 and far 1000, written out.
+    /// A projection with near plane 0.1 and far plane 1000.
     pub(crate) fn projection(focal: DVec2, shift: DVec2, depth: Depth) -> DMat4 {
         let (n, f) = (0.1, 1000.0);
         let (p22, p32) = match depth {
@@ -462,7 +465,7 @@ pub(crate) mod tests {
         )
     }
 
-    /// A view straight down -z of the world.
+    /// A view along -z of the world.
     pub(crate) fn view(focal: DVec2, shift: DVec2, width: usize, height: usize) -> View {
         let projection = projection(focal, shift, Depth::ReversedInfinite);
         View::new(DMat4::IDENTITY, projection, width, height).expect("a valid view")
@@ -505,7 +508,7 @@ pub(crate) mod tests {
                 _ => assert!(view.far().is_none()),
             }
         }
-        // A far plane a little beyond infinity.
+        // A far plane slightly beyond infinity.
         let mut p = projection(DVec2::ONE, DVec2::ZERO, Depth::StandardInfinite);
         p.z_axis.z += 1e-6;
         let view = View::new(DMat4::IDENTITY, p, 4, 4).expect("a valid view");

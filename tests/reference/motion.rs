@@ -1,14 +1,15 @@
-//! Twin of the motion vectors: from a visible point's position in the previous frame to its present one.
+//! Twin of the motion vectors: from a visible point's position in the previous frame to its present
+//! one.
 //!
-//! A point P of the eye space of now, that has come by m since, was at `V' V^-1 (P - m)` in that of
-//! then, and is seen there where its lens has it. m is nothing of the scene, which stands still; what
-//! is at infinity is a direction, turned and not moved. Of water and foam m is the mean of the
-//! displacements of particles near the frontmost surface, weighted by
-//! `share sqrt(1 - rho^2) exp(-2 rho^2) near`, with rho as in the thickness, half-axes no shorter than
-//! 1.5 texels, and `near = 1 - smoothstep(r, 3 r, |k - F|)`, k the depth of the sprite and F that of
-//! the texel's surface: the nearest of its pixels, and the farthest where that is 3 r behind.
+//! A point P in the present eye space that has moved by m was at `V' V^-1 (P - m)` in the previous
+//! eye space, and is projected there by the previous lens. The scene does not move, so its m is 0.
+//! Points at infinity are directions, which are rotated and not translated. For water and foam, m
+//! is the mean displacement of particles near the frontmost surface, weighted by `share sqrt(1 -
+//! rho^2) exp(-2 rho^2) near`. rho is defined as for the thickness, with half-axes of at least 1.5
+//! texels; `near = 1 - smoothstep(r, 3 r, |k - F|)`, with k the sprite's depth and F that of the
+//! texel's surface: the nearest of its pixels, and the farthest if that is 3 r behind.
 //!
-//! Every number comes with a bound of what single precision may make of it.
+//! Every number has a bound of its error in single precision.
 
 use super::cull::frustum;
 use super::levels::Smoothed;
@@ -19,44 +20,44 @@ use crate::support::rounded::{Rounded, exact, off};
 use crate::support::tolerance::U;
 use glam::{DVec2, DVec3};
 
-/// Parts of a weight, and of a spacing, that sums count in.
+/// Fixed-point units per weight and per spacing in the sums.
 const UNITS: f64 = 2_097_152.0;
-/// Spacings that a particle moves at most, along each axis of the eye's.
+/// Max motion of a particle along each axis of the eye, in spacings.
 const MOST: f64 = 1000.0;
-/// Texels that a sprite's half-axis is at least.
+/// Min half-axis of a sprite, in texels.
 const LEAST_AXIS: f64 = 1.5;
 
-/// A particle of the host's, in the world.
+/// A particle from the host, in world space.
 #[derive(Clone, Copy, Debug)]
 pub struct Particle {
     pub position: DVec3,
     pub velocity: DVec3,
-    /// Over the rest density; none or 0: whole.
+    /// Density relative to the rest density; none or 0 means full density.
     pub density: Option<f64>,
-    /// Share that is foam.
+    /// Fraction that is foam.
     pub foam: f64,
 }
 
-/// What it goes by.
+/// Settings of the motion vectors.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Rest spacing, world units.
+    /// Rest spacing in world units.
     pub spacing: f64,
-    /// Density, over that at rest, below which a particle is spray, and from which on it is whole.
+    /// Relative density below which a particle is spray, and from which on it is drawn whole.
     pub densities: [f64; 2],
-    /// Speed of foam that is stretched in full, spacings a second.
+    /// Speed at which foam is fully stretched, in spacings per second.
     pub motion_threshold: f64,
-    /// Two depths of one surface are no farther apart; as the shaders have it.
+    /// Max difference between depths of one surface, in single precision as in the shaders.
     pub falloff: f32,
-    /// Seconds since the frame before.
+    /// Time since the previous frame, in seconds.
     pub dt: f64,
-    /// Of the resolution of the thickness.
+    /// Level of the thickness.
     pub level: u32,
 }
 
-/// What the frame shows, as its images hold it.
+/// The frame's images.
 pub struct Shown<'a> {
-    /// Water before the scene.
+    /// Depth of water before the scene.
     pub depth: &'a Image<f32>,
     pub foam: Option<&'a Image<f32>>,
     pub surface: Smoothed<'a>,
@@ -64,15 +65,16 @@ pub struct Shown<'a> {
     pub scene: &'a Image<f64>,
 }
 
-/// A vector of a pixel, and how far off each part may be: infinite where rounding decides which
-/// surface it is of.
+/// A pixel's vector and the error of each component: infinite if rounding decides which surface the
+/// pixel shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Vector {
     pub v: DVec2,
     pub e: DVec2,
 }
 
-/// A sum of weighted displacements, of weights, of absolute values, and what both may be off.
+/// Sums of weighted displacements, of weights and of the displacements' absolute values, and the
+/// errors of the first two.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     moved: DVec3,
@@ -91,7 +93,7 @@ impl Sum {
         self.weight_off += by * other.weight_off;
     }
 
-    /// Whether there is any; none: rounding decides.
+    /// Whether any sprite contributes. None if rounding decides.
     fn is_some(&self) -> Option<bool> {
         match (self.weight > self.weight_off, self.weight + self.weight_off == 0.0) {
             (true, _) => Some(true),
@@ -100,7 +102,7 @@ impl Sum {
         }
     }
 
-    /// The mean and how far it may be off: conversions, bilinear weights and sums 16u.
+    /// The mean and its error: conversions, bilinear weights and sums add 16u.
     fn mean(&self) -> (DVec3, f64) {
         let mean = self.moved / self.weight;
         let moved = self.moved_off + 16.0 * U * self.absolute;
@@ -109,7 +111,7 @@ impl Sum {
     }
 }
 
-/// Surfaces of a texel and their sums.
+/// The two surfaces of a texel and their sums.
 type Texel = [(f32, Sum); 2];
 
 fn sprites_of(
@@ -163,7 +165,7 @@ fn sprites_of(
     all
 }
 
-/// Least and greatest of a function that falls.
+/// Min and max of a decreasing function over an uncertain argument.
 fn falling(of: impl Fn(f64) -> f64, at: Rounded) -> [f64; 2] {
     [of(at.v + at.e), of(at.v - at.e)]
 }
@@ -196,13 +198,13 @@ fn texels(
         let velocity = view.view.transform_vector3(particle.velocity);
         let limit = DVec3::splat(MOST * settings.spacing);
         let moved = (velocity * settings.dt).clamp(-limit, limit);
-        // As a direction, by the seconds in a spacing, and back.
+        // Transformed as a direction, multiplied by the time over the spacing, and back.
         let moved_off = Off::direction(moved).e + 12.0 * U * moved.length();
         let inside = |p: &glam::DVec4| p.dot(center.v.extend(1.0));
         let inside = planes.iter().map(inside).fold(f64::INFINITY, f64::min) + 4.0 * radius;
         let reached = inside.min(-center.v.z - near * (1.0 + 8.0 * U));
         let slack = 4.0 * center.e + 16.0 * U * (center.v.length() + 4.0 * radius);
-        // What has no place has no distance either.
+        // A particle without a valid position has no valid distance.
         if reached.is_nan() || reached <= -slack {
             continue;
         }
@@ -222,29 +224,29 @@ fn texels(
                             least = 0.0;
                             continue;
                         };
-                        // Under the root u more.
+                        // One u more under the root.
                         let rho = Rounded { e: hit.rho_squared.e + U, ..hit.rho_squared };
                         let shape = falling(|r| kernel(r.clamp(0.0, 1.0)), rho);
                         let away = hit.k - exact(f64::from(*front));
                         let away = Rounded { v: away.v.abs(), e: away.e + 4.0 * U * radius };
                         let near = falling(|d| 1.0 - smoothstep(radius, 3.0 * radius, d), away);
                         let sure = hit.sure && reached > slack;
-                        // The root 9u, the exponential 7 ulp, smoothstep 8u of one, products.
+                        // The root 9u, the exponential 7 ulp, smoothstep 8u, then the products.
                         let low = share * shape[0] * (near[0] - 8.0 * U).max(0.0);
                         least = least.min(if sure { low * (1.0 - 48.0 * U) } else { 0.0 });
-                        // Beyond its end it is nothing to the bit.
+                        // Beyond its end, smoothstep is exactly 0.
                         let near = if near[1] > 0.0 { (near[1] + 8.0 * U).min(1.0) } else { 0.0 };
                         let high = share * shape[1] * near;
                         most = most.max(high * (1.0 + 48.0 * U));
                     }
-                    // Of a density a share is off by what smoothstep is.
+                    // With densities the fraction errs by a smoothstep.
                     (least, most) = ((least * (1.0 - 24.0 * U)), most * (1.0 + 24.0 * U));
                     if most * UNITS < 0.25 {
                         continue;
                     }
                     let (weight, half) = (0.5 * (least + most), 0.5 * (most - least));
                     let length = moved.length();
-                    // Both rounded to units; less than half a one is none.
+                    // Both are rounded to units; less than half a unit becomes 0.
                     let unit = 0.5 / UNITS;
                     sum.moved += weight * moved;
                     sum.weight += weight;
@@ -260,8 +262,8 @@ fn texels(
     texels
 }
 
-/// The sum of a texel's surface that is nearer to a depth and has any, and how far it is from it;
-/// none: rounding decides.
+/// The sum of the texel's surface that is nearer to this depth and has contributions, and its
+/// distance in depth. None if rounding decides.
 fn nearer(texel: &Texel, z: f32) -> Option<(f32, Sum)> {
     let mut best = (2e10_f32, Sum::default());
     for (front, sum) in texel {
@@ -273,7 +275,7 @@ fn nearer(texel: &Texel, z: f32) -> Option<(f32, Sum)> {
     Some(best)
 }
 
-/// How far the surface in a pixel has come, eye space, and how far off that may be.
+/// Displacement of the surface in a pixel, in eye space, and its error.
 fn moved_at(
     texels: &Image<Texel>,
     settings: &Settings,
@@ -311,7 +313,8 @@ fn moved_at(
     Some(if any { sum.mean() } else { (DVec3::ZERO, 0.0) })
 }
 
-/// Depth of the smoothed surface in a pixel, of its image and the pixels a texel of that is wide.
+/// Depth of the smoothed surface in a pixel, from the smoothed image and its texels' width in
+/// pixels.
 pub fn smoothed_at(
     (surface, edge): (&Image<f32>, usize),
     (x, y): (usize, usize),
@@ -330,8 +333,8 @@ pub fn smoothed_at(
     f64::from(front) + if all > 0.0 { sum / all } else { 0.0 }
 }
 
-/// The vector of a pixel that shows something at a depth (infinite: a direction) which has come by
-/// `moved` in eye space; both with what they may be off.
+/// Vector of a pixel that shows something at depth `z` (infinite: a direction), which was displaced
+/// by `moved` in eye space; both with their errors.
 pub fn vector(
     view: &View,
     then: &View,
@@ -357,11 +360,12 @@ pub fn vector(
     let now = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
     let v = now - then.pixel_of_slope(slope + slope_change);
 
-    // What is left of a rotation without the identity, as its columns' length.
+    // Norm of the rotation minus the identity.
     let rotation = glam::DMat3::from_mat4(turn) - glam::DMat3::IDENTITY;
     let norm = rotation.to_cols_array().iter().map(|c| c * c).sum::<f64>().sqrt();
     let here_off = depth * slope_off + depth_off * ray.length() + 2.0 * U * here.length();
-    // The matrix's own rounding, three products and sums, and the two more of the shift and `moved`.
+    // The matrix's own rounding, three products and sums, and two more for the translation and
+    // `moved`.
     let sums = 8.0 * U * (norm * (here.length() + moved.length()) + shift + moved.length());
     let change_off = moved_off * (1.0 + norm) + norm * here_off + sums;
     let before_off = depth_off + change_off + 8.0 * U * (least + depth);

@@ -1,17 +1,17 @@
 //! Twin of the baseline's surface noise, and its effect on the surface.
 //!
 //! With c a particle's centre at the depth D, r the drawn radius, a the half-axis, s = (s_x, s_y) a
-//! texel's slope and d the depth of the water's surface in the pixel that its middle lies in:
+//! texel's slope, and d the water's depth in the pixel that contains the texel's centre:
 //! ```text
 //! o = D s - c.xy    q = |o|^2 / a^2    b = max(D - r - d, 0)
 //! N = sum of (1 - q)^2 exp(-2 q) exp(-k b / r) noise(R^T (o, 0) cells / r + origin(id)),  q < 1
 //! ```
-//! with R the rotation of the view; none where there is no water. Addends are whole steps, so that the
-//! sum is exact. [`noise`] gives it with bounds: between them single precision must lie, u half an ulp,
-//! an operation as far off as Vulkan allows. There is no rim: at q = 1 an addend ends in 0.
+//! with R the view's rotation; 0 where there is no water. Contributions are fixed-point steps, so
+//! the sum is exact. [`noise`] gives it with bounds for single precision: u is half an ulp, and an
+//! operation errs as much as Vulkan permits. There is no rim, because at q = 1 a contribution is 0.
 //!
-//! The surface P(x, y) with N h on it has the tangents `P_x + h N_x n` and `P_y + h N_y n`, where n and
-//! what of it turns with the place are left out.
+//! The surface P(x, y) with N h on it has the tangents `P_x + h N_x n` and `P_y + h N_y n`;
+//! derivatives of the normal n are neglected.
 
 use super::surface_foam::{self, Off, origin};
 use super::{Image, View, is_surface};
@@ -19,52 +19,52 @@ use crate::support::rounded::{Rounded, exact, off};
 use crate::support::tolerance::{Between, U};
 use glam::{DVec2, DVec3};
 
-/// Drawn radius over the spacing.
+/// Drawn radius in spacings.
 const RADIUS: f64 = 0.656;
-/// What a particle adds is a multiple of this.
+/// A contribution is a multiple of this.
 pub const STEP: f64 = 1.0 / 65_536.0;
-/// Numbers from here on are no positions.
+/// Numbers of this size or larger are invalid as positions.
 const NOWHERE: f64 = 1e18;
 
-/// A particle, in the world.
+/// A particle in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
     pub position: DVec3,
-    /// In parts of the rest density; 0 is not known.
+    /// Density relative to the rest density; 0 means unknown.
     pub density: f64,
     pub id: u32,
 }
 
-/// What the noise is made by.
+/// Settings of the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Rest spacing of the particles, world units.
+    /// Rest spacing of the particles in world units.
     pub spacing: f64,
-    /// The part of the rest density below which all is spray.
+    /// Relative density below which a particle is spray.
     pub threshold: f64,
-    /// k, by which it falls with the depth in radii.
+    /// k, the falloff with depth per radius.
     pub falloff: f64,
-    /// Half-axis in radii.
+    /// Half-axis of a sprite in radii.
     pub size: f64,
-    /// Cells in a radius.
+    /// Noise cells per radius.
     pub cells: f64,
 }
 
 /// The noise of an image.
 pub struct Noise {
-    /// By the definition, not in steps.
+    /// By the definition, without fixed-point steps.
     pub image: Image<f64>,
     pub bounds: Between,
-    /// Particles that may add to a texel.
+    /// Number of particles that may contribute to a texel.
     pub count: Image<u32>,
 }
 
-/// The pixel that the middle of a texel lies in.
+/// The pixel that contains a texel's centre.
 fn pixel(texel: usize, edge: f64, pixels: usize) -> usize {
     (((texel as f64 + 0.5) * edge) as usize).min(pixels - 1)
 }
 
-/// What a particle adds where its ray passes, and how far off that may be; none beyond its kernel.
+/// Contribution of a particle at a ray, with its error; None outside its kernel.
 fn addend(
     settings: &Settings,
     centre: Off,
@@ -92,8 +92,9 @@ fn addend(
     let scale = off(settings.cells, 1.0) / radius;
     let turned = view.view.inverse().transform_vector3(DVec3::new(o[0].v, o[1].v, 0.0));
     let at = turned * scale.v + origin(id);
-    // The inverse of the view: 16u of its entries, at most 1; a product and two sums, a product, and
-    // the sum with the origin. Of an error's length its parts are the root of 3 together at most.
+    // The inverse of the view errs by 16u of its entries, which are at most 1; then a product and
+    // two sums, a product, and the sum with the origin. The components of an error of some length
+    // sum to at most the root of 3 times it.
     let (length, e) = (o[0].v.hypot(o[1].v), o[0].e.hypot(o[1].e));
     let from = (e + 19.0 * U * length) * scale.v + length * (scale.e + U * scale.v);
     let moved = 3.0_f64.sqrt() * from + U * at.abs().element_sum();
@@ -101,8 +102,8 @@ fn addend(
     Some(kernel * fade * Rounded { v: surface_foam::noise(at), e })
 }
 
-/// The noise on the water, `depth` its surface at the view's resolution, in an image of which a texel
-/// is a block of `2^level` pixels.
+/// The noise on water whose surface has this `depth` at the view's resolution, in an image whose
+/// texels are blocks of `2^level` pixels.
 pub fn noise(
     particles: &[Particle],
     view: &View,
@@ -129,14 +130,14 @@ pub fn noise(
             if !is_surface(surface) {
                 continue;
             }
-            // As long a sum of products as a pixel's.
+            // The same sum of products as for a pixel.
             let terms = surface_foam::ray_off(view, 0, 0).e;
             let v = view.ray_at(DVec2::new(x as f64 + 0.5, y as f64 + 0.5) * edge);
             let ray = Off { v, e: terms };
             let found = addend(settings, centre, particle.id, ray, surface, view);
             let Some(found) = found else { continue };
             *image.at_mut(x, y) += if drawn { found.v } else { 0.0 };
-            // The product with the parts is exact, the sum with a half is rounded.
+            // The product with the number of steps is exact, the sum with a half is rounded.
             let steps = |v: f64, sign: f64| {
                 let parts = v / STEP + 0.5;
                 (parts + sign * U * parts.abs()).floor() * STEP
@@ -150,16 +151,16 @@ pub fn noise(
     Noise { image, bounds: Between { low, high }, count }
 }
 
-/// How noise shows.
+/// Appearance of the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// A texel of it is a block of `2^level` pixels.
+    /// A texel of the image is a block of `2^level` pixels.
     pub level: u32,
-    /// World units that 1 is high.
+    /// Height in world units of a noise of 1.
     pub height: f64,
-    /// Share of the foam's colour that 1 adds, up to all of it.
+    /// Fraction of the foam's colour that a noise of 1 adds, at most all of it.
     pub foam: f64,
-    /// Radiance of that.
+    /// Radiance of the foam's colour.
     pub color: [f64; 3],
 }
 
@@ -173,16 +174,18 @@ pub struct Ripples<'a> {
 /// Noise at a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ripple {
-    /// How the height rises in world units a pixel, along x and y; the same mean of absolute values.
+    /// Change of the height in world units per pixel, along x and y; then the same mean of absolute
+    /// values.
     pub height: DVec2,
     pub rises: DVec2,
-    /// What the foam adds.
+    /// Radiance of the added foam.
     pub foam: DVec3,
 }
 
 impl Ripples<'_> {
-    /// The noise at a pixel of the surface at a depth: of the four texels round it those that lie on it,
-    /// which have the mean of their rises to neighbours on theirs.
+    /// The noise at a pixel of a surface with this depth, from those of the four texels around it
+    /// that lie on the surface. A texel has the mean of its differences to neighbours on its own
+    /// surface.
     pub fn at(
         &self,
         depth: &Image<f64>,
@@ -237,7 +240,7 @@ impl Ripples<'_> {
 }
 
 impl Ripple {
-    /// The normal of a surface of which the tangents from pixel to pixel are known, with the noise on it.
+    /// The normal of a surface with noise, from the tangents per pixel.
     pub fn turn(&self, normal: DVec3, [x, y]: [DVec3; 2]) -> DVec3 {
         let turned = (x + self.height.x * normal).cross(y + self.height.y * normal);
         turned.normalize() * turned.dot(normal).signum()
@@ -248,7 +251,8 @@ impl Ripple {
 mod tests {
     use super::*;
 
-    /// A height that rises by s along a plane turns its normal by atan s, however the plane lies.
+    /// A height that rises by s along a plane tilts the normal by atan s, for any orientation of
+    /// the plane.
     #[test]
     fn a_slope_on_a_plane_turns_its_normal() {
         for turn in [0.0, 0.4, 1.2] {
@@ -266,7 +270,8 @@ mod tests {
         }
     }
 
-    /// Alone under the surface by one radius it is 1 / e^2 of itself at it, for the same texel.
+    /// For a particle one radius deeper under the surface, the noise is 1 / e^2 of that at the
+    /// surface, in every texel.
     #[test]
     fn noise_falls_with_the_depth() {
         let view = super::super::tests::view(DVec2::new(1.0, -1.0), DVec2::ZERO, 40, 40);

@@ -1,10 +1,10 @@
-//! Twin of the reduction before the smoothing (thesis Sec. 4.7): what the scene hides is cut away, then
-//! the nearest surface of each block of `2^level` pixels is kept, unless it is less than a quarter
-//! of the block's water: then the one behind it.
+//! Twin of the reduction before the smoothing (thesis Sec. 4.7): water behind the scene is removed,
+//! then each block of `2^level` x `2^level` pixels keeps its nearest surface. If that is less than
+//! a quarter of the block's water, the block keeps the surface behind it.
 
 use super::{EMPTY, Image};
 
-/// The depth without what lies at or behind the scene.
+/// The depth without water at or behind the scene.
 pub fn clip(depth: &Image<f64>, scene_eye_depth: Option<&Image<f64>>) -> Image<f64> {
     let Some(scene) = scene_eye_depth else {
         return depth.clone();
@@ -15,9 +15,9 @@ pub fn clip(depth: &Image<f64>, scene_eye_depth: Option<&Image<f64>>) -> Image<f
     })
 }
 
-/// The depth of each block; at the right and lower border a block may be partly outside. Depths are
-/// those of `f32`, and so is `falloff`: two lie on one surface if they differ by it at most. The sum
-/// is rounded as on the device.
+/// Depth of each block; blocks at the right and lower border may be partly outside. Depths and
+/// `falloff` are in `f32`: two depths belong to one surface if they differ by at most `falloff`.
+/// The sum is rounded as on the device.
 pub fn reduce(depth: &Image<f64>, level: u32, falloff: f32) -> Image<f64> {
     let block = 1_usize << level;
     Image::from_fn(depth.width.div_ceil(block), depth.height.div_ceil(block), |x, y| {
@@ -34,7 +34,7 @@ pub fn reduce(depth: &Image<f64>, level: u32, falloff: f32) -> Image<f64> {
     })
 }
 
-/// The nearest of each block of `2^level` pixels, whatever it shares.
+/// The nearest depth of each block, whatever fraction of the block it is.
 pub fn nearest(depth: &Image<f64>, level: u32) -> Image<f64> {
     let block = 1_usize << level;
     Image::from_fn(depth.width.div_ceil(block), depth.height.div_ceil(block), |x, y| {
@@ -74,7 +74,7 @@ mod tests {
         };
         assert_eq!(reduce(&drop(3), 2, 0.5).data, [5.0]);
         assert_eq!(reduce(&drop(4), 2, 0.5).data, [1.0]);
-        // Of one surface with what is behind it is no drop.
+        // If the drop is on the same surface as the water behind, it is kept.
         assert_eq!(reduce(&drop(3), 2, 4.0).data, [1.0]);
         assert_eq!(reduce(&drop(1), 1, 0.5).data, [1.0, 7.0, 5.0, 7.0]);
     }

@@ -1,24 +1,28 @@
-//! Twin of pass `shape` (Yu and Turk 2013, Sec. 4): for each particle i with its neighbours j within the reach r, itself
-//! among them, `w_ij = 1 - (|x_i - x_j| / r)^3` (Eq. 10), `x_i^w = sum w x / sum w`,
-//! `C = sum w (x - x^w)(x - x^w)^T / sum w` (Eq. 9), and of its eigenvalues `max(sigma_k, sigma_1 / k_r)` (Eq. 15). With
-//! `m_i = x_i^w - x_i` the centre would be `x + lambda m` (Eq. 6); here it is `x + lambda (m - b)`, where
-//! `b_i = sum w |m_j| m_j / sum w |m_j|`, so that a body does not shrink (after Vollmer et al. 1999).
+//! Twin of pass `shape` (Yu and Turk 2013, Sec. 4). For each particle i and its neighbours j within
+//! the reach r, including i itself: `w_ij = 1 - (|x_i - x_j| / r)^3` (Eq. 10), `x_i^w = sum w x /
+//! sum w`, `C = sum w (x - x^w)(x - x^w)^T / sum w` (Eq. 9), and from its eigenvalues `max(sigma_k,
+//! sigma_1 / k_r)` (Eq. 15). With `m_i = x_i^w - x_i` the source's centre is `x + lambda m` (Eq.
+//! 6). Here it is `x + lambda (m - b)`, with `b_i = sum w |m_j| m_j / sum w |m_j|`, so that a body
+//! does not shrink (after Vollmer et al. 1999).
 //!
-//! Ours: lambda is by how much of an ellipsoid a particle is; the axes are over their geometric mean, so that the volume is the sphere's, and to the power of how much of an
-//! ellipsoid the sum of the neighbours' weights makes of a particle. Spray has a shape of its own, by another ratio, which it
-//! takes on with less beside it. Offsets, weights and products are whole steps of 1/65536 of the
-//! reach, as on the GPU; where rounding may go either way stands in the slack.
+//! Also different from the source: lambda is multiplied by the fraction to which a particle is an
+//! ellipsoid. The axes are divided by their geometric mean, so that the volume is the sphere's, and
+//! raised to the power of that fraction, which follows from the sum of the neighbours' weights.
+//! Spray has its own shape with another ratio, and takes it on with fewer neighbours. Offsets,
+//! weights and products are rounded to 1/65536 of the reach, as on the GPU; where rounding may go
+//! either way, the bounds include both.
 //!
-//! The matrix is no decomposition by rotations as on the GPU: the eigenvalue that is farthest from the others by the roots of the
-//! characteristic polynomial (Smith 1961), its vector by a cross product, and the other two in the plane across it.
+//! Unlike the GPU, which diagonalizes by rotations, the twin finds the eigenvalue farthest from the
+//! others as a root of the characteristic polynomial (Smith 1961), its vector by a cross product,
+//! and the other two in the plane across it.
 
 use super::smoothstep;
 use glam::{DMat3, DVec3};
 
-/// Of the sums.
+/// Fixed-point step of the sums.
 pub const STEP: f64 = 1.0 / 65536.0;
 
-/// How shapes come from neighbours; lengths in metres.
+/// Settings of the shapes; lengths in metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     pub reach: f64,
@@ -26,35 +30,36 @@ pub struct Settings {
     pub fewest: f64,
     pub lone: f64,
     pub centred: f64,
-    /// k_r of the spray.
+    /// k_r for spray.
     pub strand: f64,
 }
 
-/// Sums of the neighbours' weights between which spray takes its shape on.
+/// Sums of the neighbours' weights between which spray takes on its shape.
 const BESIDE_SPRAY: [f64; 2] = [0.1, 0.6];
 
-/// A particle's ellipsoid: its centre, and what takes a ball of its radius to it.
+/// A particle's ellipsoid: its centre, and the matrix that transforms a ball of its radius to it.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
     pub center: DVec3,
     pub axes: DMat3,
-    /// The same of its spray.
+    /// The matrix for its spray.
     pub spray: DMat3,
-    /// The sum of its neighbours' weights.
+    /// Sum of its neighbours' weights.
     pub crowd: f64,
-    /// How far off all four may be on the GPU: metres, the norms of matrices, and the sum.
+    /// Error bounds on the GPU: of the centre in metres, of both matrices as norms, and of the sum.
     pub off: [f64; 4],
 }
 
-/// A vector of whole steps, and how many steps of its components rounding may make one more or less.
+/// A vector rounded to steps, and for each component whether rounding may change it by a step.
 fn stepped(v: DVec3) -> (DVec3, DVec3) {
     let steps = v / STEP;
-    // Single precision has 2^-24 of a number, over STEP 2^-8 of a step; a few operations.
+    // Single precision has an error of 2^-24 of a number, which is 2^-8 of a step; some operations
+    // multiply that.
     let loose = |s: f64| f64::from((s.fract().abs() - 0.5).abs() < 0.05);
     (steps.round() * STEP, DVec3::new(loose(steps.x), loose(steps.y), loose(steps.z)) * STEP)
 }
 
-/// The shapes of particles.
+/// The shapes of all particles.
 pub fn shapes(positions: &[DVec3], settings: &Settings) -> Vec<Shape> {
     let all: Vec<_> = positions.iter().map(|own| shape(*own, positions, settings)).collect();
     let centered = |(own, of): (&DVec3, &Formed)| {
@@ -71,7 +76,7 @@ pub fn shapes(positions: &[DVec3], settings: &Settings) -> Vec<Shape> {
     positions.iter().zip(&all).map(centered).collect()
 }
 
-/// A particle's axes, and what its centre is made of.
+/// A particle's axes, and the inputs of its centre.
 struct Formed {
     axes: DMat3,
     axes_off: f64,
@@ -79,15 +84,15 @@ struct Formed {
     spray_off: f64,
     beside: f64,
     beside_off: f64,
-    /// m, in reaches.
+    /// m, in units of the reach.
     middle: DVec3,
     middle_off: f64,
-    /// How much of an ellipsoid it is.
+    /// Fraction to which it is an ellipsoid.
     share: f64,
     share_off: f64,
 }
 
-/// The centre, and how far off it may be.
+/// The centre and its error.
 fn center(
     (own, of): (DVec3, &Formed),
     (positions, all): (&[DVec3], &[Formed]),
@@ -104,7 +109,7 @@ fn center(
         let weight = 1.0 - distance.powi(3);
         sum += formed.middle * length * weight;
         weights += length * weight;
-        // A step of each component may go either way.
+        // Each component may be rounded either way.
         sum_off += 2.0 * weight * length * formed.middle_off + STEP;
         weights_off += weight * formed.middle_off + STEP;
     }
@@ -157,8 +162,8 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
     let decomposed = eigen(covariance);
     let beside = all - 1.0;
 
-    // How far off the covariance is: a quotient's error is that of its terms over the sum of the weights, which is 1
-    // or more; single precision adds a few u.
+    // Error of the covariance: a quotient's error is that of its terms over the sum of the weights,
+    // which is at least 1; single precision adds a few u.
     let relative = loose_weight / all;
     let middle_off = loose[0].length() / all + middle.length() * relative + 1.0e-6;
     let entries = loose[1].length_squared() + 2.0 * loose[2].length_squared();
@@ -166,7 +171,7 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
         + norm(&moments) * relative
         + 2.0 * middle.length() * middle_off
         + 2.0e-6;
-    // The weights' steps, single precision, and the slope of 1.5 over the span.
+    // Steps of the weights, single precision, and the slope of 1.5 over the span.
     let beside_off = loose_weight + 2.0e-6;
     let shared = |from: f64, to: f64| {
         let changes = beside + beside_off > from && beside - beside_off < to;
@@ -174,7 +179,7 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
         (smoothstep(from, to, beside), off)
     };
     let (share, share_off) = shared(0.5 * fewest, fewest.max(1.0e-6));
-    // Two have at most a weight of 1 beside each other, three 2.
+    // With two particles a sum is at most 1, with three at most 2.
     let (full, full_off) = shared(1.5, 2.5);
     let scale = lone + (1.0 - lone) * full;
     let (drawn, off) = drawn(&decomposed, covariance_off, ratio, (share, share_off));
@@ -196,12 +201,12 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
     }
 }
 
-/// Six numbers of 16 bits, signed fractions of 4: half a step in each of nine entries. Rotations, powers and products in
-/// single precision.
+/// Six numbers of 16 bits, signed fractions of 4: half a step in each of nine entries. Then
+/// rotations, powers and products in single precision.
 const PACKED: f64 = 3.0 * 0.5 * 4.0 / 32767.0 + 64.0 / (1 << 24) as f64;
 
-/// The matrix of half-axes that have the proportions of a covariance's eigenvalues up to a ratio and a volume of 1, to a power;
-/// and how far off it may be.
+/// The matrix whose half-axes have the proportions of a covariance's eigenvalues, limited to a
+/// ratio, with volume 1, to a power; and its error.
 fn drawn(
     (values, vectors): &(DVec3, DMat3),
     covariance_off: f64,
@@ -214,14 +219,14 @@ fn drawn(
         axes = (*values / most).max(DVec3::splat(1.0 / ratio));
         axes /= (axes.x * axes.y * axes.z).cbrt();
     }
-    // Over the largest eigenvalue, with the others cut off at 1/k of that: each moves by its share; `axes` = b/g with
-    // g^3 = det b, whose derivative is at most 1/g across the eigenvectors, and along them as much and
-    // s_i/3 sum 1/b_j, where b_j is 1/k at least.
+    // Eigenvalues b are divided by the largest, and the others are at least 1/k. `axes` = b/g with
+    // g^3 = det b. The derivative is at most 1/g across the eigenvectors, and along them
+    // additionally s_i/3 sum 1/b_j.
     let b = (*values / most.max(1.0e-6)).max(DVec3::splat(1.0 / ratio));
     let g = (b.x * b.y * b.z).cbrt();
     let b_off = covariance_off / most.max(1.0e-6) * (1.0 + b.length() + 3.0_f64.sqrt() / ratio);
     let s_off = b_off * (1.0 / g + axes.length() / 3.0 * (1.0 / b.x + 1.0 / b.y + 1.0 / b.z));
-    // A power s^p by p: its logarithm times the error of p. By s: p s^(p - 1).
+    // Error of a power s^p: by p, the logarithm times p's error; by s, p s^(p - 1).
     let logarithm = axes.to_array().into_iter().map(|a| a.ln().abs()).fold(0.0, f64::max);
     let drawn = DVec3::from(axes.to_array().map(|a| a.powf(share)));
     let flat =
@@ -230,7 +235,7 @@ fn drawn(
     (matrix, flat + drawn.length() * logarithm * share_off)
 }
 
-/// The square root of the sum of the squares of all entries.
+/// The Frobenius norm.
 pub fn norm(m: &DMat3) -> f64 {
     m.to_cols_array().into_iter().map(|v| v * v).sum::<f64>().sqrt()
 }
@@ -248,7 +253,8 @@ pub fn eigen(m: DMat3) -> (DVec3, DMat3) {
     let angle = half.acos() / 3.0;
     let root = |turn: f64| mean + 2.0 * spread * (angle + turn).cos();
     let third = std::f64::consts::TAU / 3.0;
-    // The first is the largest, the second the smallest; the one that is far from both others is alone.
+    // The first root is the largest, the second the smallest; this takes the one that is far from
+    // both others.
     let alone = if half > 0.0 { root(0.0) } else { root(third) };
     let off = m - DMat3::from_diagonal(DVec3::splat(alone));
     let rows = [off.x_axis, off.y_axis, off.z_axis];
@@ -297,8 +303,8 @@ mod tests {
         }
     }
 
-    /// By hand: of a square lattice the variance across is 0, so that the axes are 1 : 1 : 1/4 over their geometric mean,
-    /// of a line 1 : 1/4 : 1/4, of a cubic lattice all the same.
+    /// By hand: a square lattice has a variance of 0 across it, so its axes are 1 : 1 : 1/4 over
+    /// their geometric mean; a line has 1 : 1/4 : 1/4; in a cubic lattice all are equal.
     #[test]
     fn sheets_are_flat_lines_are_long_and_the_inside_is_round() {
         let r = turned();
@@ -324,11 +330,13 @@ mod tests {
             lattice(|_, _, _| true),
         ];
         let mut expected: Vec<_> = points.into_iter().zip(waters.into_iter().zip(sprays)).collect();
-        // A line's two neighbours in reach weigh 1.75: a quarter of the way from half the size to the whole.
+        // A line's two neighbours in reach have a weight of 1.75: a quarter of the way from half
+        // the size to the whole size.
         expected[1].1.0 *= 0.5 + 0.5 * (3.0 / 16.0 - 2.0 / 64.0);
-        // Alone: a sphere of half the size, of whose spray nothing is less.
+        // A lone particle is a sphere of half the size; its spray keeps the whole size.
         expected.push((vec![DVec3::ZERO], (DVec3::splat(0.5), DVec3::ONE)));
-        // With one neighbour, whose weight is 7/8, spray is a strand; water goes from 0.75 to 1.5, and has 2/27 of it.
+        // With one neighbour of weight 7/8, spray is a strand. Water begins at 0.75 and is complete
+        // at 1.5, so it has 2/27 of the shape.
         let pair = vec![DVec3::ZERO, r * DVec3::X];
         let (power, strand) = (2.0 / 27.0, of_ratio(0.125)[1]);
         let little = DVec3::from(of_ratio(0.25)[1].to_array().map(|a| a.powf(power)));

@@ -1,63 +1,63 @@
-//! Twin of the adaptive curvature flow (thesis Sec. 3.1, 4.7), on the positive eye depth z of the reduced
-//! image.
+//! Twin of the adaptive curvature flow (thesis Sec. 3.1, 4.7) on the positive eye depth z of the
+//! reduced image.
 //!
-//! `Source`, `Fixed`: the thesis' form, without z_xy and without the ray's slope,
+//! `Source`, `Fixed`: the thesis' form, without z_xy and without the ray's slope:
 //! ```text
 //! D   = C_y^2 z_x^2 + C_x^2 z_y^2 + C_x^2 C_y^2 z^2        2H = (C_y E_x + C_x E_y) / D^(3/2)
 //! E_x = z_x D_x / 2 - z_xx D                               E_y = z_y D_y / 2 - z_yy D
 //! z <- z - eps 2H
 //! ```
-//! `ConstantWidth`: the mean curvature flow of the surface P = w z itself, w = (s_x, s_y, -1) the
-//! ray and g the slope's signed step from pixel to pixel, from its two fundamental forms,
+//! `ConstantWidth`: mean curvature flow of the surface P = w z, with the ray w = (s_x, s_y, -1) and
+//! g the slope's signed change per pixel, from its two fundamental forms:
 //! ```text
 //! P_x = (g_x z, 0, 0) + w z_x      E = P_x.P_x    L = z_xx - 2 z_x^2 / z      (times the normal's
 //! P_y = (0, g_y z, 0) + w z_y      F = P_x.P_y    M = z_xy - 2 z_x z_y / z     own factor, which
 //!                                  G = P_y.P_y    N = z_yy - 2 z_y^2 / z       cancels)
 //! z <- z + kappa (C_x z)^2 (G L - 2 F M + E N) / (E G - F^2)
 //! ```
-//! A plane has L = M = N = 0 whatever its slant: 1 / z is linear in the pixels.
+//! A plane has L = M = N = 0 at any slant, because 1 / z is linear in pixels.
 
 use super::{Image, View, is_surface};
 use glam::{DVec2, DVec3};
 
-/// How far and how often a pixel is smoothed.
+/// How a pixel's number of iterations and step are chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// As in the thesis: `N = floor(4.8 r / (C_x d)) + 1` steps of 2H.
     Source,
-    /// Mean curvature flow to the width `sigma_w` along the surface.
+    /// Mean curvature flow to the standard deviation `sigma_w` along the surface.
     ConstantWidth,
-    /// The source's step, this often for every pixel.
+    /// The source's step, with this number of iterations for every pixel.
     Fixed(u32),
 }
 
-/// The smoothing's lengths, in world units, and the limit of its iterations.
+/// Lengths of the smoothing in world units, and the max number of iterations.
 #[derive(Clone, Copy, Debug)]
 pub struct Params {
     /// r, the drawn radius.
     pub radius: f64,
-    /// The wanted width along the surface.
+    /// Wanted standard deviation along the surface.
     pub sigma_w: f64,
-    /// No derivative across a larger difference of depth.
+    /// Derivatives are not taken across larger differences of depth.
     pub depth_falloff: f64,
-    /// No pixel is smoothed more often.
+    /// Max number of iterations.
     pub cap: u32,
 }
 
 impl Params {
-    /// The defaults for a drawn radius.
+    /// The defaults for this drawn radius.
     pub fn new(radius: f64) -> Self {
         Self { radius, sigma_w: 1.5 * radius, depth_falloff: 5.3 * radius, cap: 256 }
     }
 }
 
-/// Iterations more than the bound of stability asks for: at it a checkerboard would never go.
+/// Additional iterations beyond the limit of stability, at which a checkerboard would not decay.
 pub const MORE: f64 = 2.0;
 
-/// N and the step of each pixel, from the depth before the smoothing: kappa in pixels squared for
-/// `ConstantWidth`, else eps as a length. The cap bounds N and leaves the step as it is: kappa stays
-/// under 1 / (2 (2 + s^2)), and z_xx and z_yy of a facing surface have the factors 1 + s_x^2 and
-/// (1 + s_y^2) (C_x / C_y)^2. An empty pixel has N = 0.
+/// N and the step of each pixel, from the depth before the smoothing: kappa in square pixels for
+/// `ConstantWidth`, otherwise eps as a length. The cap limits N and does not change the step: kappa
+/// stays below 1 / (2 (2 + s^2)), where z_xx and z_yy of a surface that faces the eye have the
+/// factors 1 + s_x^2 and (1 + s_y^2) (C_x / C_y)^2. An empty pixel has N = 0.
 pub fn plan(
     reduced: &Image<f64>,
     view_reduced: &View,
@@ -88,7 +88,7 @@ pub fn plan(
     })
 }
 
-/// Runs the flow: iteration i = 1, 2, .. acts on the pixels with i <= N, on all at once.
+/// Runs the flow: iteration i = 1, 2, .. changes all pixels with i <= N at the same time.
 pub fn run(
     depth: &Image<f64>,
     plan: &Image<(u32, f64)>,
@@ -115,23 +115,23 @@ pub fn run(
     z
 }
 
-/// The derivatives of the depth at a pixel; those across a cut are 0.
+/// Derivatives of the depth at a pixel; 0 across a cut.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Derivatives {
-    /// Along x.
+    /// First derivative along x.
     pub x: f64,
-    /// Along y.
+    /// First derivative along y.
     pub y: f64,
-    /// Twice along x.
+    /// Second derivative along x.
     pub xx: f64,
-    /// Twice along y.
+    /// Second derivative along y.
     pub yy: f64,
-    /// Mixed; none where an axis or a corner is cut.
+    /// Mixed derivative; None if an axis or a corner is cut.
     pub xy: Option<f64>,
 }
 
-/// Central differences. An axis is cut where one of its two differences exceeds the falloff or
-/// leaves the image, the mixed one where an axis or a corner is.
+/// Central differences. An axis is cut if one of its two differences exceeds the falloff or lies
+/// outside the image; the mixed derivative is cut if an axis or a corner is.
 pub fn derivatives(z: &Image<f64>, x: isize, y: isize, falloff: f64) -> Derivatives {
     let here = z.clamped(x, y);
     let at = |dx, dy| z.checked(x + dx, y + dy).filter(|there| (there - here).abs() <= falloff);
@@ -154,7 +154,7 @@ pub fn first_form(ray: DVec3, g: DVec2, z: f64, d: &Derivatives) -> (f64, f64, f
     (p_x.length_squared(), p_x.dot(p_y), p_y.length_squared())
 }
 
-/// What a unit step adds to the depth of a pixel.
+/// Change of a pixel's depth per unit step.
 pub fn rate(
     image: &Image<f64>,
     x: isize,
@@ -170,7 +170,8 @@ pub fn rate(
         let ray = view.ray(x as usize, y as usize);
         let (e, f, g) = first_form(ray, view.slope_step(), z, &d);
         let l = d.xx - 2.0 * d.x * d.x / z;
-        // Without z_xy there is no M: half of it would bend a plane.
+        // Without z_xy the whole of M is dropped, because one of its terms alone would bend a
+        // plane.
         let m = d.xy.map_or(0.0, |xy| xy - 2.0 * d.x * d.y / z);
         let n = d.yy - 2.0 * d.y * d.y / z;
         return (c_x * z).powi(2) * (g * l - 2.0 * f * m + e * n) / (e * g - f * f);
@@ -192,7 +193,8 @@ mod tests {
     use glam::{DVec2, DVec3};
     use std::f64::consts::PI;
 
-    /// The depth of the plane through (0, 0, -d), tilted by an angle about the eye's z and away.
+    /// Depth of the plane through (0, 0, -d), tilted by `tilt` towards the direction `towards` in
+    /// the image.
     fn plane(view: &View, d: f64, tilt: f64, towards: f64) -> Image<f64> {
         Image::from_fn(view.width, view.height, |x, y| {
             let s = view.ray(x, y).truncate().dot(DVec2::from_angle(towards));
@@ -243,7 +245,7 @@ mod tests {
         }
     }
 
-    /// Away from the edges of the image, where the one-sided differences are cut.
+    /// Pixels at the image's edges are excluded, because their differences are cut.
     #[test]
     fn planes_stay_put_on_and_off_the_axis() {
         for shift in [DVec2::ZERO, DVec2::new(1.0, -0.6)] {
@@ -254,7 +256,8 @@ mod tests {
                 let depth = plane(&view, d, tilt, towards);
                 let params = Params::new(1.0);
                 for (x, y) in (1..64).flat_map(|y| (1..64).map(move |x| (x, y))) {
-                    // The differences of 1 / (1 - e i) miss its derivatives by 2 e^4 z an axis.
+                    // The central differences of 1 / (1 - e i) miss the derivatives by 2 e^4 z per
+                    // axis.
                     let (here, ray) = (depth.at(x, y), view.ray(x, y));
                     let e = view.c_x() * tilt.tan() * here / d;
                     let lattice = 4.0 * e.powi(4) * here * ray.length_squared();
@@ -269,7 +272,8 @@ mod tests {
         }
     }
 
-    /// The worst wave there is, a checkerboard, must not grow at any slope and shape of the pixels.
+    /// A checkerboard, the least stable pattern, must not grow for any slope and any shape of
+    /// pixels.
     #[test]
     fn the_step_is_stable_off_the_axis() {
         for (sx, sy, aspect) in
@@ -280,7 +284,7 @@ mod tests {
         }
     }
 
-    /// Pixels wider than high have (1 + s_y^2) (C_x / C_y)^2 on z_yy.
+    /// In pixels wider than high z_yy has the factor (1 + s_y^2) (C_x / C_y)^2.
     #[test]
     fn the_step_is_stable_in_flat_pixels() {
         for aspect in [0.9, 0.8, 0.5] {
@@ -289,7 +293,7 @@ mod tests {
         }
     }
 
-    /// What the smoothing leaves of a checkerboard of amplitude 1.
+    /// What remains of a checkerboard with amplitude 1.
     fn checkerboard_after_smoothing(slope: DVec2, aspect: f64) -> f64 {
         let focal = DVec2::new(40.0, -40.0 / aspect);
         let view = view(focal, slope * focal, 48, 48);
@@ -302,23 +306,23 @@ mod tests {
 
     /// A small wave on a plane of water.
     struct Wave {
-        /// Slope off the axis that the view looks along.
+        /// Slope of the view direction off the axis.
         middle: DVec2,
         /// C_y / C_x of the pixels.
         aspect: f64,
-        /// Depth of the plane, how it is tilted and towards where.
+        /// Depth of the plane, its tilt and the direction of the tilt.
         d: f64,
         tilt: f64,
         towards: f64,
-        /// Direction of the wave, from down the plane on.
+        /// Direction of the wave, relative to the direction down the plane.
         along: f64,
         extent: (usize, usize),
         rule: Rule,
-        /// Its number.
+        /// Wave number.
         k: f64,
     }
 
-    /// One of `k sigma_w = 1` on the axis; each test says what its own has else.
+    /// A wave with `k sigma_w = 1` on the axis; each test changes what it needs.
     const WAVE: Wave = Wave {
         middle: DVec2::ZERO,
         aspect: 1.0,
@@ -331,7 +335,7 @@ mod tests {
         k: 1.0 / 1.5,
     };
 
-    /// What is left of a wave: the response of the smoothed depth at the wave's own number, under a
+    /// What remains of a wave: the response of the smoothed depth at the wave's number, under a
     /// window in the middle.
     fn remains(wave: Wave) -> f64 {
         let Wave { middle, aspect, d, tilt, towards, along, extent, rule, k } = wave;

@@ -1,15 +1,16 @@
-//! Twin of the spray: a particle that is too thin to be water is droplets round its centre, each an
-//! ellipse across the view through its own centre, drawn out along its motion. Where it has neighbours the droplets fill the
-//! ellipsoid of its spray; the first of several is mist, the ellipse that this ellipsoid and the streak are as seen.
+//! Twin of pass `spray`: a particle too thin to be water is drawn as droplets around its centre.
+//! Each droplet is an ellipse across the view through its own centre, elongated along its motion.
+//! With neighbours, the droplets fill the ellipsoid of the particle's spray. The first of several
+//! droplets is mist: the projection of this ellipsoid with its motion streak.
 //!
-//! With p a droplet's centre, N the direction to it and `w = (s_x, s_y, -1)` the pixel's ray, t w
-//! with `t = N.p / N.w` is the point of its plane that is seen, q its place in half-axes. [`spray`]
-//! is the sum of `before A sqrt(1 - q^2) exp(-2 q^2)`, an optical depth, and between what it must
-//! lie where all is single precision and the sum of a [`Sums`], in any order; [`over`] lays it
-//! over a colour.
+//! With p a droplet's centre, N its direction from the eye and `w = (s_x, s_y, -1)` the pixel's
+//! ray, t w with `t = N.p / N.w` is the visible point of the droplet's plane, and q is its distance
+//! from the centre in half-axes. [`spray`] sums `before A sqrt(1 - q^2) exp(-2 q^2)`, an optical
+//! depth, and gives bounds for single precision and for the sum of a [`Sums`] in any order.
+//! [`over`] blends spray over a colour.
 //!
-//! Conventions are those of the twin of the foam, whose planes and rays these are: a number is
-//! [`Rounded`], a vector [`Off`], roundings of an error are left out.
+//! The conventions are those of the foam's twin, which has the same planes and rays: a number is
+//! [`Rounded`], a vector [`Off`], and roundings of errors are neglected.
 
 use super::classify;
 use super::shape::norm;
@@ -21,72 +22,76 @@ use crate::support::tolerance::{Between, U};
 use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-/// Drawn radius of a whole particle over the spacing.
+/// Drawn radius of a particle of full density, in spacings.
 const RADIUS: f64 = 0.656;
-/// Of the random numbers.
+/// Seed of the random numbers.
 const SEED: u32 = 0x5370;
-/// Numbers from here on are no positions and no velocities.
+/// Numbers of this size or larger are invalid as positions and velocities.
 const NOWHERE: f64 = 1e18;
-/// The ramp of the share is at least this wide, in its lower end and in the unit of the densities.
+/// Min width of the density ramp, relative to its lower end and in units of density.
 const STEEPEST: f64 = 1e-6;
-/// Slower than this, in spacings a second, there is no direction of motion.
+/// Below this speed, in spacings per second, there is no direction of motion.
 const STILL: f64 = 1e-6;
-/// Nor where no more than this share of it is across the view.
+/// There is none either if at most this fraction of the motion is across the view.
 const HEAD_ON: f64 = 1e-3;
-/// The least half-axis, in pixels.
+/// Min half-axis in pixels.
 const LEAST: f64 = 0.7;
-/// Water is asked for this many drawn radii beside it too.
+/// The depth of water is also looked up at this distance beside a droplet, in drawn radii.
 const ASIDE: f64 = 1.5;
-/// Behind water over this many spacings spray fades.
+/// Spray behind water fades over this many spacings.
 const FADE: f64 = 1.5;
-/// What sine and cosine may be off. Vulkan says so from -pi to pi alone.
+/// Error of sine and cosine. Vulkan guarantees it only between -pi and pi.
 const TRIGONOMETRY: f64 = 1.0 / 2048.0;
-/// Mean of the squares of the sizes of many droplets, and how many of them are drawn in the mean.
+/// Mean square of the sizes of many droplets, times the mean fraction that is drawn.
 const SQUARES: f64 = 0.513 * 0.6;
-/// Of the droplets and of the mist the part that a particle has which is nothing but spray.
+/// Fraction of the droplets and the mist of a particle that is only spray.
 const LEAST_TORN: f64 = 0.3;
-/// Of the random numbers of a particle.
+/// First of a particle's random numbers for its spindle.
 const SPINDLE: u32 = 4096;
-/// Sum of the squares of half-axes from which on droplets leave the spindle for the ellipsoid, and from which on they fill it.
+/// Sum of the squared half-axes at which droplets begin to leave the spindle for the ellipsoid, and
+/// at which they fill it.
 const FLAT: [f64; 2] = [3.0, 3.6];
-/// How far droplets lie from the centre at most, over the ball's, where the ellipsoid is a line.
+/// Max distance of droplets from the centre, relative to that in a ball, if the ellipsoid is a
+/// line.
 const STRAND: f64 = 0.7;
-/// The eigenvalues of mist as seen that differ by less, over their sum, give no direction.
+/// If the eigenvalues of projected mist differ by less than this fraction of their sum, it has no
+/// direction.
 const ROUND: f64 = 1e-3;
-/// What an arc tangent may be off, of itself.
+/// Relative error of an arc tangent.
 const ARC: f64 = 4096.0 * 2.0 * U;
-/// Least sine between the view's ray and the axis that what is level goes by.
+/// Min sine of the angle between a droplet's ray and the axis from which the level axis is made.
 const LEAST_SINE: f64 = 0.43;
-/// The relief: the nearest distance in picture heights, how many there are, and which optical depth is thin.
+/// Relief: the nearest distance in picture heights, the number of distances, and the optical depth
+/// that counts as thin.
 const RELIEF: (f64, u32, f64) = (1.0 / 360.0, 5, 0.3);
-/// What the relief takes of the sky's light.
+/// Fraction by which relief reduces the sky's light.
 const RELIEF_OF_SKY: f64 = 0.19;
-/// Octaves of the noise in mist at most.
+/// Max number of octaves of the noise in mist.
 const OCTAVES: u32 = 5;
 /// `ln mean(exp(a n)) / a²` of the noise n.
 const RAISED: f64 = 0.0895;
 
-/// How droplets are summed.
+/// How the contributions of droplets are summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sums {
-    /// What a droplet adds is a multiple of this, next to what it is; 0: it is not rounded.
+    /// A contribution is rounded to a neighbouring multiple of this; 0: not rounded.
     pub step: f64,
-    /// Half an ulp, of a number and of the least ones.
+    /// Half an ulp: relative, and absolute for denormals.
     half: (f64, f64),
 }
 
 impl Sums {
-    /// Single precision.
+    /// 32-bit floats.
     pub const SINGLE: Self = Self { step: 1.0 / 262_144.0, half: (U, 0.0) };
-    /// Half precision.
+    /// 16-bit floats.
     pub const HALF: Self = Self { step: 1.0 / 512.0, half: (1.0 / 2048.0, 1.0 / (1 << 25) as f64) };
 
-    /// Sums of multiples of the step are exact up to this: there are as many of them as of parts of 1.
+    /// Sums of multiples of the step are exact up to this value.
     fn exact(&self) -> f64 {
         self.step / self.half.0
     }
 
-    /// What an addend may be rounded to, at least or at most by the sign: down or up.
+    /// A contribution rounded to a step: down for a negative sign, up for a positive one.
     fn in_steps(&self, addend: f64, sign: f64) -> f64 {
         if self.step == 0.0 {
             return addend;
@@ -96,8 +101,8 @@ impl Sums {
         whole * self.step
     }
 
-    /// Least and most that a sum of so many additions is, in any order: each is of no more than the
-    /// whole, rounded to the nearest or, which Vulkan leaves open, towards zero.
+    /// Bounds of a sum of `count` contributions, in any order. Each addition rounds at most the
+    /// whole sum, to the nearest or, as Vulkan permits, towards zero.
     fn summed(&self, sum: f64, count: u32) -> [f64; 2] {
         if self.step > 0.0 && sum <= self.exact() {
             return [sum; 2];
@@ -107,74 +112,77 @@ impl Sums {
         [low.max(0.0), sum * (1.0 + by).powf(n) + n * least]
     }
 
-    /// The same of a sum that was made so itself, in another order.
+    /// The same bounds for a value that is itself such a sum, made in another order.
     pub fn again(&self, sum: f64, count: u32) -> [f64; 2] {
         if sum < self.exact() {
             return [sum; 2];
         }
         let (n, (by, least)) = (f64::from(count), self.half);
         let ratio = ((1.0 + by) / (1.0 - 2.0 * by)).powf(n);
-        // Three of the least, or two times a ratio and one.
+        // Three of the smallest numbers, or two times the ratio and one.
         [sum / ratio - 4.0 * n * least, sum * ratio + 4.0 * n * least]
     }
 }
 
-/// A particle, in the world.
+/// A particle in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// Its centre.
+    /// Position of its centre.
     pub position: DVec3,
-    /// Its velocity, world units a second.
+    /// Velocity in world units per second.
     pub velocity: DVec3,
-    /// Its density, in the unit of [`Settings::rest_density`].
+    /// Density in the unit of [`Settings::rest_density`].
     pub density: f64,
-    /// What it is known by: the droplets go by it.
+    /// Id, which selects the droplets' random numbers.
     pub id: u32,
-    /// What takes a ball to the ellipsoid of its spray, as 16 bits hold it.
+    /// Matrix from a ball to the ellipsoid of its spray, as 16 bits store it.
     pub shape: DMat3,
-    /// The sum of its neighbours' weights.
+    /// Sum of the neighbours' weights.
     pub crowd: f64,
 }
 
-/// Sums of the neighbours' weights between which it takes its mist on; and one of a particle of which it is not known.
+/// Sums of the neighbours' weights between which mist appears, and the sum for particles whose
+/// neighbours are unknown.
 const CROWD: (f64, f64) = (1.0, 6.0);
 pub const CROWDED: f64 = 64.0;
 
-/// The shape of a ball in 16 bits: signed parts of 4.
+/// The shape of a ball in 16 bits, which store signed fractions of 4.
 pub const BALL: DMat3 = DMat3::from_diagonal(DVec3::splat(8192.0 * 4.0 / 32767.0));
 
-/// What spray is drawn by.
+/// Settings of the spray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Rest spacing of the particles, world units.
+    /// Rest spacing of the particles in world units.
     pub spacing: f64,
-    /// The density of water at rest.
+    /// Rest density of water.
     pub rest_density: f64,
-    /// The light that the middle of a droplet at rest takes away, [0, 1).
+    /// Opacity at the middle of a droplet at rest, [0, 1).
     pub opacity: f64,
-    /// Half-axis of all droplets together, in drawn radii.
+    /// Half-axis of a disc with the area of all droplets, in drawn radii.
     pub size: f64,
-    /// n, droplets a particle.
+    /// n, the number of droplets per particle.
     pub droplets: u32,
-    /// How far they lie from its centre at most, in spacings.
+    /// Max distance of droplets from the particle's centre, in spacings.
     pub spread: f64,
-    /// Seconds of motion that they lie apart along it at most, before and behind.
+    /// Max distance of droplets along the motion, before and behind the particle, in seconds of
+    /// motion.
     pub stretch: f64,
-    /// Of mist: the light that its middle takes away, and its half-axis in spacings.
+    /// Mist: the opacity at its middle, and its half-axis in spacings.
     pub mist: [f64; 2],
-    /// The amplitude of an octave of the logarithm of the mist's density.
+    /// Amplitude of an octave of the logarithm of the mist's density.
     pub contrast: f64,
-    /// Parts of the rest density: up to the first all is spray, from the second on nothing.
+    /// Fractions of the rest density: up to the first, the particle is only spray; from the second
+    /// on, it has none.
     pub densities: [f64; 2],
-    /// Seconds of motion that a droplet streaks over.
+    /// Exposure time in seconds, over which a droplet is streaked.
     pub shutter: f64,
-    /// The part of the sunlight of which the fourth root comes.
+    /// Fraction of the sunlight that is scattered, of which the fourth root is taken.
     pub scattering: f64,
-    /// How droplets are summed.
+    /// How the contributions are summed.
     pub sums: Sums,
 }
 
-/// A number that is more than another: by both as they are, surely, perhaps.
+/// Whether a number is larger than another: by their values, for certain, possibly.
 #[derive(Clone, Copy, Debug)]
 struct More {
     is: bool,
@@ -203,8 +211,8 @@ fn depth_of(p: Off) -> Rounded {
 }
 
 impl Particle {
-    /// How much of it is spray, if any may be. The ramp may be narrower than its ends are rounded:
-    /// then the share is anything about them.
+    /// Fraction of the particle that is spray; None if it can be none. The ramp may be narrower
+    /// than the rounding of its ends: then the bounds allow any fraction near them.
     fn share(&self, settings: &Settings) -> Option<Rounded> {
         let is = |v: DVec3| v.is_finite() && v.abs().max_element() < NOWHERE;
         if !(self.density > 0.0 && is(self.position) && is(self.velocity)) {
@@ -230,7 +238,7 @@ impl Particle {
 }
 
 impl Settings {
-    /// Half-axis of droplet k by its random number, and the optical depth of its middle at rest.
+    /// Half-axis of droplet k by its random number, and optical depth at its middle at rest.
     fn half_axis(&self, k: u32, u: f64) -> (Rounded, Rounded) {
         let many = self.droplets > 1;
         if many && k == 0 {
@@ -238,14 +246,15 @@ impl Settings {
             return (off(axis * self.spacing, 1.0), optical_depth(taken));
         }
         let squares = if many { SQUARES * f64::from(self.droplets) } else { 1.0 };
-        // Radius 2u, products 3u, root 9u, quotient 5u; the size three products and a sum.
+        // Radius 2u, products 3u, root 9u, quotient 5u; the size has three products and a sum.
         let whole = off(self.size * RADIUS * self.spacing / squares.sqrt(), 19.0);
         let size = if many { off(0.2 + 2.135 * u.powi(6), 9.0) } else { exact(1.0) };
         (size * whole, optical_depth(self.opacity))
     }
 }
 
-/// That which takes so much light. A logarithm is 2^-21 off from a half on, else 3 ulp.
+/// Optical depth with this opacity. A logarithm errs by 2^-21 from 1/2 upwards, below that by 3
+/// ulp.
 fn optical_depth(taken: f64) -> Rounded {
     let left = off(1.0 - taken, 1.0);
     let v = -left.v.ln();
@@ -257,33 +266,33 @@ fn optical_depth(taken: f64) -> Rounded {
 #[derive(Clone, Copy, Debug)]
 struct Droplet {
     ellipse: LooseEllipse,
-    /// The optical depth of its middle.
+    /// Optical depth at its middle.
     amount: Rounded,
-    /// How many pixels beside it water is asked for: two numbers where rounding decides.
+    /// Distance in pixels at which water is also looked up; two values if rounding decides.
     aside: [isize; 2],
-    /// Of mist that is not smooth.
+    /// Noise of the mist, if it has any.
     grain: Option<Grain>,
     /// Cosine and sine of the motion's angle in the plane of the ellipse.
     turn: [Rounded; 2],
-    /// Whether it is drawn, and surely.
+    /// Whether the droplet is drawn.
     drawn: More,
 }
 
-/// What makes mist clumpy.
+/// Noise that makes mist clumpy.
 #[derive(Clone, Copy, Debug)]
 struct Grain {
-    /// Cells in a half-axis.
+    /// Noise cells per half-axis.
     cells: [Rounded; 2],
-    /// Cosine and sine from the noise's axes to the half-axes.
+    /// Cosine and sine of the angle from the noise's axes to the half-axes.
     turn: [Rounded; 2],
     octaves: Rounded,
     contrast: f64,
-    /// Random bits of the particle.
+    /// The particle's random bits.
     bits: u32,
 }
 
 impl Grain {
-    /// The density over its mean at a place in half-axes.
+    /// Density relative to its mean, at a position in half-axes.
     fn at(&self, place: [Rounded; 2]) -> Rounded {
         let begin = [self.bits % 65536, self.bits / 65536].map(|n| exact(f64::from(n) / 65536.0));
         let [x, y] = [0, 1].map(|i| place[i] * self.cells[i]);
@@ -302,7 +311,8 @@ impl Grain {
     }
 }
 
-/// Numbers of -1 to 1 on a lattice, between which it is smooth: no slope is more than 1.5 times their difference of 2.
+/// Smooth noise between random lattice values of -1 to 1. Its slope is at most 1.5 times their max
+/// difference of 2.
 fn value_noise(at: [Rounded; 2], salt: u32) -> Rounded {
     let cell = at.map(|x| x.v.floor());
     let fade = [0, 1].map(|i| smoothstep(0.0, 1.0, at[i].v - cell[i]));
@@ -315,17 +325,17 @@ fn value_noise(at: [Rounded; 2], salt: u32) -> Rounded {
     };
     let row = |y| number(0, y) * (1.0 - fade[0]) + number(1, y) * fade[0];
     let v = row(0) * (1.0 - fade[1]) + row(1) * fade[1];
-    // The fraction is exact, the fade three products and two sums; each mix three.
+    // The fraction is exact, the fade has three products and two sums, each mix three operations.
     Rounded { v, e: (3.0 * (at[0].e + at[1].e)).min(2.0) + 24.0 * U }
 }
 
-/// Those of a particle.
+/// All droplets of a particle.
 fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Droplet> {
     let Some(share) = particle.share(settings) else { return Vec::new() };
     let c = Off::point(view.view.transform_point3(particle.position), view);
     let (near, from) = (off(view.near(), 8.0), off(settings.spread * settings.spacing, 2.0));
     let drawn = more(depth_of(c), at_least(near, from));
-    // 1 - share is off by as much as the share.
+    // 1 - share errs as much as the share.
     let torn = at_least(exact(4.0) * (exact(1.0) - share), off(LEAST_TORN, 1.0));
     let torn = if settings.droplets > 1 { torn.clamp(0.0, 1.0) } else { exact(1.0) };
     let all = (0..settings.droplets).map(|k| {
@@ -366,7 +376,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             let [along, across] = streaks.map(|streak| radius + streak);
             let cells = [one.ellipse.a / along, one.ellipse.b / across];
             let least = if along.v < across.v { along } else { across };
-            // Where they are nearly the same either may be less.
+            // If the two are nearly equal, either may be the smaller.
             let least = Rounded { e: along.e.max(across.e), ..least };
             let octaves = (least / pixel).log2().clamp(0.0, f64::from(OCTAVES));
             let bits = whole_steps::chance(particle.id, 0);
@@ -385,8 +395,8 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
     all.filter(|one| one.drawn.maybe).collect()
 }
 
-/// A direction of two random numbers. Its parts are off by the root, by sine, cosine and their argument, and by a
-/// product.
+/// A direction from two random numbers. Its components err by the root, by sine, cosine and their
+/// argument, and by a product.
 fn direction(first: f64, second: f64) -> Off {
     let level = exact(2.0 * first - 1.0);
     let ring = (exact(1.0) - level * level).clamp(0.0, 1.0).sqrt();
@@ -395,9 +405,10 @@ fn direction(first: f64, second: f64) -> Off {
     Off { v, e: ring.e + ring.v * (SQRT_2 * (TRIGONOMETRY + U) + 2.0 * U * turn) }
 }
 
-/// Where a droplet of three random numbers is: in a ball; or in a spindle about an axis, of a width, and the more in an
-/// ellipsoid the less round that is. The world's offset is
-/// off by two products; a scalar product by three and two sums, its product with the axis, their sum and the width by five.
+/// Centre of a droplet from three random numbers: in a ball, or in a spindle with an axis and a
+/// width, or in the ellipsoid if that is far from round. The world-space offset errs by two
+/// products; a scalar product has three products and two sums; its product with the axis, their sum
+/// and the width add five.
 fn placed(
     c: Off,
     spindle: Option<(Off, Rounded)>,
@@ -416,8 +427,9 @@ fn placed(
         let squares = squares(shape);
         let part = STRAND / squares.v.sqrt();
         let flat = part * (*shape * off);
-        // An entry is 5u off, a row's product 3u, and as a vector the root of 3 more; the factor as `squares`, by its root,
-        // 4u of that, two products; a product.
+        // A matrix entry errs by 5u and a row's product by 3u, as a vector times the root of 3; the
+        // factor errs by half of the relative error of `squares`, a root of 4u and two products;
+        // the last product adds one.
         let rows = norm(shape) * (from + (5.0 + 3.0 * 3.0_f64.sqrt()) * U * length);
         let flat_e = part * rows + (0.5 * squares.e / squares.v + 8.0 * U) * flat.length();
         let t = rounded::smoothstep(exact(FLAT[0]), self::off(FLAT[1], 1.0), squares);
@@ -430,16 +442,18 @@ fn placed(
     Off { v, e: c.e + eye.e + from + U * v.length() }
 }
 
-/// The sum of the squares of a shape's entries: of an entry 5u, a square u, at most eight sums.
+/// Sum of the squares of a shape's entries: an entry errs by 5u, a square by u, and there are at
+/// most eight sums.
 fn squares(shape: &DMat3) -> Rounded {
     off(norm(shape).powi(2), 20.0)
 }
 
-/// A droplet at a place, at a velocity, of a size and an optical depth, all of it spray, or mist of a shape; the world width
-/// of a pixel, and the speeds along its axes over the exposure.
+/// A droplet at position p with velocity v, half-axis h and optical depth; for mist also its shape.
+/// Returns also the world width of a pixel, and the motion along the droplet's axes during the
+/// exposure.
 ///
-/// By the error of the motion m the axes turn in their plane, straight at the eye by any angle. Out
-/// of it they do not go, whatever is left of m there: a circle stays one.
+/// An error of the motion m across the view turns the axes in their plane, by any angle if m is
+/// nearly 0. They do not leave the plane, so a circle stays a circle.
 fn droplet(
     p: Off,
     v: Off,
@@ -464,7 +478,7 @@ fn droplet(
     let side = if n.v.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
     let level = side.cross(n.v).normalize();
     let upright = level.cross(n.v);
-    // A cross product over the least sine, and a quotient.
+    // A cross product over the min sine, and a quotient.
     let mut e1 = Off { v: if moving.is { m.v.normalize() } else { level }, e: 24.0 * U };
     let streak = off(0.5 * settings.shutter, 1.0);
     let mut axes = [h + streak * speed, h];
@@ -473,7 +487,7 @@ fn droplet(
         axes = seen.half_axes();
         match more(seen.apart, off(ROUND, 1.0) * seen.middle) {
             More { surely: true, .. } => {
-                // How far perturbation turns an eigenvector; then the angle, sine and cosine.
+                // Perturbation of an eigenvector; then errors of angle, sine and cosine.
                 let by = seen.e / (2.0 * seen.apart.v - seen.e).max(f64::MIN_POSITIVE);
                 let own = SQRT_2 * (TRIGONOMETRY + U) + 0.5 * ARC * PI;
                 e1 = Off { v: seen.longer, e: 24.0 * U + by.min(2.0) + own };
@@ -486,7 +500,7 @@ fn droplet(
             _ => {}
         }
     }
-    // Two axes that are off by 24 ulp each, their product, and the angle.
+    // Two axes with errors of 24 ulp each, their product, and the angle.
     let turned = [level, upright]
         .map(|axis| Rounded { v: e1.v.dot(axis), e: 28.0 * U + e1.e + turn.min(2.0) });
     let e2 = e1.cross(n);
@@ -506,15 +520,15 @@ fn droplet(
     (Droplet { ellipse, amount, aside, grain: None, turn: turned, drawn }, pixel, streaks)
 }
 
-/// Mist as it is seen: the covariance `C = h^2 P S^2 P^T + s s^T` on the plane across the view, where P projects, S is the
-/// shape and s half the streak.
+/// The projection of mist: the covariance `C = h^2 P S^2 P^T + s s^T` in the plane across the view.
+/// P projects to that plane, S is the shape and s is half the streak.
 struct Seen {
-    /// Half the sum and half the difference of its eigenvalues.
+    /// Half the sum and half the difference of the eigenvalues.
     middle: Rounded,
     apart: Rounded,
-    /// How far off C is, as a norm.
+    /// Error of C, as a matrix norm.
     e: f64,
-    /// The direction of the longer half-axis.
+    /// Direction of the longer half-axis.
     longer: DVec3,
 }
 
@@ -531,13 +545,15 @@ impl Seen {
         let s = plane.map(|axis| half.v * m.v.dot(axis));
         let entry = |i: usize, j: usize| rows[i].dot(rows[j]) + s[i] * s[j];
         let (xx, yy, xy) = (entry(0, 0), entry(1, 1), entry(0, 1));
-        // An axis is 24u off, and by the normal; two products of matrices 3u an entry each, which is the root of 3 more as a
-        // vector; the size; an entry of the shape 5u.
+        // An axis errs by 24u and by the error of the normal. Two matrix products err by 3u per
+        // entry each, times the root of 3 as a vector; the size adds its own error, an entry of the
+        // shape 5u.
         let axis = 24.0 * U + n.e / LEAST_SINE;
         let (size, length) = (h.v * norm(shape), half.v * m.v.length());
         let row = size * (axis + (6.0 * 3.0_f64.sqrt() + 6.0) * U) + h.e * norm(shape);
         let along = half.v * m.e + half.e * m.v.length() + length * (axis + 6.0 * U);
-        // Of an entry the products of two, four products and as many sums; as a norm of four entries twice that.
+        // An entry has products of two uncertain factors, four products and as many sums; the norm
+        // of four entries is twice that.
         let of = |v: f64, e: f64| 2.0 * v * e + e * e + 5.0 * U * v * v;
         let e = 2.0 * (of(size, row) + of(length, along));
         let (middle, apart) = (0.5 * (xx + yy), DVec2::new(0.5 * (xx - yy), xy).length());
@@ -547,7 +563,7 @@ impl Seen {
         Self { middle: rounded(middle, 2.0), apart: rounded(apart, 13.0), e, longer }
     }
 
-    /// Eigenvalues are off by no more than the norm is; sum and root in single precision.
+    /// Eigenvalues err by at most the norm; sum and root are in single precision.
     fn half_axes(&self) -> [Rounded; 2] {
         let most = self.middle.v + self.apart.v;
         [most, (self.middle.v - self.apart.v).max(0.0)].map(|square| {
@@ -558,32 +574,34 @@ impl Seen {
     }
 }
 
-/// The depth of the body of water that hides spray in a pixel: of a drop that shows what is behind it
-/// the corners of a square round it tell.
+/// Depth of the water that may hide spray in a pixel. A single drop does not hide it, so the
+/// farthest of the pixel and four around it counts.
 fn body(water: &Image<f64>, (x, y): (usize, usize), aside: isize) -> f64 {
     let corner = |i: isize, j: isize| water.clamped(x as isize + i * aside, y as isize + j * aside);
     let corners = [corner(-1, -1), corner(1, -1), corner(-1, 1), corner(1, 1)];
     corners.into_iter().fold(water.at(x, y), f64::max)
 }
 
-/// What spray there is in each pixel.
+/// The spray in each pixel.
 pub struct Spray {
-    /// Its optical depth by the definition.
+    /// Optical depth by the definition.
     pub depth: Image<f64>,
-    /// What that is in an image of half precision. What may or may not be there, by a rim, the
-    /// scene or what is left out, is in `high` alone.
+    /// Bounds of the optical depth in the GPU's image. Contributions that rounding may drop, at
+    /// rims, at the scene or by culling, are only in `high`.
     pub bounds: Between,
-    /// The same of what of it the sun lights.
+    /// Bounds of the part that is lit by the sun.
     pub lit: Between,
-    /// How many additions there may be.
+    /// Max number of contributions to a pixel.
     pub count: Image<u32>,
 }
 
-/// Share of the sun's light at a droplet of a particle, in the world, which is so many metres off.
+/// Fraction of sunlight at a droplet of a particle, by the droplet's world position and the
+/// position's error in metres.
 pub type Sun<'a> = dyn Fn(&Particle, DVec3, f64) -> Rounded + 'a;
 
-/// The spray of some particles. `scene`: the eye depth of what hides it, infinite or
-/// [`EMPTY`](super::EMPTY) where there is nothing; `water`: that of the nearest water, likewise.
+/// The spray of particles. `scene`: eye depth of the scene that hides spray, infinite or
+/// [`EMPTY`](super::EMPTY) where there is nothing; `water`: eye depth of the nearest water,
+/// likewise.
 pub fn spray(
     particles: &[Particle],
     view: &View,
@@ -594,7 +612,7 @@ pub fn spray(
     spray_in_sun(particles, view, settings, scene, water, &|_, _, _| exact(1.0))
 }
 
-/// The same in a sun that does not come everywhere: each droplet has its own share of it.
+/// The same with a fraction of sunlight for each droplet.
 pub fn spray_in_sun(
     particles: &[Particle],
     view: &View,
@@ -614,9 +632,10 @@ pub fn spray_in_sun(
     for (particle, one) in all {
         let center = one.ellipse.center;
         let p = back.transform_point3(center.v);
-        // To the light by one matrix: as far off as by way of the world.
+        // The position is transformed to the light's space by one matrix, with the same error as
+        // through world space.
         let share = sun(particle, p, center.e + 24.0 * U * (p.length() + 2.0 * eye));
-        // Three products with a third, which is rounded, and their sum.
+        // Three products with a rounded third, and their sum.
         let share = scattered(share * off(1.0, 4.0), settings.scattering);
         for (x, y) in pixels(view, one.ellipse.center.v, one.ellipse.reach()) {
             let hidden = scene_depth(scene.at(x, y));
@@ -634,7 +653,7 @@ pub fn spray_in_sun(
             if one.drawn.is && q.v <= 1.0 && hit.k.v >= near && hit.k.v < hidden {
                 *depth.at_mut(x, y) += top.v * kernel(q.v);
             }
-            // Under the root u/2, the root 9u, the exponential 7 ulp, the products 2u.
+            // u/2 under the root, 9u for the root, 7 ulp for the exponential, 2u for the products.
             let rounding = U * (0.5 + 9.0 + 14.0 + 2.0);
             if one.drawn.surely && hit.sure {
                 let least = (top.v - top.e).max(0.0) * kernel((q.v + q.e).min(1.0));
@@ -659,7 +678,8 @@ pub fn spray_in_sun(
     Spray { depth, bounds, lit, count }
 }
 
-/// Of a part that comes straight, what comes where some is scattered: two roots, a mixture. It rises with the part.
+/// Sunlight with the scattered part, for the fraction that arrives directly: two roots and a
+/// mixture. It increases with that fraction.
 fn scattered(direct: Rounded, scattering: f64) -> Rounded {
     let of = |direct: f64| {
         let direct = direct.max(0.0);
@@ -669,14 +689,14 @@ fn scattered(direct: Rounded, scattering: f64) -> Rounded {
     Rounded { v, e: (high - v).max(v - low) + 18.0 * U * high }
 }
 
-/// Of a number above 0: 2^-21 from a half to 2, 3 ulp elsewhere.
+/// Logarithm of a positive number: errs by 2^-21 from 1/2 to 2, elsewhere by 3 ulp.
 fn ln(x: Rounded) -> Rounded {
     let v = x.v.ln();
     let own = if (0.49..=2.01).contains(&x.v) { 8.0 } else { 6.0 * v.abs() };
     Rounded { v, e: x.e / (x.v - x.e) + own * U }
 }
 
-/// The relief of spray: its strength, and the direction to the sun on the screen, in pixels, or 0.
+/// Relief of spray: its strength, and the direction to the sun in pixels of the screen, or 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Relief {
     pub strength: f64,
@@ -684,13 +704,14 @@ pub struct Relief {
 }
 
 impl Relief {
-    /// That of a world direction to the sun.
+    /// `sun`: direction to the sun in world space.
     pub fn new(strength: f64, sun: DVec3, view: &View) -> Self {
         let toward = view.view.transform_vector3(sun.normalize()).truncate() / view.slope_step();
         Self { strength, toward: toward.normalize_or_zero() }
     }
 
-    /// The part of the sun's light in spray of such optical depths at a pixel, of all and of what of it is lit.
+    /// Fraction of sunlight in the spray of a pixel with relief, from the optical depths of all
+    /// spray and of its lit part.
     pub fn lit(&self, all: &Image<f32>, lit: &Image<f32>, (x, y): (usize, usize)) -> Rounded {
         let own = f64::from(all.at(x, y));
         let part = exact(f64::from(lit.at(x, y))) / exact(own);
@@ -704,7 +725,7 @@ impl Relief {
         for i in 0..octaves {
             let away = self.toward * near * all.height as f64 * f64::from(1 << i);
             let there = at + away;
-            // The place is a few roundings off: then either of two texels, in columns and in rows.
+            // Position rounding may select a neighbouring texel, in columns and in rows.
             let loose = 16.0 * U * (there.abs().max_element() + away.length() + 1.0) + 1.0e-4;
             let mut logs = [-1.0, 1.0].into_iter().flat_map(|i| {
                 [-1.0, 1.0].map(|j| {
@@ -724,7 +745,7 @@ impl Relief {
         (part * factor).clamp(0.0, 1.0)
     }
 
-    /// Light over the albedo's, of so much of the sun's where there is none but the sky's part.
+    /// Light with relief, divided by the sun's; `sky`: the sky's light divided by the sun's.
     pub fn light(&self, lit: Rounded, sky: f64) -> Rounded {
         let sky = off(sky, 5.0);
         let under = rounded::mix(sky, exact(1.0), lit);
@@ -733,8 +754,9 @@ impl Relief {
     }
 }
 
-/// A channel of a colour with spray of an optical depth over it, of a light, and what single
-/// precision may be off: of either part exp 3 + 2x ulp, a difference and five products.
+/// A colour channel behind spray of this optical depth and light, and its error in single
+/// precision: exp errs by 3 + 2x ulp, a difference and five products are added, for each of the two
+/// terms.
 pub fn over(behind: f64, spray: f64, light: Rounded, additive: bool) -> (f64, f64) {
     let k = (-spray).exp();
     let v = behind * if additive { 1.0 } else { k } + light.v * (1.0 - k);
@@ -803,15 +825,16 @@ mod tests {
                 let ratio = found * area / (share * expected);
                 assert!((ratio - 1.0).abs() < 3e-3, "{density}, {velocity}: {ratio}");
             }
-            // Towards the eye there is nothing to see of it.
+            // Motion straight towards the eye is not visible.
             let towards = Particle { velocity: 30.0 * DVec3::Z, ..particle(at) };
             assert_eq!(
                 total(&[towards], &view, &settings),
                 total(&[particle(at)], &view, &settings)
             );
         }
-        // Droplets are as much together in the mean, but for the first, which is mist: in 400 particles whose numbers are
-        // even from a fifth to all within 2 %, their sizes within 1 %.
+        // Many droplets have the same sum in the mean, plus the mist, which is the first. For 400
+        // particles the drawn fraction, uniform from a fifth to 1, averages to within 2 %, and the
+        // sizes to within 1 %.
         let mist = 0.3_f64.powi(3) * (0.9_f64.ln() / 0.5_f64.ln()) * (0.4 * 0.5 / h).powi(2);
         let many = Settings { droplets: 64, spread: 1.5, stretch: 0.02, ..settings };
         let velocity = DVec3::new(5.0, 0.0, 2.0);
@@ -820,14 +843,15 @@ mod tests {
         assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     }
 
-    /// Whatever the shape of mist and its streak, the optical depth of a picture is that of its half-axis alone: the kernel's
-    /// mean over pixels, with an ellipse of two pixels or more, is within a hundredth.
+    /// Whatever the mist's shape and streak, the sum over the picture only depends on its
+    /// half-axis. Pixels sample the kernel of an ellipse at least two pixels wide to within a
+    /// hundredth.
     #[test]
     fn mist_keeps_its_amount_in_every_shape() {
         let view = view(DVec2::splat(3.0), DVec2::ZERO, 401, 301);
         let look = Settings { droplets: 2, opacity: 0.0, mist: [0.4, 1.0], ..settings() };
         let area = view.c_x() * view.c_y() * 81.0;
-        // Half of a particle's spray with all of its mist.
+        // The particle is half spray, and has all of its mist.
         let expected = 0.5 * -(0.6_f64.ln()) * (1.0 * 0.5_f64).powi(2) * PI * J;
         let strand = shaped([4.0, 0.5, 0.5], DVec3::new(1.0, 2.0, 0.5), 1.1);
         for shape in [BALL, shaped([2.0, 2.0, 0.25], DVec3::Y, 1.2), strand] {
@@ -840,14 +864,16 @@ mod tests {
         }
     }
 
-    /// By hand: what a sheet of mist that is seen from its edge, and a streak along and across it, are as ellipses.
+    /// Ellipses computed by hand: a sheet of mist seen edge-on, with streaks along it and across
+    /// it.
     #[test]
     fn mist_is_seen_as_its_ellipsoid_and_its_streak() {
         let view = view(DVec2::splat(3.0), DVec2::ZERO, 101, 101);
         let look =
             Settings { droplets: 2, mist: [0.4, 1.0], shutter: 0.5, spread: 0.0, ..settings() };
         let sheet = shaped([2.0, 0.25, 2.0], DVec3::X, 0.0);
-        // Of the half-axis 0.5: 1 and 0.125 across the view; a streak of 2 metres has half of a half.
+        // The half-axis is 0.5, so the sheet has 1 and 0.125 across the view; half of a streak of 2
+        // m over half a second is added.
         for (velocity, wide) in [
             (DVec3::ZERO, [1.0, 0.125]),
             (2.0 * DVec3::X, [1.25_f64.sqrt(), 0.125]),
@@ -869,7 +895,7 @@ mod tests {
         }
     }
 
-    /// Droplets of a strand lie in it, and of a ball as they did without shapes: in the spindle.
+    /// Droplets of a strand lie in it. Droplets of a ball lie in the spindle, as without shapes.
     #[test]
     fn droplets_fill_their_shape() {
         let view = view(DVec2::splat(3.0), DVec2::ZERO, 101, 101);
@@ -897,14 +923,15 @@ mod tests {
                 assert!((droplet.ellipse.center.v - at - thin).length() < 1e-6, "{id} {k}");
             }
         }
-        // A ball of r = 0.75 has r^2/5 each way; the factors squared are 0.49/16.5 times 16, and two times 1/4.
+        // A ball with r = 0.75 has a variance of r^2/5 per axis; the squared factors are 0.49/16.5
+        // times 16, and 1/4 for each of the other two axes.
         let of_ball = 0.75 * 0.75 / 5.0 * 0.49 / 16.5;
         let [long, wide] = squares.map(|sum| sum / count / of_ball);
-        // The chance of some thousand.
+        // Sampling error of about a thousand droplets.
         assert!((long / 16.0 - 1.0).abs() < 0.1 && (wide / 0.5 - 1.0).abs() < 0.1, "{long} {wide}");
     }
 
-    /// The fourth root, and nothing but what comes straight.
+    /// Scattering takes the fourth root; without direct light there is none.
     #[test]
     fn scattering_brightens_the_shade() {
         for (direct, scattering, expected) in [
@@ -917,8 +944,8 @@ mod tests {
         }
     }
 
-    /// A dense strip takes the sun from what is behind it, seen from the sun, and gives some to its own side before it; even spray
-    /// has no relief.
+    /// A dense strip shades the spray behind it, seen from the sun, and its own side facing the sun
+    /// is brighter. Uniform spray has no relief.
     #[test]
     fn relief_is_on_the_side_away_from_the_sun() {
         let strip =
@@ -928,14 +955,15 @@ mod tests {
             let relief = Relief { strength: 1.0, toward: DVec2::X };
             relief.lit(image, lit, (x, 40)).v
         };
-        // The farthest look is 3.6 texels away.
+        // The farthest sample is 3.6 texels away.
         assert!(of(&strip, &lit, 38) < 0.35 && (of(&strip, &lit, 50) - 0.5).abs() < 1e-9);
         assert!(of(&strip, &lit, 46) > 0.6 && (of(&strip, &lit, 42) - 0.5).abs() < 1e-9);
         let even = strip.map(|_| 0.7);
         assert!((of(&even, &even.map(|x| 0.25 * x), 3) - 0.25).abs() < 1e-7);
     }
 
-    /// Clumps take as much light as smooth mist: to the contrast of 2 within 4 % and the chance of 40000 particles.
+    /// Clumpy mist has the same mean as smooth mist: within 4 % up to a contrast of 2, plus the
+    /// sampling error of 40000 particles.
     #[test]
     fn clumps_keep_the_mean() {
         for (contrast, octaves) in [(0.5, 5.0), (2.0, 1.0), (1.7, 2.5), (2.0, 5.0)] {
@@ -954,7 +982,8 @@ mod tests {
         }
     }
 
-    /// Mist that hardly moves is the same whatever way it goes: a direction that changes with each frame does not flicker.
+    /// Mist that hardly moves is the same for every direction of motion, so a direction that
+    /// changes between frames does not make it flicker.
     #[test]
     fn clumps_do_not_turn_with_the_motion() {
         let base = settings();
@@ -998,7 +1027,7 @@ mod tests {
         }
         let spread = Settings { spread: 6.1, ..settings };
         assert_eq!(total(&[good], &view, &spread), 0.0, "nearer than the spread");
-        // All of it fades behind water, none of it before.
+        // Spray behind water fades completely, spray before it is unchanged.
         let none = open(&view);
         let of = |scene: f64, water: f64| {
             spray(&[good], &view, &settings, &none.map(|_| scene), &none.map(|_| water)).depth.data
@@ -1007,27 +1036,28 @@ mod tests {
         assert!(of(EMPTY, 2.2).iter().chain(&of(2.9, EMPTY)).all(|v| *v == 0.0));
     }
 
-    /// The covariance in space of a ball of a half-axis that a matrix maps, and of half a streak.
+    /// Covariance in space of a ball with half-axis h, transformed by a matrix, plus half a streak.
     fn covariance(map: &Mat3, h: f32, streak: Vec3) -> Mat3 {
         let scaled = h * *map;
         let outer = Mat3::from_cols(streak * streak.x, streak * streak.y, streak * streak.z);
         scaled * scaled.transpose() + outer
     }
 
-    /// A matrix as 16 bits hold it.
+    /// A matrix rounded to 16 bits.
     fn held_shape(m: DMat3) -> DMat3 {
         DMat3::from_cols_array(
             &m.to_cols_array().map(|x| (x / 4.0 * 32767.0).round() * 4.0 / 32767.0),
         )
     }
 
-    /// A shape of half-axes turned about an axis.
+    /// A shape with these half-axes, rotated about an axis.
     fn shaped(axes: [f64; 3], about: DVec3, angle: f64) -> DMat3 {
         let r = DMat3::from_axis_angle(about.normalize(), angle);
         held_shape(r * DMat3::from_diagonal(axes.into()) * r.transpose())
     }
 
-    /// The definition in single precision, each operation rounded, the sum in half precision.
+    /// The definition in single precision, with every operation rounded and the sum in half
+    /// precision.
     fn single(
         particle: &Particle,
         view: &View,
@@ -1080,7 +1110,7 @@ mod tests {
             let speed = m.length();
             let side = if normal.y.abs() < 0.9 { Vec3::Y } else { Vec3::X };
             let e1 = if speed > (1e-6 * s).max(1e-3 * v.length()) { m } else { side.cross(normal) };
-            // Straight at the eye e1 is noise in all directions.
+            // For motion straight at the eye, e1 is a random direction.
             let e2 = (e1 / e1.length()).cross(normal);
             let e2 = if e2.length() > 1e-3 { e2 } else { side.cross(normal).cross(normal) };
             let e2 = e2 / e2.length();
@@ -1105,7 +1135,7 @@ mod tests {
                 let (xx, xy, yy) = (of(0, 0), of(0, 1), of(1, 1));
                 let (middle, apart) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
                 if apart > 1e-3 * middle {
-                    // The column of C - least that is longer.
+                    // The longer column of C minus its smaller eigenvalue.
                     let least = middle - apart;
                     let (first, second) = (Vec2::new(xx - least, xy), Vec2::new(xy, yy - least));
                     let long = if xx > yy { first } else { second }.normalize();
@@ -1178,7 +1208,7 @@ mod tests {
                 let at = DVec3::new(random(-1.0, 1.0) * d, random(-1.0, 1.0) * d, -d);
                 let any =
                     20.0 * DVec3::new(random(-1.0, 1.0), random(-1.0, 1.0), random(-1.0, 1.0));
-                // At rest, hardly moving, straight at the eye.
+                // Any motion, none, hardly any, or straight at the eye.
                 let v = [any, DVec3::ZERO, 1e-7 * any, at][i % 5 % 4];
                 let held = |v: DVec3| v.as_vec3().as_dvec3();
                 let about = DVec3::new(random(-1.0, 1.0), random(-1.0, 1.0), 0.3);

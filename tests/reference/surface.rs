@@ -1,79 +1,80 @@
-//! Twin of the surface that `composite` shades: the smoothed depth of the reduced image, rebuilt in
-//! each pixel of the full one by the rules at the head of glsl/include/surface.glsl. Where the
-//! thickness is less than 0.9 spacings, the slope passes over into that of the unsmoothed depth,
-//! which never is steeper than 1.5 on an axis, wholly from 0.6 down: a drop.
+//! Twin of the surface that `composite` shades: the smoothed depth of the reduced image,
+//! reconstructed in each pixel of the full image by the rules at the head of
+//! glsl/include/surface.glsl. Where water is thinner than 0.9 spacings, its slope blends to that of
+//! the unsmoothed depth, limited to 1.5 along an axis; below 0.6 spacings only that remains: a
+//! drop.
 //!
 //! With the ray s = (s_x, s_y, -1) and the depth d(s_x, s_y), P = s d, and P_x x P_y is d times
-//! `(d_x, d_y, d + s_x d_x + s_y d_y)`: the normal, which has P on its back.
+//! `(d_x, d_y, d + s_x d_x + s_y d_y)`: the normal, which points away from P.
 
 use super::composite::{Inputs, Settings};
 use super::noise::Ripple;
 use super::{EMPTY, Image, View, is_surface, smoothstep};
 use glam::{DVec2, DVec3};
 
-/// The part of a texel on the rim in the slope, where there are others.
+/// Weight of a texel at the rim in the slope, where other texels exist.
 const RIM: f64 = 1.0 / 64.0;
-/// The steepest slope of a rim and of a drop: depth per width.
+/// Max slope of a rim and of a drop: depth per width.
 const STEEPEST: f64 = 1.5;
 
-/// The water's surface in one pixel, in eye space.
+/// The water's surface in a pixel, in eye space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// The point seen.
+    /// The visible point.
     pub position: DVec3,
-    /// Its normal, towards the eye.
+    /// The normal, towards the eye.
     pub normal: DVec3,
-    /// The thickness along z, no more than there is room before the scene.
+    /// Thickness along z, at most the distance to the scene.
     pub thickness: f64,
-    /// That room.
+    /// Distance to the scene along z.
     pub room: f64,
-    /// Its slope, depth per pixel of the picture.
+    /// Slope in depth per pixel.
     pub slope: DVec2,
-    /// What of it refracts: where the surface is torn no more than two spacings.
+    /// Thickness that refracts; at most two spacings where the surface is torn.
     pub lens: f64,
-    /// The noise on it, which has turned the normal.
+    /// Noise that has tilted the normal.
     pub ripple: Ripple,
-    /// What it was made of.
+    /// What the surface was made from.
     pub parts: Parts,
 }
 
-/// What a surface was made of; slopes in depth per texel of the smoothed image.
+/// What a surface was made from. Slopes are in depth per texel of the smoothed image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parts {
     pub case: Case,
-    /// Of the smoothed depth, and the same mean of the rises' absolute values.
+    /// Slope of the smoothed depth, and the same mean of the absolute differences.
     pub smooth: [DVec2; 2],
-    /// Of the unsmoothed depth, as above.
+    /// The same for the unsmoothed depth.
     pub sphere: [DVec2; 2],
-    /// The thickness if there were room for it.
+    /// Thickness before it is limited by the scene.
     pub full: f64,
-    /// How much of a drop it is by that, 0 to 1.
+    /// Fraction to which the surface is a drop, by that thickness.
     pub drop: f64,
-    /// The thickness is of texels on other surfaces.
+    /// Whether the thickness comes from texels on other surfaces.
     pub borrowed: bool,
-    /// How much of it is whole: of texels with their neighbours on the surface.
+    /// Weight of texels whose neighbours are all on the surface.
     pub found: f64,
-    /// How much of it is of the back sheet's image: the front one's shows another surface here.
+    /// Fraction from the back sheet's image, because the front image shows another surface here.
     pub mixed: f64,
-    /// How near to the falloff any difference was that decided: rounding may decide otherwise.
+    /// Smallest difference to the falloff in any decision; rounding may change decisions within it.
     pub margin: f64,
 }
 
-/// Which texels a pixel sees.
+/// Which texels a pixel uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
-    /// Four on its surface, none of them on the rim.
+    /// Four texels on its surface, none at the rim.
     Whole,
-    /// Fewer on its surface, none of them on the rim.
+    /// Fewer texels on its surface, none at the rim.
     Border,
-    /// Some on the rim.
+    /// Some texels at the rim.
     PartRim,
-    /// Hardly any that is not, and the slope is kept or cut.
+    /// Almost only texels at the rim; the slope is unchanged (`Rim`) or limited (`SteepRim`).
     Rim,
     SteepRim,
-    /// None on its surface but the next to them.
+    /// No texel on its surface, but one next to the four.
     Beside,
-    /// Nor that.
+    /// Not even that.
     Alone,
 }
 
@@ -81,33 +82,34 @@ pub enum Case {
 #[derive(Clone, Copy, Debug)]
 pub struct Smooth {
     pub z: f64,
-    /// Depth per texel, and the same mean of the rises' absolute values.
+    /// Slope in depth per texel, and the same mean of the absolute differences.
     pub slope: [DVec2; 2],
     pub case: Case,
-    /// What the texels on the surface and not on the rim weigh of all round the pixel.
+    /// Weight of texels on the surface that are not at the rim.
     pub found: f64,
-    /// The one texel beside them is not on the rim.
+    /// Whether the one texel next to the four is not at the rim.
     pub whole: bool,
 }
 
-/// What a texel knows of its surface.
+/// Slope of a texel's own surface.
 #[derive(Clone, Copy)]
 struct Texel {
-    /// Depth per texel, and the same mean of the rises' absolute values.
+    /// Slope in depth per texel, and the same mean of the absolute differences.
     slope: [DVec2; 2],
-    /// It is not on the rim.
+    /// Whether the texel is not at the rim.
     whole: bool,
     /// See [`Parts`].
     margin: f64,
 }
 
-/// The slopes of an image's texels.
+/// The slopes of all texels of an image.
 fn texels(z: &Image<f64>, threshold: f64) -> Image<Texel> {
     Image::from_fn(z.width, z.height, |x, y| {
         let all =
             |dx: isize, dy: isize| Some(z.checked(x as isize + dx, y as isize + dy)? - z.at(x, y));
         let near = |by: f64| by.abs() <= threshold;
-        // Towards both sides of an axis: near, or straight on from the other side, which is.
+        // A neighbour is on the surface if its difference is small, or if it continues straight
+        // from the opposite neighbour, which is on the surface.
         let both = |dx: isize, dy: isize| {
             let sides = [all(-dx, -dy).map(|r| -r), all(dx, dy)];
             let straight = sides[0].zip(sides[1]).is_some_and(|(a, b)| near(b - a));
@@ -135,7 +137,7 @@ fn texels(z: &Image<f64>, threshold: f64) -> Image<Texel> {
     })
 }
 
-/// Every texel that a tent about a position (in texels) touches, with its weight.
+/// The texels under a tent filter at a position in texels, with their weights.
 fn tent(width: usize, height: usize, at: DVec2) -> Vec<(usize, usize, f64)> {
     let along = |at: f64, texels: usize| {
         (-1..=texels as isize).filter_map(move |i| {
@@ -148,12 +150,12 @@ fn tent(width: usize, height: usize, at: DVec2) -> Vec<(usize, usize, f64)> {
         .collect()
 }
 
-/// The images, ready to be asked pixel by pixel.
+/// The images, prepared for queries per pixel.
 pub struct Surfaces<'a> {
     inputs: Inputs<'a>,
     view: &'a View,
     radius: f64,
-    /// Depths further apart are on different surfaces.
+    /// Depths with a larger difference belong to different surfaces.
     threshold: f64,
     smoothed: Image<Texel>,
     raw: Image<Texel>,
@@ -171,16 +173,16 @@ impl<'a> Surfaces<'a> {
         (a - b).abs() <= self.threshold
     }
 
-    /// The texels of the smoothed image round a pixel, with their weights of sum 1.
+    /// The texels of the smoothed image around a pixel, with weights that sum to 1.
     fn round(&self, x: usize, y: usize) -> Vec<(usize, usize, f64)> {
         let z = self.inputs.smoothed;
         let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(1 << self.inputs.level);
         tent(z.width, z.height, at)
     }
 
-    /// The texels of the smoothed image that a pixel of a depth sees, their weights of sum 1, and how
-    /// many they are on its surface; where none is, the one beside them that is, or the nearest in
-    /// depth. And what they weighed.
+    /// The texels of the smoothed image that a pixel with this depth uses, with weights that sum to
+    /// 1, and the case. If none of the four is on its surface, it is the one next to them that is,
+    /// or the nearest in depth. Returns also the weight on the surface before normalization.
     fn seen(
         &self,
         x: usize,
@@ -207,7 +209,7 @@ impl<'a> Surfaces<'a> {
         (vec![(i, j, 1.0)], Case::Alone, 0.0)
     }
 
-    /// The texels up to half a texel outside the tent about a pixel along one axis, and inside it along
+    /// The texels up to half a texel outside the tent filter along one axis, and inside it along
     /// the other. None at full resolution.
     fn next(&self, x: usize, y: usize) -> Vec<(usize, usize)> {
         let (z, level) = (self.inputs.smoothed, self.inputs.level);
@@ -223,7 +225,7 @@ impl<'a> Surfaces<'a> {
         .collect()
     }
 
-    /// Of the texels beside a pixel's that are on its surface the nearest in depth.
+    /// The texel nearest in depth of those next to a pixel's four that are on its surface.
     fn beside(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> Option<(usize, usize)> {
         let z = self.inputs.smoothed;
         let mut best: Option<(f64, (usize, usize))> = None;
@@ -242,7 +244,7 @@ impl<'a> Surfaces<'a> {
         best.map(|(_, texel)| texel)
     }
 
-    /// The smoothed surface in a pixel of a depth.
+    /// The smoothed surface in a pixel with this depth.
     pub fn smooth(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> Smooth {
         let (seen, mut case, covered) = self.seen(x, y, depth, margin);
         if case == Case::Alone {
@@ -283,8 +285,8 @@ impl<'a> Surfaces<'a> {
         Smooth { z, slope, case, found: whole * covered, whole: false }
     }
 
-    /// The depth of the nearest texel of the smoothed image round a pixel that is not before a depth; or
-    /// else of those beside them.
+    /// Depth of the nearest texel of the smoothed image around a pixel that is not before `from`,
+    /// or else of those next to them.
     pub fn nearest(&self, x: usize, y: usize, from: f64) -> f64 {
         let z = self.inputs.smoothed;
         let least = |texels: &mut dyn Iterator<Item = (usize, usize)>| {
@@ -295,8 +297,8 @@ impl<'a> Surfaces<'a> {
         if is_surface(round) { round } else { least(&mut self.next(x, y).into_iter()) }
     }
 
-    /// Whether one of the four texels round a pixel lies before its surface; at full resolution of its
-    /// own and the next ones, whatever they weigh.
+    /// Whether one of the four texels around a pixel lies before its surface. At full resolution
+    /// these are its own texel and the next ones, whatever their weights.
     pub fn is_covered(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> bool {
         let z = self.inputs.smoothed;
         let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(1 << self.inputs.level);
@@ -306,17 +308,17 @@ impl<'a> Surfaces<'a> {
         before > self.threshold
     }
 
-    /// Limits a slope to a multiple of what a texel is wide at a depth.
+    /// Limits a slope to a multiple of a texel's width at this depth.
     fn not_steep(&self, slope: DVec2, depth: f64, level: u32) -> DVec2 {
         let wide = DVec2::new(self.view.c_x(), self.view.c_y()) * f64::from(1 << level);
         let most = STEEPEST * depth * wide;
         slope.max(-most).min(most)
     }
 
-    /// The texels of the thickness that a pixel goes by, whose surface lies at a depth, with their
-    /// weights: its own, or those that it sees of the smoothed image, or those over whose middle there
-    /// is its surface (if they weigh 1/1000), or all; of those the ones with water, if any. And whether
-    /// they are on other surfaces.
+    /// The texels of the thickness that a pixel uses, with weights: its own; or those on its
+    /// surface in the smoothed image; or those over whose centres its surface lies (if their weight
+    /// is at least 1/1000); or all. Of those only the texels with water, if there are any. Returns
+    /// also whether they are on other surfaces.
     pub fn texels_of_thickness(
         &self,
         x: usize,
@@ -355,7 +357,8 @@ impl<'a> Surfaces<'a> {
         let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / size;
         let mut mean = |own: bool| {
             let mut texels = Vec::new();
-            // Tent weights by hand: the middle of a texel beyond the edge is there, not on it.
+            // Tent weights computed directly: a texel centre beyond the edge stays there and is not
+            // clamped to the edge.
             for j in -1..=thickness.height as isize {
                 for i in -1..=thickness.width as isize {
                     let middle = DVec2::new(i as f64 + 0.5, j as f64 + 0.5);
@@ -395,7 +398,8 @@ impl<'a> Surfaces<'a> {
         Some(surface)
     }
 
-    /// The surface in a pixel from its smoothed one; a drop if it is thin and has an unsmoothed depth.
+    /// The surface in a pixel from its smoothed surface; a drop if it is thin and has an unsmoothed
+    /// depth.
     pub fn made_of(
         &self,
         (x, y): (usize, usize),

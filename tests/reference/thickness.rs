@@ -1,23 +1,24 @@
-//! Twin of the thickness splats (thesis Sec. 3.2.2, 4.8.1): the sum over the particles of
-//! `amplitude sqrt(1 - rho^2) exp(-2 rho^2)`, rho the distance of the pixel ray's point at the
-//! centre's depth from the centre, in half-axes of two radii.
+//! Twin of the thickness splats (thesis Sec. 3.2.2, 4.8.1): the sum over all particles of
+//! `amplitude sqrt(1 - rho^2) exp(-2 rho^2)`. rho is the distance from the centre of the pixel
+//! ray's point at the centre's depth, in half-axes of two radii.
 
 use super::{Image, Sphere, View};
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// J, the integral of `sqrt(1 - u) exp(-2 u)` over u = 0..1: a splat's is pi J a b.
+/// J, the integral of `sqrt(1 - u) exp(-2 u)` over u = 0..1; a splat's integral is pi J a b.
 pub const J: f64 = 0.3400030;
 
-/// What one splat amounts to.
+/// Amplitude of a splat.
 #[derive(Clone, Copy, Debug)]
 pub enum Amplitude {
-    /// The integral over the plane is the particle's volume: metres of water.
+    /// Its integral over the plane is the particle's volume, so the thickness is in metres of
+    /// water.
     Volume {
         /// Mass over density, or the cubed spacing.
         particle_volume: f64,
     },
-    /// As the source has it, `0.8 * 2 a`, in its arbitrary unit.
+    /// As in the source, `0.8 * 2 a`, in its arbitrary unit.
     Source {
         /// a, the half-axis of a whole particle's splat.
         particle_size: f64,
@@ -29,14 +30,13 @@ pub fn kernel(rho_squared: f64) -> f64 {
     (1.0 - rho_squared).max(0.0).sqrt() * (-2.0 * rho_squared).exp()
 }
 
-/// The half-axis that is drawn: a sprite narrower than a pixel is widened to it and holds the same
-/// volume.
+/// The drawn half-axis: a sprite narrower than a pixel is widened to a pixel and keeps its volume.
 pub fn drawn_axis(half: f64, depth: f64, view: &View) -> f64 {
     half.max(depth * view.c_x().max(view.c_y()))
 }
 
-/// The thickness along z in each pixel. A particle counts where its centre lies before the scene
-/// (given at the image's resolution), and at all where it lies behind the near plane.
+/// The thickness along z in each pixel. A particle counts if its centre lies behind the near plane
+/// and before the scene (given at the image's resolution).
 pub fn splat(
     spheres: &[Sphere],
     view_of_the_image: &View,
@@ -46,7 +46,7 @@ pub fn splat(
     splat_where(spheres, view_of_the_image, scene, amplitude, |_, _, _| 1.0)
 }
 
-/// The same of the share of each sphere that counts at a pixel.
+/// The same with a fraction of each sphere that counts at a pixel.
 pub fn splat_where(
     spheres: &[Sphere],
     view_of_the_image: &View,
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn j_is_the_integral_of_the_kernel() {
-        // u = 1 - v^2 takes the root's end away.
+        // The substitution u = 1 - v^2 removes the root's singular end.
         let n = 10_000;
         let sum: f64 = (0..n)
             .map(|i| (f64::from(i) + 0.5) / f64::from(n))

@@ -1,26 +1,27 @@
-//! Twin of how what fragments add to sums becomes whole steps: x steps are `floor(x + c)`, c in [0, 1) the chance of the
-//! particle in the texel. What it is matters to the last bit alone: whoever rounds so is nowhere a step off, and over
-//! many particles right.
+//! Twin of the rounding of contributions to fixed-point steps: x steps become `floor(x + c)`, where
+//! c in [0, 1) is a random number of the particle and the texel. c only affects the last step: the
+//! result is never a step off, and its mean over many particles is x.
 
 use super::classify::pcg;
 use glam::Vec3;
 
-/// Of the random numbers.
+/// Seed of the random numbers.
 const SEED: u32 = 0x57E9;
-/// The R2 sequence (Roberts 2018): 1 over the plastic number, and over its square, in parts of 2^32.
+/// The R2 sequence (Roberts 2018): 1 over the plastic number and over its square, in units of
+/// 2^-32.
 const PLASTIC: f64 = 1.324_717_957_244_746;
 
-/// Bits of a particle by what it is known by.
+/// Random bits of a particle, from its id.
 pub fn chance(id: u32, number: u32) -> u32 {
     pcg(id.wrapping_add(pcg(number.wrapping_add(pcg(SEED)))))
 }
 
-/// Of a particle without an id, by its place.
+/// Random bits of a particle without an id, from its position.
 pub fn of_place(p: Vec3) -> u32 {
     chance(p.x.to_bits(), chance(p.y.to_bits(), p.z.to_bits()))
 }
 
-/// c, of its bits and a texel, in 24 bits.
+/// c from the particle's bits and a texel, with 24 bits.
 pub fn rounding_up(chance: u32, x: usize, y: usize) -> f64 {
     let part = |power: i32| (4_294_967_296.0 / PLASTIC.powi(power)) as u32;
     let [x, y] = [(x, 1), (y, 2)].map(|(at, power)| (at as u32).wrapping_mul(part(power)));
@@ -31,7 +32,8 @@ pub fn rounding_up(chance: u32, x: usize, y: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Of any thickness, however thin, a square of texels has what it should, within a thousandth of a step.
+    /// For any thickness, however thin, the mean over a square of texels is right to a thousandth
+    /// of a step.
     #[test]
     fn the_mean_is_kept() {
         for (number, steps) in [0.003, 0.1, 0.5, 0.9, 7.25].into_iter().enumerate() {

@@ -1,21 +1,21 @@
-//! Pass `core`: the picture of small bubbles inside a blob, as cells around scattered points on the sphere (Worley
-//! 1996).
+//! Twin of pass `core`: the image of small bubbles inside a blob, as cells around scattered points
+//! on the sphere (Worley 1996).
 
 use glam::{DVec2, DVec3, IVec3};
 
 use crate::reference::classify::pcg;
 use crate::reference::{Image, smoothstep};
 
-/// How the inside looks in a direction.
+/// Appearance of the inside in a direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Pattern {
-    /// How far the normal leans.
+    /// Tilt that is added to the normal.
     pub lean: DVec3,
-    /// 1 in the mean.
+    /// Brightness, 1 in the mean.
     pub brightness: f64,
 }
 
-/// A point of the lattice's cell, in [0, 1) each way.
+/// The point of a lattice cell, in [0, 1) along each axis.
 fn scattered(cell: IVec3, seed: u32) -> DVec3 {
     let [x, y, z] = cell.to_array().map(i32::cast_unsigned);
     let id = pcg(x.wrapping_add(pcg(y.wrapping_add(pcg(z.wrapping_add(seed))))));
@@ -23,7 +23,8 @@ fn scattered(cell: IVec3, seed: u32) -> DVec3 {
     DVec3::new(part(0), part(1), part(2))
 }
 
-/// The way from the nearest point of the lattice, and how much farther the second is.
+/// Vector from the nearest lattice point, and the difference of the distances to the second nearest
+/// and to it.
 fn nearest(place: DVec3, seed: u32) -> (DVec3, f64) {
     let middle = place.floor().as_ivec3();
     let around = (-1..2).flat_map(|z| (-1..2).flat_map(move |y| (-1..2).map(move |x| (x, y, z))));
@@ -37,7 +38,8 @@ fn nearest(place: DVec3, seed: u32) -> (DVec3, f64) {
     (ways[0], ways[1].length() - ways[0].length())
 }
 
-/// Three sizes of cells: bubbles that lean away from their middles, bright seams between them.
+/// Cells of three sizes: bubbles whose normals tilt away from their centres, with bright seams
+/// between.
 fn pattern(direction: DVec3, seed: u32) -> Pattern {
     let mut pattern = Pattern { lean: DVec3::ZERO, brightness: 0.8 };
     for octave in 0..3_u32 {
@@ -52,7 +54,8 @@ fn pattern(direction: DVec3, seed: u32) -> Pattern {
     pattern
 }
 
-/// Place of a direction in the square of an octahedron whose lower half is folded out, each way -1 to 1.
+/// Position of a direction in the square of an octahedron whose lower half is folded outwards, -1
+/// to 1 along each axis.
 fn place(d: DVec3) -> DVec2 {
     let p = DVec2::new(d.x, d.y) / (d.x.abs() + d.y.abs() + d.z.abs());
     let sign = |v: f64| if v < 0.0 { -1.0 } else { 1.0 };
@@ -62,7 +65,8 @@ fn place(d: DVec3) -> DVec2 {
     }
 }
 
-/// The direction of a place; beyond an edge that across it, as the half folds over.
+/// Direction of a position. Beyond an edge, the direction on the other side of it, where the halves
+/// meet.
 fn direction(mut p: DVec2) -> DVec3 {
     if p.x.abs() > 1.0 {
         p = DVec2::new(2.0 * p.x.signum() - p.x, -p.y);
@@ -79,15 +83,15 @@ fn direction(mut p: DVec2) -> DVec3 {
     DVec3::new(x, y, z).normalize()
 }
 
-/// The picture as it is drawn, filtered between texels, with a border of one.
+/// The image as drawn, filtered between texels, with a border of one texel.
 pub struct Picture {
     texels: Image<[f64; 4]>,
-    /// What a filter knows of a position, in texels.
+    /// Error of a filter's position, in texels.
     step: f64,
 }
 
 impl Picture {
-    /// So many texels wide; `bits`: of a filter's weights.
+    /// An image of this size in texels; `bits`: precision of a filter's weights.
     pub fn new(size: usize, seed: u32, bits: u32) -> Self {
         let texels = Image::from_fn(size + 2, size + 2, |x, y| {
             let at = DVec2::new(x as f64 - 0.5, y as f64 - 0.5) / size as f64;
@@ -97,7 +101,7 @@ impl Picture {
         Self { texels, step: 1.0 / f64::from(1 << bits) }
     }
 
-    /// How the inside looks in a direction, and how far its brightness may be off.
+    /// Appearance of the inside in a direction, and the error of its brightness.
     pub fn at(&self, towards: DVec3) -> (Pattern, f64) {
         let size = (self.texels.width - 2) as f64;
         let at = (0.5 * place(towards) + 0.5) * size + 1.0;
@@ -109,7 +113,7 @@ impl Picture {
             }
         }
         let [x, y, z, brightness] = sum;
-        // Half precision of each texel; the weights of a filter each way.
+        // Each texel has half precision, and the filter's weights err along both axes.
         let off = brightness / 1024.0 + 2.0 * self.step * (most[3] - least[3]);
         (Pattern { lean: DVec3::new(x, y, z), brightness }, off)
     }
@@ -121,7 +125,7 @@ fn an_octahedron_folds_back() {
         let d = DVec3::from(d).normalize();
         assert!(direction(place(d)).distance(d) < 1.0e-12, "{d}");
     }
-    // Half a texel across an edge lies what is half a texel before it on the other side.
+    // Beyond an edge lies what is at the same distance from it on the other side.
     let across = direction(DVec2::new(1.01, 0.3));
     assert!(across.distance(direction(DVec2::new(0.99, -0.3))) < 1.0e-12);
 }

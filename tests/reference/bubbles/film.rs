@@ -1,4 +1,4 @@
-//! A soap film in air: the sum of all light reflected inside it, with its phase.
+//! Twin of the film's table: the sum of all light reflected inside a soap film in air, with phases.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
@@ -33,7 +33,7 @@ impl Div for Complex {
     }
 }
 
-/// How a face reflects.
+/// Reflectance of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Face {
     Exact,
@@ -47,12 +47,12 @@ pub fn inside(cosine: f64, index: f64) -> f64 {
     (1.0 - sine * sine).sqrt()
 }
 
-/// Amplitudes that a face sends back from outside, of both polarisations.
+/// Amplitudes reflected by a face from outside, for both polarizations.
 fn amplitudes(cosine: f64, index: f64, face: Face) -> [f64; 2] {
     let within = inside(cosine, index);
     match face {
         Face::Exact => {
-            // By the angles (Fresnel's own form), where they are not 0.
+            // From the angles (Fresnel's own form), unless they are 0.
             let (i, t) = (cosine.acos(), within.acos());
             if i < 1e-6 {
                 let r = (1.0 - index) / (1.0 + index);
@@ -68,7 +68,7 @@ fn amplitudes(cosine: f64, index: f64, face: Face) -> [f64; 2] {
     }
 }
 
-/// Share of unpolarised light of a wavelength that a film sends back; lengths in nanometres.
+/// Reflectance of a film for unpolarized light of one wavelength; lengths in nanometres.
 pub fn reflectance(cosine: f64, index: f64, thickness: f64, wavelength: f64, face: Face) -> f64 {
     let phase = 4.0 * PI * index * thickness * inside(cosine, index) / wavelength;
     let faces = amplitudes(cosine, index, face);
@@ -81,14 +81,15 @@ pub fn reflectance(cosine: f64, index: f64, thickness: f64, wavelength: f64, fac
         if (1.0 - r.abs()) < 1e-12 {
             return if phase == 0.0 { 0.0 } else { 1.0 };
         }
-        // r - r t + r^3 ...: what the first face sends back, less what comes from the second, again and again.
+        // r - r t + r^3 ...: reflection by the first face, minus all repeated reflections from the
+        // second.
         let sum = Complex(r, 0.0) * (one - turn) / (one - Complex(r * r, 0.0) * turn);
         sum.0 * sum.0 + sum.1 * sum.1
     };
     (share(faces[0]) + share(faces[1])) / 2.0
 }
 
-/// The CIE 1931 observer (Wyman, Sloan, Shirley 2013), as linear Rec. 709.
+/// The CIE 1931 observer (Wyman, Sloan, Shirley 2013), converted to linear Rec. 709.
 pub fn color(w: f64) -> [f64; 3] {
     let lobe = |middle: f64, below: f64, above: f64| {
         let t = (w - middle) * if w < middle { below } else { above };
@@ -105,11 +106,11 @@ pub fn color(w: f64) -> [f64; 3] {
     ]
 }
 
-/// The wavelengths that stand for red, green and blue.
+/// The wavelengths that represent red, green and blue.
 pub const LINES: [f64; 3] = [610.0, 550.0, 465.0];
 
-/// What a film sends back of light that is as bright at all wavelengths; and by how much the sum may be off for an error
-/// of 1 in each of its terms: weights may be negative.
+/// Reflected light for an illumination that is equal at all wavelengths, and the sum's error per
+/// error of its terms: weights may be negative.
 pub fn spectral(cosine: f64, index: f64, thickness: f64, face: Face) -> ([f64; 3], [f64; 3]) {
     let (mut sum, mut all, mut sizes) = ([0.0; 3], [0.0; 3], [0.0; 3]);
     for i in 0..81 {

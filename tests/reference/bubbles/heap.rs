@@ -1,4 +1,5 @@
-//! Moving blobs: forces of pairs and of planes, the parts of a step in order, and the energy.
+//! Twin of moving blobs: forces between pairs and from planes, the order of a substep, and the
+//! energy.
 
 use glam::DVec3;
 use whitewater::bubbles::BlobSimulationSettings;
@@ -18,13 +19,13 @@ impl Blob {
     }
 }
 
-/// A plane: its normal and how far from 0 it lies.
+/// A plane: its normal and its distance from the origin.
 pub type Plane = (DVec3, f64);
 
-/// Of the inverse moment of inertia of a ball.
+/// Factor of a ball's inverse moment of inertia.
 const ROUND: f64 = 2.5;
 
-/// What `other` does to `own`: changes of velocity and spin a second.
+/// Effect of `other` on `own`: changes of velocity and spin per second.
 fn pair(own: &Blob, other: &Blob, s: &BlobSimulationSettings) -> Option<(DVec3, DVec3)> {
     let [rest, reach] = [s.rest, s.reach].map(|v| f64::from(v) * (own.radius + other.radius));
     let to = other.place - own.place;
@@ -50,7 +51,7 @@ fn pair(own: &Blob, other: &Blob, s: &BlobSimulationSettings) -> Option<(DVec3, 
     Some((speed, share * ROUND / own.radius * n.cross(across)))
 }
 
-/// One part of a step.
+/// One substep.
 pub fn part(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings, dt: f64) -> Vec<Blob> {
     let gravity = glam::Vec3::from(s.gravity).as_dvec3();
     let one = |(i, own): (usize, &Blob)| {
@@ -90,8 +91,8 @@ pub fn part(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings, dt: f6
     blobs.iter().enumerate().map(one).collect()
 }
 
-/// Of motion, height and what is pressed or held together. Pulls have the potential of their force from where they
-/// begin; of masses one is a radius cubed.
+/// Energy of motion, height, compression and attraction. The attraction has the potential of its
+/// force from the distance where it begins; a mass is a cubed radius.
 pub fn energy(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings) -> f64 {
     let gravity = glam::Vec3::from(s.gravity).as_dvec3();
     let mut sum = 0.0;
@@ -108,7 +109,7 @@ pub fn energy(blobs: &[Blob], planes: &[Plane], s: &BlobSimulationSettings) -> f
             if far >= reach {
                 continue;
             }
-            // The force times the masses' harmonic mean.
+            // The force times the harmonic mean of the masses.
             let mass = 2.0 * a.mass() * b.mass() / (a.mass() + b.mass());
             let width = reach - rest;
             let part = ((reach - far) / width).min(1.0);

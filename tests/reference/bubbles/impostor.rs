@@ -1,8 +1,9 @@
-//! Intersection of a ray with a blob by brute force, over all its bubbles.
+//! Intersection of a ray with all bubbles of a blob, by brute force.
 
 use glam::{DQuat, DVec3};
 
-/// The first bubble that a ray of unit direction meets from `near` on: how far along, and which.
+/// First bubble that a ray with unit direction hits at a distance of `near` or more: the distance
+/// and the bubble's index.
 pub fn first(
     bubbles: &[[f32; 4]],
     origin: DVec3,
@@ -23,7 +24,7 @@ pub fn first(
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// A ray of the world in a blob's space.
+/// Transforms a ray from world space to the blob's space.
 pub fn into_blob(ball: [f32; 4], turn: [f32; 4], eye: DVec3, along: DVec3) -> (DVec3, DVec3) {
     let [x, y, z, r] = ball.map(f64::from);
     let back = DQuat::from_array(turn.map(f64::from)).normalize().inverse();

@@ -1,4 +1,5 @@
-//! Bubble foam (Huszár, Szécsi): the film, walls and blobs by their equations and by brute force.
+//! Twin of bubble foam (Huszár, Szécsi): film, walls and blobs by their equations and by brute
+//! force.
 
 pub mod core;
 pub mod film;

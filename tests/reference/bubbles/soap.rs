@@ -1,6 +1,6 @@
-//! Pass `soap` ray by ray: light that films, walls and cores of blobs send to the eye where the environment is even or
-//! grows evenly to one side and there is no sun, and what they leave of the light behind. In water from the back to the front, as
-//! light goes.
+//! Twin of pass `soap`, ray by ray: light from films, walls and cores of blobs towards the eye, in
+//! an environment that is uniform or has a gradient to one side, without a sun, and the light that
+//! they transmit from behind. In water the layers are composited from back to front.
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -13,17 +13,17 @@ use crate::reference::surface_foam::{noise, noise_rounding, noise_slope};
 use crate::reference::{Image, smoothstep};
 use crate::support::tolerance::U;
 
-/// Nanometres that a film is thick, least and most: those of the table's last row.
+/// Thinnest and thickest film in nanometres, as in the table's first and last rows.
 const THINNEST: f64 = 1.0;
 const THICKEST: f64 = 2000.0;
 
-/// Where less than this is left of the light behind, nothing more is looked at.
+/// Where less than this fraction of the light behind is left, no further layers are evaluated.
 const LEAST: f64 = 1.0 / 256.0;
 
-/// How blobs look, and the light they are in.
+/// Settings of the blobs, and their light.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
-    /// Nanometres.
+    /// Mean thickness in nanometres.
     pub film: f64,
     pub variation: f64,
     pub drainage: f64,
@@ -35,54 +35,55 @@ pub struct Look {
     pub reflection: f64,
     pub walls: bool,
     pub plug: bool,
-    /// Of the environment in the mean.
+    /// Mean radiance of the environment.
     pub radiance: DVec3,
-    /// Towards what it grows, and by how much of the mean; at most 1 long.
+    /// Gradient of the radiance relative to the mean; at most 1 long.
     pub side: DVec3,
 }
 
 impl Look {
-    /// More light than any part of a blob sends.
+    /// Upper bound of the radiance of any part of a blob.
     fn most(&self) -> DVec3 {
-        // A seam of the pattern is this much brighter than the rest at most.
+        // A seam of the pattern is at most this much brighter than the rest.
         let seams = 1.0 + 0.8 * self.pattern;
         self.radiance * (1.0 + self.side.length()) * self.reflection.max(1.0) * seams
     }
 
-    /// How thick a film is: each bubble's own by its number, uneven by its place, thinner on top (Sec. 3.1); and how far that may
-    /// be off.
+    /// Thickness of a film: it varies by the bubble's number and by position, and is thinner on top
+    /// (Sec. 3.1). Returns also its error.
     fn thickness(&self, number: u32, place: DVec3, high: f64) -> (f64, f64) {
         let part = |n: u32| f64::from(pcg(n) >> 8) / f64::from(1 << 24);
         let place = place + 64.0 * part(number.wrapping_add(1));
         let varied = 0.7 * (2.0 * part(number) - 1.0) + 0.6 * noise(place);
         let drained = 1.0 - self.drainage * high;
-        // A place is a few sums and products of numbers as large.
+        // A position is the result of a few sums and products of numbers of that size.
         let moved = noise_rounding() + 3.0 * noise_slope() * 8.0 * U * place.abs().max_element();
         let off = self.film * drained.abs() * (self.variation * 0.6 * moved + 8.0 * U);
         (self.film * (1.0 + self.variation * varied) * drained, off)
     }
 
-    /// What comes from a direction of the world.
+    /// Radiance from a direction in world space.
     fn light(&self, direction: DVec3) -> DVec3 {
         self.radiance * (1.0 + self.side.dot(direction))
     }
 
-    /// What a white surface of a normal sends of it: a mean of directions by their cosines, which is two thirds of the
-    /// normal long.
+    /// Light reflected by a white diffuse surface: the cosine-weighted mean of directions is two
+    /// thirds of the normal.
     fn whitewater(&self, normal: DVec3) -> DVec3 {
         self.radiance * (1.0 + self.side.dot(normal) * 2.0 / 3.0)
     }
 }
 
-/// A film's reflectance, linear between cosines and thicknesses; of each value how far the GPU's may be off it.
+/// A film's reflectance, interpolated between cosines and thicknesses, and the GPU's max error of
+/// each value.
 pub struct Table {
     values: Image<[DVec3; 2]>,
-    /// What a filter knows of a position, in texels.
+    /// Error of a filter's position, in texels.
     step: f64,
 }
 
 impl Table {
-    /// `off`: of a value, and of the sum of its weights' sizes.
+    /// `off`: error of a value, by the value and the sum of its terms' absolute values.
     pub fn new(
         (width, height): (usize, usize),
         index: f64,
@@ -99,7 +100,7 @@ impl Table {
         Self { values, step: 1.0 / f64::from(1 << bits) }
     }
 
-    /// What is sent back by a film whose thickness may be so far off, and how far that may be.
+    /// Reflectance of a film with this uncertainty of its thickness, and its error.
     pub fn at(&self, cosine: f64, (thickness, unsure): (f64, f64)) -> (DVec3, DVec3) {
         let last = DVec2::new((self.values.width - 1) as f64, (self.values.height - 1) as f64);
         let thickness = thickness.clamp(THINNEST, THICKEST);
@@ -115,17 +116,18 @@ impl Table {
     }
 }
 
-/// What so many metres of water leave of light, and what light they give themselves.
+/// What water transmits, and the light that it emits or scatters itself.
 #[derive(Clone, Copy, Debug)]
 pub enum Medium {
-    /// Of each metre what is lost, by exp(-x); what light comes out of much of it.
+    /// Extinction per metre, as exp(-x), and the light from a great thickness.
     Physical { extinction: DVec3, own: DVec3 },
-    /// The source's: colour of thin water; falloff of the colour and of what is behind (thesis, Eq. 3.5 to 3.7).
+    /// The source's: colour of thin water; falloffs of the colour and of what is behind (thesis,
+    /// Eq. 3.5 to 3.7).
     Source { base: DVec3, falloff: [f64; 4] },
 }
 
 impl Medium {
-    /// What is left, and what is given.
+    /// Transmittance and own light of this many metres.
     pub fn of(&self, metres: f64) -> (DVec3, DVec3) {
         match *self {
             Self::Physical { extinction, own } => {
@@ -139,7 +141,7 @@ impl Medium {
         }
     }
 
-    /// More than is lost in a metre.
+    /// Upper bound of the loss per metre.
     fn falls(&self) -> f64 {
         match *self {
             Self::Physical { extinction, .. } => extinction.max_element(),
@@ -148,7 +150,7 @@ impl Medium {
     }
 }
 
-/// The water on a ray: how far away it begins, and how many metres of it there are; behind them is air.
+/// The water on a ray: its distance from the eye and its length in metres, with air behind.
 #[derive(Clone, Copy, Debug)]
 pub struct Water {
     pub medium: Medium,
@@ -157,22 +159,23 @@ pub struct Water {
 }
 
 impl Water {
-    /// Nowhere.
+    /// No water.
     pub fn none() -> Self {
         let medium = Medium::Physical { extinction: DVec3::ZERO, own: DVec3::ZERO };
         Self { medium, from: f64::INFINITY, metres: 0.0 }
     }
 
-    /// How many metres of it are nearer than that.
+    /// Metres of water nearer than this distance.
     fn before(&self, away: f64) -> f64 {
         (away - self.from).clamp(0.0, self.metres)
     }
 
-    /// Light of layers, front to back, and of the water before what they hide: all that comes to the eye where behind them
-    /// is nothing but the rest of the water, less what of that comes through them.
+    /// Light of layers, front to back, and of the water in front of what they hide. Only the rest
+    /// of the water is behind them, and what they transmit of that is subtracted.
     fn over(&self, layers: &[Layer]) -> DVec3 {
         if let Medium::Source { .. } = self.medium {
-            // Two lengths of the source's water are not what both are at once: each layer is seen through the whole.
+            // The source's water is not additive in its length, so each layer is seen through the
+            // whole length before it.
             let mut left = DVec3::ONE;
             let seen = |layer: &Layer| {
                 let (kept, own) = self.medium.of(self.before(layer.away));
@@ -199,7 +202,7 @@ impl Water {
     }
 }
 
-/// Bubbles of one blob in its own space, and the walls of each.
+/// Bubbles of a blob in its own space, and the walls of each.
 pub struct Template {
     bubbles: Vec<(DVec3, f64)>,
     walls: Vec<Vec<(usize, Wall)>>,
@@ -229,12 +232,13 @@ impl Template {
         Self { bubbles, walls }
     }
 
-    /// The least of its bubbles.
+    /// Radius of the smallest bubble.
     pub fn least(&self) -> f64 {
         self.bubbles.iter().map(|b| b.1).fold(f64::INFINITY, f64::min)
     }
 
-    /// The wall that a ray crosses on its way through a bubble: where, its normal, and whose the other side is.
+    /// The wall that a ray crosses inside a bubble: distance, normal, and index of the bubble on
+    /// the other side.
     fn wall(&self, ray: Ray, bubble: usize, (from, to): (f64, f64)) -> Option<(f64, DVec3, usize)> {
         let crossed = self.walls[bubble].iter().filter_map(|(other, wall)| {
             let (center, radius) = self.bubbles[*other];
@@ -246,7 +250,7 @@ impl Template {
     }
 }
 
-/// A blob: its ball, its turn, and what it is made of.
+/// A blob: its ball, its rotation and its template.
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {
     pub ball: [f32; 4],
@@ -267,7 +271,7 @@ impl Ray {
         self.origin + t * self.direction
     }
 
-    /// Where it meets a sphere.
+    /// Distances at which the ray meets a sphere.
     fn meets(self, center: DVec3, radius: f64) -> Option<[f64; 2]> {
         let to = center - self.origin;
         let along = to.dot(self.direction);
@@ -275,24 +279,24 @@ impl Ray {
         (left >= 0.0).then(|| [along - left.sqrt(), along + left.sqrt()])
     }
 
-    /// The same; a sphere that it passes by rounding, it touches.
+    /// The same; if rounding makes the ray miss the sphere, it touches it.
     fn touches(self, center: DVec3, radius: f64) -> [f64; 2] {
         let along = (center - self.origin).dot(self.direction);
         self.meets(center, radius).unwrap_or([along; 2])
     }
 }
 
-/// What a ray has gathered on its way.
+/// Light that a ray has gathered.
 struct Gathered {
     light: DVec3,
-    /// What of the light from farther comes through.
+    /// Transmittance for light from behind.
     through: DVec3,
-    /// How far that may be off, for what the films are.
+    /// Error of the light and the transmittance, from the films.
     off: DVec3,
 }
 
 impl Gathered {
-    /// A film and what it mirrors.
+    /// Adds a film and its reflection.
     fn film(&mut self, (share, off): (DVec3, DVec3), mirrored: DVec3) {
         self.light += self.through * share * mirrored;
         self.off += self.through * off;
@@ -302,14 +306,14 @@ impl Gathered {
 
 /// One blob in a pixel.
 struct Layer {
-    /// How far from the eye.
+    /// Distance from the eye.
     away: f64,
     gathered: Gathered,
     core: DVec3,
-    /// How far the core's brightness may be off, of its albedo's.
+    /// Error of the core's brightness, relative to its albedo.
     unsure: f64,
     wall: bool,
-    /// Opacity of the core behind the bubble that is met first, and where the ray ends.
+    /// Opacity of the core behind the first bubble, and where the ray ends.
     told: f64,
     opaque: f64,
 }
@@ -343,13 +347,13 @@ fn layer(
 
     let opacity = |t: f64| 1.0 - smoothstep(look.core[0], look.core[1], ray.at(t).length());
     let crease = 0.77 + 0.3 * smoothstep(0.6, 1.0, ray.at(out).length());
-    // Of the pattern what lies behind, drawn towards where the normal points into it (Sec. 4.4).
+    // Position in the pattern behind the surface, distorted by the normal (Sec. 4.4).
     let inside = mix(ray.at(out).normalize(), -front, look.distortion).normalize();
     let (pattern, unsure) = picture.at(inside);
     let facing = mix(front, round, look.roundness) + look.pattern * pattern.lean;
     let bright = 1.0 + look.pattern * (pattern.brightness - 1.0);
     let core = look.albedo * look.whitewater(turn * facing.normalize()) * bright * crease;
-    // What is not open to the environment is foam, as bright as this.
+    // Directions that foam blocks reflect foam of this brightness.
     let mirrored = |normal: DVec3, open: f64| {
         look.reflection * mix(core, look.light(turn * reflected(normal)), open)
     };
@@ -382,31 +386,31 @@ fn layer(
     Layer { away, gathered, core, unsure, wall: wall.is_some(), told, opaque }
 }
 
-/// What a pixel shows.
+/// The colour of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Pixel {
-    /// Premultiplied, and how much it covers.
+    /// Premultiplied colour and opacity.
     pub color: [f64; 4],
-    /// How far that may be off, for what the table is and for where a ray may end.
+    /// Error of the colour, from the table and from where a ray may end.
     pub off: [f64; 4],
-    /// Layers that were looked at, and of how many a wall was crossed.
+    /// Number of evaluated layers, and of those in which a wall was crossed.
     pub layers: usize,
     pub walls: usize,
-    /// And how many have water before them.
+    /// Number of layers with water in front of them.
     pub wet: usize,
-    /// What was plugged.
+    /// Opacity added by the plug.
     pub plugged: f64,
 }
 
-/// What of it there is on a ray: blobs and the bubbles of them that are met first, front to back, and the most opacity of all
-/// that are there.
+/// What a ray meets: the blobs and the first bubble in each, front to back, and the max opacity of
+/// all blobs on it.
 pub struct Met<'a> {
     pub blobs: &'a [Placed<'a>],
     pub first: &'a [(usize, usize)],
     pub most: f64,
 }
 
-/// A pixel's blobs, in water; `turned`: how far the ray may be turned by rounding.
+/// A pixel with blobs in water. `turned`: max rotation of the ray by rounding.
 pub fn pixel(
     look: &Look,
     made: (&Table, &Picture),
@@ -425,13 +429,13 @@ pub fn pixel(
         behind *= 1.0 - layer.told;
         off += left * layer.gathered.off;
         dull = dull.max(layer.unsure);
-        // Of the water before it, whose length is that of the ray.
+        // The length of the water before the layer depends on the ray.
         let lost = if water.before(layer.away) > 0.0 { water.medium.falls() } else { 0.0 };
         off += left * (1.0 - layer.gathered.through) * lost * turned * layer.away;
         left *= layer.gathered.through;
         body = Some(body.map_or(layer.core, |body: DVec3| (body + layer.core) / 2.0));
         seen.push(layer);
-        // Rounding may end it here or not.
+        // Rounding may decide whether the ray ends here.
         if (left.max_element() - LEAST).abs() <= off.max_element() + 1e-6 {
             unsure = 1.0;
         }
@@ -440,7 +444,8 @@ pub fn pixel(
         }
     }
     let covered = 1.0 - left.element_sum() / 3.0;
-    // What is drawn is as opaque as it turned out; else it is a blob farther off. Half precision tells no more.
+    // An evaluated blob is as opaque as it turned out; otherwise the max opacity belongs to a
+    // farther blob. Half precision cannot distinguish more.
     let most = if met.most > all_told + 1.0 / 1024.0 && behind >= LEAST { met.most } else { held };
     let extra = if look.plug { (most - covered).max(0.0) } else { 0.0 };
     let last = seen.last().map_or(0.0, |layer| water.before(layer.away));

@@ -1,20 +1,22 @@
-//! The wall between two bubbles by the source's construction, with its centre corrected as `layered` does.
+//! The wall between two bubbles by the source's construction, with the centre corrected as in
+//! `layered`.
 
 use glam::DVec3;
 
-/// A wall that is part of a sphere; a plane has no such.
+/// A spherical wall. Bubbles of equal radius have a plane wall, which this type cannot describe.
 #[derive(Clone, Copy, Debug)]
 pub struct Wall {
     pub center: DVec3,
     pub radius: f64,
 }
 
-/// Angle between the radii of two bubbles to their common circle.
+/// Angle between the radii of two bubbles at a point of the circle in which their spheres
+/// intersect.
 pub fn angle(a: f64, b: f64, apart: f64) -> f64 {
     ((a * a + b * b - apart * apart) / (2.0 * a * b)).acos()
 }
 
-/// Of two spheres that intersect, the first the larger.
+/// The wall between two intersecting spheres; the first is the larger one.
 pub fn between((a, r_a): (DVec3, f64), (b, r_b): (DVec3, f64)) -> Wall {
     let apart = a.distance(b);
     let delta = angle(r_a, r_b, apart);
@@ -26,7 +28,7 @@ pub fn between((a, r_a): (DVec3, f64), (b, r_b): (DVec3, f64)) -> Wall {
     Wall { center: a + (b - a) / apart * way, radius }
 }
 
-/// A point of the two spheres' common circle, at an angle about their axis.
+/// A point of the circle in which the two spheres intersect; `turn` is its angle about their axis.
 pub fn common((a, r_a): (DVec3, f64), (b, r_b): (DVec3, f64), turn: f64) -> DVec3 {
     let apart = a.distance(b);
     let along = (r_a * r_a - r_b * r_b + apart * apart) / (2.0 * apart);

@@ -1,10 +1,12 @@
-//! What water does to the scene under it (Lekner and Dorf 1988), from Snell's law and the reflectance alone:
+//! Effect of water on the scene under it (Lekner and Dorf 1988), from Snell's law and the
+//! reflectance alone:
 //! ```text
 //! F = mean of F(c) over 2 c dc    q = (1 - F) / n^2    wet = q E' / (1 - A (1 - q) T_in)
 //! E' = (S exp(-k w h) + (1 - S) exp(-k h / c_s) (1 - F(sun)) / (1 - F)) / (S + 1 - S)
 //! ```
-//! of a bed of reflectance A under h of water, with the share S of the sky's light, the mean way w of that and the sun's
-//! cosine c_s inside; T_in = exp(-5 k w h) is up and down again.
+//! for a bed of reflectance A under h of water, with the fraction S of the sky's light, its mean
+//! path w per depth, and the sun's cosine c_s in water; T_in = exp(-5 k w h) is the way up and down
+//! again.
 
 use glam::DVec3;
 
@@ -12,26 +14,26 @@ use super::super::surface::Surface;
 use super::super::{View, smoothstep};
 use super::{Fresnel, Medium, Settings};
 
-/// What of a frame lights the scene under water.
+/// Light on the scene under water.
 #[derive(Clone, Copy, Debug)]
 pub struct Bed {
-    /// The index of refraction.
+    /// Refractive index.
     pub index: f64,
-    /// Share of the sky's light on the surface that comes in.
+    /// Fraction of the sky's light that enters the water.
     pub comes_in: f64,
-    /// Mean way of that, metres for a metre down.
+    /// Mean path of that light, in metres per metre of depth.
     pub sky_way: f64,
-    /// Way of the sun's light.
+    /// Path of the sun's light, in metres per metre of depth.
     pub sun_way: f64,
-    /// What of the sun's light comes in, over what does of the sky's.
+    /// Fraction of sunlight that enters, relative to that of the sky's light.
     pub sun: f64,
     /// Irradiance of level ground.
     pub irradiance: [f64; 3],
-    /// Share of it that is the sky's.
+    /// Fraction of it that comes from the sky.
     pub shade: [f64; 3],
 }
 
-/// The mean over an even sky of a function of the cosine of incidence: the midpoint rule.
+/// Mean over a uniform sky of a function of the cosine of incidence, by the midpoint rule.
 fn over_sky(f: impl Fn(f64) -> f64) -> f64 {
     let steps = 20_000_u32;
     let sum: f64 = (0..steps)
@@ -42,9 +44,9 @@ fn over_sky(f: impl Fn(f64) -> f64) -> f64 {
 }
 
 impl Bed {
-    /// Of a surface of a reflectance, under a sun whose direction has the cosine `sun` to the upright.
+    /// For a surface with this reflectance, and a sun at the cosine `sun` from the vertical.
     pub fn new(fresnel: Fresnel, sun: f64, irradiance: [f64; 3], shade: [f64; 3]) -> Self {
-        // Facing the surface, ((n - 1) / (n + 1))^2 is reflected.
+        // At normal incidence the reflectance is ((n - 1) / (n + 1))^2.
         let index = match fresnel {
             Fresnel::Schlick { f0 } => 2.0 / (1.0 - f0.sqrt()) - 1.0,
             Fresnel::Source { .. } => 1.333,
@@ -64,14 +66,14 @@ impl Bed {
     }
 }
 
-/// How a surface lies over the scene.
+/// How the water lies over the scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Under {
-    /// How much of the scene behind it lies under it.
+    /// Fraction to which the scene behind is under water.
     pub wet: f64,
-    /// Metres of water above that, upright.
+    /// Depth of that water in metres, vertically.
     pub down: f64,
-    /// Metres of it to the eye.
+    /// Path through it to the eye, in metres.
     pub path: f64,
 }
 
@@ -86,10 +88,11 @@ impl Under {
         let filled = if room > 0.0 { thickness / room } else { 0.0 };
         let wet = smoothstep(0.5, 0.7, filled);
         let (level, rise) = (n.dot(up).max(0.0), v.dot(up));
-        // Along the surface light keeps n sin; what it has along the normal is the rest of its length.
+        // Refraction conserves n sin along the surface; the component along the normal follows from
+        // the length.
         let facing = n.dot(v).max(0.0);
         let inward = (1.0 - (1.0 - facing * facing) / bed.index.powi(2)).sqrt();
-        // Of the bent ray into the water, which is -((v - n facing) / index + n inward).
+        // Slope of the refracted ray in the water, which is -((v - n facing) / index + n inward).
         let steep = (rise - level * facing) / bed.index + level * inward;
         let bent = (rise / steep.max(1.0e-6)).clamp(0.0, 1.0);
         let way = 1.0 + level * (bent - 1.0);
@@ -97,7 +100,7 @@ impl Under {
     }
 }
 
-/// The colour of what lies under water, of its colour without.
+/// Colour of a scene under water from its dry colour.
 pub fn under_water(settings: &Settings, under: &Under, dry: DVec3) -> DVec3 {
     let Some(bed) = settings.bed.filter(|_| under.wet > 0.0) else { return dry };
     let q = bed.comes_in / bed.index.powi(2);
@@ -113,7 +116,7 @@ pub fn under_water(settings: &Settings, under: &Under, dry: DVec3) -> DVec3 {
         let sky = (-k * bed.sky_way).exp();
         let came = shade * sky + (1.0 - shade) * bed.sun * (-k * bed.sun_way).exp();
         let albedo = (dry[i] * std::f64::consts::PI / bed.irradiance[i]).clamp(0.0, 1.0);
-        // Thrown up, back, up again: a series.
+        // Light is reflected repeatedly between bed and surface: a geometric series.
         dry[i] * came * q / (1.0 - albedo * (1.0 - q) * sky.powi(5))
     });
     dry.lerp(DVec3::from(wet), under.wet)
@@ -125,8 +128,8 @@ mod tests {
 
     const WATER: Fresnel = Fresnel::Schlick { f0: 0.02 };
 
-    /// Of a surface of index 1.333 Fresnel's own equations reflect 0.0665 of an even sky's light, and 0.472 of what is
-    /// diffuse inside: Schlick's come within a hundredth.
+    /// For an index of 1.333, Fresnel's equations reflect 0.0665 of a uniform sky's light, and
+    /// 0.472 of diffuse light from inside; Schlick's approximation is within a hundredth.
     #[test]
     fn what_comes_in_and_is_thrown_back_is_known() {
         let bed = Bed::new(WATER, 1.0, [3.0; 3], [1.0; 3]);
@@ -134,18 +137,20 @@ mod tests {
         assert!((1.0 - bed.comes_in - 0.0665).abs() < 5e-4, "{}", bed.comes_in);
         let back = 1.0 - bed.comes_in / bed.index.powi(2);
         assert!((back - 0.472).abs() < 0.002, "{back}");
-        // 2 n^2 (1 - sqrt(1 - 1/n^2)) metres for a metre down, and upright the sun's one.
+        // Mean path per depth: 2 n^2 (1 - sqrt(1 - 1/n^2)); for a sun at the zenith 1.
         let n2 = bed.index.powi(2);
         let way = 2.0 * n2 * (1.0 - (1.0 - n2.recip()).sqrt());
         assert!((bed.sky_way - way).abs() < 1e-7, "{} and {way}", bed.sky_way);
         assert!((bed.sun_way - 1.0).abs() < 1e-12);
-        // A sun at the horizon: at the critical angle of 48.6 degrees, and nothing of it comes in.
+        // Light from the horizon refracts to the critical angle of 48.6 degrees, and none of it
+        // enters.
         let low = Bed::new(WATER, 0.0, [3.0; 3], [1.0; 3]);
         let critical = low.sun_way.recip().acos().to_degrees();
         assert!((critical - 48.6).abs() < 0.3 && low.sun.abs() < 1e-12, "{critical}");
     }
 
-    /// Of a white bed as much comes back as went in, whatever the index; of a grey one of 0.4 a share of 0.65.
+    /// A white bed returns all light that enters, for any index; a grey one of 0.4 is darkened to
+    /// 0.65 of its dry colour.
     #[test]
     fn a_wet_bed_is_darker_and_a_white_one_is_not() {
         let plain = super::super::tests::PLAIN;
@@ -165,7 +170,8 @@ mod tests {
         }
     }
 
-    /// The slant way of a level surface is Snell's: seen at 60 degrees from the upright 40.5 inside.
+    /// Through a level surface the path follows Snell's law: seen at 60 degrees from the vertical,
+    /// it is 40.5 degrees inside.
     #[test]
     fn the_way_to_the_eye_is_bent() {
         use glam::{DMat4, DVec2};
@@ -185,7 +191,7 @@ mod tests {
         let inside = (60.0_f64.to_radians().sin() / 1.333).asin().cos();
         assert!((under.path - under.down / inside).abs() < 1e-9, "{under:?}");
         assert_eq!(under.wet, 1.0);
-        // Air behind it: straight on.
+        // With air behind the water the path is straight.
         let surface = super::super::tests::facing(DVec3::new(0.0, 0.0, -10.0), up, 2.0, 4.0);
         let under = Under::of(&settings, &surface, &view);
         assert_eq!((under.wet, under.path), (0.0, 2.0));

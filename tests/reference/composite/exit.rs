@@ -1,6 +1,6 @@
-//! What is seen through water. Of what lies under it: where the ray ends that Snell's law bends at the front surface. With air
-//! behind it: Snell's law at the far surface too, which lies as much
-//! deeper as the water is thick and has the slope of both; then a march to the scene, or the environment.
+//! Light seen through water. For a bed: where the ray that is refracted at the front surface ends.
+//! With air behind: refraction also at the far surface, which lies one thickness deeper and has the
+//! slopes of the front and of the thickness; then a march to the scene, or the environment.
 
 use glam::{DVec2, DVec3};
 
@@ -12,8 +12,8 @@ use super::{Inputs, Settings, Under, met_scene};
 /// Steps of the march.
 const STEPS: u32 = 4;
 
-/// How far off what it is made of may be: the normals and the ray that leaves, each turned; the thickness, its slope and
-/// the place by a share; the first step by a share.
+/// Errors of the inputs: rotations of the normals and of the leaving ray; relative errors of the
+/// thickness, its slope and the position; relative error of the first step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Off {
     pub front: DVec3,
@@ -25,19 +25,19 @@ pub struct Off {
     pub stretch: f64,
 }
 
-/// What comes into the sheet, and metres through it.
+/// Light that enters the sheet from behind, and the path through it in metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
     pub light: DVec3,
     pub path: f64,
     pub met: Met,
-    /// What leaves is totally reflected.
+    /// Whether the leaving ray is totally reflected.
     pub total: bool,
-    /// Unit direction in which it leaves, in eye space.
+    /// Normalized direction of the leaving ray, in eye space.
     pub along: DVec3,
 }
 
-/// The rise of the thickness by quadratic B-splines, per pixel of the picture.
+/// Slope of the thickness per pixel of the picture, by quadratic B-splines.
 fn rise(thickness: &Image<f64>, level: u32, pixel: DVec2) -> DVec2 {
     let edge = f64::from(1 << level);
     let h = pixel / edge - 0.5;
@@ -57,8 +57,8 @@ fn rise(thickness: &Image<f64>, level: u32, pixel: DVec2) -> DVec2 {
     sum / edge
 }
 
-/// The ray that Snell's law bends at a surface whose normal is on the ray's side, `ratio` being the index before over the
-/// one behind; totally reflected, nothing.
+/// The ray refracted at a surface whose normal is on the ray's side; `ratio`: refractive index in
+/// front over that behind. None for total reflection.
 pub fn bend(ray: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     let cosine = -ray.dot(normal);
     let along = (ray + normal * cosine) * ratio;
@@ -66,9 +66,9 @@ pub fn bend(ray: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     (square > 0.0).then(|| along - normal * square.sqrt())
 }
 
-/// By how many pixels the refracted ray meets the scene under water beside what lies straight behind: five steps of false
-/// position, from the depth straight behind on. While the ray is before the scene, it goes as far as the scene lies deeper, at
-/// most twice as far as before.
+/// Displacement in pixels between the scene straight behind and the scene that the refracted ray
+/// meets under water: five steps of regula falsi, from the depth straight behind. While the ray is
+/// before the scene, it is extended by the remaining depth, at most to twice its length.
 pub fn bed_offset(
     inputs: &Inputs<'_>,
     surface: &Surface,
@@ -85,14 +85,14 @@ pub fn bed_offset(
         let end = on_screen(view, position + inside * far).truncate();
         end.clamp(DVec2::splat(0.5), view.extent() - 0.5)
     };
-    // Lengths, and by how much the scene lies deeper there.
+    // Lengths along the ray, and how much deeper the scene is there.
     let mut before = (0.0, (depth(inputs, view, pixel) + position.z).max(0.0));
     let mut beyond: Option<(f64, f64)> = None;
     let mut far = before.1 / along;
     for _ in 0..5 {
         let scene = depth(inputs, view, ends(far));
         if scene <= -position.z {
-            // Something before the water.
+            // An object before the water.
             continue;
         }
         let deeper = scene + position.z + inside.z * far;
@@ -141,7 +141,7 @@ fn on_plane(inputs: &Inputs<'_>, view: &View, start: DVec3, found: DVec3) -> DVe
     found.truncate() + moved.clamp_length_max(4.0 * size.y)
 }
 
-/// The same, and how far off it may be.
+/// The same, and its error.
 pub fn bed_about(
     inputs: &Inputs<'_>,
     surface: &Surface,
@@ -163,7 +163,7 @@ pub fn bed_about(
     (found, moved)
 }
 
-/// What comes into a surface, with what its front alone shows.
+/// Light that enters a surface from behind, combined with what the front surface alone shows.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 pub fn exit(
     inputs: &Inputs<'_>,
@@ -201,7 +201,8 @@ pub fn exit(
         let ray = (position + inside * path, seen.along, 1.0 + off.stretch);
         seen.met = march_from(inputs, view, ray, STEPS);
     }
-    // Half of what a ray meets is seen along it: the scene, or the sky above the horizon. The rest comes straight on.
+    // Half of the light comes along the ray from what it meets: the scene, or the sky above the
+    // horizon. The rest comes straight from behind.
     let half = |along: DVec3, met: f64, scene: DVec3| {
         let world = view.view.inverse().transform_vector3(along);
         let sky = (1.0 - met) * smoothstep(-0.3, 0.0, world.y);
@@ -221,8 +222,8 @@ pub fn exit(
     seen
 }
 
-/// The same, how far off light and path may be, and whether nothing else may be met: the sum of what each of its parts
-/// moves it by, to both sides.
+/// The same with errors of light and path, summed over the effects of each input's error in both
+/// directions, and whether the ray certainly meets the same thing.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 pub fn exit_about(
     inputs: &Inputs<'_>,
@@ -285,7 +286,8 @@ mod tests {
     use crate::reference::EMPTY;
     use crate::reference::tests::view;
 
-    /// Into water and out of it at the same angle; beyond 48.6 degrees none comes out.
+    /// Through a slab a ray leaves at the angle at which it entered. From 48.6 degrees on none
+    /// leaves.
     #[test]
     fn a_slab_bends_twice_and_total_reflection_begins_at_its_angle() {
         let normal = DVec3::Z;
@@ -304,8 +306,9 @@ mod tests {
         }
     }
 
-    /// A clear slab that faces the eye, before light of 1 and with none behind the eye: 0.98 of the light comes through the far
-    /// surface, and of the rest that it throws back, half is what is straight behind. The front takes 0.02 of all.
+    /// A clear slab that faces the eye, before light of 1 and with none behind the eye. The far
+    /// surface transmits 0.98; of the rest, which is mirrored back, half is what lies straight
+    /// behind. The front surface mirrors 0.02 of everything.
     #[test]
     fn a_clear_slab_loses_light_at_both_surfaces() {
         let view = view(DVec2::new(1.0, -1.0), DVec2::ZERO, 65, 65);

@@ -1,5 +1,5 @@
-//! Twin of what a medium that scatters many times looks like (van de Hulst, Multiple Light Scattering, 1980): the
-//! reflectance R of a half space with the albedo w of one scattering, under a surface.
+//! Appearance of a medium with multiple scattering (van de Hulst, Multiple Light Scattering, 1980):
+//! the reflectance R of a half space with single-scattering albedo w, under a surface.
 //! ```text
 //! A = (1 - s) (1 - 0.139 s) / (1 + 1.17 s),    s = sqrt(1 - w)
 //! R = q A / (1 - A (1 - q)),    q = (1 - F) / n^2
@@ -7,21 +7,21 @@
 
 use super::{Fresnel, Medium, bed::Bed};
 
-/// A, of isotropic scattering.
+/// A, for isotropic scattering.
 pub fn half_space(albedo: f64) -> f64 {
     let s = (1.0 - albedo).sqrt();
     (1.0 - s) * (1.0 - 0.139 * s) / (1.0 + 1.17 * s)
 }
 
-/// R, below a surface: of the light that came in, each time a share of what comes back up leaves.
+/// R, below a surface: of the light inside, a fraction leaves at each reflection.
 pub fn below(fresnel: Fresnel, bare: f64) -> f64 {
     let bed = Bed::new(fresnel, 1.0, [1.0; 3], [1.0; 3]);
     let leaves = bed.comes_in / bed.index.powi(2);
-    // A series: up, back, up again.
+    // A geometric series: up, back, up again.
     leaves * bare / (1.0 - (1.0 - leaves) * bare)
 }
 
-/// The medium in a light: irradiance of level ground, in the sun and in shade.
+/// The medium in this light: irradiance of level ground, in the sun and in shade.
 pub fn turbid(
     [absorption, scattering, emission]: [[f64; 3]; 3],
     (irradiance, shade): ([f64; 3], [f64; 3]),
@@ -41,8 +41,9 @@ pub fn turbid(
     Medium::Turbid { extinction, own, share, shade }
 }
 
-/// Of its own light what there is where a surface faces the sun by a cosine, over that of level ground, which does by
-/// another: what is scattered as on a matte surface, of what it emits all.
+/// Own light of a surface that faces the sun at a cosine, relative to that of level ground, which
+/// has another cosine: the scattered part varies like on a matte surface, the emitted part is
+/// constant.
 pub fn lit(share: f64, shade: f64, facing: f64, level: f64) -> f64 {
     let scattered = shade + (1.0 - shade) * facing.max(0.0) / level.max(0.05);
     1.0 + share * (scattered - 1.0)
@@ -52,8 +53,8 @@ pub fn lit(share: f64, shade: f64, facing: f64, level: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Chandrasekhar's H of isotropic scattering, by its integral equation at the middles of even steps of the cosine:
-    /// `1/H(m) = sqrt(1 - w) + w/2 int H(n) n / (m + n) dn`.
+    /// Chandrasekhar's H of isotropic scattering, from its integral equation at the centres of
+    /// equal steps of the cosine: `1/H(m) = sqrt(1 - w) + w/2 int H(n) n / (m + n) dn`.
     fn exact(albedo: f64) -> f64 {
         let steps = 400_u32;
         let cosine = |i: u32| (f64::from(i) + 0.5) / f64::from(steps);
@@ -76,13 +77,13 @@ mod tests {
     fn a_half_space_is_chandrasekhars() {
         for albedo in [0.05, 0.3, 0.6, 0.9, 0.99] {
             let (fit, exact) = (half_space(albedo), exact(albedo));
-            // He gives the fit as good to 0.002; it is off by 0.0021 at 0.6.
+            // The fit's author gives an error of 0.002; at 0.6 it is 0.0021.
             assert!((fit - exact).abs() < 2.5e-3, "{albedo}: {fit} and {exact}");
         }
     }
 
-    /// Diffuse reflectances that Jensen et al. (2001, Fig. 5) give beside their coefficients, at their index of 1.3: skim milk,
-    /// whole milk, and cream.
+    /// Diffuse reflectances that Jensen et al. (2001, Fig. 5) give with their coefficients, at an
+    /// index of 1.3: skim milk, whole milk and cream.
     #[test]
     fn reflectances_are_those_of_the_table() {
         let n = 1.3_f64;
@@ -95,20 +96,21 @@ mod tests {
             for i in 0..3 {
                 let (s, a): (f64, f64) = (scattering[i], absorption[i]);
                 let found = below(fresnel, half_space(s / (s + a)));
-                // Theirs is of the diffusion approximation.
+                // Theirs come from the diffusion approximation.
                 assert!((found - reflectance[i]).abs() < 0.03, "{found}: {}", reflectance[i]);
             }
         }
     }
 
-    /// What light is backscattered by clear water leaves by Gordon's 0.33 of backward over absorption, 0.54 of it.
+    /// For weak scattering the result is Gordon's: 0.33 of backscattering over absorption, of which
+    /// 0.54 leaves the water.
     #[test]
     fn weak_scattering_is_that_of_the_ocean() {
         let (backward, absorption): (f64, f64) = (0.002, 0.2);
         let albedo = 2.0 * backward / (2.0 * backward + absorption);
         let found = below(Fresnel::Schlick { f0: 0.02 }, half_space(albedo));
         let gordon = 0.33 * backward / absorption * 0.54;
-        // His light is the sun's; of an even sky a fifth more comes back (Kirk 1994).
+        // Gordon's light is the sun's; under a uniform sky a fifth more returns (Kirk 1994).
         assert!((1.0..1.35).contains(&(found / gordon)), "{found} and {gordon}");
     }
 }

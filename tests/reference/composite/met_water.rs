@@ -1,8 +1,10 @@
-//! The scene where a ray meets it, through the water that lies on it there: a level layer over a bed.
+//! The scene where a mirrored or refracted ray meets it, seen through the water that lies on it
+//! there: a level layer over a bed.
 //! ```text
 //! wet = smoothstep(0.5, 0.7, t / room)      seen = dry + wet (F env + (1 - F) through(bed, h / cos_in) - dry)
 //! ```
-//! The layer's thickness t along the eye's ray is h upright. F and cos_in are those of the marched ray at a level surface.
+//! The layer's thickness t along the eye's ray is h vertically. F and cos_in are those of the
+//! marched ray at a level surface.
 
 use glam::{DVec2, DVec3};
 
@@ -15,7 +17,8 @@ use super::{Inputs, Settings, Under, lit_medium, scene_at, through};
 /// Where a ray meets the scene, in pixels, and its direction in eye space.
 pub type Meeting = (DVec2, DVec3);
 
-/// How water lies on the scene at a position: how far it touches it, and its height. With two sheets the back one does.
+/// How water lies on the scene at a position: fraction to which it touches the scene, and its
+/// height. With two sheets this is the back one.
 fn lies(
     inputs: &Inputs<'_>,
     behind: Option<&Behind<'_>>,

@@ -1,5 +1,6 @@
-//! What of the scene a surface mirrors: the ray on the screen, in steps that grow from a 128th of the height to where it
-//! leaves the view, each looked up in the scene's depth; halved six times and then a secant.
+//! Reflection of the scene by a surface: a march along the ray on the screen, with steps that grow
+//! from a 128th of the picture's height until the ray leaves the view, each compared with the
+//! scene's depth; then six bisections and a secant step.
 
 use glam::{DVec2, DVec3};
 
@@ -7,16 +8,16 @@ use super::super::surface::Surface;
 use super::super::{EMPTY, View};
 use super::{Inputs, Settings};
 
-/// What of the scene a ray meets.
+/// What a ray meets of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Met {
-    /// In pixels.
+    /// Position in pixels.
     pub at: DVec2,
-    /// How much of it is seen; 0: nothing is met.
+    /// Fraction that is visible; 0: the ray meets nothing.
     pub share: f64,
 }
 
-/// A ray, with how much longer its first step is than it should be.
+/// A ray, and the factor by which its first step is longer.
 #[derive(Clone, Copy, Debug)]
 struct Ray {
     from: DVec3,
@@ -29,7 +30,7 @@ pub fn on_screen(view: &View, eye: DVec3) -> DVec3 {
     ((slope - view.ray_at(DVec2::ZERO).truncate()) / view.slope_step()).extend(-1.0 / eye.z)
 }
 
-/// The scene's depth in a pixel; what lies at the far plane is nothing.
+/// Depth of the scene in a pixel; the far plane counts as empty.
 pub fn depth(inputs: &Inputs<'_>, view: &View, at: DVec2) -> f64 {
     let (scene, depth) = (inputs.scene_depth, inputs.depth);
     let texel = |at: f64, texels: usize, pixels: usize| {
@@ -46,7 +47,7 @@ fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
     let towards = if along.z > 0.0 { 0.75 * z / along.z } else { f64::INFINITY };
     let start = on_screen(view, from);
     let way = on_screen(view, from + along * towards.min(64.0 * z)) - start;
-    // To the middle of the last pixel that way.
+    // To the centre of the last pixel in this direction.
     let end = |axis: usize| {
         let edge = if way[axis] > 0.0 { extent[axis] - 0.5 } else { 0.5 };
         if way[axis].abs() < 1e-6 {
@@ -76,7 +77,7 @@ fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
                 let (by, _) = gap(middle);
                 *(if by > 0.0 { &mut behind } else { &mut free }) = (middle, by);
             }
-            // Not what stands before the ray by itself.
+            // Objects in front of the ray alone do not count.
             let depth = |part: f64| (start.z + way.z * part).recip();
             let high = depth(behind.0);
             let deep = 2.0 * (high - depth(free.0)).abs() + (high - behind.1) / 32.0;
@@ -98,7 +99,8 @@ fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
     Met::default()
 }
 
-/// What a ray from a place in a direction meets in so many steps, the first of them by a factor longer.
+/// What a ray from a position in a direction meets in this number of steps, with the first step
+/// multiplied by a factor.
 pub fn march_from(
     inputs: &Inputs<'_>,
     view: &View,
@@ -121,8 +123,9 @@ pub fn direction(surface: &Surface) -> DVec3 {
     2.0 * n.dot(v) * n - v
 }
 
-/// The same, by how many pixels it may be off where the direction is by an angle and the place by a share of it, and
-/// whether something else may be met: from the same march of rays that are off by as much each way.
+/// The same, with its error in pixels for a rotated direction and a relative error of the position,
+/// and whether the ray may meet something else: from marches of rays with these errors in both
+/// directions.
 pub fn met_about(
     inputs: &Inputs<'_>,
     settings: &Settings,

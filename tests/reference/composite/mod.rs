@@ -1,5 +1,5 @@
-//! Twin of the water's composite (thesis Sec. 3.2.3, 4.9; without foam): refraction, absorption along the ray,
-//! Fresnel reflection and the highlight of the surface.
+//! Twin of the water's composite (thesis Sec. 3.2.3, 4.9; without foam): refraction, absorption
+//! along the ray, Fresnel reflection and the highlight.
 //! ```text
 //! P = (s_x z, s_y z, -z)    n = P_x x P_y normalized, towards the eye    path = T |P| / z
 //! Physical  C = background t + ambient (scattering / ext) (1 - t),    t = exp(-ext path)
@@ -30,61 +30,61 @@ pub use met_water::met_scene;
 pub use mirror::{Met, direction, met, met_about};
 pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 
-/// What light meets inside the water.
+/// The water's medium.
 #[derive(Clone, Copy, Debug)]
 pub enum Medium {
-    /// Metres and radiance.
+    /// Single scattering; lengths in metres.
     Physical {
-        /// Per metre.
+        /// Absorption per metre.
         absorption: [f64; 3],
-        /// Per metre.
+        /// Scattering per metre.
         scattering: [f64; 3],
-        /// The radiance that is scattered in.
+        /// Radiance that is scattered towards the eye.
         ambient: [f64; 3],
     },
-    /// As it scatters many times: metres and radiance.
+    /// Multiple scattering; lengths in metres.
     Turbid {
-        /// Per metre.
+        /// Extinction per metre.
         extinction: [f64; 3],
-        /// The radiance of an endless body with a level surface.
+        /// Radiance of an infinitely deep body with a level surface.
         own: [f64; 3],
-        /// Share of it that is scattered.
+        /// Fraction of the own radiance that is scattered and not emitted.
         share: f64,
-        /// Share of its light that comes where the sun does not.
+        /// Fraction of its light that also arrives in the shade.
         shade: [f64; 3],
     },
     /// The source's colours.
     Source {
         /// The water's own colour.
         base: [f64; 3],
-        /// Per metre: of the base colour, and last of the background.
+        /// Falloffs per metre: of the base colour, and last of the background.
         k: [f64; 4],
     },
 }
 
-/// How much of the light is reflected.
+/// Reflectance of the surface.
 #[derive(Clone, Copy, Debug)]
 pub enum Fresnel {
     /// `f0 + (1 - f0) (1 - n.v)^5`.
     Schlick {
-        /// Facing the surface; 0.02 for water.
+        /// Reflectance at normal incidence; 0.02 for water.
         f0: f64,
     },
-    /// `bias + scale (1 - n.v)^power`, between 0 and 1.
+    /// `bias + scale (1 - n.v)^power`, limited to 0 to 1.
     Source {
-        /// Facing the surface.
+        /// Reflectance at normal incidence.
         bias: f64,
-        /// What grazing adds.
+        /// Increase at grazing incidence.
         scale: f64,
-        /// How late it does.
+        /// Exponent of the increase.
         power: f64,
     },
 }
 
 impl Fresnel {
-    /// The reflected part at the cosine `n.v`.
+    /// Reflectance at the cosine `n.v`.
     pub fn reflectance(&self, cosine: f64) -> f64 {
-        // What is turned away from the eye grazes.
+        // A surface that faces away from the eye counts as grazing.
         let grazing = (1.0 - cosine).clamp(0.0, 1.0);
         match *self {
             Self::Schlick { f0 } => f0 + (1.0 - f0) * grazing.powi(5),
@@ -95,29 +95,29 @@ impl Fresnel {
     }
 }
 
-/// The images. Depths are eye depths.
+/// Images of a frame. Depths are eye depths.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
-    /// The water's depth at full resolution, clipped by the scene.
+    /// Depth of the water at full resolution, where the scene does not hide it.
     pub depth: &'a Image<f64>,
-    /// Its smoothed depth at the level.
+    /// Smoothed depth at its level.
     pub smoothed: &'a Image<f64>,
-    /// The level of the smoothed depth: its pixel is a block of `2^level`.
+    /// Level of the smoothed depth: a texel is a block of `2^level` pixels.
     pub level: u32,
-    /// The thickness along z.
+    /// Thickness along z.
     pub thickness: &'a Image<f64>,
-    /// The level of the thickness.
+    /// Level of the thickness.
     pub thickness_level: u32,
-    /// The scene behind, linear.
+    /// Linear colour of the scene behind.
     pub scene_color: &'a Image<[f64; 4]>,
-    /// The scene's depth, of its own extent.
+    /// Depth of the scene, with its own resolution.
     pub scene_depth: &'a Image<f64>,
-    /// The noise on the front surface, if there is any.
+    /// Noise on the front surface, if there is any.
     pub noise: Option<Ripples<'a>>,
 }
 
 impl Inputs<'_> {
-    /// The scene's depth at a pixel.
+    /// Depth of the scene at a pixel.
     pub fn scene(&self, x: usize, y: usize) -> f64 {
         let (scene, depth) = (self.scene_depth, self.depth);
         let texel = |i: usize, texels: usize, pixels: usize| {
@@ -127,50 +127,51 @@ impl Inputs<'_> {
     }
 }
 
-/// The look.
+/// Settings of the composite.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// r, the drawn radius: water thinner than r / 4 fades out of reflection.
+    /// r, the drawn radius: reflection fades out in water thinner than r / 4.
     pub radius: f64,
-    /// Depths that differ by more radii are on different surfaces.
+    /// Depths that differ by more than this, in radii, belong to different surfaces.
     pub falloff: f64,
-    /// Beta: by how much of the thickness a slope displaces the background.
+    /// Beta: displacement of the background per thickness and slope.
     pub refraction: f64,
-    /// The water.
+    /// The water's medium.
     pub medium: Medium,
-    /// The reflection's strength.
+    /// The surface's reflectance.
     pub fresnel: Fresnel,
-    /// The highlight's strength.
+    /// Strength of the highlight.
     pub specular: [f64; 3],
-    /// Its exponent.
+    /// Exponent of the highlight.
     pub shininess: f64,
-    /// The unit vector to the sun in eye space.
+    /// Normalized direction to the sun in eye space.
     pub sun_direction: DVec3,
-    /// The sun's colour.
+    /// Colour of the sun.
     pub sun_color: [f64; 3],
-    /// What water does to the scene under it; without: nothing but what the medium takes straight on.
+    /// The bed under the water; without it the scene is only attenuated by the medium.
     pub bed: Option<Bed>,
-    /// Steps of the march for what of the scene is mirrored.
+    /// Steps of the march for the mirrored scene.
     pub mirror_steps: u32,
-    /// The index of refraction where light comes through both surfaces; without: what is behind, displaced.
+    /// Refractive index if light is refracted at both surfaces; otherwise the background is
+    /// displaced.
     pub exit: Option<f64>,
 }
 
-/// By how many pixels a surface displaces the background. Light bends towards the water's normal, so
-/// the look-up moves against it.
+/// Displacement of the background in pixels. Light is refracted towards the normal, so the look-up
+/// moves against the normal.
 fn displacement(settings: &Settings, surface: &Surface, view: &View) -> DVec2 {
-    // Pixels per length at z, signed as the image's axes run.
+    // Pixels per length at depth z, with the signs of the image's axes.
     let scale = 1.0 / (view.slope_step() * -surface.position.z);
     -surface.normal.truncate() * surface.lens * settings.refraction * scale
 }
 
-/// A displacement that tends to a sixteenth of the picture's height at most.
+/// Limits a displacement smoothly to a sixteenth of the picture's height.
 pub fn bent(by: DVec2, view: &View) -> DVec2 {
     let most = view.height as f64 / 16.0;
     by * most / by.length().hypot(most)
 }
 
-/// Where the background is looked up, in pixels: displaced by refraction.
+/// Position in pixels at which the background is looked up, displaced by refraction.
 pub fn look_up(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -189,9 +190,9 @@ pub fn look_up(
         }
 }
 
-/// Whether a position is beyond the view, or any of the four texels of the scene's depth round it
-/// stands before the water;
-/// where its size is another than the colour's, round the four corners of the pixel there.
+/// Whether a position is outside the view, or any of the four texels of the scene's depth around it
+/// lies before the water. If the depth has another resolution than the colour, the corners of the
+/// pixel are tested.
 pub fn hidden(inputs: &Inputs<'_>, z: f64, at: DVec2) -> bool {
     let extent = |width: usize, height: usize| DVec2::new(width as f64, height as f64);
     let (scene, color) = (inputs.scene_depth, inputs.scene_color);
@@ -209,9 +210,9 @@ pub fn hidden(inputs: &Inputs<'_>, z: f64, at: DVec2) -> bool {
         .any(|&(x, y)| before(at + DVec2::new(x, y)))
 }
 
-/// The look-up, no farther than half the way to what stands before the water: that is asked for as
-/// far as twice the way, then found by halving to half a pixel, less a pixel and a half. And every
-/// place that was asked about.
+/// The look-up, at most half the way to an object before the water. The search tests up to twice
+/// the displacement, bisects to half a pixel, and subtracts a pixel and a half. Returns also all
+/// tested positions.
 pub fn cut_look_up(
     inputs: &Inputs<'_>,
     z: f64,
@@ -226,7 +227,7 @@ pub fn cut_look_up(
     };
     let (mut free, mut blocked) = match (ask(1.0), far < 0.25) {
         (true, _) => (0.0, 1.0),
-        // Too near to matter: what is free stays.
+        // A displacement this small keeps its whole length if its end is free.
         (false, true) => (1.0, 3.0),
         (false, false) if ask(2.0) => (1.0, 2.0),
         (false, false) => return (displaced, asked),
@@ -242,7 +243,7 @@ pub fn cut_look_up(
     (at((0.5 * (free - 1.5 / far.max(1.0))).clamp(0.0, 1.0)), asked)
 }
 
-/// The scene's colour behind a surface, displaced but never onto what stands before the water.
+/// Colour of the scene behind a surface, displaced, and never that of an object before the water.
 fn background(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -255,7 +256,7 @@ fn background(
     scene_at(inputs, q)
 }
 
-/// The scene's colour at a position.
+/// Colour of the scene at a position.
 pub fn scene_at(inputs: &Inputs<'_>, at: DVec2) -> DVec3 {
     let color = |t: &(isize, isize, f64)| {
         let [r, g, b, _] = inputs.scene_color.clamped(t.0, t.1);
@@ -264,7 +265,7 @@ pub fn scene_at(inputs: &Inputs<'_>, at: DVec2) -> DVec3 {
     inputs.scene_color.bilinear(at).iter().map(color).sum()
 }
 
-/// How much of the scene a surface mirrors, and the colour there.
+/// Fraction of the reflection that meets the scene, and the colour there.
 fn of_scene(
     inputs: &Inputs<'_>,
     behind: Option<&Behind<'_>>,
@@ -280,13 +281,13 @@ fn of_scene(
     (share, met_scene(inputs, behind, settings, view, (at, direction(surface)), env))
 }
 
-/// The direction in the world in which a surface mirrors.
+/// Direction of the mirrored ray in world space.
 pub fn mirrored(surface: &Surface, view: &View) -> DVec3 {
     let (n, v) = (surface.normal, -surface.position.normalize());
     view.view.inverse().transform_vector3(2.0 * n.dot(v) * n - v).normalize()
 }
 
-/// What a surface shows: the scene behind it and the environment it mirrors.
+/// The scene behind a surface, and the environment that it mirrors.
 pub fn seen(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -298,7 +299,7 @@ pub fn seen(
     (background(inputs, settings, surface, view, pixel), env(mirrored(surface, view)))
 }
 
-/// What comes through water of a path from behind it, with what it scatters in.
+/// Light after a path through water from behind, with the light that the water adds.
 pub fn through(medium: &Medium, behind: DVec3, path: f64) -> DVec3 {
     let exp = |k: DVec3| (-k * path).exp();
     match *medium {
@@ -320,7 +321,7 @@ pub fn through(medium: &Medium, behind: DVec3, path: f64) -> DVec3 {
     }
 }
 
-/// The medium under a surface of a normal: a turbid one is as bright as it faces the sun.
+/// The medium under a surface with this normal. A turbid one is brighter where it faces the sun.
 fn lit_medium(settings: &Settings, n: DVec3, view: &View) -> Medium {
     match settings.medium {
         Medium::Turbid { extinction, own, share, shade } => {
@@ -333,8 +334,9 @@ fn lit_medium(settings: &Settings, n: DVec3, view: &View) -> Medium {
     }
 }
 
-/// A surface before what is behind it: through the water, then what it mirrors and the highlight,
-/// of which a part is there. Of what it mirrors, the scene has a share, with its colour.
+/// A surface in front of what is behind: attenuation by the water, then reflection and highlight,
+/// of which a fraction `part` is present. A fraction of the reflection is the scene, with its own
+/// colour.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 fn before(
     settings: &Settings,
@@ -352,7 +354,7 @@ fn before(
 
     let w = part * smoothstep(0.0, settings.radius / 4.0, thickness);
     let reflected = mirrored(surface, view);
-    // What is mirrored from below the horizon is more water, not the environment's ground.
+    // Rays mirrored below the horizon meet more water, and not the environment's ground.
     let sky = smoothstep(-0.3, 0.0, reflected.y);
     let reflectance = w * settings.fresnel.reflectance(n.dot(v));
     let free = sky * (1.0 - met);
@@ -365,8 +367,8 @@ fn before(
     color + w * (shine + surface.ripple.foam)
 }
 
-/// The picture by what each pixel shows, at its middle, where there is water: that over the scene with
-/// alpha 1, the scene as it is elsewhere.
+/// The picture from the colour of each pixel's centre: water over the scene with alpha 1, elsewhere
+/// the unchanged scene.
 fn over_scene(
     inputs: &Inputs<'_>,
     view: &View,
@@ -379,7 +381,7 @@ fn over_scene(
     })
 }
 
-/// The picture of one sheet. `env` gives the environment's radiance from a direction in the world.
+/// The picture of one sheet. `env`: the environment's radiance from a direction in world space.
 pub fn shade(
     inputs: &Inputs<'_>,
     settings: &Settings,

@@ -1,5 +1,5 @@
-//! The composite of two sheets: the front one over the back one over the scene, with what of the air
-//! between them is there (not in the source).
+//! Twin of the composite with two sheets: the front sheet over the back sheet over the scene,
+//! according to the air between them (not in the source).
 
 use glam::{DVec2, DVec3};
 
@@ -11,62 +11,63 @@ use super::{
     scene_at, under_water,
 };
 
-/// What a frame with two sheets has besides the [`Inputs`], whose thickness is that of all water.
+/// Inputs of a frame with two sheets besides [`Inputs`], whose thickness is that of all water.
 #[derive(Clone, Copy, Debug)]
 pub struct Behind<'a> {
-    /// The depth between the sheets, for each texel of the thickness.
+    /// Depth of the boundary between the sheets, for each texel of the thickness.
     pub boundaries: &'a Image<f64>,
-    /// Thickness of the front sheet, of the back one and of the window between them.
+    /// Thickness of the front sheet, of the back sheet and of the window between them.
     pub thickness: &'a Image<[f64; 3]>,
-    /// The smoothed depth of the back sheet at its level.
+    /// Smoothed depth of the back sheet, at its level.
     pub smoothed: &'a Image<f64>,
-    /// That level.
+    /// Level of that image.
     pub level: u32,
 }
 
-/// The sheet behind the surface of a pixel.
+/// The sheet behind a pixel's surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Back {
     /// Its thickness is T2.
     pub surface: Surface,
-    /// How much of the pixel it is found in, whole, and how much air there is before it.
+    /// Fraction of the pixel in which the sheet was found completely, and fraction of air before
+    /// it.
     pub covered: f64,
     pub apart: f64,
-    /// Depth of the nearest of the texels round the pixel that are not before the boundary.
+    /// Depth of the nearest texel around the pixel that is not before the boundary.
     pub nearest: f64,
 }
 
 impl Back {
-    /// How much of its mirror image and highlight shows.
+    /// Strength of its reflection and highlight.
     pub fn part(&self) -> f64 {
         self.covered * self.apart
     }
 }
 
-/// What a pixel shows.
+/// The surfaces in a pixel.
 #[derive(Clone, Debug)]
 pub struct Shown {
     pub front: Surface,
     pub back: Option<Back>,
-    /// The texels that its thickness is of, with their weights.
+    /// The texels of its thickness, with weights.
     pub texels: Vec<(usize, usize, f64)>,
-    /// Thickness by sheets: not of all water alone.
+    /// Whether the thickness is split by sheets, and not that of all water.
     pub parted: bool,
-    /// What lies in the window, but neither is no water nor tells the sheets apart, decides.
+    /// Whether the result depends on an amount of water in the window that is tiny.
     pub barely: bool,
 }
 
-/// How much of the water in the window is air.
+/// Fraction of the window that is air.
 pub fn air(window: f64, spacing: f64) -> f64 {
     1.0 - smoothstep(0.1 * spacing, 0.6 * spacing, window)
 }
 
-/// How much of the air between two sheets so far apart is left to tell them apart.
+/// Fraction of the air that still separates two sheets at this distance.
 pub fn open(gap: f64, spacing: f64) -> f64 {
     smoothstep(1.0, 4.0, gap / spacing)
 }
 
-/// The two images of surfaces of a frame with two sheets, ready to be asked pixel by pixel.
+/// Both images of surfaces of a frame with two sheets, prepared for queries per pixel.
 pub struct Two<'a> {
     inputs: Inputs<'a>,
     behind: Behind<'a>,
@@ -96,7 +97,7 @@ impl<'a> Two<'a> {
         }
     }
 
-    /// What a pixel shows, if there is water.
+    /// The surfaces in a pixel, if there is water.
     pub fn at(&self, x: usize, y: usize) -> Option<Shown> {
         let Behind { boundaries, thickness, .. } = self.behind;
         let Self { inputs, fronts, backs, .. } = self;
@@ -110,7 +111,7 @@ impl<'a> Two<'a> {
         let (mut t, mut apart, mut t2, mut barely) = (one.parts.full, 0.0, 0.0, false);
         if parted {
             t = 0.0;
-            // That of the texel that weighs most, the first of them.
+            // The boundary of the texel with the largest weight, the first of equals.
             let mut most = 0.0;
             for (i, j, weight) in texels.iter().copied() {
                 let [front, back, window] = thickness.at(i, j);
@@ -136,12 +137,12 @@ impl<'a> Two<'a> {
             if there && found.case == Case::Beside {
                 found.found = if found.whole { 1.0 } else { 0.0 };
             }
-            // As the air between closes they become one.
+            // As the air between them vanishes, the sheets become one.
             let open = if there { open(found.z - smooth.z - t, self.spacing) } else { 1.0 };
             t += (1.0 - open) * t2;
             (t2, apart) = (open * t2, open * apart);
             let mut surface = backs.made_of((x, y), &found, t2, None, f64::INFINITY);
-            // Without a depth of its own it has all the room.
+            // Without a surface of its own it has unlimited room.
             if !there {
                 (surface.thickness, surface.room) = (t2, f64::INFINITY);
             }
@@ -167,11 +168,11 @@ impl<'a> Two<'a> {
     }
 }
 
-/// Where the scene is looked up through both sheets, before it is cut, and the depth that nothing may
-/// stand before.
+/// Position at which the scene is looked up through both sheets, before obstacles shorten it, and
+/// the depth before which nothing may lie.
 pub fn look_up_both(settings: &Settings, shown: &Shown, view: &View, pixel: DVec2) -> (DVec2, f64) {
     let (mut by, mut z) = (displacement(settings, &shown.front, view), -shown.front.position.z);
-    // What hides it at the pixel hides all of it.
+    // If something hides the back sheet in this pixel, the whole sheet is treated as hidden.
     if let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) {
         by += back.covered * displacement(settings, &back.surface, view);
         z = z.max(z + (-back.surface.position.z - z) * back.apart);
@@ -179,8 +180,8 @@ pub fn look_up_both(settings: &Settings, shown: &Shown, view: &View, pixel: DVec
     (pixel + bent(by, view), z)
 }
 
-/// The colour of a pixel that shows water: the front sheet over the back one over the scene, which is
-/// looked up once, by the sum of both offsets. The back sheet is no drop.
+/// Colour of a pixel with water: front sheet over back sheet over the scene, which is looked up
+/// once with the sum of both displacements. The back sheet is never a drop.
 pub fn shade_shown(
     inputs: &Inputs<'_>,
     behind: &Behind<'_>,
@@ -200,7 +201,7 @@ pub fn shade_shown(
         color = under_water(settings, &Under { wet: under.wet * back.part(), ..under }, color);
     }
     if let Some(back) = &shown.back {
-        // What it mirrors of the scene is not looked for.
+        // The back sheet does not mirror the scene.
         let none = (0.0, DVec3::ZERO);
         color = before(settings, &back.surface, back.part(), color, &env, none, under.path, view);
     }

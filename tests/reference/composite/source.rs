@@ -1,42 +1,44 @@
-//! Twin of the source's composite of one pixel (thesis Sec. 3.2.3, Listing A.20 with Eq. 3.5 to 3.7):
+//! Twin of the source's composite of one pixel (thesis Sec. 3.2.3, Listing A.20 with Eq. 3.5 to
+//! 3.7):
 //! ```text
 //! c_wb = base exp(-T_wb k)    a_wb = exp(-T_wb k_a)    the same of wf    a_f = exp(-k_f T_f)
 //! C_wb = mix(c_wb, C_background, a_wb)    C_f = mix(c_foam, C_wb, a_f)    C_wf = mix(c_wf, C_f, a_wf)
 //! C = C_wf + (F env + highlight) sat(1 - a_wf + a_f) (1 - a_wf)
 //! ```
-//! The listing's last line has a bracket too many: read so that reflection and highlight are both weighted once.
+//! The listing's last line has one bracket too many; it is read so that reflection and highlight
+//! have the same weight.
 
 use glam::DVec3;
 
-/// The layers of a pixel along its ray, and what is seen behind them and mirrored.
+/// The layers of a pixel along its ray, its background and its reflection.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers {
     /// Metres of water behind and before the frontmost foam.
     pub water: [f64; 2],
     /// Metres of foam.
     pub foam: f64,
-    /// Its colour.
+    /// Colour of the foam.
     pub foam_color: DVec3,
-    /// What is behind all.
+    /// Colour of the background.
     pub background: DVec3,
-    /// What is mirrored times its reflectance, and the highlight.
+    /// Reflected light times the reflectance, and the highlight.
     pub added: DVec3,
 }
 
-/// What light meets.
+/// Falloffs of the light.
 #[derive(Clone, Copy, Debug)]
 pub struct Falloffs {
     /// The water's own colour.
     pub base: DVec3,
-    /// Of that colour a metre.
+    /// Falloff of that colour per metre of water.
     pub color: DVec3,
-    /// Of what is behind water a metre.
+    /// Falloff of the background per metre of water.
     pub behind: f64,
-    /// Of what is behind foam a metre.
+    /// Falloff of the background per metre of foam.
     pub foam: f64,
 }
 
-/// The weight of what is added, by what comes through the front water and the foam.
+/// Weight of the added light, from the transmittances of the front water and of the foam.
 pub fn weight(front_water: f64, foam: f64) -> f64 {
     (1.0 - front_water + foam).clamp(0.0, 1.0) * (1.0 - front_water)
 }
@@ -59,16 +61,17 @@ pub fn color(layers: &Layers, falloffs: &Falloffs) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// No water, no surface; much water, all of it, unless all of that is behind opaque foam.
+    /// Without water there is no surface; deep water has the full weight, unless all of it is
+    /// behind opaque foam.
     #[test]
     fn foam_in_front_does_not_shine() {
         assert_eq!(weight(1.0, 1.0), 0.0);
         assert_eq!(weight(1.0, 0.0), 0.0);
         assert_eq!(weight(0.0, 1.0), 1.0);
         assert_eq!(weight(0.0, 0.0), 1.0);
-        // A veil before which is little water: as much as of the water.
+        // A veil of foam behind a little water: the weight of the water.
         assert!((weight(0.9, 1.0) - 0.1).abs() < 1.0e-12);
-        // Opaque foam before which is little: the square.
+        // Opaque foam behind a little water: the weight squared.
         assert!((weight(0.9, 0.0) - 0.01).abs() < 1.0e-12);
     }
 }

@@ -1,4 +1,4 @@
-//! The composite's twin against closed forms.
+//! Compares the composite's twin with closed forms.
 
 use super::super::EMPTY;
 use super::super::surface::Case;
@@ -25,7 +25,8 @@ pub const PLAIN: Settings = Settings {
     exit: None,
 };
 
-/// A surface at a point with a normal, and so much water in so much room.
+/// A surface with this position and normal, this thickness of water, and `room` metres to the
+/// scene.
 pub fn facing(position: DVec3, normal: DVec3, thickness: f64, room: f64) -> Surface {
     let parts = super::super::surface::Parts {
         case: super::super::surface::Case::Whole,
@@ -162,10 +163,10 @@ fn the_background_is_displaced_in_pixels_but_not_onto_what_is_in_front() {
     let mut scene = Scene::new(&view, 0, 3.0, |ray| -n.z * 10.0 / ray.dot(n));
     let fresnel = |c: f64| 1.0 - (1.0 - c).powi(5);
     let found = shade(&scene.inputs(0), &settings, BLACK, &view).at(32, 32);
-    // Left and, as the image runs down, down: -beta T n / (C z).
+    // To the left, and downwards in the image: -beta T n / (C z).
     let shift = 3.0 * 0.25 / (10.0 * 2.0 / (65.0 * 2.0));
     let by = DVec2::new(-n.x, n.y) * shift;
-    // Four pixels of 65 are the most: this comes to 0.97 of what it would be.
+    // The offset is limited smoothly to four pixels of 65, here to 0.97 of its length.
     let expected = 32.0 + by / (1.0 + by.length_squared() * (16.0_f64 / 65.0).powi(2)).sqrt();
     for axis in [0, 1] {
         assert!((found[axis] / fresnel(n.z) - expected[axis]).abs() < 0.02, "{found:?}");
@@ -175,8 +176,8 @@ fn the_background_is_displaced_in_pixels_but_not_onto_what_is_in_front() {
     assert!((found[0] / fresnel(n.z) - 32.0).abs() < 1e-3, "{found:?}");
 }
 
-/// Two planes that face the eye at depths 10 and 20, of thicknesses x and y, with water in the
-/// window between them.
+/// Two planes that face the eye at depths 10 and 20, with thicknesses x and y, and with `window`
+/// metres of water between them.
 fn two(
     view: &View,
     [x, y, window]: [f64; 3],
@@ -208,8 +209,8 @@ fn the_front_sheet_lies_over_the_back_one() {
     ] {
         settings.medium = medium;
         let spacing = settings.radius / 0.656;
-        // Only air between, and as much water as air; there is a back sheet, one in half of the
-        // columns, and none.
+        // Between the sheets there is only air, or as much water as air. The back sheet is
+        // everywhere, in half of the columns, or nowhere.
         let cases = [(0.0, 1.0), (0.35, 0.5)]
             .map(|(window, air)| [0.0, 0.5, 1.0].map(|e| (window, air, e)));
         for (window, air, empty) in cases.into_iter().flatten() {
@@ -230,14 +231,14 @@ fn the_front_sheet_lies_over_the_back_one() {
                                 + behind[c] * a
                         }
                     };
-                    // A quarter is mirrored.
+                    // The reflectance is a quarter.
                     let mirrored = 0.25 * part;
                     DVec3::new(of(0), of(1), of(2)) * (1.0 - mirrored)
                         + DVec3::new(0.5, 2.0, 1.0) * mirrored
                 };
                 let scene = DVec3::new(x as f64, y as f64, 1.0);
-                // Pixel 16 lies at 8.25 texels, a quarter of 7 and three of 8; from 9 on there are
-                // none, and 8 is a rim.
+                // Pixel 16 lies at 8.25 texels, a quarter of texel 7 and three quarters of texel 8.
+                // Texels from 9 on are empty, and 8 is at the rim.
                 let covered = match (empty == 0.0, empty == 1.0, x) {
                     (true, _, _) => 1.0,
                     (_, true, _) => 0.0,
@@ -252,14 +253,14 @@ fn the_front_sheet_lies_over_the_back_one() {
             }
         }
     }
-    // One sheet of all the water: no boundary, or no air.
+    // A single sheet with all water: without a boundary, or without air.
     let spacing = settings.radius / 0.656;
     let env = |_| DVec3::new(0.5, 2.0, 1.0);
     let front = Scene::new(&view, 0, 4.0, |_| 10.0);
     let one = shade(&front.inputs(0), &settings, env, &view);
     assert_eq!(two(&view, [1.0, 3.0, 0.0], &settings, EMPTY, |_, _| 20.0), one);
     assert_eq!(two(&view, [1.0, 3.0, 0.6 * spacing], &settings, 15.0, |_, _| 20.0), one);
-    // What is seen is the back sheet: of its own thickness, and none of what is before it.
+    // The visible sheet is the back one, with its own thickness and nothing before it.
     let back = two(&view, [1.0, 3.0, 0.0], &settings, 8.0, |_, _| 20.0);
     let front = Scene::new(&view, 0, 3.0, |_| 10.0);
     assert_eq!(back, shade(&front.inputs(0), &settings, env, &view));
@@ -271,7 +272,8 @@ fn the_scene_hides_the_back_sheet() {
     let mut front = Scene::new(&view, 1, 4.0, |_| 10.0);
     let boundaries = Image::new(32, 32, 15.0);
     let thickness = Image::new(32, 32, [1.0, 3.0, 0.0]);
-    // Pixel 16 lies at 4.125 texels: three eighths of the fourth, a rim, and five of the fifth.
+    // Pixel 16 lies at 4.125 texels: three eighths of texel 3, which is at the rim, and five
+    // eighths of texel 4.
     let smoothed = Image::from_fn(8, 8, |i, _| if i < 3 { EMPTY } else { 20.0 });
     let behind =
         Behind { boundaries: &boundaries, thickness: &thickness, smoothed: &smoothed, level: 2 };
@@ -295,7 +297,8 @@ fn what_the_front_image_covers_is_of_the_back_one() {
     let n = DVec3::new(0.3, 0.1, 1.0).normalize();
     let plane = |ray: DVec3| -n.z * 20.0 / ray.dot(n);
     let mut front = Scene::new(&view, 1, 4.0, plane);
-    // Something nearer in the first 17 columns, a pixel farther than it is seen.
+    // In the first 17 columns of the smoothed image lies something nearer, which reaches a pixel
+    // beyond its visible outline.
     for (x, y) in (0..32).flat_map(|y| (0..17).map(move |x| (x, y))) {
         *front.smoothed.at_mut(x, y) = 5.0;
     }
@@ -307,14 +310,15 @@ fn what_the_front_image_covers_is_of_the_back_one() {
         let behind = Behind { boundaries: &boundaries, thickness: &thickness, smoothed, level: 2 };
         Two::new(&front.inputs(1), &behind, &PLAIN, &view).at(x, 30).expect("water").front
     };
-    // Pixel 33 sees three quarters of the cover, and a quarter of a texel on its rim: nothing.
+    // Pixel 33 is three quarters covered, and a quarter is a texel at the rim, which does not
+    // count.
     let found = at(&smoothed, 33);
     assert_eq!(found.parts.mixed, 1.0);
     assert!((found.normal - n).length() < 0.02, "{found:?}");
     assert!((-found.position.z - plane(view.ray(33, 30))).abs() < 0.05, "{found:?}");
-    // Of pixel 36, at 18.25 texels, all texels are on its surface.
+    // All texels around pixel 36, at 18.25 texels, belong to its surface.
     assert_eq!(at(&smoothed, 36).parts.mixed, 0.0);
-    // The back image has no surface there, or half of it.
+    // The back image has no surface there, then one in half of its columns.
     let empty = Image::new(16, 16, EMPTY);
     assert_eq!(at(&empty, 33).parts.mixed, 0.0);
     let half = Image::from_fn(16, 16, |x, y| if x < 8 { smoothed.at(x, y) } else { EMPTY });
@@ -354,8 +358,8 @@ fn the_offsets_of_both_sheets_add_up() {
     assert!((expected - 32.0 - by(normals[0], 2.0, 10.0)).length() > 1.0, "one of them only");
 }
 
-/// A level pool before an upright wall: in the water each height of the wall is as far below the water's edge as it
-/// stands above it, whatever the unit of length.
+/// A level pool before an upright wall: in the water, each point of the wall appears as far below
+/// the water's edge as it stands above it, in any unit of length.
 #[test]
 fn a_wall_is_mirrored_where_it_stands() {
     let (far, above) = (6.0, 2.0);
@@ -364,7 +368,7 @@ fn a_wall_is_mirrored_where_it_stands() {
         let p = projection(DVec2::new(1.2, -1.2), DVec2::ZERO, Depth::Standard);
         let view = View::new(pitch, p, 160, 120).expect("a valid view");
         let world = view.view.inverse();
-        // The eye is at the origin, the wall at z = -far, the water and the bed of the pool below.
+        // The eye is at the origin, the wall at z = -far, the water and the pool's bed below.
         let ray = |x: usize, y: usize| world.transform_vector3(view.ray(x, y));
         let level = |ray: DVec3, y: f64| if ray.y < 0.0 { y / ray.y } else { EMPTY };
         let wall = |ray: DVec3| if ray.z < 0.0 { -far / ray.z } else { EMPTY };
@@ -391,7 +395,7 @@ fn a_wall_is_mirrored_where_it_stands() {
                 continue;
             }
             let Some(surface) = surfaces.at(x, y) else { continue };
-            // Up as steeply as the ray comes down.
+            // The reflected ray rises as steeply as the eye's ray falls.
             let point = ray * near;
             let height = -above - ray.y * (far + point.z) / -ray.z;
             let seen = met(&scene.inputs(0), &settings, &surface, &view);
@@ -405,7 +409,8 @@ fn a_wall_is_mirrored_where_it_stands() {
                 continue;
             }
             assert_eq!(seen.share, 1.0, "({x}, {y}) meets nothing: {at} {seen:?}");
-            // To two pixels: the slope of the water is that of texels, and depth is a step from texel to texel.
+            // Accurate to two pixels, because the water's slope comes from texels and depth has
+            // steps between texels.
             assert!(seen.at.distance(at) < 2.0, "({x}, {y}): {}, not {at}", seen.at);
             found += 1;
         }
@@ -448,7 +453,7 @@ fn a_floor_under_water_is_met_between_texels() {
     assert!(most < 1e-6, "{most} pixels");
 }
 
-/// Pixels of a place in the world.
+/// Pixel position of a point in world space.
 fn on_wall(view: &View, place: DVec3) -> DVec2 {
     let eye = view.view.transform_point3(place);
     (eye.truncate() / -eye.z - view.ray_at(DVec2::ZERO).truncate()) / view.slope_step()
@@ -456,7 +461,7 @@ fn on_wall(view: &View, place: DVec3) -> DVec2 {
 
 #[test]
 fn the_reflection_is_looked_up_in_the_world() {
-    // A level pool seen from above at 30 degrees: the mirror image of the ray.
+    // A level pool seen from above at 30 degrees; the result is the mirrored ray.
     let eye = DVec3::new(0.0, 5.0, 0.0);
     let forward = DVec3::new(0.0, -0.5, -(0.75_f64.sqrt()));
     let pitch = DMat4::from_rotation_x(30.0_f64.to_radians());
@@ -472,7 +477,7 @@ fn the_reflection_is_looked_up_in_the_world() {
     let found = DVec3::from_slice(&picture.at(32, 32)[..3]);
     assert!((found - DVec3::new(0.0, 0.5, forward.z)).length() < 2e-3, "{found}");
 
-    // The sun where the ray goes: the whole highlight; thin water has none.
+    // With the sun in the reflected direction there is the whole highlight; thin water has none.
     let sun = world_to_eye.transform_vector3(found.normalize());
     let lit = Settings { specular: [0.5; 3], sun_direction: sun, ..mirror };
     let glint = shade(&scene.inputs(0), &lit, |direction| direction, &view).at(32, 32);

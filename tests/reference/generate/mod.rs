@@ -1,10 +1,10 @@
 //! Twin of the whitewater particles: spray, foam and bubbles emitted by a particle fluid, after "Unified spray, foam
 //! and air bubbles for particle-based fluids" (Ihmsen et al. 2012).
 //!
-//! Metres and seconds, ids and random numbers as on the GPU. h = 2 s is the support of all sums,
-//! with s the fluid's spacing; `W = 1 - d/h`. The GPU sums whole steps, [`unit`] or [`STEP`], so
-//! that the order is no matter; here sums are of `f64`, and beside them stands what bounds the
-//! difference: how many terms there were, how far they may be off, and whether rounding may decide
+//! Units are metres and seconds; ids and random numbers are those of the GPU. h = 2 s is the
+//! support of all sums, with s the fluid's spacing, and `W = 1 - d/h`. The GPU sums fixed-point
+//! steps, [`unit`] or [`STEP`], so that the order does not matter. Here sums are in `f64`, together
+//! with what bounds the difference: number of terms, their errors, and whether rounding may decide
 //! something ("loose").
 
 mod motion;
@@ -24,74 +24,74 @@ pub use potentials::{Potentials, potentials};
 pub use slots::Slots;
 pub use water::Fluid;
 
-/// Code of foam, which lies on the surface.
+/// Code of foam on the surface.
 pub const FOAM: u32 = 0;
 /// Code of spray, drops in the air.
 pub const SPRAY: u32 = 1;
-/// Code of bubbles, which are under water.
+/// Code of bubbles under water.
 pub const BUBBLE: u32 = 2;
-/// What sums of weights are whole multiples of on the GPU.
+/// Sums of weights are multiples of this on the GPU.
 pub const STEP: f64 = 1.0 / 65536.0;
-/// At most so many steps of [`unit`] are summed of a neighbour.
+/// Max number of steps of [`unit`] that a neighbour contributes.
 const MOST_STEPS: f64 = 131_072.0;
-/// A particle makes no more than this in a step.
+/// Max number of particles that one particle makes in a step.
 const MOST: u32 = 64;
 
-/// What particles are made and moved by.
+/// Settings of the generator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// s, the rest spacing of the fluid's particles, metres.
+    /// s, the rest spacing of the fluid's particles in metres.
     pub spacing: f32,
-    /// g, metres a second squared.
+    /// g, in metres per second squared.
     pub gravity: [f32; 3],
-    /// Limits, low and high, of the trapped air, metres a second.
+    /// Lower and upper limit of the trapped air, in metres per second.
     pub trapped_air: [f32; 2],
-    /// Those of the wave crest, which has no unit.
+    /// Limits of the wave crest, which has no unit.
     pub wave_crest: [f32; 2],
-    /// Those of the kinetic energy of a unit mass, metres squared a second squared.
+    /// Limits of the kinetic energy per mass, in metres squared per second squared.
     pub energy: [f32; 2],
-    /// Particles a second that the most trapped air makes.
+    /// Particles per second at the upper limit of the trapped air.
     pub trapped_air_rate: f32,
-    /// Particles a second that the highest crest makes.
+    /// Particles per second at the upper limit of the wave crest.
     pub wave_crest_rate: f32,
-    /// Shortest and longest life of foam, seconds.
+    /// Min and max lifetime of foam in seconds.
     pub lifetime: [f32; 2],
-    /// Rise of bubbles, in gravities.
+    /// Buoyancy of bubbles, in units of gravity.
     pub buoyancy: f32,
-    /// The share of the water's velocity that bubbles take on in a step.
+    /// Fraction of the difference to the water's velocity that bubbles take on in a step.
     pub drag: f32,
-    /// Seeds all random numbers.
+    /// Seed of all random numbers.
     pub seed: u32,
-    /// Low and high corner of the box that particles live in, metres.
+    /// Lower and upper corner of the box in which particles live, in metres.
     pub bounds: Option<[[f32; 3]; 2]>,
 }
 
 /// A whitewater particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// Where it is, metres.
+    /// Position in metres.
     pub position: DVec3,
-    /// Its velocity, metres a second.
+    /// Velocity in metres per second.
     pub velocity: DVec3,
-    /// The part of its life that is over; from 1 on it is gone.
+    /// Fraction of its life that has passed; from 1 on it is dead.
     pub age: f64,
     /// [`FOAM`], [`SPRAY`] or [`BUBBLE`].
     pub kind: u32,
-    /// What its life goes by.
+    /// Id, which selects its lifetime.
     pub id: u32,
 }
 
-/// U, what sums of speeds are whole multiples of on the GPU, metres a second.
+/// U: sums of speeds are multiples of this on the GPU; in metres per second.
 pub fn unit(spacing: f32) -> f64 {
     (9.81 * f64::from(spacing)).sqrt() / 256.0
 }
 
-/// h, the support of the sums, metres.
+/// h, the support of the sums in metres.
 fn support(spacing: f32) -> f64 {
     2.0 * f64::from(spacing)
 }
 
-/// What becomes of a particle among so many of the fluid.
+/// Kind of a particle with this number of fluid particles around it.
 fn kind_of(neighbours: u32) -> u32 {
     match neighbours {
         0..6 => SPRAY,
@@ -100,7 +100,7 @@ fn kind_of(neighbours: u32) -> u32 {
     }
 }
 
-/// The hash of a seed, a particle and a counter.
+/// Hash of a seed, a particle and a counter.
 fn hash(seed: u32, id: u32, counter: u32) -> u32 {
     pcg(id.wrapping_add(pcg(counter.wrapping_add(pcg(seed)))))
 }
@@ -115,15 +115,15 @@ fn seed_of_step(settings: &Settings, number: u32) -> u32 {
     pcg(settings.seed.wrapping_add(pcg(number)))
 }
 
-/// How far a potential is on the way from the low limit to the high one. Where both are the same
-/// it jumps, and is 0 at them.
+/// Position of a potential between its lower and upper limit, clamped to 0..1. If both limits are
+/// equal it is a step, and 0 at the limit.
 fn phi(potential: f64, limits: [f32; 2]) -> f64 {
     let [low, high] = limits.map(f64::from);
     let part = (potential - low) / (high - low);
     if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) }
 }
 
-/// How many particles a fluid particle is to make in a step of dt seconds.
+/// Expected number of particles that a fluid particle makes in a step of dt seconds.
 pub fn wanted(p: &Potentials, settings: &Settings, dt: f32) -> f64 {
     let trapped_air = phi(p.trapped_air, settings.trapped_air);
     let wave_crest = phi(p.wave_crest, settings.wave_crest);
@@ -132,17 +132,17 @@ pub fn wanted(p: &Potentials, settings: &Settings, dt: f32) -> f64 {
     phi(p.energy, settings.energy) * rate * f64::from(dt)
 }
 
-/// How many it makes: what is left of a whole number is the chance of one more.
+/// Number of particles that it makes: the fractional part is the probability of one more.
 pub fn count(wanted: f64, settings: &Settings, id: u32, number: u32) -> u32 {
     let whole = wanted.floor();
     let chance = uniform_of(seed_of_step(settings, number), id, 0);
     let more = if chance < wanted - whole { 1.0 } else { 0.0 };
-    // The cast saturates, and makes 0 of what is not a number.
+    // The cast saturates, and NaN becomes 0.
     ((whole + more) as u32).min(MOST)
 }
 
-/// Newborn k of fluid particle i, which has these potentials: somewhere in the cylinder that a disc
-/// of half a spacing across its motion sweeps in the step.
+/// Newborn k of fluid particle i with these potentials: at a random point of the cylinder that a
+/// disc with a radius of half a spacing, across its motion, sweeps in the step.
 pub fn newborn(
     fluid: &Fluid,
     i: usize,
@@ -164,7 +164,7 @@ pub fn newborn(
     let aside = radius * (turn.cos() * e1 + turn.sin() * e2);
     Particle {
         position: position + aside + along * axis,
-        // The offset is added as published: a metre is a metre a second.
+        // The offset is added to the velocity as published, a metre as a metre per second.
         velocity: velocity + aside,
         age: 0.0,
         kind: kind_of(p.neighbours + 1),
@@ -172,8 +172,8 @@ pub fn newborn(
     }
 }
 
-/// Two unit vectors across a third, z, so that all are right-handed: "Building an orthonormal
-/// basis, revisited" (Duff et al. 2017). Those of +z for the zero vector.
+/// Two unit vectors across a third, z, right-handed: "Building an orthonormal basis, revisited"
+/// (Duff et al. 2017). For the zero vector those of +z.
 fn basis(z: DVec3) -> [DVec3; 2] {
     let sign = if z.z >= 0.0 { 1.0 } else { -1.0 };
     let a = -1.0 / (sign + z.z);

@@ -4,30 +4,31 @@ use super::water::{Fluid, Near, near};
 use super::{BUBBLE, MOST_STEPS, Particle, SPRAY, STEP, Settings, kind_of, uniform_of, unit};
 use glam::DVec3;
 
-/// By how much of itself rounding decides whether a coordinate is in the bounds, and an age over.
+/// Relative error within which rounding decides whether a coordinate is in the bounds, and whether
+/// an age is over.
 const ROUNDING: f64 = 1e-6;
 
-/// The fluid around a place.
+/// The fluid around a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carried {
-    /// N, its particles there: the terms of the sums.
+    /// N, the number of fluid particles there, which is the number of terms of the sums.
     pub neighbours: u32,
     /// Sum of K.
     pub weight: f64,
-    /// vt, their mean velocity by K, metres a second; 0 without any.
+    /// vt, their mean velocity weighted by K, in metres per second; 0 without any.
     pub velocity: DVec3,
-    /// What a part of that may be off in whole steps, infinite where these may have no weight.
+    /// Error of its components from fixed-point steps; infinite if the steps' weights may be 0.
     pub off: f64,
     /// Whether rounding may decide on a neighbour.
     pub loose: bool,
 }
 
-/// The fluid around a place.
+/// The fluid around a position.
 pub fn carried(position: DVec3, fluid: &Fluid, spacing: f32) -> Carried {
     carried_by(near(position, spacing, fluid.parts(spacing)), spacing)
 }
 
-/// The same of those that are or may be neighbours. Products saturate as on the GPU.
+/// The same from particles that are or may be neighbours. Products saturate like on the GPU.
 pub(super) fn carried_by(all: impl Iterator<Item = Near>, spacing: f32) -> Carried {
     let unit = unit(spacing);
     let most = DVec3::splat(MOST_STEPS * unit);
@@ -55,19 +56,19 @@ pub(super) fn carried_by(all: impl Iterator<Item = Near>, spacing: f32) -> Carri
     Carried { neighbours, weight, velocity, off, loose }
 }
 
-/// K, the cubic spline, q in supports from 0 to 1.
+/// K, the cubic spline; q in supports from 0 to 1.
 pub(super) fn kernel(q: f64) -> f64 {
     if q <= 0.5 { 6.0 * (q.powi(3) - q.powi(2)) + 1.0 } else { 2.0 * (1.0 - q).powi(3) }
 }
 
-/// A particle after a step of dt seconds, and whether rounding may decide on a neighbour, whether
-/// these have a weight, the bounds or its end. One that is gone has age 1.
+/// A particle after a step of dt seconds, and whether rounding may decide on a neighbour, on
+/// whether the weights are 0, on the bounds or on its death. A dead particle has age 1.
 pub fn moved(particle: &Particle, fluid: &Fluid, settings: &Settings, dt: f32) -> (Particle, bool) {
     let water = carried(particle.position, fluid, settings.spacing);
     moved_in(particle, &water, settings, dt)
 }
 
-/// The same in the fluid around it.
+/// The same in the given fluid.
 pub(super) fn moved_in(
     particle: &Particle,
     water: &Carried,
@@ -98,7 +99,7 @@ pub(super) fn moved_in(
         }
     };
     after.position += after.velocity * dt;
-    // What a sum of no weight moves by is not known at all.
+    // If the weights may be 0, the motion is unknown.
     let loose = water.loose
         || !off.is_finite()
         || (after.age - 1.0).abs() <= ROUNDING
@@ -109,28 +110,28 @@ pub(super) fn moved_in(
     (after, loose)
 }
 
-/// L, how long one lives as foam, seconds.
+/// L, the lifetime as foam in seconds.
 fn lifetime(id: u32, settings: &Settings) -> f64 {
     let [low, high] = settings.lifetime.map(f64::from);
     low + (high - low) * uniform_of(settings.seed, id, 0)
 }
 
-/// Whether its time is over or it is nowhere.
+/// Whether it is too old or outside.
 fn gone(particle: &Particle, settings: &Settings) -> bool {
     let outside = settings.bounds.is_some_and(|bounds| {
         let [low, high] = bounds.map(|corner| DVec3::from(corner.map(f64::from)));
         particle.position.cmplt(low).any() || particle.position.cmpgt(high).any()
     });
-    // Finite in single precision; an age that is not a number is over.
+    // Finite in single precision; a NaN age counts as too old.
     let alive = particle.age < 1.0 && particle.position.as_vec3().is_finite();
     !alive || outside
 }
 
-/// Whether one that came to a place, or as far from there as it may be off, is at the bounds.
+/// Whether a particle at `to`, with this error, may be at the bounds.
 fn at_bounds(from: DVec3, to: DVec3, off: f64, settings: &Settings) -> bool {
     let at = |corner: [f32; 3]| {
         let corner = DVec3::from(corner.map(f64::from));
-        // The way there is no longer than both together.
+        // The way to there is at most as long as both together.
         let rounding = ROUNDING * corner.abs().max(from.abs());
         (to - corner).abs().cmple(rounding + off).any()
     };

@@ -5,44 +5,46 @@ use super::{MOST_STEPS, STEP, support, unit};
 use glam::DVec3;
 use std::f64::consts::SQRT_2;
 
-/// At the surface m is longer than this many w.
+/// A particle is at the surface if m is longer than this many w.
 const ASKEW: f64 = 0.15;
-/// A crest moves along its normal by at least this cosine.
+/// Min cosine between a crest's velocity and its normal.
 const ALONG: f64 = 0.6;
-/// What single precision may decide: lengths in w, cosines and, in supports, sides of a plane.
+/// Within this, single precision may decide either way: lengths in w, cosines, and distances from a
+/// plane in supports.
 const ROUNDING: f64 = 1e-4;
-/// A crest term of less than this may come and go.
+/// A term of the crest smaller than this may be added or not.
 const SLIGHT: f64 = 1e-3;
-/// What the parts of a normal are rounded by at least.
+/// Min rounding error of a normal's components.
 const FLOAT: f64 = 1e-6;
 
-/// What a fluid particle may make others by.
+/// Potentials of a fluid particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Potentials {
-    /// Sum of `|v_ij| (1 - cos) W`, metres a second, with the angle between motion and way apart.
+    /// Sum of `|v_ij| (1 - cos) W`, in metres per second, with the angle between relative velocity
+    /// and relative position.
     pub trapped_air: f64,
     /// Sum of `(1 - n_i . n_j) W`.
     pub wave_crest: f64,
-    /// `|v|^2 / 2`, metres squared a second squared.
+    /// `|v|^2 / 2`, in metres squared per second squared.
     pub energy: f64,
-    /// N, the number of neighbours: the terms of all sums but the crest's.
+    /// N, the number of neighbours, which is the number of terms of all sums except the crest's.
     pub neighbours: u32,
-    /// Outward normal of unit length, if it is at the surface.
+    /// Outward unit normal, if the particle is at the surface.
     pub normal: Option<DVec3>,
-    /// The terms of the crest.
+    /// Number of terms of the crest.
     pub crest_terms: u32,
-    /// What the crest may be off beside half a [`STEP`] a term: by normals that come of whole steps,
-    /// and by slight terms that rounding decides on.
+    /// Error of the crest besides half a [`STEP`] per term: from normals made of fixed-point steps,
+    /// and from small terms that rounding may add or not.
     pub crest_off: f64,
-    /// Whether rounding may decide on a neighbour, the surface, or a term of the crest.
+    /// Whether rounding may decide on a neighbour, on the surface, or on a term of the crest.
     pub loose: bool,
 }
 
-/// Where a particle is in the fluid.
+/// A particle's position relative to the fluid's surface.
 #[derive(Clone, Copy, Debug, Default)]
 struct Surface {
     normal: Option<DVec3>,
-    /// How far the normal may be from one of whole steps.
+    /// Error of a normal made of fixed-point steps.
     off: f64,
     /// Whether rounding decides if there is one.
     loose: bool,
@@ -59,7 +61,7 @@ struct Crest {
     loose: bool,
 }
 
-/// The potentials of each particle of a fluid: none of those that take no part.
+/// Potentials of each particle of a fluid; None for invalid ones.
 pub fn potentials(fluid: &Fluid, spacing: f32) -> Vec<Option<Potentials>> {
     let grid = Grid::new(fluid, spacing);
     let others = |part: Part| -> Vec<Near> {
@@ -82,20 +84,20 @@ fn surface(others: &[Near], spacing: f32) -> Surface {
         m += near.offset / support(spacing) * near.weight();
         w += near.weight();
     }
-    // Each part of m and w may be off by half a step a term.
+    // Each component of m and w may err by half a step per term.
     let half_steps = 0.5 * STEP * others.len() as f64;
     let m_off = 3.0_f64.sqrt() * half_steps;
     let length = m.length();
     Surface {
         normal: (w > 0.0 && length > ASKEW * w).then(|| m / length),
-        // The chord over the sine of an angle of up to 90 degrees.
+        // Chord over sine, for angles up to 90 degrees.
         off: (SQRT_2 * m_off / length + FLOAT).min(2.0),
-        // Less, not as much: alone it is surely not at the surface.
+        // Strictly less, because a lone particle certainly is not at the surface.
         loose: (length - ASKEW * w).abs() < ROUNDING * w + m_off + ASKEW * half_steps,
     }
 }
 
-/// Those of one, by the others near it and the surfaces of all.
+/// Potentials of one particle, from the others near it and all particles' surfaces.
 fn of(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Potentials {
     let neighbours = others.iter().filter(|near| near.counts());
     let own = surfaces[part.index];
@@ -112,7 +114,7 @@ fn of(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Potent
     }
 }
 
-/// The air that one of a velocity traps with a neighbour. It saturates as on the GPU.
+/// Air that a particle with this velocity traps with a neighbour. It saturates like on the GPU.
 fn trapped(velocity: DVec3, near: &Near, spacing: f32) -> f64 {
     let apart = velocity - near.part.velocity;
     if near.offset == DVec3::ZERO || apart == DVec3::ZERO {
@@ -140,7 +142,7 @@ fn crest(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Cre
         crest.loose |= other.loose;
         let Some(others_normal) = other.normal else { continue };
         let term = (1.0 - normal.dot(others_normal)) * near.weight();
-        // In supports; the offset is from the other.
+        // In supports; the offset points from the other particle.
         let above = -near.offset.dot(normal) / support(spacing);
         let either = above.abs() <= ROUNDING + own.off * near.q;
         if above < 0.0 {

@@ -4,20 +4,20 @@ use super::motion::{carried_by, moved_in};
 use super::water::{Fluid, Grid};
 use super::{Particle, Settings, count, newborn, potentials, wanted};
 
-/// All whitewater particles. One that is gone leaves a free slot.
+/// All whitewater particles. A particle that has died leaves a free slot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Slots {
-    /// The slots used so far; those of age 1 or more are free.
+    /// All slots used so far. A slot whose particle has an age of 1 or more is free.
     pub particles: Vec<Particle>,
-    /// No more than so many.
+    /// Max number of slots.
     pub most: usize,
-    /// Newborns there was no slot for.
+    /// Number of new particles that were discarded because no slot was left.
     pub lost: u64,
 }
 
 impl Slots {
-    /// A step of dt seconds: what is there moves, then the newborns take the free slots in
-    /// ascending order and new ones after them.
+    /// Advances by dt seconds: existing particles move, then new particles take the free slots in
+    /// ascending order, and new slots after them.
     pub fn step(&mut self, fluid: &Fluid, settings: &Settings, dt: f32, number: u32) {
         let grid = Grid::new(fluid, settings.spacing);
         for particle in &mut self.particles {

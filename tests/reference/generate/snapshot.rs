@@ -1,16 +1,16 @@
-//! Twin of the snapshot: whitewater particles of a single frame, without those of the previous frame.
+//! Twin of the snapshot: whitewater particles of a single frame, without those of the frame before.
 //!
-//! Each fluid particle looks back along the water's way in 15 stages, and makes what the water
-//! made there and still lives.
+//! Each fluid particle looks back along the water's path in 15 stages, and makes the particles that
+//! the water made there and that still live.
 //!
-//! Bounds. The GPU sums whole steps in single precision. How far its place may be from the one
-//! here is carried along the path: a place that is off by e changes each weight by no more than
-//! the kernel does over a distance of e, and with it a mean by no more than the sum of these
-//! changes, each times how far its term is from the mean, over the least weight there may be.
-//! Besides a mean is among its terms, but for rounding. So each stage has a least and a most number
-//! to make, and as the count never falls while that grows, the GPU's lies between the counts of
-//! the two. Where the water may have ended the least is none; after that the most is, once there
-//! is no water as far around as the place may be off.
+//! Bounds. The GPU sums fixed-point steps in single precision. The error of its position is
+//! propagated along the path: a position error of e changes each weight by at most the kernel's
+//! change over a distance of e. A mean changes by at most the sum of these changes, each times the
+//! difference of its term from the mean, divided by the smallest possible sum of weights. A mean
+//! also lies within the range of its terms, except for rounding. So each stage has a min and a max
+//! rate, and because the count increases with the rate, the GPU's count lies between the counts of
+//! both. Where the water may have ended the min is 0; the max is 0 as soon as there is certainly no
+//! water within the position's error.
 
 #[cfg(test)]
 mod tests;
@@ -26,36 +26,36 @@ use std::f64::consts::PI;
 
 /// Stages of a path.
 pub const STAGES: usize = 15;
-/// A stage makes no more than this.
+/// Max number of particles that a stage makes.
 const MOST: u32 = 63;
-/// What single precision leaves of a few operations in a row, relative.
+/// Relative rounding error of a few consecutive operations.
 const ROUNDING: f64 = 1e-6;
-/// What it leaves of sums, as in the tests of the potentials.
+/// Relative rounding error of sums, as in the tests of the potentials.
 const FLOAT: f64 = 4e-6;
 
-/// What a fluid particle makes of the water it passed in a part of the time behind it.
+/// Particles that a fluid particle makes from the water that it passed in an interval of the past.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stage {
-    /// s, how long ago that was.
+    /// s, the time since then.
     pub seconds: f64,
-    /// q, where it was then, metres.
+    /// q, the position at that time, in metres.
     pub place: DVec3,
-    /// How far the GPU's place may be from that.
+    /// Error of the GPU's position.
     pub off: f64,
-    /// How many are to be made.
+    /// Expected number of particles.
     pub make: f64,
-    /// How many are made.
+    /// Number of particles.
     pub count: u32,
-    /// The least and the most that the GPU may make.
+    /// Min and max number that the GPU may make.
     pub counts: [u32; 2],
 }
 
-/// Of a place that may be off by more than so many supports nothing is known.
+/// A position with a larger error, in supports, is treated as unknown.
 const FARTHEST: f64 = 2.0;
-/// A mean of whole steps is no more than so many times the most it is of.
+/// A mean of fixed-point steps is at most this many times its largest term.
 const THRICE: f64 = 3.0;
 
-/// A number and what it may be at least and at most.
+/// A number and its bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Bounded {
     least: f64,
@@ -63,22 +63,22 @@ struct Bounded {
     most: f64,
 }
 
-/// The water at a place.
+/// The water at a position.
 struct Water {
-    /// Whether there is any.
+    /// Whether there is water.
     is: bool,
-    /// Whether there is surely none.
+    /// Whether there is certainly none.
     none: bool,
     /// Whether the GPU may find none.
     loose: bool,
     velocity: DVec3,
-    /// How far it may be off.
+    /// Error of the velocity.
     velocity_off: f64,
-    /// Made a second.
+    /// Particles made per second.
     rate: Bounded,
 }
 
-/// A fluid at a step, and what is made of it.
+/// A fluid at a step, and the particles made from it.
 pub struct Snapshot<'a> {
     fluid: &'a Fluid,
     settings: &'a Settings,
@@ -89,7 +89,7 @@ pub struct Snapshot<'a> {
 }
 
 impl<'a> Snapshot<'a> {
-    /// That of a fluid at a step.
+    /// The snapshot of a fluid at a step.
     pub fn new(fluid: &'a Fluid, settings: &'a Settings, number: u32) -> Self {
         let parts = fluid.parts(settings.spacing);
         let fastest = parts.map(|part| part.velocity.length()).fold(0.0, f64::max);
@@ -107,20 +107,20 @@ impl<'a> Snapshot<'a> {
         }
     }
 
-    /// Those of a fluid particle; none if it takes no part.
+    /// Potentials of a fluid particle; None if it is invalid.
     pub fn potentials(&self, i: usize) -> Option<&Potentials> {
         self.potentials[i].as_ref()
     }
 
-    /// The stages of a fluid particle's path; those after its end make none. None if it takes no
-    /// part.
+    /// Stages of a fluid particle's path; those after its end make none. None if the particle is
+    /// invalid.
     pub fn stages(&self, i: usize) -> Option<[Stage; STAGES]> {
         let part = self.fluid.part(i, self.settings.spacing)?;
         let id = self.fluid.ids[i];
         let seconds = |k| seconds(k, uniform_of(self.seed, id, 0), self.settings);
         let mut place = part.position - seconds(0) * part.velocity;
         let mut off = ROUNDING * (part.position.length() + seconds(0) * part.velocity.length());
-        // Whether it ended, here, surely and perhaps.
+        // Whether the path has ended: in the twin, certainly, possibly.
         let (mut ended, mut surely, mut perhaps) = (false, false, false);
         let stages = std::array::from_fn(|k| {
             let water = self.water(place, off);
@@ -159,7 +159,7 @@ impl<'a> Snapshot<'a> {
         Some(stages)
     }
 
-    /// Newborn m of fluid particle i, which is made of what was this many seconds ago.
+    /// Newborn m of fluid particle i, made from what was there `seconds` ago.
     pub fn newborn(&self, i: usize, m: u32, seconds: f64) -> Particle {
         let id = self.fluid.ids[i];
         let random = |n| uniform_of(self.seed, id, 4 * m + n);
@@ -184,7 +184,7 @@ impl<'a> Snapshot<'a> {
         }
     }
 
-    /// Its age if it is foam.
+    /// The age of a newborn foam particle.
     pub fn foam_age(&self, i: usize, m: u32, seconds: f64) -> f64 {
         let [least, most] = self.settings.lifetime.map(f64::from);
         let shortest = seconds.max(least);
@@ -192,7 +192,7 @@ impl<'a> Snapshot<'a> {
         seconds / (shortest + (most - shortest) * random)
     }
 
-    /// All that are made, in the order of their slots.
+    /// All particles, in the order of their slots.
     pub fn all(&self) -> Vec<Particle> {
         let mut all = Vec::new();
         for i in 0..self.fluid.ids.len() {
@@ -203,7 +203,7 @@ impl<'a> Snapshot<'a> {
         all
     }
 
-    /// The water at a place that may be off by so many metres.
+    /// The water at a position with this error in metres.
     fn water(&self, place: DVec3, off: f64) -> Water {
         let support = support(self.settings.spacing);
         let unit = unit(self.settings.spacing);
@@ -224,11 +224,11 @@ impl<'a> Snapshot<'a> {
             rate /= weight;
         }
         let mut least_weight = 0.0;
-        // What may be added to the sums of weight times velocity and rate beyond their means: by
-        // rounding, and with it by all else.
+        // Error of the sums of weight times velocity and rate relative to their means: from
+        // rounding alone, and in all.
         let (mut velocity_rounded, mut rate_rounded) = (0.0, 0.0);
         let (mut velocity_off, mut rate_below, mut rate_above) = (0.0, 0.0, 0.0);
-        // The most that one differs.
+        // Max difference from the mean, and max speed.
         let (mut apart, mut fastest, mut range) = (0.0_f64, 0.0_f64, [f64::INFINITY, 0.0]);
         for near in &near {
             let at = |q: f64| if q < 1.0 { kernel(q.max(0.0)) } else { 0.0 };
@@ -265,12 +265,12 @@ impl<'a> Snapshot<'a> {
             water.rate.most = THRICE * self.rates.iter().map(|rate| rate.most).fold(0.0, f64::max);
             return water;
         }
-        // A term of whole steps is no more than twice itself, and a weight no less than two
-        // thirds, or none.
+        // A term in fixed-point steps is at most twice its value, and a weight at least two thirds
+        // of its value, or 0.
         water.velocity_off = velocity.length() + 3.0_f64.sqrt() * THRICE * fastest;
         water.rate.most = THRICE * range[1];
         if least_weight > 0.0 {
-            // A mean is among what it is the mean of.
+            // A mean lies within the range of its terms.
             let speed_off = velocity_off.min(apart * least_weight) + velocity_rounded;
             water.velocity_off = water.velocity_off.min(speed_off / least_weight);
             let rounded = rate_rounded / least_weight;
@@ -280,7 +280,7 @@ impl<'a> Snapshot<'a> {
             let above = (rate + rate_above / least_weight).min(most).max(rate) + rounded;
             water.rate.most = water.rate.most.min(above);
         }
-        // So fast a term may be a step where the weight is none, and soon saturates.
+        // At such speeds a term may be a step although its weight is 0, and soon saturates.
         if fastest > 0.5 * unit / STEP {
             water.velocity_off = f64::INFINITY;
         }
@@ -288,16 +288,16 @@ impl<'a> Snapshot<'a> {
     }
 }
 
-/// No longer than these are the steps that sums of rates are of on the GPU: those of weights, of
-/// the most there is.
+/// Upper bound of the GPU's fixed-point step for sums of rates: the weights' step times the max
+/// rate.
 fn rate_step(settings: &Settings) -> f64 {
     STEP * f64::from(settings.trapped_air_rate + settings.wave_crest_rate)
 }
 
-/// How many a fluid particle makes a second. None is faster than `fastest`.
+/// Particles that a fluid particle makes per second. No particle is faster than `fastest`.
 fn rate(p: &Potentials, settings: &Settings, fastest: f64) -> Bounded {
     let sum_off = |x: f64, limits: [f32; 2]| FLOAT * (1.0 + x + f64::from(limits[0]).abs());
-    // One that may be a neighbour weighs no more than the edge does.
+    // A particle that may or may not be a neighbour has at most the weight near the support's edge.
     let edge = if p.loose { 1e-4 * fastest * f64::from(1 + p.neighbours) } else { 0.0 };
     let air = 0.5 * f64::from(p.neighbours) * unit(settings.spacing)
         + sum_off(p.trapped_air, settings.trapped_air)
@@ -317,7 +317,7 @@ fn rate(p: &Potentials, settings: &Settings, fastest: f64) -> Bounded {
         wanted(&all, settings, 1.0)
     };
     let is = wanted(p, settings, 1.0);
-    // What does not move has no crest, however it bends.
+    // A particle at rest has no crest, whatever the surface's curvature.
     Bounded { least: at(-1.0).min(is), is, most: at(1.0).max(is) }
 }
 
@@ -326,18 +326,18 @@ fn seconds(k: usize, random: f64, settings: &Settings) -> f64 {
     f64::from(settings.lifetime[1]) * ((k as f64 + random) / STAGES as f64).powi(2)
 }
 
-/// For how many seconds stage k stands.
+/// Seconds that stage k stands for.
 fn share(k: usize, settings: &Settings) -> f64 {
     f64::from(settings.lifetime[1]) * (2 * k + 1) as f64 / (STAGES * STAGES) as f64
 }
 
-/// What part lives so many seconds and more.
+/// Fraction of particles that live for at least this time.
 fn alive(seconds: f64, settings: &Settings) -> f64 {
     let [least, most] = settings.lifetime.map(f64::from);
     if seconds < least { 1.0 } else { ((most - seconds) / (most - least)).clamp(0.0, 1.0) }
 }
 
-/// What is left of a whole number is the chance of one more.
+/// The fractional part is the probability of one more.
 fn count(make: f64, chance: f64) -> u32 {
     let more = if chance < make.fract() { 1 } else { 0 };
     (make as u32 + more).min(MOST)

@@ -1,10 +1,11 @@
-//! The generator against closed forms, and its random numbers computed separately.
+//! Compares the generator's twin with closed forms, and its random numbers with values computed
+//! separately.
 
 use super::motion::carried_by;
 use super::water::{Grid, near};
 use super::*;
 
-/// The support is 1.
+/// The support radius is twice this, 1.
 pub(super) const SPACING: f32 = 0.5;
 
 /// All rates are 1, and all limits 0 to 1.
@@ -25,33 +26,33 @@ pub(super) fn settings() -> Settings {
     }
 }
 
-/// A fluid of positions and velocities, with the ids 7, 8, ...
+/// A fluid with these positions and velocities, and the ids 7, 8, ...
 pub(super) fn fluid(particles: &[([f32; 3], [f32; 3])]) -> Fluid {
     let (positions, velocities) = particles.iter().copied().unzip();
     Fluid { positions, velocities, ids: (7..).take(particles.len()).collect() }
 }
 
-/// Some at rest.
+/// A fluid at rest.
 fn still(positions: &[[f32; 3]]) -> Fluid {
     fluid(&positions.iter().map(|x| (*x, [0.0; 3])).collect::<Vec<_>>())
 }
 
-/// The potentials of all of a fluid of which all take part.
+/// The potentials of a fluid whose particles are all valid.
 fn all(fluid: &Fluid) -> Vec<Potentials> {
     potentials(fluid, SPACING).into_iter().map(|p| p.expect("it takes part")).collect()
 }
 
-/// No air, no crest, deep in the water.
+/// Potentials of a particle without trapped air, crest and neighbours.
 fn nothing() -> Potentials {
     all(&still(&[[0.0; 3]]))[0]
 }
 
-/// Somewhere in a cube of an edge.
+/// A random position in a cube with this edge.
 fn somewhere(id: u32, edge: f64) -> [f32; 3] {
     [0, 1, 2].map(|n| (edge * uniform_of(11, id, n)) as f32)
 }
 
-/// Many at random, some of them not to take part.
+/// Random particles, every 17th of them invalid.
 pub(super) fn random_fluid(particles: u32) -> Fluid {
     let one = |id| (somewhere(id, 3.0), somewhere(id + 100_000, 4.0).map(|v| v - 2.0));
     let mut fluid = fluid(&(0..particles).map(one).collect::<Vec<_>>());
@@ -61,7 +62,7 @@ pub(super) fn random_fluid(particles: u32) -> Fluid {
     fluid
 }
 
-/// A block of 7^3 on a lattice that is a little narrower than the spacing, its middle at 0.
+/// A block of 7^3 particles, a little closer than the spacing, centred at 0.
 fn block() -> Fluid {
     let along = |n: usize| 0.48 * (n as f32 - 3.0);
     let place = |n: usize| [along(n % 7), along(n / 7 % 7), along(n / 49)];
@@ -73,7 +74,7 @@ fn foam(position: [f64; 3], velocity: [f64; 3]) -> Particle {
     Particle { position, velocity, age: 0.25, kind: FOAM, id: 7 }
 }
 
-/// So many at a distance of the origin, all at another place, at a velocity.
+/// Particles on a circle around the origin, all with the same velocity.
 fn ring(particles: u32, distance: f64, velocity: [f32; 3]) -> Vec<([f32; 3], [f32; 3])> {
     let place = |n| {
         let (sine, cosine) = (TAU * f64::from(n) / f64::from(particles)).sin_cos();
@@ -100,15 +101,15 @@ fn air_is_trapped_by_what_comes_together() {
         close(a, b);
         a
     };
-    // At half a support: W is 1/2. Head on, 2 |v_ij| W.
+    // At a distance of half a support W is 1/2. Head on, the air is 2 |v_ij| W.
     close(air([[2.0, 0.0, 0.0], [0.0; 3]]), 2.0);
     close(air([[2.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]), 3.0);
-    // Apart, in step, sideways, and at 60 degrees.
+    // Moving apart, together, sideways, and at 60 degrees.
     close(air([[-2.0, 0.0, 0.0], [0.0; 3]]), 0.0);
     close(air([[5.0, 1.0, 0.0]; 2]), 0.0);
     close(air([[0.0, 2.0, 0.0], [0.0; 3]]), 1.0);
     close(air([[1.0, 0.0, 3.0_f32.sqrt()], [0.0; 3]]), 1.5);
-    // No more than 2^17 steps: 512 sqrt(9.81 s).
+    // A term is at most 2^17 steps: 512 sqrt(9.81 s).
     close(air([[1e9, 0.0, 0.0], [0.0; 3]]), 1_133.938_411_025_925_2);
     assert!(air([[1133.0, 0.0, 0.0], [0.0; 3]]) < 1133.5);
 }
@@ -121,10 +122,10 @@ fn each_neighbour_traps_air() {
         ([0.0, 0.0, 0.75], [1.0, 0.0, -2.0]),
     ]);
     let p = all(&three);
-    // 2 . 3/4 of the second, 4 . 1/4 of the third.
+    // 2 * 3/4 by the second neighbour, 4 * 1/4 by the third.
     close(p[0].trapped_air, 1.5 + 1.0);
-    // Of the third, sqrt(5) (1 - cos) . W at a distance of sqrt(10)/4, v_ij = (-1, 0, 2) and
-    // x_ij = (1, 0, -3) / 4: the product is sqrt(5) + 7 / sqrt(10).
+    // For the third: sqrt(5) (1 - cos) W at a distance of sqrt(10)/4, with v_ij = (-1, 0, 2) and
+    // x_ij = (1, 0, -3) / 4, whose product term is sqrt(5) + 7 / sqrt(10).
     let third = (5.0_f64.sqrt() + 7.0 / 10.0_f64.sqrt()) * (1.0 - 10.0_f64.sqrt() / 4.0);
     close(p[1].trapped_air, 1.5 + third);
     close(p[2].trapped_air, 1.0 + third);
@@ -138,7 +139,7 @@ fn sums_go_by_the_support() {
     let air = |spacing| potentials(&pair, spacing)[0].map(|p| (p.neighbours, p.trapped_air));
     assert_eq!(air(1.0), Some((1, 3.0)));
     assert_eq!(air(0.5), Some((1, 2.0)));
-    // As far as the support is none.
+    // At a distance of exactly the support there is no neighbour.
     assert_eq!(air(0.25), Some((0, 0.0)));
 }
 
@@ -154,7 +155,8 @@ fn two_at_a_place_have_no_way_apart() {
 #[test]
 fn the_surface_is_where_neighbours_are_to_one_side() {
     assert_eq!((nothing().neighbours, nothing().normal, nothing().loose), (0, None, false));
-    // W is 1/2 and w to the left; to the right |m| is 0.15 of the whole from 0.81949 on.
+    // To the left W and its offset are 1/2. To the right, |m| exceeds 0.15 of the whole from
+    // 0.81949 on.
     let normal = |right: f32| {
         let p = all(&still(&[[0.0; 3], [-0.5, 0.0, 0.0], [right, 0.0, 0.0]]))[0];
         (p.normal.map(|n| n.to_array()), p.loose)
@@ -162,7 +164,7 @@ fn the_surface_is_where_neighbours_are_to_one_side() {
     assert_eq!(normal(0.815), (None, false));
     assert_eq!(normal(0.82), (Some([1.0, 0.0, 0.0]), false));
     assert!(normal(0.8195).1, "rounding decides");
-    // |m| is longest half way: from here on the right one is outweighed by far.
+    // |m| is longest at half a support; from there on the right neighbour has less weight.
     assert_eq!(normal(0.95).0, Some([1.0, 0.0, 0.0]));
     assert_eq!(normal(0.4), (None, false));
     assert_eq!(normal(0.01).0, Some([1.0, 0.0, 0.0]));
@@ -183,7 +185,7 @@ fn the_surface_of_a_block_is_its_outside() {
     ] {
         let p = at(place.0, place.1, place.2);
         close_all(p.normal.expect("it is at the surface"), normal);
-        // Of 6 + 12 + 8 + 6 within a support.
+        // Of 6 + 12 + 8 + 6 particles within a support.
         assert_eq!((p.neighbours, p.loose), (neighbours, false), "{place:?}");
     }
     for n in 0..125 {
@@ -195,7 +197,7 @@ fn the_surface_of_a_block_is_its_outside() {
 
 #[test]
 fn a_crest_is_where_normals_part() {
-    // Two at half a support: their normals point apart.
+    // Two particles at half a support, whose normals point apart.
     let crest = |velocity: [f32; 3]| {
         let p = all(&fluid(&[([0.5, 0.0, 0.0], velocity), ([0.0; 3], [0.0; 3])]));
         assert_eq!((p[1].wave_crest, p[1].crest_terms), (0.0, 0), "it does not move");
@@ -213,14 +215,15 @@ fn a_crest_is_where_normals_part() {
 #[test]
 fn only_the_surface_behind_makes_a_crest() {
     let outwards = |x: [f32; 3]| (x, [-1.0, 0.0, 0.0]);
-    // The one in the middle is not at the surface: of the far one 2 . 1/5.
+    // The middle particle is not at the surface; the far one contributes 2 * 1/5.
     let p =
         all(&fluid(&[outwards([0.0; 3]), outwards([0.4, 0.0, 0.0]), outwards([0.8, 0.0, 0.0])]));
     close(p[0].wave_crest, 0.4);
     assert_eq!([0, 1, 2].map(|i| p[i].crest_terms), [1, 0, 0]);
     assert_eq!([0, 1, 2].map(|i| p[i].normal), [Some(-DVec3::X), None, Some(DVec3::X)]);
 
-    // n is along (1/4, 0) - (5/8, 5/8) (1 - 5/8 sqrt(2)): the third is before it.
+    // n is along (1/4, 0) - (5/8, 5/8) (1 - 5/8 sqrt(2)), so the third particle lies before the
+    // surface plane of the first.
     let w = 1.0 - 0.625 * 2.0_f64.sqrt();
     let n = DVec3::new(0.25 - 0.625 * w, -0.625 * w, 0.0).normalize();
     assert!(n.x + n.y > 0.5);
@@ -229,19 +232,20 @@ fn only_the_surface_behind_makes_a_crest() {
     close_all(p[0].normal.expect("it is at the surface"), n.to_array());
     close(p[0].wave_crest, 0.5 * (1.0 + n.x));
     assert_eq!((p[0].crest_terms, p[0].loose), (1, false));
-    // Behind the third, which goes 45 degrees off its normal, is the first.
+    // The third moves at 45 degrees to its normal; the first is behind it.
     close(p[2].wave_crest, w * (1.0 - (n.x + n.y) / 2.0_f64.sqrt()));
 
-    // Two at right angles to it, above the plane of its normal by nothing: rounding decides.
+    // Two neighbours lie exactly in the plane across the normal, so rounding decides whether they
+    // are before it.
     let places = [[0.0; 3], [-0.75, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, -0.7, 0.0]];
     let p = all(&fluid(&places.map(|x| (x, [1.0, 0.0, 0.0]))));
     assert_eq!(p[0].normal, Some(DVec3::X));
     assert!(p[0].loose);
-    // With what these may add: 0.3 (1 - 0) each, and the rounding of the normals.
+    // Each of them may add 0.3 (1 - 0), plus the rounding of the normals.
     assert!((0.6..0.601).contains(&p[0].crest_off), "{}", p[0].crest_off);
 }
 
-/// As the GPU has it: m and w in whole steps, in single precision.
+/// Computes normals like the GPU: m and w in fixed-point steps, in single precision.
 #[test]
 fn normals_of_whole_steps_are_as_near_as_said() {
     let fluid = random_fluid(600);
@@ -291,13 +295,13 @@ fn rounding_decides_near_a_support() {
     assert!(loose(1.0).loose && loose(1.0).neighbours == 0);
     assert!(loose(0.999_995).loose && loose(0.999_995).neighbours == 1);
     assert!(loose(1.000_005).loose && !loose(1.000_1).loose);
-    // Half a step of m and of w may be all there is.
+    // m and w may differ from 0 by less than half a step.
     assert!(loose(0.999_99).loose && !loose(0.999_9).loose);
 }
 
 #[test]
 fn what_rounding_decides_goes_on() {
-    // One is surely a neighbour and makes a surface, another may be one.
+    // One particle is certainly a neighbour and makes a surface, another may be a neighbour.
     let p = all(&still(&[[0.0; 3], [-0.5, 0.0, 0.0], [0.0, 0.999_999, 0.0]]));
     assert!(p[0].normal.is_some());
     assert_eq!([0, 1, 2].map(|i| p[i].loose), [true, false, true]);
@@ -305,7 +309,7 @@ fn what_rounding_decides_goes_on() {
     let loose = |y| moved(&spray, &still(&[[0.0, y, 0.0]]), &settings(), 0.1).1;
     assert_eq!([0.999_9, 0.999_995, 1.000_005, 1.000_1].map(loose), [false, true, true, false]);
 
-    // The first may be at the surface: so the crest of the third may be one, if it goes outwards.
+    // The first particle may be at the surface, so the third may have a crest if it moves outwards.
     let crest = |x: f32| {
         let places = [[0.0; 3], [-0.5, 0.0, 0.0], [0.8195, 0.0, 0.0]];
         let p = all(&fluid(&places.map(|place| (place, [x, 0.0, 0.0]))));
@@ -329,7 +333,7 @@ fn the_grid_finds_all() {
         found += slowly.len();
     }
     assert!(found > 500, "{found} neighbours");
-    // On both sides of 0.
+    // Grid cells on both sides of 0.
     let line = still(&[-0.9, -0.1, 0.2, 0.85].map(|x| [x, 0.0, 0.0]));
     assert_eq!(all(&line).iter().map(|p| p.neighbours).collect::<Vec<_>>(), [1, 3, 2, 2]);
 }
@@ -364,7 +368,7 @@ fn particles_are_wanted_by_the_potentials() {
 fn random_numbers_are_those_of_the_others() {
     assert_eq!(uniform_of(42, 7, 0) * 16_777_216.0, 7_461_844.0);
     assert_eq!(uniform_of(42, 7, 1) * 16_777_216.0, 11_415_383.0);
-    // The seed is 3.
+    // The settings' seed is 3.
     assert_eq!(seed_of_step(&settings(), 5), 0xa135_dc47);
 }
 
@@ -383,7 +387,7 @@ fn the_count_is_as_wanted_on_average() {
     }
     assert_ne!(counts(0.3, 3, 5), counts(0.3, 3, 6));
     assert_ne!(counts(0.3, 3, 5), counts(0.3, 4, 5));
-    // Worked out apart: the ids 7 and 99 draw 0.35197 and 0.82463 in step 5.
+    // Computed separately: the ids 7 and 99 draw 0.35197 and 0.82463 in step 5.
     let one = |n, id| count(n, &settings(), id, 5);
     assert_eq!([one(1.351, 7), one(1.352, 7), one(1.824, 99), one(1.825, 99)], [1, 2, 1, 2]);
     assert_eq!([63.9, 64.0, 64.9, 1e30, f64::INFINITY].map(|n| one(n, 7)), [64; 5]);
@@ -401,7 +405,7 @@ fn a_newborn_is_where_it_was_worked_out() {
     let kind = |neighbours| {
         newborn(&parent, 0, &Potentials { neighbours, ..p }, 2, &settings(), 0.125, 5).kind
     };
-    // Beside its parent.
+    // `neighbours` does not include the parent.
     assert_eq!([0, 4, 5, 19, 20, 99].map(kind), [SPRAY, SPRAY, FOAM, FOAM, BUBBLE, BUBBLE]);
 }
 
@@ -424,7 +428,9 @@ fn newborns_fill_a_cylinder() {
             along += x / 6400.0;
             aside += across / 6400.0;
         }
-        // Evenly: half the squared radius, half the way. Five deviations of 0.289, 0.18 is 0.5.
+        // Uniform in the cylinder: the mean squared distance from the axis is half the squared
+        // radius, the mean along it half its length. Allowed are five standard deviations of 0.289
+        // and 0.5.
         assert!((squares * 16.0 - 0.5).abs() < 0.018, "{squares}");
         assert!((along / sweep - 0.5).abs() < 0.018, "{along}");
         assert!(aside.length() < 0.016, "{aside}");
@@ -454,7 +460,7 @@ fn the_basis_is_right_handed() {
 
 #[test]
 fn one_at_rest_still_makes_some() {
-    // No direction: across z, and not along.
+    // Without a direction the disc lies across z, and nothing is swept along it.
     let parent = fluid(&[([0.0; 3], [0.0; 3])]);
     let particle = newborn(&parent, 0, &nothing(), 2, &settings(), 0.125, 5);
     close_all(particle.position, [0.133_258_920_7, 0.167_771_626_2, 0.0]);
@@ -480,14 +486,14 @@ fn foam_goes_with_the_water() {
         close_all(after.velocity, [1.0, 0.0, -3.0]);
         close_all(after.position, [0.125, 0.0, -0.375]);
         assert_eq!((after.kind, loose), (FOAM, false));
-        // Its life is 2 s and 0.86026 of another 2.
+        // Its lifetime is 2 s plus 0.86026 of 2 s.
         close(after.age, 0.25 + 0.125 / 3.720_527_172_088_623);
     }
 }
 
 #[test]
 fn near_water_weighs_more() {
-    // K is 0.71875 at 1/4, 0.25 at 1/2 and 0.03125 at 3/4.
+    // K is 0.71875 at a distance of 1/4, 0.25 at 1/2 and 0.03125 at 3/4.
     let slow = [0.0, 4.0, 0.0];
     let mut particles = ring(3, 0.25, [1.0, 0.0, 0.0]);
     particles.extend(ring(2, 0.5, [0.0; 3]));
@@ -498,23 +504,23 @@ fn near_water_weighs_more() {
     close(around.weight, sum);
     close_all(around.velocity, [3.0 * 0.71875 / sum, 8.0 * 0.03125 / sum, 0.0]);
     assert_eq!((around.neighbours, around.loose), (7, false));
-    // 7 half steps of U = sqrt(4.905) / 256, and about a tenth of that of the weights.
+    // The error is 7 half steps of U = sqrt(4.905) / 256, and a tenth of that from the weights.
     assert!((around.off * sum / 3.5 / unit(SPACING) - 1.0).abs() < 0.002, "{}", around.off);
     assert_eq!(kernel_at(0.0), 1.0);
-    // No more than 2^17 steps a part, and that whichever way.
+    // A component is limited to 2^17 steps in both directions.
     let fast = fluid(&ring(1, 0.5, [1e9, -1e9, 0.0]));
     let most = 1_133.938_411_025_925_2 / 0.25;
     close_all(carried(DVec3::ZERO, &fast, SPACING).velocity, [most, -most, 0.0]);
 }
 
-/// K of one neighbour.
+/// K of one neighbour at this distance.
 fn kernel_at(distance: f64) -> f64 {
     carried(DVec3::ZERO, &fluid(&ring(1, distance, [0.0; 3])), SPACING).weight
 }
 
 #[test]
 fn water_of_no_weight_carries_by_chance() {
-    // K is 2e-6 each, of steps of 15e-6.
+    // K is 2e-6 for each neighbour, and a step is 15e-6.
     let water = fluid(&ring(6, 0.99, [1.0, 0.0, 0.0]));
     let around = carried(DVec3::ZERO, &water, SPACING);
     close_all(around.velocity, [1.0, 0.0, 0.0]);
@@ -526,7 +532,8 @@ fn water_of_no_weight_carries_by_chance() {
 fn bubbles_rise() {
     let water = fluid(&ring(21, 0.5, [4.0, 0.0, 2.0]));
     let (after, loose) = moved(&foam([0.0; 3], [2.0, 0.0, 0.0]), &water, &settings(), 0.125);
-    // Two gravities up for 1/8 s, and half the way to the water's velocity.
+    // Buoyancy of 2 times gravity upwards for 1/8 s, and drag towards the water's velocity by a
+    // half.
     close_all(after.velocity, [3.0, 2.5, 1.0]);
     close_all(after.position, [0.375, 0.3125, 0.125]);
     assert_eq!((after.kind, after.age, loose), (BUBBLE, 0.25, false));
@@ -542,14 +549,14 @@ fn foam_lives_within_its_limits() {
     let lives = (0..2000).map(life).collect::<Vec<_>>();
     let (least, most) = lives.iter().fold((9.0_f64, 0.0_f64), |(a, b), l| (a.min(*l), b.max(*l)));
     assert!((2.0..2.01).contains(&least) && (3.99..4.0).contains(&most), "{least} to {most}");
-    // By the seed of the settings and no step's: worked out apart.
+    // The lifetime depends on the settings' seed and not on the step; computed separately.
     close(life(7), 3.720_527_172_088_623);
     close(life(8), 3.188_362_360_000_61);
     let other = Settings { seed: 4, ..settings() };
     let age = moved(&foam([0.0; 3], [0.0; 3]), &water, &other, 0.125).0.age;
     assert!((age - 0.25 - 0.125 / life(7)).abs() > 1e-4, "it goes by the seed");
 
-    // One that may live no time is gone at once, even in a step without time.
+    // With a lifetime of 0 a particle dies at once, even in a step of 0 s.
     let none = Settings { lifetime: [0.0; 2], ..settings() };
     for dt in [0.0, 0.1] {
         assert_eq!(moved(&foam([0.0; 3], [0.0; 3]), &water, &none, dt).0.age, 1.0);
@@ -569,7 +576,7 @@ fn foam_is_gone_when_its_life_is_over() {
     assert_eq!(after(0.875, 0.25), (1.0, true));
     assert_eq!(after(0.875, 0.5), (1.0, false));
     assert!(after(0.875, 0.249_999_9).1, "rounding decides");
-    // What is gone stays where it was.
+    // A dead particle does not move.
     let over = Particle { age: 1.5, ..foam([3.0; 3], [1.0; 3]) };
     assert_eq!(moved(&over, &water, &settings, 1.0), (Particle { age: 1.0, ..over }, false));
 }
@@ -599,10 +606,10 @@ fn one_is_gone_out_of_bounds() {
     let loose = |x| moved(&foam([0.0, 0.0, -0.5], [x, 0.0, 0.0]), &nothing, &boxed, 1.0).1;
     assert!([1.0, 1.0 + 5e-7, 1.0 - 5e-7, -1.0].iter().all(|x| loose(*x)));
     assert!([1.0 + 2e-6, 1.0 - 2e-6, 0.0].iter().all(|x| !loose(*x)));
-    // At 0 by what it came from.
+    // Near 0 the error depends on the position before the step.
     let back = |z| moved(&foam([0.0, 0.0, -0.5], [0.0, 0.0, z]), &nothing, &boxed, 1.0).1;
     assert!(back(0.5 + 4e-7) && !back(0.5 + 6e-7));
-    // Foam by how far the water's velocity may be off.
+    // For foam the error includes that of the water's velocity.
     let water = fluid(&ring(6, 0.9, [1.0, 0.0, 0.0]));
     let off = carried(DVec3::ZERO, &water, SPACING).off;
     assert!(off > 0.01);
@@ -611,7 +618,7 @@ fn one_is_gone_out_of_bounds() {
     assert!(above(0.9) && !above(1.1));
 }
 
-/// A box with this upper x.
+/// Settings with a box that ends at this x.
 fn with_top(x: f64) -> Settings {
     Settings { bounds: Some([[-9.0; 3], [x as f32, 9.0, 9.0]]), ..settings() }
 }
@@ -650,11 +657,11 @@ fn what_is_nowhere_takes_no_part() {
         assert_eq!(p, [Some(a), None, Some(b)], "{odd:?}");
         assert_eq!(carried(DVec3::ZERO, &three, SPACING).neighbours, 2);
     }
-    // These do.
+    // These particles are still valid.
     for odd in [([0.0, 0.999 * far, 0.0], up), (there, [0.0, 0.99e18, 0.0])] {
         assert!(potentials(&fluid(&[pair[0], odd]), SPACING)[1].is_some(), "{odd:?}");
     }
-    // Nor does it make any.
+    // Invalid particles do not create any.
     let violent = Settings { energy: [-2.0, -1.0], trapped_air: [-2.0, -1.0], ..settings() };
     let three = fluid(&[(pair[0].0, [f32::NAN; 3]), ([0.0, far, 0.0], up), pair[1]]);
     let mut slots = Slots { most: 99, ..Slots::default() };
@@ -663,7 +670,7 @@ fn what_is_nowhere_takes_no_part() {
     assert!(slots.particles.iter().all(|particle| particle.velocity.x < -0.7));
 }
 
-/// Makes two a particle of the fluid in each step of 1/8 s.
+/// Settings with which each particle of the fluid creates two in a step of 1/8 s.
 fn two_each() -> Settings {
     let limits = [-2.0, -1.0];
     Settings { trapped_air: limits, energy: limits, trapped_air_rate: 16.0, ..settings() }
@@ -680,7 +687,8 @@ fn newborns_take_the_free_slots_in_order() {
     assert_eq!(slots.particles, [born(0, 0, 1), born(0, 1, 1), born(1, 0, 1), born(1, 1, 1)]);
     assert_eq!(slots.lost, 0);
 
-    // The second was gone, the third is now: both are free for the first two, then comes the end.
+    // The second and third particle are dead, so their slots are free for the first two newborn
+    // ones; the others get new slots.
     slots.particles[1].age = 1.5;
     slots.particles[2].position.x = f64::NAN;
     let before = slots.particles.clone();
@@ -691,7 +699,7 @@ fn newborns_take_the_free_slots_in_order() {
     assert_eq!(slots.particles, after);
     assert_eq!(slots.lost, 0);
 
-    // One slot is left of seven, and three are lost; then all are.
+    // One slot of seven is left and three newborn particles are lost; then all are lost.
     slots.step(&water, &quiet, 0.125, 3);
     assert_eq!((slots.particles.len(), slots.lost), (7, 3));
     assert_eq!(slots.particles[6], born(0, 0, 3));
@@ -720,7 +728,7 @@ fn slots_move_by_all_of_the_water() {
         kinds[after.kind as usize] += 1;
     }
     assert!(kinds.iter().all(|n| *n > 10), "{kinds:?}");
-    // None was free.
+    // No slot was free.
     let p = potentials(&water, SPACING);
     let born = p.iter().zip(&water.ids).map(|(p, id)| {
         let n = p.map_or(0.0, |p| wanted(&p, &settings(), 0.125));

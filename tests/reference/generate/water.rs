@@ -1,46 +1,48 @@
-//! Fluid particles that take part, and the search for those near a point.
+//! Valid fluid particles, and the search for those near a point.
 
 use super::support;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Numbers from here on are no positions and no velocities: in single precision, a little below 1e18.
+/// Numbers of this size or larger are invalid as positions and velocities; in single precision,
+/// slightly below 1e18.
 const NOWHERE: f64 = 1e18_f32 as f64;
-/// Nor is a position so many supports away.
+/// A position this many supports away is invalid too.
 const FARTHEST: f64 = (1_u64 << 30) as f64;
-/// By so many supports rounding decides whether a particle is within one.
+/// Within this many supports of a support's edge, rounding decides whether a particle is a
+/// neighbour.
 const EDGE: f64 = 1e-5;
 
-/// A fluid, all of a length.
+/// A fluid; all vectors have the same length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fluid {
-    /// Where its particles are, metres.
+    /// Positions in metres.
     pub positions: Vec<[f32; 3]>,
-    /// Their velocities, metres a second.
+    /// Velocities in metres per second.
     pub velocities: Vec<[f32; 3]>,
-    /// What they are known by.
+    /// Ids.
     pub ids: Vec<u32>,
 }
 
-/// A fluid particle that takes part.
+/// A valid fluid particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
-    /// Which one it is.
+    /// Its index.
     pub index: usize,
-    /// Where it is, metres.
+    /// Position in metres.
     pub position: DVec3,
-    /// Its velocity, metres a second.
+    /// Velocity in metres per second.
     pub velocity: DVec3,
 }
 
-/// A neighbour, or what may be one.
+/// A neighbour, or a possible one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Near {
-    /// Which it is.
+    /// The particle.
     pub part: Part,
-    /// From it to the place, metres.
+    /// Vector from the particle to the place, in metres.
     pub offset: DVec3,
-    /// q, how far that is in supports.
+    /// q, its length in supports.
     pub q: f64,
 }
 
@@ -62,12 +64,12 @@ impl Near {
 }
 
 impl Fluid {
-    /// The particles that take part.
+    /// The valid particles.
     pub(super) fn parts(&self, spacing: f32) -> impl Iterator<Item = Part> + '_ {
         (0..self.positions.len()).filter_map(move |index| self.part(index, spacing))
     }
 
-    /// A particle, if it takes part.
+    /// A particle, if it is valid.
     pub(super) fn part(&self, index: usize, spacing: f32) -> Option<Part> {
         let position = DVec3::from(self.positions[index].map(f64::from));
         let velocity = DVec3::from(self.velocities[index].map(f64::from));
@@ -77,7 +79,7 @@ impl Fluid {
     }
 }
 
-/// Those of some parts that are or may be the neighbours of a place.
+/// Those of the parts that are or may be neighbours of a place.
 pub(super) fn near(
     place: DVec3,
     spacing: f32,
@@ -90,7 +92,7 @@ pub(super) fn near(
     all.filter(|one| one.counts() || one.loose())
 }
 
-/// The parts by the cell of a grid that they lie in.
+/// The parts, by grid cells.
 pub(super) struct Grid {
     spacing: f32,
     cells: HashMap<[i64; 3], Vec<Part>>,
@@ -106,12 +108,12 @@ impl Grid {
         grid
     }
 
-    /// The cell of a place, a little wider than a support. What is too far saturates.
+    /// The cell of a place; cells are slightly wider than a support. Distant places saturate.
     fn cell(&self, place: DVec3) -> [i64; 3] {
         (place / (1.001 * support(self.spacing))).floor().to_array().map(|x| x as i64)
     }
 
-    /// As [`near`], of all.
+    /// As [`near`], with all particles.
     pub fn near(&self, place: DVec3) -> impl Iterator<Item = Near> {
         let middle = self.cell(place);
         let around = (0..27).filter_map(move |n| {
@@ -121,7 +123,7 @@ impl Grid {
         near(place, self.spacing, around.flatten().copied())
     }
 
-    /// Those within so many supports of a place.
+    /// The particles within this many supports of a place.
     pub fn within(&self, place: DVec3, supports: f64) -> impl Iterator<Item = Near> {
         let (middle, reach) = (self.cell(place), supports.ceil() as i64);
         let along =

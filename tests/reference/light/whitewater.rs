@@ -1,9 +1,9 @@
-//! Twin of the sun's map of whitewater particles: bounds for single precision and fixed-point sums.
+//! Twin of the light map of whitewater particles: bounds for single precision and fixed-point sums.
 //!
-//! Of each particle a disc of the map, as on the screen, with the far end of its sphere as its place
-//! along the light, a whole number of texels k. A texel has of all of them `a`, how much, with k: what
-//! is known of an addend is a range of each. The map is the mean of `a`, and the mean and the deviation of
-//! k weighted by it, over three by three texels.
+//! Each particle is a disc in the map, as on the screen, with the far end of its sphere as its
+//! position along the light, rounded to a whole number of texels k. For each texel the particles
+//! contribute amounts `a` with their k; each contribution is known as a range of both. The map
+//! contains the mean of `a`, and the mean and the deviation of k weighted by `a`, over 3x3 texels.
 
 use super::super::Image;
 use super::super::whitewater::{Attenuation, Kind, Particle, Settings};
@@ -12,23 +12,23 @@ use crate::support::rounded::{Rounded, exact, off, smoothstep};
 use crate::support::tolerance::{Between, U};
 use std::f64::consts::PI;
 
-/// Steps of a thickness of 1.
+/// Fixed-point steps of a thickness of 1.
 const STEPS: f64 = 65536.0;
-/// Least half-axis of a disc, in texels.
+/// Min half-axis of a disc, in texels.
 const LEAST: f64 = 0.75;
-/// A rounding to half precision, either way.
+/// Relative error of a rounding to half precision in either direction.
 const HALF: f64 = 1.0 / 1024.0;
 
-/// What a particle adds to a texel.
+/// Contribution of a particle to a texel.
 #[derive(Clone, Copy, Debug)]
 struct Addend {
-    /// Steps, least and most.
+    /// Min and max number of steps.
     steps: [f64; 2],
-    /// Place along the light, least and most.
+    /// Min and max position along the light.
     place: [f64; 2],
 }
 
-/// A particle's disc of the map.
+/// A particle's disc in the map.
 struct Disc {
     kind: Kind,
     at: [Rounded; 2],
@@ -38,7 +38,7 @@ struct Disc {
     life: Rounded,
     told: Rounded,
     even: Rounded,
-    /// Least and most place, and whether it surely casts.
+    /// Min and max position, and whether it certainly casts a shadow.
     place: [f64; 2],
     sure: bool,
 }
@@ -103,20 +103,21 @@ impl Disc {
         Some(disc)
     }
 
-    /// Columns or rows that it may lie in, also beside the map.
+    /// Columns or rows that it may cover, also outside the map.
     fn range(&self, axis: usize) -> std::ops::Range<i64> {
         let (at, reach) = (self.at[axis], self.reach.v + self.reach.e + self.at[axis].e + 1.0);
         (at.v - reach).floor() as i64..(at.v + reach).ceil() as i64
     }
 
-    /// Square of a texel's distance from the middle, over that of the rim.
+    /// Squared distance of a texel from the centre, relative to the rim's.
     fn square(&self, x: i64, y: i64) -> Rounded {
         let [x, y] =
             [(0, x), (1, y)].map(|(axis, i)| (exact(i as f64 + 0.5) - self.at[axis]) / self.reach);
         x * x + y * y
     }
 
-    /// What it adds to a texel, if it may add something; `front`: metres to the first water there.
+    /// Contribution to a texel, if there may be one. `front`: distance to the first water there, in
+    /// metres.
     fn addend(&self, x: i64, y: i64, front: f64, settings: &Settings) -> Option<Addend> {
         let square = self.square(x, y);
         if square.v - square.e >= 1.0 {
@@ -148,8 +149,8 @@ impl Disc {
 }
 
 impl Light {
-    /// The three channels of the map, before they are rounded to halves and after. `front`: the map of
-    /// the first water.
+    /// The three channels of the map, with and without their rounding to half precision. `front`:
+    /// map of the first water.
     pub fn whitewater(
         &self,
         particles: &[Particle],
@@ -186,11 +187,11 @@ impl Light {
             .map(|i| Between { low: all.map(|ends| ends[i][0]), high: all.map(|ends| ends[i][1]) })
     }
 
-    /// Of some addends and their weights: sum, mean and deviation of the place in metres.
+    /// Sum, mean and deviation (in metres) of weighted contributions.
     ///
-    /// Where `a` is off by e a mean moves by `sum e |k - mean| / sum a`, and the mean square of what is off it
-    /// likewise, less the square of what the mean moved. The quotients of single precision add a few u
-    /// of the places from the first one on; the words themselves are exact.
+    /// If the contributions err by e, a mean changes by `sum e |k - mean| / sum a`. The variance
+    /// changes likewise, minus the square of the mean's change. Quotients in single precision add a
+    /// few u of the positions relative to the first one; the integers are exact.
     fn moments(&self, all: &[(f64, Addend)]) -> [[f64; 2]; 3] {
         let total = |of: &dyn Fn(&Addend) -> f64| all.iter().map(|(w, a)| w * of(a)).sum::<f64>();
         let (least, most) = (total(&|a| a.steps[0]), total(&|a| a.steps[1]));
@@ -205,7 +206,7 @@ impl Light {
         }
         let (t, n) = (self.texel(), self.texels as f64);
         if least == 0.0 {
-            // There may be nothing at all.
+            // There may be no contribution at all.
             let ends =
                 |f: fn(f64, f64) -> f64| all.iter().map(|(_, a)| a.place[0]).fold(f64::NAN, f);
             let (low, high) = (ends(f64::min), ends(f64::max) + 1.0);
@@ -237,8 +238,8 @@ impl Light {
         ]
     }
 
-    /// Share of the sun that whitewater particles cover at metres along the light, by what a texel of their map
-    /// has.
+    /// Fraction of sunlight that whitewater particles block at a distance along the light, from a
+    /// texel of their map.
     pub(super) fn covered(&self, [rho, mean, spread, _]: [f32; 4], d: Rounded) -> Rounded {
         let [rho, mean, spread] = [rho, mean, spread].map(|v| exact(f64::from(v)));
         let reach = off(0.5 * self.spacing, 2.0) + off(1.5 * self.texel(), 4.0);

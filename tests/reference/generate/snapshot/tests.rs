@@ -1,10 +1,10 @@
-//! The snapshot against closed forms.
+//! Compares the snapshot's twin with closed forms.
 
 use super::super::BUBBLE;
 use super::super::tests::{SPACING, close, close_all, fluid, random_fluid, settings};
 use super::*;
 
-/// Everything makes 8 a second, if it moves or not.
+/// Each fluid particle makes 8 per second, whether it moves or not.
 fn all_make() -> Settings {
     let limits = [-2.0, -1.0];
     Settings {
@@ -16,7 +16,7 @@ fn all_make() -> Settings {
     }
 }
 
-/// Water about a line along x, of so many particles a quarter of a support apart, at a velocity.
+/// Water along the x axis: particles a quarter of a support apart, with a velocity for each x.
 fn line(from: f32, particles: usize, velocity: impl Fn(f32) -> [f32; 3]) -> Fluid {
     let one = |n| {
         let x = from + 0.25 * n as f32;
@@ -35,14 +35,14 @@ fn stages_are_a_life_together() {
     let settings = settings();
     close((0..STAGES).map(|k| share(k, &settings)).sum(), 4.0);
     for k in 0..STAGES {
-        // Each lies in the time it stands for.
+        // Each stage lies in the interval that it stands for.
         let [begin, end] = [0.0, 1.0].map(|random| seconds(k, random, &settings));
         close(end - begin, share(k, &settings));
         close(begin, (0..k).map(|k| share(k, &settings)).sum());
     }
     close(seconds(2, 0.5, &settings), 4.0 * 2.5 * 2.5 / 225.0);
 
-    // In a flow that makes as many everywhere it is the rate times the life.
+    // In a flow that makes equally many everywhere, the sum is the rate times the lifetime.
     let flow = line(-40.0, 200, |_| [6.0, 0.0, 0.0]);
     let same = Settings { lifetime: [4.0; 2], ..all_make() };
     let stages = stages(&flow, &same, 180);
@@ -71,7 +71,7 @@ fn a_way_in_a_flow_is_straight() {
 
 #[test]
 fn a_way_goes_with_the_water_it_is_in() {
-    // The first step is by its own velocity, into water that goes down.
+    // The first step uses the particle's own velocity, and then the water moves downwards.
     let mut flow = line(-40.0, 170, |_| [0.0, -0.0625, 0.0]);
     flow.positions.push([50.0, 0.0, 0.0]);
     flow.velocities.push([1.0, 0.0, 0.0]);
@@ -87,7 +87,7 @@ fn a_way_goes_with_the_water_it_is_in() {
 
 #[test]
 fn a_way_ends_with_the_water() {
-    // From 0 on, so that there is none before -1.
+    // The water begins at 0, so there is none before -1, a support away.
     let flow = line(0.0, 9, |_| [2.0, 0.0, 0.0]);
     let (mut both, mut nothing) = ([0; 2], 0);
     for i in 0..9 {
@@ -96,7 +96,7 @@ fn a_way_ends_with_the_water() {
             let living = alive(stage.seconds, &all_make()) > 0.0;
             assert_eq!(stage.make > 0.0, x > -1.0 && living, "{stage:?}");
             both[usize::from(x > -1.0)] += 1;
-            // So for the GPU, from a little farther back on.
+            // The same on the GPU, within the error of the place.
             let none = stage.counts == [0; 2];
             assert!(none || x > -1.01 - stage.off, "{stage:?}");
             nothing += u32::from(none && living);
@@ -104,7 +104,7 @@ fn a_way_ends_with_the_water() {
     }
     assert!(both.iter().all(|n| *n > 10) && nothing > 10, "{both:?} {nothing}");
 
-    // Water farther back is no matter.
+    // After a gap, water farther back does not count.
     let mut gap = line(0.0, 9, |_| [2.0, 0.0, 0.0]);
     gap.positions[0] = [-6.0, 0.0, 0.0];
     gap.positions[1] = [-5.5, 0.0, 0.0];
@@ -112,10 +112,10 @@ fn a_way_ends_with_the_water() {
     let beyond = beyond.map(|stage| stage.make).collect::<Vec<_>>();
     assert!(beyond.len() > 4 && beyond.iter().all(|make| *make == 0.0), "{beyond:?}");
 
-    // One alone is water to itself.
+    // A lone particle is water for itself.
     let alone = fluid(&[([0.0; 3], [4.0, 0.0, 0.0])]);
     for stage in stages(&alone, &all_make(), 0) {
-        // Its own water is left behind once the first step is a support long.
+        // It leaves its own support once the first step is a support long.
         let first = seconds(0, uniform_of(seed_of_step(&all_make(), 5), 7, 0), &all_make());
         let place = DVec3::new(-4.0 * stage.seconds, 0.0, 0.0);
         assert!(first < 0.25 / 4.0);
@@ -126,7 +126,8 @@ fn a_way_ends_with_the_water() {
 
 #[test]
 fn still_water_makes_what_its_place_does() {
-    // The second makes 3/4 a second of 1 m/s of trapped air at W 3/4, with the first; K is 0.71875.
+    // Together with the first particle, the second has 1 m/s of trapped air with a W of 3/4, so it
+    // makes 3/4; K is 0.71875.
     let p = [([0.0; 3], [0.0; 3]), ([0.25, 0.0, 0.0], [0.0; 3]), ([9.0; 3], [0.0; 3])];
     let still = fluid(&p);
     let settings = Settings {
@@ -136,13 +137,13 @@ fn still_water_makes_what_its_place_does() {
         trapped_air_rate: 8.0,
         ..settings()
     };
-    // At rest half of the most.
+    // At rest the rate is half of the max.
     for stage in stages(&still, &settings, 0) {
         close_all(stage.place, [0.0; 3]);
         let part = share_by_hand(&stage);
         close(stage.make, 4.0 * part);
     }
-    // One that moves across 1/2 metre off, at W 1/2, K 1/4, makes all.
+    // A particle half a metre aside that moves across, with W = 1/2 and K = 1/4, makes the max.
     let mut moved = still;
     moved.positions[2] = [0.0, 0.5, 0.0];
     moved.velocities[2] = [1e-3, 2.0, 0.0];
@@ -156,7 +157,8 @@ fn still_water_makes_what_its_place_does() {
     assert!(water.rate.most - water.rate.least < 0.01);
 }
 
-/// How many seconds a stage of 2 to 4 s stands for, less those that live no more.
+/// Seconds that a stage stands for, with lifetimes of 2 to 4 s, reduced by the particles that are
+/// already dead.
 fn share_by_hand(stage: &Stage) -> f64 {
     let k = (15.0 * (stage.seconds / 4.0).sqrt()).floor();
     let alive = if stage.seconds < 2.0 { 1.0 } else { (4.0 - stage.seconds) / 2.0 };
@@ -196,8 +198,8 @@ fn counts_are_of_chance_and_limited() {
     assert!(counts[..12].iter().all(|c| *c == (63.0, [63; 2])), "{counts:?}");
 }
 
-/// Rough upstream, where it is pulled to and fro across its way, and calm downstream: what is made
-/// downstream left the rough water long ago, and is as old.
+/// A river that is turbulent upstream, where it is pulled sideways, and calm downstream. Foam
+/// downstream left the turbulent water long ago, and its age is that time.
 #[test]
 fn foam_downstream_is_as_old_as_its_way_is_long() {
     let speed = 4.0;
@@ -218,7 +220,8 @@ fn foam_downstream_is_as_old_as_its_way_is_long() {
     let mut made = 0;
     for i in (0..200).filter(|i| river.positions[*i][0] > 4.0) {
         let x = f64::from(river.positions[i][0]);
-        // Neighbours of the rough water trap air too, and are felt as far again.
+        // Neighbours of turbulent water also trap air, and their neighbours find them within a
+        // support.
         let [soonest, latest] = [(x - 3.0) / speed, (x + 3.0) / speed];
         let [from, to] = [(x - 0.5) / speed, (x + 0.5) / speed];
         for stage in snapshot.stages(i).expect("it takes part") {
@@ -245,7 +248,7 @@ fn foam_downstream_is_as_old_as_its_way_is_long() {
 
 #[test]
 fn newborns_are_about_the_way_ahead() {
-    // Ten in a line and their like beside them, so that there is foam.
+    // Two lines of ten particles side by side, so that foam is made.
     let places = (0..20_u32).map(|n| [0.1 * (n % 10) as f32, 0.1 * (n / 10) as f32, 0.0]);
     let water = |v| fluid(&places.clone().map(|x| (x, v)).collect::<Vec<_>>());
     let settings = settings();
@@ -263,7 +266,7 @@ fn newborns_are_about_the_way_ahead() {
             assert!((young.velocity - v - aside).length() < 1e-9);
             farthest = [farthest[0].max(along), farthest[1].max(aside.length())];
             assert!((-1e-9..0.5).contains(&along) && aside.length() <= 0.25);
-            // Of those that live from 2 to 4 s.
+            // Its lifetime is between 2 and 4 s.
             assert!(young.kind == FOAM && (0.375..=0.75).contains(&young.age), "{young:?}");
             ages = [ages[0].min(young.age), ages[1].max(young.age)];
         }
@@ -271,13 +274,13 @@ fn newborns_are_about_the_way_ahead() {
         assert_eq!(farthest[0] > 0.49, moves, "{farthest:?}");
         assert!(farthest[1] > 0.245 && ages[0] < 0.377 && ages[1] > 0.745, "{ages:?}");
     }
-    // Of one that is older than the shortest life, from 3 to 4 s.
+    // Foam older than the min lifetime lives from 3 to 4 s.
     let water = water([1.0; 3]);
     let snapshot = Snapshot::new(&water, &settings, 5);
     let ages = (0..200).map(|m| snapshot.newborn(0, m, 3.0).age).collect::<Vec<_>>();
     assert!(ages.iter().all(|age| (0.75..1.0).contains(age)), "{ages:?}");
     assert!(ages.iter().any(|age| *age > 0.98) && ages.iter().any(|age| *age < 0.76));
-    // Worked out apart: newborn 2 of id 9 at step 5.
+    // Computed separately: newborn 2 of id 9 at step 5.
     let id = snapshot.newborn(2, 2, 1.0).id;
     assert_eq!(id, 1_933_975_240);
 }
@@ -309,7 +312,7 @@ fn the_grid_finds_all_that_is_farther_off() {
     }
 }
 
-/// As the GPU has it: whole steps, in single precision.
+/// Computes like the GPU: in fixed-point steps and single precision.
 #[test]
 fn ways_of_whole_steps_are_as_near_as_said() {
     let settings = Settings {
