@@ -1,6 +1,6 @@
-//! Running error analysis: a number with a bound of how far single precision may be off it. u is half an ulp at
-//! most; an operation is as exact as Vulkan asks for ("Precision of Individual Operations"). Subnormal numbers
-//! may be 0.
+//! Running error analysis: a number with a bound of its error in single precision. u is at most
+//! half an ulp; operations are as accurate as Vulkan requires ("Precision of Individual
+//! Operations"). Denormal numbers may be flushed to 0.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -8,29 +8,30 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Relative error of one rounding to single precision.
 pub const U: f64 = 1.0 / (1_u64 << 24) as f64;
 
-/// Absolute error of the sine in [-π, π]. Beyond there is no promise: arguments are reduced first.
+/// Absolute error of the sine in [-π, π]. There is no guarantee outside, so arguments are reduced
+/// first.
 pub const SINE: f64 = 1.0 / 2048.0;
 
 /// A number and the bound of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounded {
-    /// In exact arithmetic.
+    /// Value in exact arithmetic.
     pub value: f64,
-    /// How far off single precision may be.
+    /// Max error in single precision.
     pub error: f64,
 }
 
-/// A number that single precision holds.
+/// A number that is exact in single precision.
 pub fn exact(value: f64) -> Bounded {
     Bounded { value, error: 0.0 }
 }
 
-/// A number found in double precision and rounded to single.
+/// A number computed in double precision and rounded to single.
 pub fn held(value: f64) -> Bounded {
     Bounded { value, error: U * value.abs() }
 }
 
-/// A value that is so far off, and then by so many u of itself.
+/// A value with this error, rounded by this many u of itself.
 fn rounded(value: f64, error: f64, units: f64) -> Bounded {
     let error = error + units * U * (value.abs() + error);
     Bounded { value, error: if error.is_nan() { f64::INFINITY } else { error } }
@@ -72,7 +73,7 @@ impl<B: Into<Bounded>> Mul<B> for Bounded {
     }
 }
 
-/// 2.5 ulp.
+/// Division errs by 2.5 ulp.
 impl<B: Into<Bounded>> Div<B> for Bounded {
     type Output = Self;
     fn div(self, other: B) -> Self {
@@ -85,64 +86,64 @@ impl<B: Into<Bounded>> Div<B> for Bounded {
 }
 
 impl Bounded {
-    /// A number known to lie between two.
+    /// A number known to lie between two others.
     pub fn between(low: f64, value: f64, high: f64) -> Self {
         let error = (high - value).max(value - low);
         Self { value, error: if error.is_nan() { f64::INFINITY } else { error } }
     }
 
-    /// The least that it may be.
+    /// Lower bound.
     pub fn low(self) -> f64 {
         self.value - self.error
     }
 
-    /// The most that it may be.
+    /// Upper bound.
     pub fn high(self) -> f64 {
         self.value + self.error
     }
 
-    /// Whether a number found in single precision is as near as it must be.
+    /// Whether a number computed in single precision is within the bound.
     pub fn holds(self, found: f64) -> bool {
         (found - self.value).abs() <= self.error
     }
 
-    /// The same value, farther off.
+    /// The same value with a larger error.
     pub fn wider(self, by: f64) -> Self {
         Self { error: self.error + by, ..self }
     }
 
-    /// What the factors' errors do to a product.
+    /// Error of a product from its factors' errors.
     fn product_error(self, other: Self) -> f64 {
         self.value.abs() * other.error + (other.value.abs() + other.error) * self.error
     }
 
-    /// Through a function that nowhere falls, without its own rounding.
+    /// Result of a non-decreasing function, without its own rounding.
     pub fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         Self::between(f(self.low()), f(self.value), f(self.high()))
     }
 
-    /// Its size; exact.
+    /// Absolute value; exact.
     pub fn abs(self) -> Self {
         Self { value: self.value.abs(), ..self }
     }
 
-    /// No less than a number; exact.
+    /// Max with a number; exact.
     pub fn max(self, least: f64) -> Self {
         self.rising(|v| v.max(least))
     }
 
-    /// Between two numbers; exact.
+    /// Clamped between two numbers; exact.
     pub fn clamp(self, low: f64, high: f64) -> Self {
         self.rising(|v| v.clamp(low, high))
     }
 
-    /// Vulkan's is `1 / inversesqrt`: 2 ulp and 2.5 of the quotient.
+    /// Vulkan's square root is `1 / inversesqrt`: 2 ulp, and 2.5 of the quotient.
     pub fn sqrt(self) -> Self {
         let root = self.rising(|v| v.max(0.0).sqrt());
         rounded(root.value, root.error, 9.0)
     }
 
-    /// 3 + 2 |x| ulp.
+    /// Errs by 3 + 2 |x| ulp.
     pub fn exp(self) -> Self {
         let most = self.value.abs() + self.error;
         let power = self.rising(f64::exp);
@@ -156,21 +157,22 @@ impl Bounded {
         rounded(power.value, power.error, 6.0 + 4.0 * most).wider(f64::from(f32::MIN_POSITIVE))
     }
 
-    /// 2^-21 from a half to 2, else 3 ulp.
+    /// Errs by 2^-21 from a half to 2, otherwise by 3 ulp.
     pub fn log2(self) -> Self {
         let log = self.rising(|v| v.max(0.0).log2());
         log.wider(U * (6.0 * (log.value.abs() + log.error)).max(8.0))
     }
 
-    /// By `x - 2π round(x / 2π)`, or the same in turns: 2π or its inverse is rounded, and a product of about x,
-    /// and what is left, at most π, twice more: 3u of |x| + π. Then as [`SINE`] says; the slope is the cosine.
+    /// With the reduction `x - 2π round(x / 2π)`, or the same in turns: 2π or its inverse is
+    /// rounded, then a product of about x, then the remainder of at most π twice: 3u of |x| + π.
+    /// Then the error [`SINE`]; the slope is the cosine.
     pub fn sine(self) -> Self {
         let off = self.error + 3.0 * U * (self.value.abs() + self.error + PI);
         let moved = (self.value.cos().abs() * off + 0.5 * off * off).min(2.0);
         Self { value: self.value.sin(), error: moved + SINE }
     }
 
-    /// As the sine.
+    /// Like the sine.
     pub fn cosine(self) -> Self {
         let off = self.error + 3.0 * U * (self.value.abs() + self.error + PI);
         let moved = (self.value.sin().abs() * off + 0.5 * off * off).min(2.0);
@@ -188,7 +190,7 @@ fn smoothstep(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A sum in any order: each partial sum is at most that of the sizes.
+/// A sum in any order: each partial sum is at most the sum of absolute values.
 pub fn sum(terms: &[Bounded]) -> Bounded {
     let value = terms.iter().map(|t| t.value).sum();
     let error: f64 = terms.iter().map(|t| t.error).sum();
@@ -202,12 +204,12 @@ pub fn dot<const N: usize>(a: [Bounded; N], b: [Bounded; N]) -> Bounded {
     sum(&std::array::from_fn::<_, N, _>(|i| a[i] * b[i]))
 }
 
-/// `sqrt(dot(v, v))`; of a number alone as well.
+/// `sqrt(dot(v, v))`; also for a single number.
 pub fn length<const N: usize>(v: [Bounded; N]) -> Bounded {
     dot(v, v).sqrt()
 }
 
-/// GLSL's `a (1 - t) + b t`: the errors of both weights are one.
+/// GLSL's `a (1 - t) + b t`: both weights have the same error.
 pub fn mix(a: Bounded, b: Bounded, t: Bounded) -> Bounded {
     let value = a.value * (1.0 - t.value) + b.value * t.value;
     let weights = [1.0 - t.value, t.value].map(f64::abs);
@@ -217,7 +219,7 @@ pub fn mix(a: Bounded, b: Bounded, t: Bounded) -> Bounded {
     Bounded { value, error: error + 3.0 * U * (sizes + a.value.abs() * t.error) }
 }
 
-/// What changes evenly, so many pixels from where it is known.
+/// A linearly changing value, at an offset in pixels from where it is known.
 pub fn beside(at: Bounded, change: [Bounded; 2], off: [f64; 2]) -> Bounded {
     match off {
         [0.0, 0.0] => at,

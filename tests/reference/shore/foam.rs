@@ -4,56 +4,59 @@
 //! web   = Σ w m(q) + a' v + b' + n                                       fine = Σ w² (m₂(q) - m(q)²)
 //! over  = r waves + r' web - threshold - n - 2 (1 - ends(v))             variance = r² (1 - k²)/2 + r'² fine
 //! ```
-//! Foam is where `over` is at least 0. k is what is left of a wave's mean over a pixel, m and m₂ are the web's
-//! mean and mean square: `variance` is of what is finer than a pixel. With the change of `over` across a pixel, by
-//! the slopes of the waves and of the web, as if it were even, it has the width `w = sqrt(|change|² + 12 variance)`, and `over / w + 1/2` of the pixel is
-//! foam.
+//! There is foam where `over` is at least 0. k is the amplitude that remains of a wave's mean over
+//! a pixel; m and m₂ are the mean and the mean square of the foam texture, so `variance` is that of
+//! details finer than a pixel. With the change of `over` per pixel, from the slopes of waves and
+//! texture, `over` is treated as uniformly distributed with the width `w = sqrt(|change|² + 12
+//! variance)`, and `over / w + 1/2` of the pixel is foam.
 //!
-//! Pixels that share it have the noises, k, the web's levels, v and its change, and where the web is, of a point between
-//! them: v is that at the point and the change on the way, the web where the way leads. Their waves, their web and all that
-//! is made of it are their own.
+//! Pixels that share values take the noises, k, the texture's levels, and v and the texture's
+//! position with their changes, from a point between them; each pixel then moves v and the
+//! texture's position to its own place. Waves, texture and everything computed from them are its
+//! own.
 
 use super::bounded::{Bounded, U, beside, dot, exact, held, sum};
 use super::texture::Texture;
 use super::{Clock, Phases};
 
-/// The least w.
+/// The min of w.
 const LEAST: f64 = 1e-6;
 
-/// Seamless noise.
+/// Periodic noise.
 #[derive(Clone, Copy, Debug)]
 pub struct Noise {
-    /// 0: none.
+    /// Amplitude; 0 means none.
     pub amplitude: f64,
-    /// Repetitions a metre.
+    /// Repetitions per metre.
     pub scale: f64,
 }
 
-/// None.
+/// No noise.
 pub const NONE: Noise = Noise { amplitude: 0.0, scale: 0.0 };
 
-/// From the settings' numbers.
+/// From numbers of the settings.
 pub fn noise(amplitude: f32, scale: f32) -> Noise {
     Noise { amplitude: f64::from(amplitude), scale: f64::from(scale) }
 }
 
-/// A layer of the web.
+/// A layer of the foam texture.
 #[derive(Clone, Copy, Debug)]
 pub struct Layer {
-    /// 0: none.
+    /// Weight; 0 means none.
     pub weight: f64,
-    /// Repetitions a metre.
+    /// Repetitions per metre.
     pub scale: f64,
-    /// Cosine and sine of its turn.
+    /// Cosine and sine of its rotation.
     pub turn: [Bounded; 2],
-    /// Repetitions by which it has moved, along its own axes.
+    /// Displacement in repetitions, along its own axes.
     pub offset: [Bounded; 2],
 }
 
-/// From the settings' numbers: degrees, metres a second.
+/// From numbers of the settings: degrees, metres per second.
 pub fn layer(clock: Clock, weight: f32, scale: f32, angle: f32, speed: [f32; 2]) -> Layer {
     let (sine, cosine) = f64::from(angle).to_radians().sin_cos();
-    // Turned in single precision: what is rounded is a speed, the same at all times.
+    // The speed is rotated in single precision. Its rounding is that of a constant speed, so it is
+    // exact at all times.
     let ([x, y], [c, n]) = (speed, [cosine as f32, sine as f32]);
     let offset = clock.offset(scale, [c * x - n * y, n * x + c * y].map(f64::from));
     let turn = [held(cosine), held(sine)];
@@ -61,33 +64,34 @@ pub fn layer(clock: Clock, weight: f32, scale: f32, angle: f32, speed: [f32; 2])
 }
 
 impl Layer {
-    /// Repetitions at a place. The matrix may be rounded once more where its product is.
+    /// Texture coordinates of a place, in repetitions. The matrix may be rounded once more before
+    /// its product.
     fn uv(&self, place: [Bounded; 2]) -> [Bounded; 2] {
         let [u, v] = self.turned(place);
         [u + self.offset[0], v + self.offset[1]]
     }
 
-    /// Repetitions of a way.
+    /// A displacement in repetitions.
     fn turned(&self, way: [Bounded; 2]) -> [Bounded; 2] {
         let [c, s] = self.turn.map(|t| t * self.scale);
         [dot([c, -s], way), dot([s, c], way)]
     }
 }
 
-/// How shoreline foam looks.
+/// Settings of shoreline foam.
 #[derive(Clone, Debug)]
 pub struct Shoreline {
-    /// f, radians per v.
+    /// f, radians per unit of v.
     pub frequency: f64,
-    /// Of the time.
+    /// Phases of the waves at this time.
     pub phases: Phases,
-    /// On f.
+    /// Noise on f.
     pub frequency_noise: Noise,
-    /// On the speed.
+    /// Noise on the speed.
     pub speed_noise: Noise,
     /// a and b.
     pub wave_rise: [f64; 2],
-    /// Waves are no less.
+    /// Min value of the waves.
     pub floor: Option<f64>,
     /// r.
     pub wave_weight: f64,
@@ -95,26 +99,26 @@ pub struct Shoreline {
     pub texture_weight: f64,
     /// a' and b'.
     pub web_rise: [f64; 2],
-    /// Of the web.
+    /// Layers of the foam texture.
     pub layers: Vec<Layer>,
-    /// Bends the web, metres.
+    /// Noise that displaces the texture, in metres.
     pub texture_warp: Noise,
-    /// By how many metres that has moved.
+    /// Displacement of that noise in metres.
     pub web_warp_moved: [Bounded; 2],
-    /// Foam is from here on.
+    /// There is foam from this value on.
     pub threshold: f64,
-    /// On it.
+    /// Noise on the threshold.
     pub threshold_noise: Noise,
-    /// On b and b'.
+    /// Noise on b and b'.
     pub rise_noise: Noise,
-    /// Bends all but v, metres.
+    /// Noise that displaces everything except v, in metres.
     pub warp: Noise,
-    /// Within so much v of both edges foam ends.
+    /// Foam ends within this range of v at both ends.
     pub fade: f64,
 }
 
 impl Shoreline {
-    /// Waves alone, of a height of 1.
+    /// Only waves, with an amplitude of 1.
     pub fn waves(frequency: f64, phases: Phases, fade: f64) -> Self {
         Self {
             frequency,
@@ -138,23 +142,24 @@ impl Shoreline {
     }
 }
 
-/// What of the water a pixel sees.
+/// What a pixel sees of the water.
 #[derive(Clone, Copy, Debug)]
 pub struct Pixel {
-    /// Pixels from the point that the rest is of.
+    /// Offset in pixels from the point that the other values belong to.
     pub off: [f64; 2],
-    /// Metres.
+    /// Place in metres.
     pub place: [Bounded; 2],
-    /// 0 at the sea's edge, 1 at the shore, 2 inland.
+    /// 0 at the sea's end, 1 at the shore line, 2 inland.
     pub v: Bounded,
-    /// Change of the place from a pixel to the next, along x and along y.
+    /// Change of the place per pixel, along x and along y.
     pub across: [[Bounded; 2]; 2],
-    /// Change of v from a pixel to the next, along x and along y.
+    /// Change of v per pixel, along x and along y.
     pub dv: [Bounded; 2],
 }
 
 impl Pixel {
-    /// Its own v. What is beyond an end has none, nor do those that share it.
+    /// The pixel's own v. Beyond an end there is no foam, nor in the pixels that share values from
+    /// there.
     pub fn own_v(&self) -> Bounded {
         let moved = beside(self.v, self.dv, self.off);
         match (self.v.low() > 0.0, self.v.high() > 0.0) {
@@ -168,20 +173,20 @@ impl Pixel {
     }
 }
 
-/// What there is of foam.
+/// Foam in a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Foam {
-    /// The mix over the threshold.
+    /// The mixture of waves and texture minus the threshold.
     pub over: Bounded,
-    /// Of it, finer than the pixel.
+    /// Variance of its details that are finer than the pixel.
     pub variance: Bounded,
-    /// What is left of a wave's height.
+    /// Amplitude of a wave that remains.
     pub kept: Bounded,
-    /// The waves.
+    /// Value of the waves.
     pub waves: Bounded,
-    /// The web.
+    /// Value of the texture.
     pub web: Bounded,
-    /// Of the mix from a pixel to the next, along x and along y.
+    /// Change of the mixture per pixel, along x and along y.
     pub change: [Bounded; 2],
 }
 
@@ -226,7 +231,7 @@ pub fn shoreline(look: &Shoreline, noise: &Texture<4>, texels: &Texture<4>, pixe
     });
     let floored = look.floor.is_some_and(|floor| waves.value <= floor);
     let own = if floored { exact(0.0) } else { steep };
-    // Where single precision may find either it is any in between.
+    // If rounding decides whether the floor applies, the bounds include both slopes.
     let steep = if flat == 1.0 {
         Bounded::between(steep.low().min(0.0), own.value, steep.high().max(0.0))
     } else {
@@ -271,8 +276,9 @@ pub fn shoreline(look: &Shoreline, noise: &Texture<4>, texels: &Texture<4>, pixe
     Foam { over, variance, kept, waves, web, change }
 }
 
-/// How much of a pixel is foam, by the change of `over` to the next pixel along x and y. The quotient is what its
-/// ends are at the ends of both; its rounding is 2.5 ulp of what counts, at most a half, and that of the sum.
+/// Fraction of a pixel that is foam, by the change of `over` per pixel along x and y. The
+/// quotient's bounds follow from the ends of both operands. It rounds by 2.5 ulp of at most a half,
+/// and the sum rounds once more.
 pub fn covered(over: Bounded, variance: Bounded, change: [Bounded; 2]) -> Bounded {
     let square = dot(change, change) + variance.max(0.0) * 12.0;
     let wide = square.sqrt().max(LEAST);
@@ -287,22 +293,24 @@ pub fn covered(over: Bounded, variance: Bounded, change: [Bounded; 2]) -> Bounde
     part.wider(4.0 * U)
 }
 
-/// Whether a pixel is foam where it is so or not; nothing where single precision may find either.
+/// Whether a pixel is foam, without partial coverage. None if rounding decides.
 pub fn clipped(over: Bounded) -> Option<bool> {
     (over.value.abs() > over.error).then_some(over.value >= 0.0)
 }
 
-/// The same by four samples: quarters of it, which of them by the pixel, as a block of two by two has them.
+/// The same with four samples: a multiple of a quarter, rounded by the pixel's position in a 2x2
+/// block.
 pub fn by_samples(part: Bounded, [x, y]: [usize; 2]) -> Bounded {
     let order = [[0.125, 0.625], [0.875, 0.375]][y % 2][x % 2];
     part.wider(2.0 * U).rising(|part| (4.0 * part.clamp(0.0, 1.0) + order).floor() / 4.0)
 }
 
-/// v of a signed distance, negative in water; metres of foam to sea and to land.
+/// v from a signed distance, which is negative in water. `reach`: extent of the foam in metres to
+/// sea and to land.
 pub fn coordinate(distance: Bounded, reach: [f64; 2]) -> Bounded {
     let quotient = |s: f64| s / if s < 0.0 { reach[0] } else { reach[1] };
     let part = distance.rising(quotient);
-    // The inverse is rounded once, the product again.
+    // The inverse rounds once, the product again.
     let rounded = part.wider(6.0 * U * (part.value.abs() + part.error));
     rounded + 1.0
 }

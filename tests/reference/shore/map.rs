@@ -1,18 +1,20 @@
-//! The signed distance to the shore over a grid of heights.
+//! The signed distance to the shore line over a grid of heights.
 //!
-//! A texel of which a neighbour lies on the other side has a seed: the point on the way to it where the height is
-//! 0, of all such the one with the least part of the way, to 1/16 texel. What a texel gets is the distance from
-//! its middle to a segment, a texel long, through its nearest seed, across the heights' gradient there; negative
-//! in water. Lengths are in texels, centres at +0.5, until the end.
+//! A texel with a neighbour on the other side of the line has a seed: the point on the way to that
+//! neighbour where the height is 0, for the nearest such neighbour, to 1/16 texel. A texel's value
+//! is the distance from its centre to a segment of one texel's length through its nearest seed,
+//! across the heights' gradient there; negative in water. Lengths are in texels with centres at
+//! +0.5, until the end.
 //!
-//! [`Shore`] is another way to it: the line in which the heights, linear along the edges between centres, are 0.
+//! [`Shore`] computes it in another way: from the line where the heights are 0, linear along the
+//! edges between centres.
 
 use glam::DVec2;
 
 use super::bounded::{Bounded, U, exact};
 use super::texture::STEP;
 
-/// Steps of a seed's place in a texel.
+/// Seed positions are in steps of a texel over this.
 const PARTS: f64 = 16.0;
 
 /// Heights, row by row.
@@ -22,11 +24,11 @@ pub struct Heights {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Over the water's level.
+    /// Height above the water's level, row by row.
     data: Vec<f64>,
 }
 
-/// A seed's place in sixteenths of a texel.
+/// Position of a seed in sixteenths of a texel.
 pub type Seed = [i64; 2];
 
 const BESIDE: [[isize; 2]; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
@@ -40,14 +42,14 @@ fn place(seed: Seed) -> DVec2 {
 }
 
 impl Heights {
-    /// Heights that single precision holds, and the level.
+    /// Heights in single precision, relative to the level.
     pub fn new(width: usize, height: usize, level: f32, data: &[f32]) -> Self {
         assert_eq!(data.len(), width * height, "{width} x {height} heights");
         let data = data.iter().map(|h| f64::from(*h) - f64::from(level)).collect();
         Self { width, height, data }
     }
 
-    /// Over the level, of the nearest texel inside.
+    /// Height above the level of the nearest texel inside.
     pub fn at(&self, x: isize, y: isize) -> f64 {
         let x = x.clamp(0, self.width as isize - 1) as usize;
         let y = y.clamp(0, self.height as isize - 1) as usize;
@@ -59,7 +61,7 @@ impl Heights {
         self.data[y * self.width + x] > 0.0
     }
 
-    /// The ways to the other side: part of it, and to where.
+    /// The neighbours on the other side of the line: fraction of the way, and direction.
     fn ways(&self, x: usize, y: usize) -> impl Iterator<Item = (Bounded, [isize; 2])> {
         let (px, py) = (x as isize, y as isize);
         let here = self.at(px, py);
@@ -71,18 +73,18 @@ impl Heights {
         })
     }
 
-    /// A texel's seed; of ways of one length the first to the right, left, below, above.
+    /// The seed of a texel. For equal distances the order is right, left, below, above.
     pub fn seed(&self, x: usize, y: usize) -> Option<Seed> {
         let least = self.ways(x, y).reduce(|a, b| if b.0.value < a.0.value { b } else { a });
         least.map(|(part, to)| on_the_way(x, y, part.value, to, 0.0))
     }
 
-    /// All seeds that single precision may give it.
+    /// All seeds that single precision may give this texel.
     pub fn may_be(&self, x: usize, y: usize) -> Vec<Seed> {
         let bound = self.ways(x, y).map(|(part, _)| part.high()).fold(f64::INFINITY, f64::min);
         let mut all = Vec::new();
         for (part, to) in self.ways(x, y).filter(|(part, _)| part.low() <= bound) {
-            // The place, its product and its sum.
+            // The position, its product and its sum.
             let off = part.error + 3.0 * U * (x.max(y) as f64 + 2.0);
             let ends = [-off, off].map(|off| on_the_way(x, y, part.value, to, off));
             for sy in ends[0][1].min(ends[1][1])..=ends[0][1].max(ends[1][1]) {
@@ -96,14 +98,15 @@ impl Heights {
         all
     }
 
-    /// All texels' seeds, row by row.
+    /// The seeds of all texels, row by row.
     pub fn seeds(&self) -> Vec<Option<Seed>> {
         let all = 0..self.width * self.height;
         all.map(|i| self.seed(i % self.width, i / self.width)).collect()
     }
 
-    /// The gradient at a place, of the heights linear between four centres that there are: on a line of centres
-    /// of those to the right or below, on the last of them of those before, or the gradient would lean there.
+    /// Gradient at a position, of heights interpolated between four texel centres inside the grid.
+    /// On a line of centres these are the ones to the right or below, at the last line the ones
+    /// before, because a clamped cell would flatten the gradient.
     fn gradient(&self, at: DVec2) -> [Bounded; 2] {
         let last = DVec2::new(self.width as f64, self.height as f64) - 2.0;
         let from = (at - 0.5).floor().max(DVec2::ZERO).min(last);
@@ -118,7 +121,7 @@ impl Heights {
         [mixed(b - a, d - c, part.y), mixed(c - a, d - b, part.x)]
     }
 
-    /// How far a point is from the segment of a seed, texels.
+    /// Distance from a point to the segment of a seed, in texels.
     pub fn apart(&self, at: DVec2, seed: Seed) -> Bounded {
         let to = at - place(seed);
         let [gx, gy] = self.gradient(place(seed));
@@ -128,7 +131,8 @@ impl Heights {
         if gradient == DVec2::ZERO && off == 0.0 {
             return exact(far).wider(9.0 * U * far);
         }
-        // A direction is as far off as the vector over its length; square root, quotient and products add 16u.
+        // A direction errs by the vector's error over its length; square root, quotient and
+        // products add 16u.
         let length = gradient.length();
         let turned = off / (length - off).max(f64::MIN_POSITIVE) + 16.0 * U;
         let axis = gradient / length.max(f64::MIN_POSITIVE);
@@ -137,14 +141,14 @@ impl Heights {
         let past = exact(to.perp_dot(axis).abs()).wider(off) - 0.5;
         let past = past.max(0.0);
         let value = across.value.hypot(past.value);
-        // No segment through the seed is nearer or farther than these.
+        // No segment through the seed can be nearer or farther than this.
         let low = across.low().max(0.0).hypot(past.low().max(0.0)).max(far - 0.5);
         let high = across.high().hypot(past.high()).min(far);
         Bounded::between(low.min(value), value, high.max(value)).wider(11.0 * U * far)
     }
 
-    /// The signed distance of each texel, in metres, by the nearest of the given seeds, one that is at least as
-    /// good as all others; where several are, any may be taken. `edge`: metres of a texel. Nothing without seeds.
+    /// The signed distance of each texel, in metres, by its nearest seed; if several are equally
+    /// near, the bounds include all. `edge`: width of a texel in metres. None without seeds.
     pub fn map(&self, seeds: &[Option<Seed>], edge: f64) -> Option<Map> {
         let mut known: Vec<Seed> = seeds.iter().copied().flatten().collect();
         known.sort_unstable();
@@ -165,7 +169,8 @@ impl Heights {
         Some(Map { width: self.width, height: self.height, values })
     }
 
-    /// The nearest seed of a point one after the other: the square of its distance in sixteenths, and all at it.
+    /// The nearest seeds of a texel by comparing all: the squared distance in sixteenths, and all
+    /// seeds at that distance.
     pub fn nearest(&self, seeds: &[Option<Seed>], x: usize, y: usize) -> Option<(i64, Vec<Seed>)> {
         let at = [x, y].map(|v| 16 * v as i64 + 8);
         let square = |s: &Seed| (s[0] - at[0]).pow(2) + (s[1] - at[1]).pow(2);
@@ -178,7 +183,7 @@ impl Heights {
     }
 }
 
-/// A seed `part` of the way to a neighbour and `off` beyond.
+/// A seed at fraction `part` of the way to a neighbour, moved by `off`.
 fn on_the_way(x: usize, y: usize, part: f64, to: [isize; 2], off: f64) -> Seed {
     let at = middle(x, y);
     let step = |at: f64, to: isize| {
@@ -188,7 +193,7 @@ fn on_the_way(x: usize, y: usize, part: f64, to: [isize; 2], off: f64) -> Seed {
     [step(at.x, to[0]), step(at.y, to[1])]
 }
 
-/// Signed distances from the shore in metres, negative in water.
+/// Signed distances to the shore in metres, negative in water.
 #[derive(Clone, Debug)]
 pub struct Map {
     /// Texels in a row.
@@ -200,12 +205,13 @@ pub struct Map {
 }
 
 impl Map {
-    /// Where a place in metres lies, in texels; of the map's corner and a texel's edge.
+    /// Converts a position in metres to texels; `corner` is the map's corner, `edge` the width of a
+    /// texel.
     pub fn texels(place: [Bounded; 2], corner: [f64; 2], edge: f64) -> [Bounded; 2] {
         [0, 1].map(|i| (place[i] - corner[i]) / edge)
     }
 
-    /// Whether a place is between the outer centres; nothing where single precision may find either.
+    /// Whether a position lies between the outer texel centres. None if rounding decides.
     pub fn inside(&self, place: [Bounded; 2]) -> Option<bool> {
         let ends = [self.width as f64, self.height as f64];
         let within = |by: f64| {
@@ -217,8 +223,9 @@ impl Map {
         (within(1.0) == within(-1.0)).then(|| within(0.0))
     }
 
-    /// Linear between the centres, beyond them as at them. A filter's place is known to half a step; `by_filter`
-    /// is false where four texels are mixed in single precision.
+    /// Distance interpolated linearly between texel centres, constant beyond the outer ones. A
+    /// hardware filter's position errs by half a step; `by_filter` is false if the shader
+    /// interpolates in single precision.
     pub fn at(&self, place: [Bounded; 2], by_filter: bool) -> Bounded {
         let ends = [self.width, self.height].map(|n| n as isize - 1);
         let get = |x: isize, y: isize| {
@@ -253,8 +260,8 @@ impl Map {
 }
 
 impl Map {
-    /// The change of the distance with the place, in texels: of the four texels about it, or, on a line of centres, of any
-    /// beside it.
+    /// Change of the distance per texel at a position, from the four texels around it; on a line of
+    /// centres the bounds include the cells on both sides.
     pub fn slope(&self, place: [Bounded; 2]) -> [Bounded; 2] {
         let last = [self.width, self.height].map(|n| n as f64 - 2.0);
         let get = |x: f64, y: f64| self.values[y as usize * self.width + x as usize].value;
@@ -288,16 +295,16 @@ impl Map {
     }
 }
 
-/// The largest and the mean difference.
+/// The max and the mean difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Of all.
+    /// Max of the absolute differences.
     pub most: f64,
-    /// Of all.
+    /// Mean of the absolute differences.
     pub mean: f64,
 }
 
-/// Of a map found to the expected one.
+/// The difference between found and expected values.
 pub fn difference(found: impl IntoIterator<Item = f64>, expected: &[f64]) -> Difference {
     let (mut most, mut total, mut count) = (0.0_f64, 0.0, 0);
     for (found, expected) in found.into_iter().zip(expected) {
@@ -308,21 +315,21 @@ pub fn difference(found: impl IntoIterator<Item = f64>, expected: &[f64]) -> Dif
     Difference { most, mean: total / count.max(1) as f64 }
 }
 
-/// Points in halves along x and y in turn.
+/// A k-d tree of points, split along x and y in turn.
 #[derive(Clone, Debug)]
 pub struct Tree {
     points: Vec<(DVec2, usize)>,
 }
 
 impl Tree {
-    /// Of points known by their numbers.
+    /// The tree of points, which are identified by their indices.
     pub fn new(points: Vec<DVec2>) -> Self {
         let mut points: Vec<_> = points.into_iter().enumerate().map(|(i, p)| (p, i)).collect();
         halve(&mut points, 0);
         Self { points }
     }
 
-    /// The least distance from a point, and all at it.
+    /// The smallest distance from `at` to a point, and all points at that distance.
     pub fn nearest(&self, at: DVec2) -> Option<(f64, Vec<usize>)> {
         let (mut least, mut all) = (f64::INFINITY, Vec::new());
         self.visit(at, &mut |point, i| {
@@ -339,7 +346,7 @@ impl Tree {
         (!all.is_empty()).then_some((least, all))
     }
 
-    /// Calls for points until the rest is farther than what was last answered.
+    /// Calls `found` for points, until the others are farther away than its last result.
     fn visit(&self, at: DVec2, found: &mut impl FnMut(DVec2, usize) -> f64) {
         let mut reach = f64::INFINITY;
         search(&self.points, 0, at, &mut reach, found);
@@ -375,16 +382,17 @@ fn search(
     }
 }
 
-/// The line where the heights are 0: a segment or two in each square of four centres.
+/// The line where the heights are 0: one or two segments in each square of four centres.
 #[derive(Clone, Debug)]
 pub struct Shore {
-    /// Ends, texels.
+    /// End points of the segments, in texels.
     pub segments: Vec<[DVec2; 2]>,
     tree: Tree,
 }
 
 impl Shore {
-    /// By marching squares; where two corners across are land, they are joined if the saddle between them is.
+    /// Marching squares. If two opposite corners are land, they are connected if the saddle between
+    /// them is land.
     pub fn new(heights: &Heights) -> Self {
         let mut segments = Vec::new();
         for y in 0..heights.height.saturating_sub(1) {
@@ -396,7 +404,7 @@ impl Shore {
         Self { segments, tree }
     }
 
-    /// How far a point is from it; infinite where there is none. A segment is at most √2 long.
+    /// Distance from a point to the line; infinite without a line. A segment is at most √2 long.
     pub fn distance(&self, at: DVec2) -> f64 {
         let mut least = f64::INFINITY;
         self.tree.visit(at, &mut |_, i| {
@@ -406,12 +414,12 @@ impl Shore {
         least
     }
 
-    /// The same, one segment after the other.
+    /// The same by comparing all segments.
     pub fn distance_by_all(&self, at: DVec2) -> f64 {
         self.segments.iter().map(|s| from_segment(at, *s)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Of all texels, negative in water; in metres.
+    /// Distances of all texels in metres, negative in water.
     pub fn distances(&self, heights: &Heights, edge: f64) -> Vec<f64> {
         let texel = |i: usize| {
             let (x, y) = (i % heights.width, i / heights.width);
@@ -422,7 +430,7 @@ impl Shore {
     }
 }
 
-/// How far a point is from a segment.
+/// Distance from a point to a segment.
 pub fn from_segment(at: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let (to, along) = (at - a, b - a);
     let part = to.dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
@@ -430,7 +438,7 @@ pub fn from_segment(at: DVec2, [a, b]: [DVec2; 2]) -> f64 {
 }
 
 fn square(heights: &Heights, x: usize, y: usize, segments: &mut Vec<[DVec2; 2]>) {
-    // Round the square.
+    // In order around the square.
     let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[dx, dy]| [x + dx, y + dy]);
     let h = corners.map(|[x, y]| heights.at(x as isize, y as isize));
     let land = corners.map(|[x, y]| heights.land(x, y));
@@ -442,7 +450,7 @@ fn square(heights: &Heights, x: usize, y: usize, segments: &mut Vec<[DVec2; 2]>)
     let on = [0, 1, 2, 3].map(crossing);
     if let [Some(a), Some(b), Some(c), Some(d)] = on {
         let saddle = (h[0] * h[2] - h[1] * h[3]) / (h[0] + h[2] - h[1] - h[3]);
-        // What is joined across leaves the other two corners alone.
+        // Connecting two corners cuts off each of the other two.
         let joined = (saddle > 0.0) == land[0];
         segments.extend(if joined { [[a, b], [c, d]] } else { [[d, a], [b, c]] });
     } else {

@@ -1,15 +1,17 @@
-//! Shoreline foam (*Semi-procedural foam shader*, an indie developer's blog) and contact foam (D. Lettier, *3D
-//! Game Shaders For Beginners*): the definition, and how far single precision may be off it.
+//! Twin of shoreline foam (*Semi-procedural foam shader*, an indie developer's blog) and contact
+//! foam (D. Lettier, *3D Game Shaders For Beginners*): the definition, and its errors in single
+//! precision.
 //!
-//! Eye space looks down -z; r = (s_x, s_y, -1) is a pixel's ray, a depth z its multiple. The water's plane has
-//! the height `H·P + h0 = 0`, its coordinates are `p = (E·P + e0, N·P + n0)` in metres:
+//! The camera looks along -z in eye space; r = (s_x, s_y, -1) is a pixel's ray, and points on it
+//! are z r with a depth z. The water's plane is `H·P + h0 = 0`, and its coordinates are `p = (E·P +
+//! e0, N·P + n0)` in metres:
 //! ```text
 //! z = -h0 / H·r    d' = d - (H·d)/(H·r) r    dp = z (E·d', N·d')    width = sqrt |det(dp/dx, dp/dy)|
 //! ```
-//! where d is the change of r from one pixel to the next. Numbers are [`Bounded`]; what a shader gets is exact,
-//! or, where it was found in double precision, rounded once.
+//! where d is the change of r per pixel. Numbers are [`Bounded`]; the shader's inputs are exact, or
+//! rounded once if they were computed in double precision.
 //!
-//! What moves is found from the time in double precision, as parts of a turn.
+//! Everything that moves is computed from the time in double precision, as a fraction of a period.
 
 use std::f64::consts::TAU;
 
@@ -27,16 +29,16 @@ use bounded::beside;
 pub use bounded::{Bounded, U, dot, exact, held, length, mix};
 use texture::Texture;
 
-/// Where the pixels of a view meet the water's level.
+/// The water level as a pixel's ray meets it.
 #[derive(Clone, Copy, Debug)]
 pub struct Water {
-    /// Slopes of a ray: scale and offset of a place in pixels.
+    /// Slopes of a ray: scale and offset for a position in pixels.
     pub slope: [Bounded; 4],
-    /// Rows from eye space: height over the level, and both coordinates of the plane.
+    /// Row of the transform from eye space: height above the level.
     pub up: [Bounded; 4],
-    /// The first coordinate.
+    /// Row for the first coordinate of the plane.
     pub east: [Bounded; 4],
-    /// The second coordinate.
+    /// Row for the second coordinate of the plane.
     pub north: [Bounded; 4],
 }
 
@@ -45,17 +47,17 @@ pub struct Water {
 pub struct Point {
     /// (s_x, s_y, -1).
     pub ray: [Bounded; 3],
-    /// z; none is seen where it is not above 0.
+    /// z; the point is visible if it is positive.
     pub depth: Bounded,
-    /// p, metres.
+    /// p in metres.
     pub place: [Bounded; 2],
-    /// Its change from a pixel to the next, along x and along y.
+    /// Change of p per pixel, along x and along y.
     pub change: [[Bounded; 2]; 2],
-    /// How wide a pixel is, metres.
+    /// Width of a pixel in metres.
     pub width: Bounded,
 }
 
-/// From what the shader gets.
+/// From the shader's inputs.
 pub fn water(slope: [f32; 4], up: [f32; 4], east: [f32; 4], north: [f32; 4]) -> Water {
     let all = [slope, up, east, north].map(|row| row.map(|v| exact(f64::from(v))));
     let [slope, up, east, north] = all;
@@ -67,24 +69,24 @@ fn along(row: &[Bounded; 4]) -> [Bounded; 3] {
 }
 
 impl Water {
-    /// Through a place in pixels, centres at +0.5.
+    /// The ray through a position in pixels, whose centres are at +0.5.
     pub fn ray(&self, pixel: [f64; 2]) -> [Bounded; 3] {
         let slope = |i: usize| exact(pixel[i]) * self.slope[i] + self.slope[i + 2];
         [slope(0), slope(1), exact(-1.0)]
     }
 
-    /// At a place in pixels: of the level.
+    /// The point of the level at a position in pixels.
     pub fn at(&self, pixel: [f64; 2]) -> Point {
         let ray = self.ray(pixel);
         let depth = -self.up[3] / dot(along(&self.up), ray);
         self.at_depth(ray, depth)
     }
 
-    /// At a depth, as if the surface were level there.
+    /// The point at a depth, as if the surface were level there.
     pub fn at_depth(&self, ray: [Bounded; 3], depth: Bounded) -> Point {
         let [up, east, north] = [&self.up, &self.east, &self.north].map(along);
         let falls = dot(up, ray);
-        // Both rows are multiplied with the ray before the depth.
+        // Both rows are multiplied by the ray first, then by the depth.
         let place = [(east, &self.east), (north, &self.north)]
             .map(|(row, whole)| dot(row, ray) * depth + whole[3]);
         let change = [0, 1].map(|i| {
@@ -100,33 +102,34 @@ impl Water {
     }
 }
 
-/// Time, and after how long all repeats.
+/// Time, and the period after which everything repeats.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
     /// Seconds.
     pub time: f64,
-    /// Seconds; speeds are rounded to whole numbers of it.
+    /// Seconds; frequencies are rounded so that a whole number of cycles fits.
     pub period: Option<f64>,
 }
 
-/// What of the waves goes with the time.
+/// Phases of the waves at this time.
 #[derive(Clone, Copy, Debug)]
 pub struct Phases {
     /// Radians, [0, 2π).
     pub waves: Bounded,
-    /// What the noise on their speed is multiplied by, seconds.
+    /// Factor of the noise on the speed, in seconds.
     pub local: Bounded,
 }
 
 impl Clock {
-    /// Where something that goes round `rate` times a second is, [0, 1).
+    /// Phase of something with this frequency per second, [0, 1).
     pub fn turned(&self, rate: f64) -> f64 {
         let rate = self.period.map_or(rate, |period| (rate * period).round() / period);
         (rate * self.time).rem_euclid(1.0)
     }
 
-    /// `speed` in radians a second, of which the part `swing` comes and goes by so many radians in so many
-    /// seconds; seconds of the noise on the speed.
+    /// `speed` in radians per second; the fraction `swing` of it oscillates with an amplitude in
+    /// radians and a period in seconds (`swing_by`). `speed_period`: period in seconds of the noise
+    /// on the speed.
     pub fn phases(&self, speed: f32, swing: f32, swing_by: [f32; 2], speed_period: f32) -> Phases {
         let [speed, swing, period] = [speed, swing, speed_period].map(f64::from);
         let [by, seconds] = swing_by.map(f64::from);
@@ -136,12 +139,13 @@ impl Clock {
         Phases { waves: held((straight + swung).rem_euclid(TAU)), local: held(local) }
     }
 
-    /// By how many repetitions a pattern has moved; metres a second along the pattern's own axes.
+    /// Displacement of a pattern in repetitions; speed in metres per second along the pattern's
+    /// axes.
     pub fn offset(&self, scale: f32, speed: [f64; 2]) -> [Bounded; 2] {
         speed.map(|speed| held(self.turned(f64::from(scale) * speed)))
     }
 
-    /// The same in metres; none of a pattern that is everywhere the same.
+    /// The same in metres; 0 for a pattern without detail.
     pub fn moved(&self, scale: f32, speed: [f32; 2]) -> [Bounded; 2] {
         let scale = f64::from(scale);
         speed.map(|speed| match scale {
@@ -151,22 +155,22 @@ impl Clock {
     }
 }
 
-/// How far what is behind the surface is from it.
+/// How the distance behind the surface is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Between both points.
+    /// Distance between both points.
     Distance,
-    /// Of their depths.
+    /// Difference of their depths.
     View,
-    /// Of their heights.
+    /// Difference of their heights.
     Vertical,
 }
 
-/// Farther than any foam is deep.
+/// A distance at which there is no foam.
 const FAR: f64 = 1.0e9;
 
-/// From the surface's depth to the scene's, along a ray whose heights are `up`'s; finite. By heights what is not below the
-/// surface, as on a ray that does not go down, is far.
+/// Distance between the surface and the scene along a ray, from their depths; `up` gives heights
+/// along the ray. For heights, a ray that does not go down has the result FAR.
 pub fn measure(
     kind: Measure,
     [surface, scene]: [Bounded; 2],
@@ -184,7 +188,7 @@ pub fn measure(
             } else if down.high() <= 0.0 {
                 exact(FAR)
             } else {
-                // Level: rounding may find either.
+                // For a nearly level ray rounding decides.
                 let value = if down.value > 0.0 { (behind * down).value } else { FAR };
                 Bounded::between((behind * down).low().min(0.0), value, FAR)
             }
@@ -192,7 +196,7 @@ pub fn measure(
     }
 }
 
-/// `1 - t` of what is behind the surface and not beyond the depth.
+/// `1 - t` behind the surface and up to the depth, otherwise 0.
 pub fn ramp(t: Bounded) -> Bounded {
     let part = (exact(1.0) - t).clamp(0.0, 1.0);
     if t.low() >= 0.0 {
@@ -200,15 +204,16 @@ pub fn ramp(t: Bounded) -> Bounded {
     } else if t.high() < 0.0 {
         exact(0.0)
     } else {
-        // Before the surface or behind it: single precision may find either.
+        // If rounding decides whether the point is before or behind the surface, both are within
+        // the bounds.
         let value = if t.value < 0.0 { 0.0 } else { part.value };
         Bounded::between(0.0, value, part.high())
     }
 }
 
-/// `x² / (2 (x² - x) + 1)`, x in [0, 1]. Below the line is at least a half; of what is added there, u of x², of
-/// x² - x, twice that, and u of the sum: a quotient of at most 1 is off by 4u for it, the square and the quotient
-/// add 6u.
+/// `x² / (2 (x² - x) + 1)`, x in [0, 1]. The denominator is at least a half. Its terms round by u
+/// of x², of twice x² - x, and of the sum; for a quotient of at most 1 this adds 4u, and the square
+/// and the quotient add 6u.
 pub fn ease(x: Bounded) -> Bounded {
     let eased = |x: f64| x * x / (2.0 * (x * x - x) + 1.0);
     let moved = x.rising(|x| eased(x.clamp(0.0, 1.0)));
@@ -216,25 +221,25 @@ pub fn ease(x: Bounded) -> Bounded {
     moved.wider(U * roundings)
 }
 
-/// How contact foam looks.
+/// Settings of contact foam.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
-    /// Metres at which none is left.
+    /// Distance in metres at which foam ends.
     pub depth: f64,
-    /// What those metres are.
+    /// How that distance is measured.
     pub measure: Measure,
-    /// How much the mask takes away.
+    /// Strength of the mask.
     pub mask: f64,
-    /// Repetitions of the mask a metre.
+    /// Repetitions of the mask per metre.
     pub mask_scale: f64,
-    /// By how many it has moved.
+    /// Displacement of the mask in repetitions.
     pub mask_offset: [Bounded; 2],
-    /// 0 to 1.
+    /// Opacity, 0 to 1.
     pub opacity: f64,
 }
 
 impl Contact {
-    /// From the settings' numbers.
+    /// From numbers of the settings.
     pub fn new(
         clock: Clock,
         measure: Measure,
@@ -251,7 +256,7 @@ impl Contact {
         measure(self.measure, depths, ray, up) / self.depth
     }
 
-    /// The mask so many pixels from where its pattern and the change of that are found.
+    /// The mask at an offset in pixels from the point where its pattern and slope are evaluated.
     pub fn masked(&self, web: &Texture<4>, point: &Point, off: [f64; 2]) -> Bounded {
         let uv = [0, 1].map(|i| point.place[i] * self.mask_scale + self.mask_offset[i]);
         let detail = web.detail(point.width, self.mask_scale);
@@ -260,12 +265,12 @@ impl Contact {
         self.mask_of(beside(pattern, change, off))
     }
 
-    /// The mask of a pattern.
+    /// The mask from its pattern.
     pub fn mask_of(&self, pattern: Bounded) -> Bounded {
         mix(exact(1.0), pattern.clamp(0.0, 1.0), exact(self.mask))
     }
 
-    /// How much foam there is: t, the mask.
+    /// Amount of foam from t and the mask.
     pub fn amount(&self, t: Bounded, mask: Bounded) -> Bounded {
         ease(ramp(t) * mask) * self.opacity
     }

@@ -1,5 +1,5 @@
-//! The same in single precision, as a shader has it, to hold the bounds against: a filter knows weights to 1/256,
-//! and the sine is as far off as it may be.
+//! Shore foam in single precision, as in a shader, to check the bounds: filter weights are rounded
+//! to 1/256, and the sine has the largest permitted error.
 
 use std::f32::consts::TAU;
 
@@ -12,7 +12,7 @@ fn f([a, b]: [Bounded; 2]) -> [f32; 2] {
     [a.value as f32, b.value as f32]
 }
 
-/// x about the middle, `by` from -1 to 1.
+/// Sine of x, reduced to around 0; `by` from -1 to 1 scales its error.
 pub fn sine(x: f32, by: f32) -> f32 {
     let x = x - TAU * (x / TAU).round();
     x.sin() + by * 0.99 / 2048.0
@@ -44,7 +44,7 @@ fn bilinear<const C: usize>(texture: &Texture<C>, level: usize, uv: [f32; 2]) ->
     std::array::from_fn(|i| lerp(lerp(a[i], b[i], fx), lerp(c[i], d[i], fx), fy))
 }
 
-/// Of the level nearest to the level of detail.
+/// The value of the level nearest to the level of detail.
 pub fn sample<const C: usize>(texture: &Texture<C>, uv: [f32; 2], detail: f32) -> [f32; C] {
     let level = detail.round().clamp(0.0, texture.last() as f32);
     bilinear(texture, level as usize, uv)
@@ -54,7 +54,7 @@ pub fn detail<const C: usize>(texture: &Texture<C>, width: f32, scale: f32) -> f
     (width * scale * texture.size() as f32).max(1e-6).log2()
 }
 
-/// Depth, place, width.
+/// Depth, place and width.
 pub fn water(water: &Water, pixel: [f32; 2]) -> (f32, [f32; 2], f32) {
     let [slope, up, east, north] =
         [water.slope, water.up, water.east, water.north].map(|row| row.map(|v| v.value as f32));
@@ -73,7 +73,7 @@ pub fn water(water: &Water, pixel: [f32; 2]) -> (f32, [f32; 2], f32) {
     (z, place, (ax * by - ay * bx).abs().sqrt())
 }
 
-/// A pixel, all that it is made of exact.
+/// A pixel with exact inputs.
 pub struct Pixel {
     pub off: [f32; 2],
     pub place: [f32; 2],
@@ -82,7 +82,7 @@ pub struct Pixel {
     pub dv: [f32; 2],
 }
 
-/// The mix, the variance, the change; `by` of the sine.
+/// Mixture, variance and change; `by` scales the sine's error.
 pub fn shoreline(
     look: &Shoreline,
     noise: &Texture<4>,
@@ -162,7 +162,7 @@ pub fn ease(x: f32) -> f32 {
     x * x / (2.0 * (x * x - x) + 1.0)
 }
 
-/// A texel's seed; `by`: how far off a part is, of itself.
+/// The seed of a texel; `by`: relative error of the fraction of the way.
 pub fn seed(heights: &Heights, x: usize, y: usize, by: f32) -> Option<Seed> {
     let (px, py) = (x as isize, y as isize);
     let here = heights.at(px, py) as f32;
@@ -180,7 +180,7 @@ pub fn seed(heights: &Heights, x: usize, y: usize, by: f32) -> Option<Seed> {
     found
 }
 
-/// How far a texel's middle is from a seed's segment.
+/// Distance of a texel's centre from a seed's segment.
 pub fn apart(heights: &Heights, x: usize, y: usize, seed: Seed) -> f32 {
     let at = seed.map(|v| v as f32 / 16.0);
     let to = [x as f32 + 0.5 - at[0], y as f32 + 0.5 - at[1]];

@@ -1,4 +1,4 @@
-//! The twin against closed forms, and its bounds against single precision.
+//! Compares the shore's twin with closed forms, and its bounds with single precision.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use super::map::{Heights, Map, Shore, difference};
 use super::texture::{Texture, half};
 use super::*;
 
-/// Numbers of no order (Marsaglia's xorshift, times a constant).
+/// Random numbers (Marsaglia's xorshift, times a constant).
 struct Random(u64);
 
 impl Random {
@@ -21,7 +21,7 @@ impl Random {
         self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
     }
 
-    /// One that single precision holds.
+    /// A random number that single precision represents exactly.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         let part = (self.bits() >> 40) as f64 / (1_u64 << 24) as f64;
         f64::from((low + part * (high - low)) as f32)
@@ -30,7 +30,7 @@ impl Random {
 
 const CLOCK: Clock = Clock { time: 12.75, period: None };
 
-/// Waves that go round the torus, of all directions, from four of a repetition on; zero-mean, at most 1.
+/// Periodic noise: a sum of waves in all directions, mean 0, at most 1.
 fn smooth_noise(size: usize, seed: u64) -> Texture<4> {
     let mut r = Random(seed);
     let terms: Vec<_> = (0..24)
@@ -51,7 +51,7 @@ fn smooth_noise(size: usize, seed: u64) -> Texture<4> {
     Texture::new(size, &(0..size * size).map(texel).collect::<Vec<_>>())
 }
 
-/// 1 on the lines between cells of a torus, falling with the distance from them.
+/// A periodic cell pattern: 1 on the lines between cells, decreasing with the distance from them.
 fn cells(size: usize, count: usize, seed: u64) -> Texture<4> {
     let mut r = Random(seed);
     let points: Vec<_> = (0..count).map(|_| [0; 2].map(|_| r.between(0.0, 1.0))).collect();
@@ -70,7 +70,7 @@ fn cells(size: usize, count: usize, seed: u64) -> Texture<4> {
     Texture::web(size, &(0..size * size).map(texel).collect::<Vec<_>>())
 }
 
-/// As the settings' defaults.
+/// The default settings.
 fn island(clock: Clock) -> Shoreline {
     let ninety = 1.0 / 90.0;
     Shoreline {
@@ -102,7 +102,7 @@ fn pixel(place: [f64; 2], v: f64, width: f64, dv: [f64; 2]) -> Pixel {
     Pixel { off: [0.0; 2], place: place.map(exact), v: exact(v), across, dv: dv.map(exact) }
 }
 
-/// Looks down on the plane `height` below, turned by angles.
+/// A camera `height` above the plane, turned down and about the up axis by these angles.
 fn camera(height: f64, down: f64, about: f64, size: [f64; 2], view: f64) -> Water {
     let forward = DVec3::new(about.cos() * down.cos(), about.sin() * down.cos(), -down.sin());
     let right = forward.cross(DVec3::Z).normalize();
@@ -158,7 +158,7 @@ fn the_bounds_of_operations_hold_and_are_not_idle() {
         }
     }
     println!("operations: {worst:.2?}");
-    // The host's functions are better than Vulkan asks for.
+    // The host's functions are more accurate than Vulkan requires.
     let least = [0.5, 0.5, 0.2, 0.2, 0.1, 0.1, 0.2, 0.9, 0.2, 0.5, 0.9, 0.1, 0.3, 0.1];
     for (i, (worst, least)) in worst.into_iter().zip(least).enumerate() {
         assert!(worst <= 1.0 && worst > least, "{i}: {worst}");
@@ -206,7 +206,7 @@ fn levels_are_means_and_a_sample_at_a_centre_is_a_texel() {
     }
     let place = [exact(0.3), exact(0.6)];
     let [a, b] = [0, 1].map(|level| texture.sample(place, level)[0]);
-    // Of a pixel as wide as so many texels of the first level.
+    // The level of detail for a pixel as wide as 2^detail texels of the first level.
     let of = |detail: f64| texture.at(place, 1.0, exact(detail.exp2() / 64.0))[0];
     for (detail, own) in [(-3.0, a), (0.0, a), (0.49, a), (0.51, b), (1.0, b)] {
         assert_eq!(of(detail).value, own.value, "{detail}");
@@ -231,7 +231,7 @@ fn sampling_wraps_at_the_edge() {
             assert!((here[c].value - there[c].value).abs() < 1e-13);
         }
     }
-    // No step over the seam.
+    // The texture is continuous across its seam.
     let [a, b] = [-1e-9, 1e-9].map(|u| texture.sample([exact(u), exact(0.4)], 0));
     assert!((a[0].value - b[0].value).abs() < 1e-6);
 }
@@ -264,7 +264,7 @@ fn a_filter_of_single_precision_is_within_the_bounds() {
 
 #[test]
 fn the_water_s_points_and_pixels_are_as_the_view_has_them() {
-    // Straight down from 40 m: a pixel is 40 m of slope wide, everywhere.
+    // Straight down from 40 m, all pixels have the same width.
     let down = camera(40.0, PI / 2.0 - 1e-9, 0.3, [64.0, 48.0], 0.5);
     for at in [[0.5, 0.5], [32.0, 24.0], [63.5, 40.5]] {
         let point = down.at(at);
@@ -282,7 +282,7 @@ fn the_water_s_points_and_pixels_are_as_the_view_has_them() {
         if point.depth.value <= 0.0 || point.depth.value > 500.0 {
             continue;
         }
-        // The point is on the plane, and its changes are its derivatives.
+        // The point lies on the plane, and its changes per pixel are its derivatives.
         let eye = point.ray.map(|r| r.value * point.depth.value);
         let up: f64 = (0..3).map(|i| water.up[i].value * eye[i]).sum::<f64>() + water.up[3].value;
         assert!(up.abs() < 1e-9 * point.depth.value);
@@ -318,7 +318,8 @@ fn contact_foam_is_all_at_the_edge_and_none_at_its_depth() {
     for (t, part) in [(-3.0, 0.0), (-1e-9, 0.0), (0.0, 1.0), (0.25, 0.75), (1.0, 0.0), (5.0, 0.0)] {
         assert_eq!(ramp(exact(t)).value, part);
     }
-    // Where it may be before the surface or behind it either may be found.
+    // If rounding decides whether an object is before or behind the surface, both results are
+    // within the bounds.
     let either = ramp(exact(0.01).wider(0.02));
     assert!(either.holds(0.0) && either.holds(1.0));
 
@@ -347,7 +348,7 @@ fn contact_foam_is_all_at_the_edge_and_none_at_its_depth() {
     };
     let found = look.masked(&web, &point, [0.0; 2]);
     let uv = [3.0, -7.0].map(|p| p * 0.5 + 12.75 * 0.5 * if p > 0.0 { 0.05 } else { 0.03 });
-    // 1.6 texels a pixel.
+    // A pixel is 1.6 texels wide.
     let [pattern, _, east, north] = web.sample(uv.map(exact), 1).map(|c| c.value);
     assert!(found.holds(look.mask_of(exact(pattern)).value) && found.error < 0.01);
     // A pixel is a twentieth of a repetition wide.
@@ -374,7 +375,7 @@ fn nothing_grows_with_the_time_and_a_period_is_one() {
         );
         assert!(phases.waves.error <= TAU * U && phases.local.error <= 2.0 * U);
     }
-    // Of a period nothing is left: all is as it was, exactly where the times are binary fractions.
+    // After a period everything repeats, exactly if the times are binary fractions.
     for loops in [4.0, 16.0, 64.0] {
         for time in [0.0, 0.375, 2.25, 3.0] {
             let at = |time: f64| {
@@ -392,7 +393,7 @@ fn nothing_grows_with_the_time_and_a_period_is_one() {
             }
         }
     }
-    // The phase is the integral of the speeds: from one time to the next it moves by so much.
+    // The phase is the integral of the speed: it changes by speed times the time between.
     let [a, b] = [20.0, 20.001].map(|time| {
         let clock = Clock { time, period: None };
         clock.phases(speed, swing, by, period)
@@ -425,7 +426,7 @@ fn waves_on_a_straight_shore_are_a_sine() {
             assert!(found.kept.holds(kept) && found.web.value == 0.0);
         }
     }
-    // Beyond the ends none, and a floor holds.
+    // Beyond the ends of v there are no waves, and the floor limits them.
     for v in [-0.5, 0.0, 2.0, 3.0] {
         let found = shoreline(&look, &noise, &web, &pixel([0.0; 2], v, 0.1, [0.0; 2]));
         assert!(found.over.value < 1.5 * v - 2.0);
@@ -434,8 +435,7 @@ fn waves_on_a_straight_shore_are_a_sine() {
     let found = shoreline(&floored, &noise, &web, &pixel([0.0; 2], 0.26, 0.1, [0.0; 2]));
     assert_eq!(found.waves.value, 0.0);
 
-    // Above a threshold of a sine of height 1 is the part acos(threshold)/π; of a pixel that holds it all it is
-    // what the even spread has.
+    // The fraction of a sine above a threshold is acos(threshold)/π.
     for threshold in [-0.5, 0.0, 0.5, 0.9] {
         let look = Shoreline { threshold, ..Shoreline::waves(TAU * 8.0, still(0.0), 0.001) };
         let near = |i: i32| {
@@ -462,7 +462,8 @@ fn waves_on_a_straight_shore_are_a_sine() {
 
 #[test]
 fn an_even_edge_covers_what_is_beyond_it() {
-    // A slope along an axis is the exact share; a diagonal one as if it were so much steeper.
+    // A slope along one axis gives the exact fraction; a diagonal slope is treated as if along one
+    // axis.
     for (over, change, expected) in [
         (0.0, [0.1, 0.0], 0.5),
         (0.025, [0.1, 0.0], 0.75),
@@ -472,7 +473,8 @@ fn an_even_edge_covers_what_is_beyond_it() {
         let found = covered(exact(over), exact(0.0), change.map(exact)).value;
         assert!((found - expected).abs() < 1e-12);
     }
-    // Of a share so many pixels of a block have so many quarters: in the mean it is the share.
+    // Each pixel of a block rounds the fraction up or down to a multiple of a quarter; the block's
+    // mean is the fraction, to a sixteenth.
     for (part, mean) in [(0.0, 0.0), (0.3, 0.3125), (0.5, 0.5), (0.8, 0.8125), (1.0, 1.0)] {
         let block = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|at| by_samples(exact(part), at).value);
         assert_eq!(block.iter().sum::<f64>() / 4.0, mean, "{part}: {block:?}");
@@ -483,19 +485,19 @@ fn an_even_edge_covers_what_is_beyond_it() {
     }
 }
 
-/// What a pixel is said to cover less what near foam covers of it.
+/// Difference between the foam that a pixel claims and the mean of near foam inside the pixel.
 #[derive(Debug)]
 struct Covers {
-    /// Of many pixels in the mean.
+    /// Mean over many pixels.
     bias: f64,
-    /// The mean of sizes.
+    /// Mean absolute difference, and the max.
     mean: f64,
     most: f64,
-    /// The mean of sizes where a pixel's middle alone decides.
+    /// Mean absolute difference if only the pixel's centre decides.
     clipped: f64,
 }
 
-/// `slope`: of v, a metre.
+/// `slope`: change of v per metre.
 fn far_less_near(
     look: &Shoreline,
     (noise, web): (&Texture<4>, &Texture<4>),
@@ -508,7 +510,7 @@ fn far_less_near(
     for _ in 0..pixels {
         let middle = [0; 2].map(|_| r.between(-500.0, 500.0));
         let v = r.between(0.4, 1.6);
-        // In pixels from the middle.
+        // In pixels from the centre.
         let at = |x: f64, y: f64, width_there: f64, dv: f64| {
             let place = [middle[0] + x * width, middle[1] + y * width];
             let there = pixel(place, v + slope * y * width, width_there, [0.0, dv]);
@@ -539,11 +541,13 @@ fn far_foam_covers_what_near_foam_does() {
     let waves = Shoreline { texture_weight: 0.0, wave_weight: 1.0, ..own.clone() };
     let web_alone = Shoreline { texture_weight: 1.0, wave_weight: 0.0, ..own.clone() };
     let only_web = Shoreline { web_rise: [0.25, -0.25], threshold: 0.5, ..web_alone };
-    // A shore so wide that v changes little over a pixel, while waves of some metres and the web change much.
+    // A shore so wide that v changes little in a pixel, while waves of some metres and the texture
+    // change much.
     let short = |look: &Shoreline| Shoreline { frequency: 150.0, ..look.clone() };
-    // Bounds: of the bias, of the mean, of the most. What is spread is not even: a sine is more at its ends. The bias is of
-    // 150 pixels: three standard errors of what the mean says, a twelfth of it each, more. The web is that of a box up to √2
-    // as wide as a pixel or as narrow: at 6 m one layer's is 1.3 times.
+    // Bounds for the bias, the mean and the max. The uniform distribution that `covered` assumes is
+    // not exact: a sine is more often near its ends. The bias is a mean of 150 pixels: three
+    // standard errors are a quarter of the mean difference. The texture's level of detail is a box
+    // up to √2 wider or narrower than a pixel; at 6 m it is 1.3 times as wide for one layer.
     for (name, look, width, bounds) in [
         ("waves", short(&waves), 6.0, [0.01, 0.06, 0.2]),
         ("web", only_web.clone(), 6.0, [0.01, 0.065, 0.24]),
@@ -582,7 +586,7 @@ fn shoreline_foam_of_single_precision_is_within_the_bounds() {
         let (v, slope) = (r.between(-0.1, 2.1), f64::from(width) / 9.0);
         let turn = r.between(0.0, TAU);
         let dv = [turn.cos() * slope, turn.sin() * slope].map(|v| f64::from(v as f32));
-        // Every other pixel shares what it can.
+        // Every second pixel uses values shared by a pair.
         let off = [[0.0; 2], [0.5, -0.5]][i / 2 % 2];
         let own = Pixel { off, ..pixel(place, v, f64::from(width), dv) };
         let expected = shoreline(&look, &noise_map, &web, &own);
@@ -653,7 +657,8 @@ fn a_half_plane_s_map_is_linear() {
         let heights = heights(size, plane);
         let map = map_of(&heights).expect("a shore");
         let expected = signed(size, |p| turn.dot(p - from));
-        // Away from where the line leaves the grid, beyond which a texel knows of no shore.
+        // Only texels whose nearest point of the line lies in the grid; the map does not know the
+        // line outside.
         let inner: Vec<_> = (0..size * size)
             .filter(|i| {
                 let p = DVec2::new((i % size) as f64 + 0.5, (i / size) as f64 + 0.5);
@@ -677,7 +682,8 @@ fn a_half_plane_s_map_is_linear() {
 #[test]
 fn a_circle_s_map_is_its_distance() {
     let size = 256;
-    // Of the map to the circle, to the line, and of the line to the circle: heights are bent between centres.
+    // Bounds of map to circle, of map to line and of line to circle, which differ because heights
+    // are not linear between texel centres.
     for (radius, middle, bounds) in [
         (80.0, DVec2::new(127.3, 129.6), [0.05, 0.045, 0.004]),
         (12.0, DVec2::new(100.2, 90.7), [0.06, 0.07, 0.022]),
@@ -700,7 +706,8 @@ fn a_circle_s_map_is_its_distance() {
     }
 }
 
-/// Islands: waves of falling height, the shortest of so many texels, that fall to the grid's edge.
+/// Islands: a sum of waves with decreasing height, the shortest `shortest` texels long, that falls
+/// off towards the grid's edge.
 fn islands(size: usize, shortest: f64, seed: u64) -> Heights {
     let mut r = Random(seed);
     let growth = (size as f64 / shortest / 1.5).powf(1.0 / 59.0);
@@ -719,7 +726,7 @@ fn islands(size: usize, shortest: f64, seed: u64) -> Heights {
 
 #[test]
 fn an_island_s_map_is_the_distance_to_its_line() {
-    // A segment reaches half a texel beyond points of the land, and beyond the grid's edge.
+    // Seeds' segments reach half a texel beyond the ends of the line, and beyond the grid's edge.
     for (shortest, bounds) in [(24.0, [0.5, 0.035]), (5.5, [0.55, 0.09])] {
         for seed in [3, 4, 5] {
             let heights = islands(256, shortest, seed);
@@ -776,7 +783,7 @@ fn a_map_is_linear_between_centres_and_ends_at_its_edge() {
     assert_eq!(map.inside([exact(63.5).wider(0.01), exact(20.0)]), None);
     let texels = Map::texels([exact(3.0), exact(-2.0)], [-1.0, -4.0], 0.5);
     assert_eq!(texels.map(|t| t.value), [8.0, 4.0]);
-    // A place that is off moves it by its slope, which is at most about 1.
+    // An uncertain position gives a distance uncertain by the slope, which is at most about 1.
     let off = map.at([exact(30.3).wider(1.5), exact(30.3)], false);
     assert!(off.error > 0.3 && off.error < 1.5);
 }

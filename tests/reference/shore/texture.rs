@@ -1,23 +1,26 @@
-//! A square periodic texture, its mip levels in half precision, filtered bilinearly within the nearest level.
+//! A square periodic texture with mip levels in half precision, filtered bilinearly within the
+//! nearest level.
 //!
-//! A filter knows a place and a level to 1/256: half a step is 2^-9 of the differences between the texels
-//! involved. A place that is off by so many texels adds as many of the largest difference of neighbours that it
-//! may pass, and does not leave the range of the level; where two levels are as near it is of either.
+//! A filter knows position and level to 1/256: half a step is 2^-9 of the differences between the
+//! texels involved. A position error adds the number of texels times the largest difference of
+//! neighbours that it may pass, and the result stays in the level's range. If two levels are
+//! equally near, the bounds include both.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::bounded::{Bounded, U, exact};
 
-/// Whether the device filters half floats in half precision, which Vulkan leaves open: an H200 does, what runs on a CPU
-/// filters in single precision.
+/// Whether the device filters 16-bit floats in half precision, which Vulkan leaves open: an H200
+/// does; CPU implementations filter in single precision.
 static HALVES: AtomicBool = AtomicBool::new(false);
 
-/// Says so of the device of the tests: all tests of a run have the same.
+/// Sets this for the tests' device, which is the same for all tests of a run.
 pub fn filters_in_halves(yes: bool) {
     HALVES.store(yes, Ordering::Relaxed);
 }
 
-/// How much of the largest texel what is filtered is off for that: a unit in the last place of a half float, rounded either way.
+/// Relative error of filtered values from that, in units of the largest texel: one ulp of half
+/// precision in either direction.
 fn filter_rounds() -> f64 {
     if HALVES.load(Ordering::Relaxed) { 1.0 / 2048.0 } else { 0.0 }
 }
@@ -25,38 +28,39 @@ fn filter_rounds() -> f64 {
 /// Half a step of the filter's weights.
 pub const STEP: f64 = 1.0 / 512.0;
 
-/// Place and level are found in single precision, of no less than this many texels a pixel.
+/// Position and level are computed in single precision, from at least this many texels per pixel.
 const LEAST: f64 = 1e-6;
 
-/// Of a filter in single precision: linear twice over, of three operations each.
+/// Roundings of a filter in single precision: two linear interpolations with three operations each.
 const ROUNDINGS: f64 = 6.0;
 
-/// More texels than this in a row are not looked at one by one.
+/// Longer runs of texels are bounded by the level's range and not texel by texel.
 const MANY: i64 = 16;
 
-/// Half precision, to the nearest, ties to even. Too large: infinite.
+/// Half precision, rounded to nearest with ties to even; infinite if too large.
 pub fn half(value: f64) -> f64 {
     let power = value.abs().max(f64::MIN_POSITIVE).log2().floor() as i32;
-    // A logarithm just below a whole number may be rounded to it.
+    // The logarithm of a number just below a power of two may be rounded up.
     let power = if value.abs() < 2.0_f64.powi(power) { power - 1 } else { power };
     let step = 2.0_f64.powi(power.max(-14) - 10);
     let rounded = (value / step).round_ties_even() * step;
     if rounded.abs() > 65504.0 { f64::INFINITY.copysign(value) } else { rounded }
 }
 
-/// All levels of a texture.
+/// All mip levels of a texture.
 #[derive(Clone, Debug)]
 pub struct Texture<const C: usize> {
     size: usize,
     levels: Vec<Vec<[f64; C]>>,
-    /// Of each level, the most less the least.
+    /// Max minus min of each level.
     ranges: Vec<[f64; C]>,
-    /// Of all, the largest size.
+    /// Largest absolute value of all levels.
     most: [f64; C],
 }
 
 impl<const C: usize> Texture<C> {
-    /// From level 0, row by row: rounded, then each texel the mean of four, rounded. The edge is a power of two.
+    /// From level 0, row by row: values are rounded, and each texel of the next level is the
+    /// rounded mean of four. The size is a power of two.
     pub fn new(size: usize, texels: &[[f32; C]]) -> Self {
         assert!(
             size.is_power_of_two() && texels.len() == size * size,
@@ -72,7 +76,7 @@ impl<const C: usize> Texture<C> {
         Self::from_levels(size, levels)
     }
 
-    /// From levels as they are.
+    /// From given levels.
     pub fn from_levels(size: usize, levels: Vec<Vec<[f64; C]>>) -> Self {
         for (level, texels) in levels.iter().enumerate() {
             assert_eq!(texels.len(), (size >> level).pow(2), "texels of level {level}");
@@ -92,12 +96,12 @@ impl<const C: usize> Texture<C> {
         Self { size, levels, ranges, most }
     }
 
-    /// Texels in a row of level 0.
+    /// Size of level 0 in texels.
     pub fn size(&self) -> usize {
         self.size
     }
 
-    /// A level's texels, row by row.
+    /// Texels of a level, row by row.
     pub fn level(&self, level: usize) -> &[[f64; C]] {
         &self.levels[level]
     }
@@ -107,18 +111,20 @@ impl<const C: usize> Texture<C> {
         self.levels.len() - 1
     }
 
-    /// The level of detail where a pixel is `width` metres wide, not clamped; `scale` in repetitions a metre.
+    /// Level of detail for a pixel `width` metres wide, not clamped; `scale` in repetitions per
+    /// metre.
     pub fn detail(&self, width: Bounded, scale: f64) -> Bounded {
         (width * scale * self.size as f64).max(LEAST).log2()
     }
 
-    /// At a place in metres.
+    /// The texture at a place in metres.
     pub fn at(&self, place: [Bounded; 2], scale: f64, width: Bounded) -> [Bounded; C] {
         let uv = place.map(|p| p * scale);
         self.nearest(self.detail(width, scale), |level| self.sample(uv, level))
     }
 
-    /// Of the level nearest to the level of detail; where two are as near, of either.
+    /// The value of the level nearest to the level of detail; if two are equally near, bounds of
+    /// both.
     fn nearest<const D: usize>(
         &self,
         detail: Bounded,
@@ -137,14 +143,14 @@ impl<const C: usize> Texture<C> {
         })
     }
 
-    /// At a place in repetitions.
+    /// The texture at a position in repetitions.
     pub fn sample(&self, uv: [Bounded; 2], level: usize) -> [Bounded; C] {
         let moved = self.filtered(level, uv, &|t| *t, &|range| *range);
         std::array::from_fn(|c| moved[c].wider((ROUNDINGS * U + filter_rounds()) * self.most[c]))
     }
 
-    /// Of numbers made of a texel, what a filter that may be off a place has, without roundings.
-    /// `ranges`: of these numbers from those of the texels.
+    /// Bounds of a filter's result for numbers computed from texels, with an uncertain position and
+    /// without roundings. `ranges`: ranges of these numbers from those of the texels.
     fn filtered<const D: usize>(
         &self,
         level: usize,
@@ -198,7 +204,7 @@ impl<const C: usize> Texture<C> {
     }
 }
 
-/// The next level: means of four, rounded.
+/// The next level: rounded means of four texels.
 fn coarser<const C: usize>(texels: &[[f64; C]], edge: usize) -> Vec<[f64; C]> {
     let next = edge / 2;
     let texel = |i: usize| {
@@ -210,7 +216,7 @@ fn coarser<const C: usize>(texels: &[[f64; C]], edge: usize) -> Vec<[f64; C]> {
 }
 
 impl Texture<4> {
-    /// A web: its value, the square of it, and its slopes over all of it.
+    /// A foam texture: its value, its square, and its slopes per repetition.
     pub fn web(size: usize, values: &[f32]) -> Self {
         let at = |x: usize, y: usize| values[y % size * size + x % size];
         let half = 0.5 * size as f32;
@@ -223,11 +229,12 @@ impl Texture<4> {
         Self::new(size, &(0..size * size).map(texel).collect::<Vec<_>>())
     }
 
-    /// The mean m at a place in repetitions, the variance, what the mean square s is more than m², at least 0, and the slopes.
+    /// Mean m at a position in repetitions, variance (mean square s minus m², at least 0), and
+    /// slopes.
     ///
-    /// Both channels have the same weights: with m off by e the variance is that of `s - 2 m t`, of which m is
-    /// held, off by what its own differences are, and e² at most. Roundings are those of s, of twice m times m,
-    /// of the square and the difference.
+    /// Both channels have the same weights. If the position errs, the variance changes like `s - 2
+    /// m t` with m fixed, by the differences of that, and at most by e² if m errs by e. Roundings
+    /// are those of s, of twice m times m, of the square and of the difference.
     pub fn spread(&self, uv: [Bounded; 2], detail: Bounded) -> (Bounded, Bounded, [Bounded; 2]) {
         let of = |level| {
             let [mean, square, across, down] = self.sample(uv, level);
@@ -238,7 +245,7 @@ impl Texture<4> {
             let sizes = ROUNDINGS * (self.most[1] + 2.0 * m.abs() * self.most[0])
                 + m * m
                 + (square.value - m * m).abs();
-            // The square is rounded, and the mean, before they are subtracted.
+            // Both the mean square and the mean are rounded before the subtraction.
             let rounded = filter_rounds() * (square.value + 2.0 * m * m);
             let moved = held.error + mean.error * mean.error + rounded;
             let variance = exact(square.value - m * m).wider(moved + 2.0 * U * sizes);

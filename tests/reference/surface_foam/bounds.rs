@@ -10,7 +10,8 @@ use super::{AXIS, CELLS, Settings, Sprite, depth_part};
 use crate::support::rounded::{Rounded, exact};
 use crate::support::tolerance::{Between, U};
 
-/// The sprites that may be drawn, with their foam and whether they surely are: the near plane 8u.
+/// Sprites that may be drawn, with their amount of foam and whether they are certainly drawn: the
+/// near plane errs by 8u.
 fn maybe_drawn<'a>(
     sprites: &'a [Sprite],
     view: &'a View,
@@ -23,8 +24,8 @@ fn maybe_drawn<'a>(
     })
 }
 
-/// Least and greatest of what the ellipses that rounding may make of a sprite are at a pixel, by
-/// `of`, and whether all of them are there.
+/// Min and max of `of` over the ellipses that rounding may make of a sprite, and whether all of
+/// them cover the pixel.
 fn span<T, const N: usize>(
     ellipses: &[T],
     of: impl Fn(&T) -> Option<([f64; N], [f64; N], bool)>,
@@ -38,8 +39,8 @@ fn span<T, const N: usize>(
     Some((low, high, sure))
 }
 
-/// Bounds of [`depth`] for single precision: `low` is the nearest that any sprite may be, `high`
-/// the nearest of those that are surely there.
+/// Bounds of [`depth`] in single precision: `low` is the nearest that any sprite may be, `high` the
+/// nearest of those that certainly are there.
 pub fn depth_bounds(
     sprites: &[Sprite],
     view: &View,
@@ -77,10 +78,11 @@ pub fn depth_bounds(
     Between { low, high }
 }
 
-/// Bounds of all foam in [`thickness`], of the front layer, of what of that the sun lights, and of all by
-/// how far behind the nearest it lies, for single precision, of sums in any order. What may or
-/// may not be there, by the ellipse's rim, the scene or the depth of the foam, is left out of `low`
-/// and in `high`. `foam_depth`: that of [`depth_bounds`], or twice the image itself if it is known.
+/// Bounds in single precision, with sums in any order, of four parts of [`thickness`]: all foam,
+/// the front layer, its sunlit part, and all foam weighted by its distance behind the frontmost.
+/// Contributions that rounding may drop, at the ellipse's rim, at the scene or at the foam's depth,
+/// are only in `high`. `foam_depth`: from [`depth_bounds`], or the image itself for both bounds if
+/// it is known.
 pub fn thickness_bounds(
     sprites: &[Sprite],
     view: &View,
@@ -106,8 +108,8 @@ pub fn thickness_bounds(
                 let hit = ellipse.meet(ray, near, scene)?;
                 let bounds =
                     value_bounds((sprite, view), (ellipse, *strength), &hit, foam, settings);
-                // The scene's depth is made of the projection, 8u; the difference, the product and the
-                // quotient 4u.
+                // The scene's depth is computed from the projection, 8u; difference, product and
+                // quotient add 4u.
                 let sunk = |sign: f64| {
                     if scene.is_infinite() {
                         return 1.0;
@@ -116,7 +118,7 @@ pub fn thickness_bounds(
                     settings.sunk(there) * (1.0 + sign * 4.0 * U)
                 };
                 let (least, most) = (bounds.0 * sunk(-1.0), bounds.1 * sunk(1.0));
-                // The end of the layer is rounded by 2u, the ramp by 16u; it falls by 1.5 a spacing.
+                // The layer's end is rounded by 2u, the ramp by 16u; its slope is 1.5 per spacing.
                 let share = |there: f64, k: f64, by: f64| {
                     let off = 4.0 * U * (k.abs() + there + settings.front_depth);
                     match is_surface(there) {
@@ -137,8 +139,7 @@ pub fn thickness_bounds(
                 };
                 let front = [surely * least, maybe * most];
                 let lit = [front[0] * darkest, front[1] * brightest];
-                // The differences are rounded by 4u of what they are of, the sum, the quotient and the
-                // product by 5u.
+                // The differences round by 4u of their operands; sum, quotient and product by 5u.
                 let far = |sign: f64, there: f64| {
                     let off = hit.k.e + 4.0 * U * (hit.k.v.abs() + there + settings.spacing);
                     let behind = if is_surface(there) { hit.k.v - there + sign * off } else { 0.0 };
@@ -170,8 +171,8 @@ pub fn thickness_bounds(
     })
 }
 
-/// Least and greatest that a sprite may add where a ray meets it. The kernel falls from the centre
-/// on; what is under its root is rounded once, u/2, the root by 9u, the exponential by 7 ulp, the
+/// Min and max contribution of a sprite where a ray meets it. The kernel decreases from the centre.
+/// The root's argument is rounded once, u/2, the root errs by 9u, the exponential by 7 ulp, and
 /// three products by 3u.
 fn value_bounds(
     (sprite, view): (&Sprite, &View),
@@ -193,7 +194,7 @@ fn value_bounds(
         return (low.max(0.0) * (1.0 - rounding), high * (1.0 + rounding));
     }
     let place = sprite.place(hit.x.v, hit.y.v, settings);
-    // One sum an axis, and the product with the age.
+    // One sum per axis, and the product with the age.
     let sums = place.abs().element_sum() + (sprite.age * settings.noise_rate).abs();
     let moved = CELLS * (hit.x.e + hit.y.e) + U * sums;
     let (here, error) = (noise(place), noise_slope() * moved + noise_rounding());

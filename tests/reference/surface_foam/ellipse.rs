@@ -10,14 +10,14 @@ use super::{
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// How an ellipse lies: unit vectors along its half-axes, at right angles.
+/// Axes of an ellipse: perpendicular unit vectors along its half-axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes {
-    /// The long one.
+    /// Along the long half-axis.
     pub e1: DVec3,
-    /// The short one.
+    /// Along the short half-axis.
     pub e2: DVec3,
-    /// t, in 0..1: the long one is 1 + t times the short one.
+    /// t, in 0..1: the long half-axis is 1 + t times the short one.
     pub stretch: f64,
 }
 
@@ -28,8 +28,8 @@ impl Axes {
     }
 }
 
-/// The axes of a sprite: across the view at rest, along the velocity when fast. What comes straight
-/// at the eye would be seen edge-on and stays round.
+/// The axes of a sprite: across the view at rest, along the velocity when fast. A sprite that moves
+/// straight at the eye would be seen edge-on, so it stays round.
 pub fn axes(sprite: &Sprite, settings: &Settings) -> Axes {
     let v = sprite.center.normalize();
     let speed = sprite.velocity.length() / settings.spacing;
@@ -56,28 +56,28 @@ pub fn axes(sprite: &Sprite, settings: &Settings) -> Axes {
 pub(super) struct Ellipse {
     pub(super) center: DVec3,
     pub(super) axes: Axes,
-    /// a and b, world units.
+    /// a and b in world units.
     pub(super) half: DVec2,
 }
 
 /// Where a ray meets an ellipse.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit {
-    /// The depth.
+    /// Depth.
     pub(super) k: f64,
-    /// The place in half-axes.
+    /// Position in half-axes.
     pub(super) at: DVec2,
 }
 
 impl Ellipse {
-    /// That of a sprite whose half-axis at rest is given, world units.
+    /// The ellipse of a sprite with this half-axis at rest, in world units.
     pub(super) fn new(sprite: &Sprite, settings: &Settings, half: f64) -> Self {
         let axes = axes(sprite, settings);
         let half = DVec2::new(half * (1.0 + axes.stretch), half);
         Self { center: sprite.center, axes, half }
     }
 
-    /// Where a ray meets it, not before the near plane.
+    /// Where a ray meets the ellipse, not before the near plane.
     pub(super) fn meet(&self, ray: DVec3, near: f64) -> Option<Hit> {
         let n = self.axes.normal();
         let q = n.dot(ray);
@@ -90,28 +90,28 @@ impl Ellipse {
         (k >= near && at.length_squared() <= 1.0).then_some(Hit { k, at })
     }
 
-    /// That of the thickness, in the texels of a view; how much the noise tears it.
+    /// The thickness' ellipse, for the texels of a view, and the noise's strength.
     pub(super) fn thick(sprite: &Sprite, view: &View, settings: &Settings) -> (Self, f64) {
         let half = AXIS * settings.radius();
         Self::new(sprite, settings, half).wide(texel(sprite.center, view), settings)
     }
 
-    /// That of the depth, of so much foam.
+    /// The depth's ellipse, for this amount of foam.
     pub(super) fn deep(sprite: &Sprite, foam: f64, view: &View, settings: &Settings) -> Self {
         let (thick, _) = Self::thick(sprite, view, settings);
         Self { half: thick.half * depth_part(foam), ..thick }
     }
 
-    /// The same no narrower than what texels can hold that are so wide at the depth of its centre; how
-    /// much the noise tears it.
+    /// The same, at least as wide as texels of this width can represent, and the noise's strength.
     fn wide(self, texel: f64, settings: &Settings) -> (Self, f64) {
         let cell = self.half.y / (CELLS * texel);
         let torn = settings.noise * smoothstep(TOLD_APART.0, TOLD_APART.1, cell);
         (Self { half: self.half.max(DVec2::splat(LEAST_AXIS * texel)), ..self }, torn)
     }
 
-    /// The height along z at the middle of the thickness' sprite, world units: its integral is the
-    /// particle's volume of foam. Flat ones would reach to any height.
+    /// Height along z at the middle of the thickness sprite, in world units: its integral is the
+    /// particle's volume of foam. Without the min of facing, edge-on ellipses would be infinitely
+    /// high.
     pub(super) fn amplitude(&self, foam: f64, settings: &Settings) -> f64 {
         let facing = self.axes.normal().dot(self.center / self.center.z).abs().max(LEAST_FACING);
         foam * settings.spacing.powi(3) / (PI * J * self.half.x * self.half.y * facing)

@@ -1,37 +1,38 @@
 //! Twin of the lace of thin foam: walls between bubbles of different sizes.
 //!
-//! A place belongs to the bubble of the largest power `r^2 - |x - c|^2`, if any is above 0; how far its power lies above
-//! the next or above 0 is how far inside of it the place is, of the largest radius squared. Cells hold a bubble each. Of
-//! two sizes the sum, at a place that is moved by the slope of a noise, and the noise itself.
+//! A point belongs to the bubble with the largest power `r^2 - |x - c|^2`, if that is positive. The
+//! difference to the next largest power, or to 0, relative to the largest radius squared, says how
+//! far inside the bubble the point is. Each cell has one bubble. Several sizes are summed, at a
+//! point displaced by a noise's slope, and the noise itself is added.
 
 use super::super::smoothstep;
 use super::noise::noise;
 use super::pattern::Phase;
 use glam::{DVec3, IVec3};
 
-/// Radii from the least to the largest, in cells.
+/// Min and max radius, in cells.
 const RADII: (f64, f64) = (0.5, 0.7);
-/// How far a centre lies from its cell's, along each axis at most.
+/// Max distance of a bubble's centre from its cell's along each axis.
 const STRAY: f64 = 0.3;
-/// Of large, middling and small bubbles: width of cells, where they begin, and their part.
+/// Large, medium and small bubbles: cell width, offset and weight.
 const SIZES: [(f64, f64, f64); 3] = [(1.0, 0.0, 0.42), (0.4, 31.7, 0.34), (0.16, 77.3, 0.24)];
-/// Pixels of a cell between which it comes, in the place of its mean.
+/// Pixels per cell between which bubbles replace their mean.
 const TOLD: (f64, f64) = (1.5, 4.0);
 const MEAN: f64 = 0.232;
-/// Width of the noise's cells; by how much its slope moves; its own part.
+/// Cell width of the noise, displacement by its slope, and its weight.
 const NOISE: (f64, f64, f64) = (2.6, 0.3, 0.3);
-/// Median of what closes a place.
+/// Median of `closes`.
 const MEDIAN: f64 = 0.22;
-/// What covers half, and the scale of the logistic distribution.
+/// Amount of foam that covers a half, and the scale of the logistic distribution.
 const LOGISTIC: (f64, f64) = (0.33, 0.127);
-/// What the opacity of foam lacks that has just closed a place, and how much more closes it wholly.
+/// Missing opacity where foam has just closed a hole, and the additional foam that makes it opaque.
 const SHEER: (f64, f64) = (0.45, 0.45);
-/// Half the width of a thread's end, at least, and times the pixels of a cell.
+/// Half the width of a thread's end: the min, and the factor per pixel of a cell.
 const ENDS: (f64, f64) = (0.04, 0.7);
-/// Half the width of what its edge ends over, which is half of it.
+/// Half the width of a thread's soft edge, which has half of the weight.
 const EDGE: f64 = 0.16;
 
-/// Of a cell: its bubble's centre, in cells, and its radius.
+/// The bubble of a cell: its centre in cells, and its radius.
 fn bubble(cell: IVec3) -> (DVec3, f64) {
     let [i, j, k] = cell.to_array().map(|c| c as u32);
     let joined =
@@ -42,7 +43,8 @@ fn bubble(cell: IVec3) -> (DVec3, f64) {
     (cell.as_dvec3() + 0.5 + stray, RADII.0 + (RADII.1 - RADII.0) * r)
 }
 
-/// How far inside of a bubble a place is, by all bubbles of the cells around it, more than can reach it.
+/// How far inside a bubble a point is; the bubbles of all adjacent cells include every one that can
+/// reach it.
 fn inside(place: DVec3) -> f64 {
     let here = place.floor().as_ivec3();
     let mut powers = vec![0.0, 0.0];
@@ -57,7 +59,7 @@ fn inside(place: DVec3) -> f64 {
     (most - next) / (RADII.1 * RADII.1)
 }
 
-/// How much foam it takes to close a place, which is in cells of so many pixels.
+/// Amount of foam that covers a point, where a cell of the pattern is `pixels` pixels wide.
 pub fn closes(place: DVec3, pixels: f64) -> f64 {
     let at = place / NOISE.0;
     let step = 1.0e-5;
@@ -71,13 +73,14 @@ pub fn closes(place: DVec3, pixels: f64) -> f64 {
     SIZES.iter().map(of).sum::<f64>() + NOISE.2 * noise(at)
 }
 
-/// Half the width of what a thread ends over, where a cell is so many pixels wide.
+/// Half the width of a thread's end, where a cell is `pixels` pixels wide.
 pub fn ends(pixels: f64) -> f64 {
     (ENDS.1 / pixels).max(ENDS.0)
 }
 
-/// Share that threads hide of a place, of which smooth foam hides a share: of two phases of the pattern, whose distances from
-/// the median are added by their parts, of foam that goes so many cells a second.
+/// Fraction that threads cover of a point, where smooth foam would cover `hidden`. The distances of
+/// two pattern phases from the median are summed with their weights; `drift` is the foam's velocity
+/// in cells per second.
 pub fn covered(hidden: f64, place: DVec3, (drift, phases): (DVec3, &[Phase]), pixels: f64) -> f64 {
     let much = LOGISTIC.0 + LOGISTIC.1 * (hidden.max(1.0e-6) / (1.0 - hidden).max(1.0e-6)).ln();
     let of = |phase: &Phase| {
@@ -100,7 +103,7 @@ mod tests {
     const STILL: (DVec3, &[Phase]) =
         (DVec3::ZERO, &[Phase { part: 1.0, carried: 0.0, began: 0.0 }]);
 
-    /// As much of the picture is hidden as by smooth foam, whatever share that is.
+    /// Lace covers as much of the picture as smooth foam, for any fraction.
     #[test]
     fn lace_hides_as_much_as_smooth_foam() {
         let mut random = Random(3);
@@ -111,9 +114,10 @@ mod tests {
             let hidden = 0.1 * f64::from(tenth);
             let all: f64 = places.iter().map(|place| covered(hidden, *place, STILL, 100.0)).sum();
             let mean = all / places.len() as f64;
-            // The distribution is not quite logistic.
+            // The distribution is only approximately logistic.
             assert!((mean - hidden).abs() < 0.03, "{hidden}: {mean}");
-            // Threads and holes: what is between, thin foam and a thread's edge, hides less than a thread's half.
+            // The pattern has threads and holes: few points are covered by an amount between, at
+            // thin spots and at threads' edges.
             let veiled =
                 places.iter().filter(|p| (0.1..0.4).contains(&covered(hidden, **p, STILL, 100.0)));
             assert!(veiled.count() < places.len() / 6, "{hidden}: a veil");
@@ -124,7 +128,8 @@ mod tests {
         assert_eq!(covered(1.0, places[0], STILL, 100.0), 1.0);
     }
 
-    /// Nothing jumps where cells meet: eight of them hold all that reach a place.
+    /// There is no jump where cells meet, because the adjacent cells include every bubble that
+    /// reaches a point.
     #[test]
     fn cells_leave_no_seam() {
         let mut random = Random(4);

@@ -8,8 +8,8 @@ use super::texels::{in_full, pixels, scene_depth};
 use super::{Settings, Sprite};
 use glam::DVec2;
 
-/// The depth of the nearest foam in each texel, world units. Texels are blocks of `2^level` pixels a
-/// side of the view. `scene`: the eye depth of what hides it, as large as the view, infinite or
+/// Depth of the frontmost foam in each texel, in world units. Texels are blocks of `2^level` x
+/// `2^level` pixels. `scene`: eye depth of the scene at the view's resolution, infinite or
 /// [`EMPTY`] where there is nothing.
 pub fn depth(
     sprites: &[Sprite],
@@ -35,9 +35,9 @@ pub fn depth(
     depth
 }
 
-/// The thickness of foam along z in each texel, world units: of all, of what lies no further
-/// than [`Settings::front_depth`] behind `foam_depth`, which is that of [`depth`], and of all times how far
-/// behind that it lies. Where there is no depth all lies further than the former, and is not far.
+/// Three thicknesses of foam along z in each texel, in world units: of all foam; of foam at most
+/// [`Settings::front_depth`] behind `foam_depth`, which comes from [`depth`]; and of all foam
+/// weighted by its distance behind that. Where there is no depth, the second and the third are 0.
 pub fn thickness(
     sprites: &[Sprite],
     view: &View,
@@ -70,9 +70,9 @@ pub fn thickness(
     thickness
 }
 
-/// What a pixel shows of the foam: the nearest depth of the texels round it, [`EMPTY`] where there is
-/// none, and both thicknesses, of the four by bilinear weights. Texels take no part whose foam lies more
-/// than a spacing behind the scene at the pixel.
+/// The foam that a pixel shows: the nearest depth of the texels around it, [`EMPTY`] if there is
+/// none, and both thicknesses by bilinear weights of four texels. Texels whose foam lies more than
+/// a spacing behind the scene at the pixel are ignored.
 pub fn seen(
     (depth, thickness): (&Image<f32>, &Image<[f32; 2]>),
     (x, y): (usize, usize),

@@ -1,4 +1,4 @@
-//! The ellipses that a sprite may have after rounding.
+//! The ellipses that rounding may make of a sprite.
 
 use super::super::View;
 use super::super::thickness::J;
@@ -20,7 +20,7 @@ struct LooseAxes {
     stretch: Rounded,
 }
 
-/// All axes that rounding may give a sprite: more than one where it decides by a threshold.
+/// All axes that rounding may give a sprite: several if it decides at a threshold.
 fn loose_axes(center: Off, velocity: Off, settings: &Settings) -> Vec<LooseAxes> {
     let mut all = Vec::new();
     let v = center.normalize();
@@ -33,7 +33,8 @@ fn loose_axes(center: Off, velocity: Off, settings: &Settings) -> Vec<LooseAxes>
         moving = sine.v + sine.e >= PARALLEL;
         fallback |= sine.v - sine.e < PARALLEL;
         if moving {
-            // p = v x e2 = (dir - v (v.dir)) / |across|: on the side of dir, however rounded.
+            // p = v x e2 = (dir - v (v.dir)) / |across| lies on the side of dir, whatever the
+            // rounding.
             let e2 = across.normalize();
             let p = v.cross(e2);
             let facing = v.dot(dir);
@@ -70,32 +71,32 @@ pub struct LooseEllipse {
     pub n: Off,
     pub a: Rounded,
     pub b: Rounded,
-    /// The angle by which both axes may be turned in their plane, besides their errors.
+    /// Additional rotation of both axes in their plane.
     pub turn: f64,
 }
 
 /// Where a ray may meet an ellipse.
 #[derive(Clone, Copy, Debug)]
 pub struct LooseHit {
-    /// The depth.
+    /// Depth.
     pub k: Rounded,
-    /// The place in half-axes.
+    /// Position in half-axes.
     pub x: Rounded,
     pub y: Rounded,
-    /// The square of its distance from the centre.
+    /// Squared distance from the centre.
     pub rho_squared: Rounded,
-    /// Whether it does meet it, before the scene.
+    /// Whether the ray certainly meets the ellipse, before the scene.
     pub sure: bool,
 }
 
 impl LooseEllipse {
-    /// Those that rounding may make of a sprite, with the half-axis at rest in radii.
+    /// The ellipses that rounding may make of a sprite; `half`: half-axis at rest, in radii.
     pub fn all(sprite: &Sprite, view: &View, settings: &Settings, half: f64) -> Vec<Self> {
         let center = Off::point(sprite.center, view);
         let axes = loose_axes(center, Off::direction(sprite.velocity), settings);
         let ellipse = |axes: LooseAxes| {
             let LooseAxes { e1, e2, stretch } = axes;
-            // The radius is a rounded number times the spacing.
+            // The radius is a rounded factor times the spacing.
             let b = off(half * settings.radius(), 3.0);
             let a = b * (exact(1.0) + stretch);
             Self { center, e1, e2, n: e1.cross(e2), a, b, turn: 0.0 }
@@ -103,12 +104,13 @@ impl LooseEllipse {
         axes.into_iter().map(ellipse).collect()
     }
 
-    /// The length in which all of it lies, by far more than its errors.
+    /// Distance from the centre within which the whole ellipse lies, with a margin much larger than
+    /// its errors.
     pub fn reach(&self) -> f64 {
         1.01 * (self.a.v + self.a.e) + 32.0 * (self.center.e + U * self.center.v.length())
     }
 
-    /// See [`Ellipse::wide`]. A texel: the depth's error, 2u of the slope and a product.
+    /// See [`Ellipse::wide`]. A texel has the depth's error, 2u of the slope and a product.
     pub(super) fn wide(self, view: &View, settings: &Settings) -> (Self, Rounded) {
         let pixel = self.texel(view);
         let cell = self.b / (off(CELLS, 1.0) * pixel);
@@ -119,20 +121,20 @@ impl LooseEllipse {
         (Self { a, b, ..self }, off(settings.noise, 1.0) * told)
     }
 
-    /// Width of a texel at its centre.
+    /// Width of a texel at the ellipse's centre.
     pub(super) fn texel(&self, view: &View) -> Rounded {
         let z = Rounded { v: -self.center.v.z, e: self.center.e };
         z * off(view.slope_step().abs().max_element(), 3.0)
     }
 
-    /// Whether and where a ray may meet it before the scene.
+    /// Whether and where a ray may meet the ellipse before the scene.
     ///
-    /// k. The error of n counts by `n.(c - k w)` alone, which is 0 without it: by the distance p
-    /// from the centre, not by the depth. Those of c and w count in whole, the two products by 3u,
-    /// the quotient by 5u, all but the last over `n.w`.
+    /// k: n's error only counts in `n.(c - k w)`, which would be 0 without it, so it counts with
+    /// the distance p from the centre and not with the depth. Errors of c and w count in full, the
+    /// two products add 3u, the quotient 5u; all but the last are divided by `n.w`.
     ///
-    /// x. The error of k counts by `w.e1`, which is small where the plane faces the ray. That of e1
-    /// counts by p, those of c and w in whole; u for `k w`, u for the difference, 3u for the
+    /// x: k's error counts with `w.e1`, which is small if the plane faces the ray. e1's error
+    /// counts with p, those of c and w in full; u for `k w`, u for the difference, 3u for the
     /// product.
     pub fn meet(&self, ray: Off, near: f64, scene: f64) -> Option<LooseHit> {
         let (n, c, w) = (self.n, self.center, ray);
@@ -162,12 +164,12 @@ impl LooseEllipse {
             rho_squared.e += self.turned(p.length_squared());
             (Rounded { v: k, e: k_e }, x, y, rho_squared)
         } else {
-            // Anywhere.
+            // The ray may meet it anywhere.
             let any = Rounded { v: 0.0, e: f64::INFINITY };
             (any, any, any, any)
         };
         let (k, x, y, rho_squared) = hit;
-        // The near plane and the scene's depth are made of the projection: 8u.
+        // The near plane and the scene's depth are computed from the projection: 8u.
         let between = |near: f64, scene: f64, from: f64, to: f64| from >= near && to < scene;
         let (less, more) = (1.0 - 8.0 * U, 1.0 + 8.0 * U);
         let maybe = rho_squared.v - rho_squared.e <= 1.0
@@ -178,16 +180,16 @@ impl LooseEllipse {
         maybe.then_some(LooseHit { k, x, y, rho_squared, sure })
     }
 
-    /// What the turn makes of the square of a distance in half-axes: its slope by the angle is no
-    /// more than all that it ranges over, `d^2 (1/b^2 - 1/a^2)`. A circle may turn.
+    /// Change of a squared distance in half-axes by the rotation: its derivative by the angle is at
+    /// most its range, `d^2 (1/b^2 - 1/a^2)`. A circle does not change.
     fn turned(&self, distance_squared: f64) -> f64 {
         let (a, b) = (self.a.v + self.a.e, self.b.v - self.b.e);
         let range = distance_squared * (1.0 / (b * b) - 1.0 / (a * a)).max(0.0);
         if self.turn > 0.0 { self.turn.min(1.0) * range } else { 0.0 }
     }
 
-    /// See [`Ellipse::amplitude`]. The volume 2u, pi J 3u, the least that it faces the eye u; a quotient more for
-    /// those that divide twice.
+    /// See [`Ellipse::amplitude`]. The volume errs by 2u, pi J by 3u, the min of facing by u; GPUs
+    /// that divide twice have one more quotient.
     pub(super) fn amplitude(&self, foam: f64, settings: &Settings) -> Rounded {
         let z = Rounded { v: self.center.v.z, e: self.center.e };
         let facing = self.n.dot(self.center) / z;
@@ -199,7 +201,7 @@ impl LooseEllipse {
     }
 }
 
-/// The larger of two, of which either may be.
+/// The larger of two uncertain numbers.
 fn larger(a: Rounded, b: Rounded) -> Rounded {
     Rounded { v: a.v.max(b.v), e: if a.v - a.e > b.v + b.e { a.e } else { a.e.max(b.e) } }
 }

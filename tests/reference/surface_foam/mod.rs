@@ -1,14 +1,14 @@
-//! Twin of the foam sprites: each particle of foam is an ellipse in a plane of its own through its
-//! centre, drawn out along its velocity.
+//! Twin of the foam sprites: each foam particle is an ellipse in its own plane through its centre,
+//! elongated along its velocity.
 //!
-//! With `w = (s_x, s_y, -1)` the pixel's ray, n the plane's normal and c the centre, `k w` with
-//! `k = n.c / n.w` is the point of the plane that is seen, at the depth k; (x, y) is its place in
-//! the ellipse, in half-axes. [`depth`] holds the least k where foam is, [`thickness`] the sum of
-//! `A sqrt(1 - rho^2) exp(-2 rho^2)`, torn by a noise that is each particle's own.
+//! With `w = (s_x, s_y, -1)` the pixel's ray, n the plane's normal and c the centre, `k w` with `k
+//! = n.c / n.w` is the visible point of the plane at the depth k, and (x, y) is its position in the
+//! ellipse, in half-axes. [`depth`] contains the smallest k of all foam, [`thickness`] the sum of
+//! `A sqrt(1 - rho^2) exp(-2 rho^2)`, modulated by each particle's own noise.
 //!
-//! [`depth_bounds`] and [`thickness_bounds`] say between what single precision must lie. u is half
-//! an ulp; what an operation may add is what Vulkan allows. A number is [`Rounded`], of a vector
-//! the length of the error is kept. Roundings of an error are left out.
+//! [`depth_bounds`] and [`thickness_bounds`] are the bounds for single precision. u is half an ulp,
+//! and an operation errs as much as Vulkan permits. A number is [`Rounded`], a vector has the
+//! length of its error. Roundings of errors are neglected.
 
 mod bounds;
 mod ellipse;
@@ -37,67 +37,68 @@ pub use off::{Off, ray_off};
 pub use pattern::Pattern;
 pub use texels::{pixels, scene_depth};
 
-/// Drawn radius of a whole particle over the spacing.
+/// Drawn radius of a whole particle, in spacings.
 const RADIUS: f64 = 0.656;
 /// Half-axis of a sprite at rest, in radii.
 const AXIS: f64 = 2.0;
-/// Slower than this, in spacings a second, there is no direction of motion.
+/// Below this speed, in spacings per second, there is no direction of motion.
 const STILL: f64 = 1e-6;
-/// The sine below which two directions span no plane.
+/// Sine below which two directions do not span a plane.
 const PARALLEL: f64 = 1e-3;
-/// Between these cosines of velocity and view the stretch ends.
+/// Cosines of velocity and view between which the stretch vanishes.
 const HEAD_ON: (f64, f64) = (0.9, 1.0);
 /// A ray with |n.w| below this does not meet the plane.
 const EDGE_ON: f64 = 1e-6;
-/// The least |n_z| that the amplitude is divided by.
+/// Min |n_z| by which the amplitude is divided.
 const LEAST_FACING: f64 = 0.2;
-/// Cells of the noise to a half-axis.
+/// Noise cells per half-axis.
 const CELLS: f64 = 1.6;
-/// Least half-axis of what makes the thickness, in texels of both.
+/// Min half-axis of a thickness sprite in texels, along both axes.
 const LEAST_AXIS: f64 = 1.5;
-/// Texels of a cell between which its noise comes.
+/// Texels per cell between which the noise appears.
 const TOLD_APART: (f64, f64) = (1.0, 2.0);
-/// The noise of the particles begins within this many cells.
+/// The particles' noises begin within this many cells.
 const SPREAD: f64 = 64.0;
 
-/// The part of the thickness' half-axes that the depth's have: eight times the foam, at most all.
+/// Half-axes of the depth's sprite relative to the thickness': eight times the foam, at most 1.
 fn depth_part(foam: f64) -> f64 {
     (8.0 * foam).min(1.0)
 }
 
-/// A particle of foam, in eye space.
+/// A foam particle in eye space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sprite {
-    /// Its centre, world units; z is negative before the camera.
+    /// Centre in world units; z is negative in front of the camera.
     pub center: DVec3,
-    /// How much of it is foam; none is drawn at 0, more than 1 counts as 1.
+    /// Amount of foam; at 0 none is drawn, more than 1 counts as 1.
     pub foam: f64,
-    /// Its velocity, world units a second.
+    /// Velocity in world units per second.
     pub velocity: DVec3,
     /// Seconds since it was first seen.
     pub age: f64,
-    /// What it is known by: the noise goes by it.
+    /// Id, which selects its noise.
     pub id: u32,
-    /// Share of the sun's light in its middle, at least and at most.
+    /// Fraction of sunlight at its centre, min and max.
     pub sun: [f64; 2],
 }
 
-/// What foam is drawn by.
+/// Settings of the foam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Rest spacing of the particles, world units.
+    /// Rest spacing of the particles in world units.
     pub spacing: f64,
-    /// From this speed on, spacings a second, a sprite is twice as long as wide.
+    /// Speed from which on a sprite is twice as long as wide, in spacings per second.
     pub motion_threshold: f64,
-    /// Foam this far behind the nearest is before the water still, world units.
+    /// Depth of the front layer behind the frontmost foam, in world units.
     pub front_depth: f64,
-    /// g, how much the noise tears a sprite; 0 is not at all.
+    /// g, strength of the noise; 0 means none.
     pub noise: f64,
-    /// Cells of the noise that pass in a second.
+    /// Noise cells that pass per second.
     pub noise_rate: f64,
-    /// In the place of that noise.
+    /// Replaces that noise, if there is one.
     pub pattern: Option<Pattern>,
-    /// What a sprite adds is rounded to multiples of this, world units; 0: it is not. A power of two.
+    /// A contribution is rounded to multiples of this, a power of two in world units; 0: not
+    /// rounded.
     pub step: f64,
 }
 
@@ -116,8 +117,8 @@ impl Settings {
         }
     }
 
-    /// What an addend may be rounded to, at least or at most by the sign: down or up to a whole step next to
-    /// it. The quotient is rounded by u, and the sum with the chance.
+    /// Contribution rounded to a step: down for a negative sign, up for a positive one. The
+    /// quotient is rounded by u, and so is the sum with the random number.
     fn in_steps(&self, addend: f64, sign: f64) -> f64 {
         if self.step == 0.0 {
             return addend;
@@ -128,42 +129,43 @@ impl Settings {
         (whole * self.step).max(0.0)
     }
 
-    /// How much of what lies so far behind the nearest foam counts to the front layer.
+    /// Fraction of foam this far behind the frontmost that counts to the front layer.
     fn within(&self, behind: f64) -> f64 {
         1.0 - smoothstep(self.front_depth, self.front_depth + self.spacing, behind)
     }
 
-    /// How far what lies so far behind the nearest foam is, 0 to 1: `d / (d + s)`, d less a spacing s.
+    /// Weight of the distance behind the frontmost foam, 0 to 1: `d / (d + s)`, with d reduced by a
+    /// spacing s.
     fn far(&self, behind: f64) -> f64 {
         let past = (behind - self.spacing).max(0.0);
         past / (past + self.spacing)
     }
 
-    /// How much of a sprite there still is so far before the scene: it sinks into it within half a
+    /// Fraction of a sprite that is drawn this far before the scene: it fades out within half a
     /// spacing.
     fn sunk(&self, before: f64) -> f64 {
         (before / (0.5 * self.spacing)).clamp(0.0, 1.0)
     }
 
-    /// r, the drawn radius of a whole particle, world units.
+    /// r, the drawn radius of a whole particle in world units.
     fn radius(&self) -> f64 {
         RADIUS * self.spacing
     }
 }
 
 impl Sprite {
-    /// f, which is in (0, 1], if it may be drawn at all.
+    /// f, which is in (0, 1], if the sprite may be drawn.
     fn part(&self) -> Option<f64> {
         let finite = self.center.is_finite() && self.velocity.is_finite();
         (finite && self.foam > 0.0).then_some(self.foam.min(1.0))
     }
 
-    /// The same if it lies beyond a depth.
+    /// The same, if its centre lies beyond a depth.
     fn part_beyond(&self, near: f64) -> Option<f64> {
         self.part().filter(|_| -self.center.z > near)
     }
 
-    /// Where its noise is looked up at (x, y) of its ellipse.
+    /// Position in the noise at (x, y) of its ellipse.
     fn place(&self, x: f64, y: f64, settings: &Settings) -> DVec3 {
         let own = origin(self.id);
         let p = DVec3::new(CELLS * x, CELLS * y, self.age * settings.noise_rate);

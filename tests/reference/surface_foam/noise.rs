@@ -1,4 +1,4 @@
-//! The noise that tears a sprite, and its maximum.
+//! The noise that modulates a sprite, and its bounds.
 
 use super::super::classify::pcg;
 use super::SPREAD;
@@ -14,14 +14,14 @@ pub fn origin(id: u32) -> DVec3 {
     SPREAD * DVec3::new(uniform(0), uniform(1), uniform(2))
 }
 
-/// Perlin's gradient noise of a place in cells, about 0 and within the root of 1.5 of it.
+/// Perlin's gradient noise at a position in cells: mean 0, absolute value at most the root of 1.5.
 pub fn noise(place: DVec3) -> f64 {
     let cell = place.floor();
     let fr = place - cell;
     let fade = fr * fr * fr * (fr * (6.0 * fr - 15.0) + 10.0);
     let corner = |i: i64, j: i64, k: i64| {
         let offset = fr - DVec3::new(i as f64, j as f64, k as f64);
-        // To 32 bits by wrapping.
+        // Wraps to 32 bits.
         let at = [cell.x as i64 + i, cell.y as i64 + j, cell.z as i64 + k].map(|c| c as u32);
         gradient(at, offset)
     };
@@ -31,19 +31,21 @@ pub fn noise(place: DVec3) -> f64 {
     mix(along_y(0), along_y(1), fade.z)
 }
 
-/// What a coordinate counts in the hash of a lattice point, and what mixes them: the primes of xxHash.
+/// Factors of the coordinates in a lattice point's hash, and the factor that mixes it: primes of
+/// xxHash.
 const LATTICE: [u32; 3] = [2_654_435_761, 2_246_822_519, 3_266_489_917];
 const MIX: u32 = 668_265_263;
 
-/// Which of sixteen gradients, the twelve and four again, a lattice point has.
+/// A lattice point's gradient: one of sixteen numbers, for twelve gradients of which four occur
+/// twice.
 pub(super) fn gradient_number([i, j, k]: [u32; 3]) -> u32 {
     let [i, j, k] = [(i, 0), (j, 1), (k, 2)].map(|(c, axis)| c.wrapping_mul(LATTICE[axis]));
     let joined = i ^ j ^ k;
     (joined ^ (joined >> 15)).wrapping_mul(MIX) >> 28
 }
 
-/// The product of an offset with the gradient of a lattice point, one of twelve to the middle of a
-/// cube's edges.
+/// Product of an offset with the gradient of a lattice point, one of twelve vectors to the centres
+/// of a cube's edges.
 pub(super) fn gradient(at: [u32; 3], offset: DVec3) -> f64 {
     let h = gradient_number(at);
     let u = if h < 8 { offset.x } else { offset.y };
@@ -55,28 +57,28 @@ pub(super) fn gradient(at: [u32; 3], offset: DVec3) -> f64 {
     (if h & 1 == 0 { u } else { -u }) + (if h & 2 == 0 { v } else { -v })
 }
 
-/// The most that [`noise`] is, by Jensen: a gradient is as long as the root of 2, and the squares
-/// of an offset's parts are a quarter each at most in the mean by the fades,
-/// `(1 - F) f^2 + F (1 - f)^2 <= f (1 - f)`, as `F <= f` up to the middle.
+/// Max of [`noise`], by Jensen's inequality: a gradient's length is the root of 2, and the mean
+/// square of an offset's component, weighted by the fades, is at most a quarter: `(1 - F) f^2 + F
+/// (1 - f)^2 <= f (1 - f)`, as `F <= f` up to the middle.
 pub fn noise_reach() -> f64 {
     1.5_f64.sqrt()
 }
 
-/// The most that [`noise`] changes by a fade: the two ends along it are, by the same, `sqrt(2)
-/// sqrt(f^2 + 1/2)` and that of 1 - f at most. The sum is convex, hence the largest at 0 and 1.
+/// Max change of [`noise`] by a fade: by the same inequality, the two ends along it are at most
+/// `sqrt(2) sqrt(f^2 + 1/2)` and that of 1 - f. The sum is convex, so its max is at 0 and 1.
 fn noise_by_fade() -> f64 {
     1.0 + 3.0_f64.sqrt()
 }
 
-/// The most that [`noise`] changes along an axis, to a cell: a part of a gradient is 1 at most, and
-/// the slope of a fade `30 f^2 (1 - f)^2` is 15/8 at most. It is continuous from cell to cell.
+/// Max change of [`noise`] along an axis per cell: a gradient's component is at most 1, and the
+/// slope of a fade, `30 f^2 (1 - f)^2`, at most 15/8. The noise is continuous between cells.
 pub fn noise_slope() -> f64 {
     1.0 + 15.0 / 8.0 * noise_by_fade()
 }
 
-/// What single precision adds to [`noise`] at a given place. The place in the cell and the product
-/// with a gradient: 4u, of parts that are 1 at most. A fade: 15u, 9u and 1u of the sums, 3u of the
-/// products. Three times a mix, 5u of numbers that are 2 at most.
+/// Error of [`noise`] in single precision at an exact position. The position in the cell and the
+/// product with a gradient: 4u of components of at most 1. A fade: 15u, with 9u and 1u of the sums
+/// and 3u of the products. Three mixes: 5u each of numbers of at most 2.
 pub fn noise_rounding() -> f64 {
     U * (4.0 + 3.0 * 28.0 * noise_by_fade() + 3.0 * 10.0)
 }

@@ -6,7 +6,7 @@ use crate::support::tolerance::U;
 use glam::DVec3;
 use std::f64::consts::SQRT_2;
 
-/// A vector and the length of the error that it may have.
+/// A vector and the length of its error.
 #[derive(Clone, Copy, Debug)]
 pub struct Off {
     pub v: DVec3,
@@ -14,29 +14,29 @@ pub struct Off {
 }
 
 impl Off {
-    /// A point by the product with the view's matrix: a product and three sums an axis, 4u of
-    /// `|R| |p| + |t|`, with |p| <= |c| + |t|; as a vector |R| is no longer than the root of 3.
+    /// A point transformed by the view matrix: a product and three sums per axis, 4u of `|R| |p| +
+    /// |t|`, with |p| <= |c| + |t|; as a vector, |R| is at most the root of 3.
     pub fn point(v: DVec3, view: &View) -> Self {
         let t = view.view.w_axis.truncate().length();
         let terms = 3.0_f64.sqrt() * (v.length() + t) + t;
         Self { v, e: 4.0 * U * terms }
     }
 
-    /// A direction by the same without t: 3u.
+    /// A direction transformed by the view matrix, without t: 3u.
     pub fn direction(v: DVec3) -> Self {
         Self { v, e: 3.0 * 3.0_f64.sqrt() * U * v.length() }
     }
 
-    /// The error lies across in whole and turns the vector. The sum of squares 3u/2, the root by `1
-    /// / inversesqrt` 9u, the quotient 5u.
+    /// The whole error may lie across the vector and rotate it. The sum of squares adds 3u/2, the
+    /// root by `1 / inversesqrt` 9u, the quotient 5u.
     pub fn normalize(self) -> Self {
         let length = self.v.length();
         let turned = self.e / (length - self.e).max(f64::MIN_POSITIVE);
         Self { v: self.v / length, e: turned + 16.0 * U }
     }
 
-    /// Two products and a sum, 2u of `|a_i b_j| + |a_j b_i|`: as a vector no longer than
-    /// 2^(3/2) u |a| |b|.
+    /// Two products and a difference, 2u of `|a_i b_j| + |a_j b_i|`: as a vector at most 2^(3/2) u
+    /// |a| |b|.
     pub fn cross(self, other: Self) -> Self {
         let v = self.v.cross(other.v);
         let (a, b) = (self.v.length(), other.v.length());
@@ -65,8 +65,8 @@ impl Off {
     }
 }
 
-/// The ray of a pixel as `pixel scale + offset`, up to 2 / P00 and (1 + |P20|) / P00: two rounded
-/// numbers, a product and a sum, 4u.
+/// A pixel's ray as `pixel scale + offset`, with terms up to 2 / P00 and (1 + |P20|) / P00: two
+/// rounded numbers, a product and a sum, 4u.
 pub fn ray_off(view: &View, x: usize, y: usize) -> Off {
     let terms = (3.0 + view.shift().abs()) / view.focal().abs();
     Off { v: view.ray(x, y), e: 4.0 * U * terms.length() }

@@ -1,13 +1,14 @@
 //! Twin of the pattern that moves with the foam.
 //!
-//! A noise in space, looked up where foam would be halfway through a period if it went on as it goes: for a phase with
-//! the part p of its period gone, at `x - v (p - 1/2) T`. Of two phases half a period apart each has the weight
-//! `1 - |2p - 1|` over the root of the sum of both squares, and begins elsewhere in the noise each period. What a
-//! sprite has more of foam is e to the power of two octaves at its centre, of their slope from there, and of a third
-//! octave at each place of it, of one phase, by the id's hash. Half the square of each height times the noise's mean
-//! square is taken off.
+//! It is a noise in space, evaluated where foam with constant velocity would be in the middle of a
+//! period: for a phase of which the fraction p of its period T has passed, at `x - v (p - 1/2) T`.
+//! Two phases are half a period apart. A phase has the weight `1 - |2p - 1|` over the root of the
+//! sum of both squares, and begins at another place of the noise in each period. A sprite's factor
+//! is e to the power of two octaves at its centre, their slope from there, and a third octave at
+//! each of its points, which uses only one phase, selected by the id's hash. Half of each height
+//! squared times the noise's mean square is subtracted.
 //!
-//! [`Pattern::logarithm`] comes with the bound of what single precision makes of it.
+//! [`Pattern::logarithm`] includes the error bound of single precision.
 
 use super::super::View;
 use super::super::classify::pcg;
@@ -19,47 +20,48 @@ use crate::support::rounded::{self, Rounded, exact, off};
 use crate::support::tolerance::U;
 use glam::{DMat3, DVec3};
 
-/// Width of the octaves' cells and their heights, of the first's.
+/// Cell widths and heights of the octaves, relative to the first.
 const OCTAVES: [(f64, f64); 3] = [(1.0, 1.0), (0.53, 0.7), (0.23, 1.1)];
-/// Mean of the square of the noise.
+/// Mean square of the noise.
 pub const VARIANCE: f64 = 0.073;
-/// Most of the logarithm at the centre, and more on the way to the rim along each axis.
+/// Max logarithm at the centre, and max change from there to the rim along each axis.
 const MOST: f64 = 1.0;
-/// The most by which any slope of the noise changes a cell, along any axis: with fades of slope 15/8 and curvature
-/// 5.78 at most, gradients whose parts are 1, and ends that differ by 1 + sqrt(3), along one axis
-/// `2 15/8 2 + 5.78 (1 + sqrt(3)) < 24`, across `15/8 2 + 15/8 (2 + 15/8 2 (1 + sqrt(3))) < 27`.
+/// Max change of any slope of the noise per cell along any axis. Fades have a slope of at most 15/8
+/// and a curvature of at most 5.78, gradients have components of 1, and the ends differ by 1 +
+/// sqrt(3): along one axis `2 15/8 2 + 5.78 (1 + sqrt(3)) < 24`, across `15/8 2 + 15/8 (2 + 15/8 2
+/// (1 + sqrt(3))) < 27`.
 const CURVATURE: f64 = 27.0;
-/// What single precision adds to a slope: of eight corners the gradients' parts, 5u of a sum of 1, and the products
-/// with fades, 20u of a sum of 6.5; 16u of their sums.
+/// Error of a slope in single precision, for eight corners: components of gradients, 5u of a sum of
+/// 1; products with fades, 20u of a sum of 6.5; their sums, 16u.
 const SLOPE_ROUNDING: f64 = 256.0 * U;
-/// Widths of the first octave, half of them to each side of the origin, after which places begin again.
+/// Positions repeat after this many widths of the first octave, centred at the origin.
 const WRAP: f64 = 65_536.0;
 
-/// What a pattern goes by.
+/// Settings of the pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pattern {
-    /// How much it shows.
+    /// Strength.
     pub strength: f64,
-    /// Width of the first octave's cells, spacings.
+    /// Cell width of the first octave, in spacings.
     pub size: f64,
-    /// Seconds.
+    /// Period in seconds.
     pub period: f64,
-    /// Of the frame, seconds.
+    /// Time of the frame, in seconds.
     pub time: f64,
 }
 
-/// One of the two at a time.
+/// One of the two phases at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Phase {
-    /// Of both squares the sum is 1.
+    /// Weight; the squares of both weights sum to 1.
     pub part: f64,
-    /// Seconds by which places are carried.
+    /// Seconds by which positions are moved along the velocity.
     pub carried: f64,
-    /// Where in the noise it begins, in cells of the first octave.
+    /// Where in the noise the phase begins, in cells of the first octave.
     pub began: f64,
 }
 
-/// A place in cells, and how far it may be off.
+/// A position in cells, and its error.
 #[derive(Clone, Copy)]
 struct Place {
     v: DVec3,
@@ -67,7 +69,7 @@ struct Place {
 }
 
 impl Pattern {
-    /// Both.
+    /// Both phases.
     pub fn phases(&self) -> [Phase; 2] {
         let gone = |late: f64| (self.time / self.period + late).rem_euclid(1.0);
         let weight = |late| 1.0 - (2.0 * gone(late) - 1.0).abs();
@@ -82,8 +84,9 @@ impl Pattern {
         })
     }
 
-    /// A point of the world, moving. Width and quotient 6u of the place, what is taken off a number of `WRAP`s none;
-    /// the way 8u, the sums 3u of their terms, the quotient by the octave 5u.
+    /// A point of the world that moves. Width and quotient err by 6u of the position; subtracting a
+    /// multiple of `WRAP` is exact; the displacement errs by 8u, the sums by 3u of their terms, the
+    /// quotient by the octave's width by 5u.
     fn place(
         &self,
         point: Off,
@@ -106,7 +109,7 @@ impl Pattern {
         Place { v: v / cell, e: (e + 6.0 * U * v.length()) / cell }
     }
 
-    /// Height of an octave where texels are so wide.
+    /// Height of an octave for this texel width.
     fn height(&self, octave: usize, texel: Rounded, spacing: f64) -> Rounded {
         let (cell, height) = OCTAVES[octave];
         let width = off(cell * self.size * spacing, 3.0);
@@ -115,7 +118,7 @@ impl Pattern {
         off(3.0 * self.strength * height, 3.0) * told
     }
 
-    /// The logarithm of how much more there is of a sprite where a ray meets it.
+    /// Logarithm of a sprite's factor where a ray meets it.
     pub(super) fn logarithm(
         &self,
         sprite: &Sprite,
@@ -130,7 +133,7 @@ impl Pattern {
         let (point, velocity) = (to_world.transform_point3(sprite.center), turn * sprite.velocity);
         let phases = self.phases();
 
-        // The host's own numbers, at the centre.
+        // At the centre these are the host's exact numbers.
         let told = |v| Off { v, e: 0.0 };
         let mut centre = exact(0.0);
         let mut slope = Off { v: DVec3::ZERO, e: 0.0 };
@@ -146,7 +149,7 @@ impl Pattern {
                 let part = height * off(phase.part, 2.0);
                 centre = centre + part * here;
                 let cell = scale * self.size * spacing;
-                // By differences: not as the shader does.
+                // By central differences, unlike in the shader.
                 let step = 1.0e-5;
                 let along = |axis: DVec3| {
                     (noise(place.v + step * axis) - noise(place.v - step * axis)) / (2.0 * step)
@@ -161,13 +164,13 @@ impl Pattern {
         let most = |v: Rounded| v.clamp(-MOST, MOST);
         let centre = Rounded { v: centre.v.min(MOST), ..centre };
 
-        // Turned to the eye: three products a part.
+        // Rotation to eye space: three products per component.
         let turned = 4.0 * 3.0_f64.sqrt() * U;
         let slope = Off { v: turn.transpose() * slope.v, e: slope.e + turned * slope.v.length() };
         let rise = most(slope.dot(ellipse.e1) * ellipse.a) * hit.x
             + most(slope.dot(ellipse.e2) * ellipse.b) * hit.y;
 
-        // The finest, at the hit. Its centre goes to eye space and back.
+        // The finest octave, at the hit. Its centre is transformed to eye space and back.
         let which = usize::try_from(pcg(sprite.id) >> 31).expect("a bit");
         let away = to_world.w_axis.truncate().length();
         let back = 16.0 * U * (3.0_f64.sqrt() * sprite.center.length() + away);

@@ -6,7 +6,7 @@ use super::texels::{in_full, scene_depth};
 use super::{Settings, Sprite, depth, depth_bounds, origin, thickness, thickness_bounds};
 use glam::{Vec2, Vec3};
 
-/// The definition in single precision, each operation rounded.
+/// The definition in single precision, with each operation rounded.
 struct Single {
     center: Vec3,
     e1: Vec3,
@@ -17,7 +17,7 @@ struct Single {
 }
 
 impl Single {
-    /// Of the depth, or of the thickness, in these texels.
+    /// The sprite of the depth, or of the thickness, for these texels.
     fn new(
         world: &Sprite,
         view: &View,
@@ -86,7 +86,7 @@ impl Single {
         for (i, sum) in sums.iter_mut().enumerate() {
             let corner = Vec3::from([i & 1, i >> 1 & 1, i >> 2].map(|c| c as f32));
             let lattice = (cell + corner).to_array().map(|c| c as i32 as u32);
-            // The sum of two is rounded as single precision does it.
+            // The sum of two terms is rounded as in single precision.
             *sum = gradient(lattice, (fr - corner).as_dvec3()) as f32;
         }
         let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;
@@ -138,7 +138,7 @@ impl Single {
     }
 }
 
-/// How much of their bounds single precision makes use of, and how wide they are.
+/// Fraction of the bounds that single precision uses, and their widths.
 #[derive(Default)]
 pub(super) struct Use {
     pub(super) worst: [f64; 4],
@@ -147,8 +147,8 @@ pub(super) struct Use {
 }
 
 impl Use {
-    /// Holds both the twin and single precision against the bounds of some sprites, which are
-    /// given in the world.
+    /// Compares the twin and single precision with the bounds of sprites that are given in world
+    /// space.
     pub(super) fn check(
         &mut self,
         world: &[Sprite],

@@ -1,4 +1,4 @@
-//! The twin of the foam against closed forms, and its bounds against single precision.
+//! Compares the foam's twin with closed forms, and its bounds with single precision.
 
 use super::super::tests::view;
 use super::super::{EMPTY, Image, View, is_surface};
@@ -15,7 +15,7 @@ fn settings() -> Settings {
     Settings { noise: 0.0, ..Settings::new(SPACING) }
 }
 
-/// A whole one at rest.
+/// A sprite at rest that is entirely foam.
 fn sprite(center: [f64; 3]) -> Sprite {
     let center = DVec3::from(center);
     Sprite { center, foam: 1.0, velocity: DVec3::ZERO, age: 0.0, id: 7, sun: [1.0; 2] }
@@ -29,7 +29,7 @@ fn nothing(view: &View) -> Image<f64> {
     Image::new(view.width, view.height, f64::INFINITY)
 }
 
-/// The sums of a thickness' first channels.
+/// Sums of the first two channels of a thickness image.
 fn total(thickness: &Image<[f64; 3]>) -> DVec2 {
     thickness.data.iter().map(|t| DVec2::new(t[0], t[1])).sum()
 }
@@ -38,8 +38,8 @@ fn random(random: &mut Random, low: f64, high: f64) -> f64 {
     f64::from(random.between(low as f32, high as f32))
 }
 
-/// Numbers that single precision holds: sprites before and round the eye, of all speeds, some
-/// straight at it or across it, some just at a threshold.
+/// Sprites with coordinates in single precision, in front of and around the eye, at all speeds.
+/// Some move straight at the eye or across the view, some exactly at a threshold.
 fn cloud(seed: u64, count: usize, far: f64, settings: &Settings) -> Vec<Sprite> {
     let mut r = Random(seed);
     let cloud = (0..count).map(|i| {
@@ -82,11 +82,13 @@ fn a_sprite_holds_its_particles_volume() {
         let n = ellipse.axes.normal();
         let mut sum = 0.0;
         for (x, y) in (0..301).flat_map(|y| (0..401).map(move |x| (x, y))) {
-            // Metres along z over a pixel of the plane across it at depth k.
+            // The thickness is in metres along z, over a pixel's area at the depth k of the
+            // ellipse's plane.
             let k = n.dot(sprite.center) / n.dot(view.ray(x, y));
             sum += drawn.at(x, y)[0] * k * k * view.c_x() * view.c_y();
         }
-        // k and n . ray change over the sprite by its half-axes over its distance, which cancels but for the square.
+        // k and n . ray vary over the sprite by the ratio of half-axis to distance; the linear part
+        // cancels.
         let expected = foam * SPACING.powi(3);
         assert!((sum / expected - 1.0).abs() < 3e-3, "{at:?}, {velocity:?}: {sum}");
         assert_eq!(total(&drawn).y, 0.0, "no depth of foam");
@@ -122,17 +124,18 @@ fn the_axes_follow_the_motion() {
         }
     }
     assert!(kinds.into_iter().all(|n| n > 400), "{kinds:?}");
-    // Half of the threshold is half of the stretch.
+    // Half of the threshold speed gives half of the stretch.
     let half = moving([0.0, 0.0, -9.0], [0.5 * 21.0 * SPACING, 0.0, 0.0]);
     assert!((axes(&half, &settings).stretch - 0.5).abs() < 1e-12);
-    // At rest: level, but where straight up and the view are one.
+    // At rest the ellipse is level, unless the view is nearly vertical.
     let level = axes(&sprite([0.3, 2.0, -5.0]), &settings);
     assert!(level.e2.y.abs() < 1e-12 && level.e1.y.abs() > 0.9);
     let steep = axes(&sprite([1e-5, random(&mut r, 4.0, 5.0), -1e-5]), &settings);
     assert!(steep.e2.is_finite() && steep.e2.x.abs() < 1e-3 && steep.e2.z.abs() > 0.99);
 }
 
-/// Pixels of the image of the depth with a surface, and their extents.
+/// Number of pixels with a surface in a depth image, and number of columns and rows that contain
+/// some.
 fn extents(drawn: &Image<f64>) -> (usize, usize, usize) {
     let seen = |x: usize, y: usize| is_surface(drawn.at(x, y));
     let column = |x: &usize| (0..drawn.height).any(|y| seen(*x, y));
@@ -149,7 +152,7 @@ fn motion_across_doubles_and_towards_the_eye_does_not() {
     let (at, fast) = ([0.0, 0.0, -6.0], 30.0 * SPACING);
     let of = |s: Sprite| extents(&depth(&[s], &view, 0, &settings, &nothing(&view)));
     let rest = of(sprite(at));
-    // 2 r over 6, in pixels of 1/120 of depth.
+    // A diameter of 2 r at a depth of 6, in pixels of 1/120 per unit of depth.
     let expected = 2.0 * 2.0 * 0.656 * SPACING / 6.0 * 240.0;
     assert!((rest.1 as f64 - expected).abs() < 2.0 && rest.1 == rest.2, "{rest:?}");
     for (velocity, by) in [
@@ -185,7 +188,7 @@ fn depth_is_that_of_the_nearest_plane() {
         assert_eq!(all.data[i], least);
     }
     assert!(extents(&all).0 > 500);
-    // Every point lies in the plane and in the ellipse; all pixels were looked at.
+    // Every hit lies in the plane and in the ellipse, and no pixel was skipped.
     for (sprite, drawn) in sprites.iter().zip(&single).take(60) {
         let foam = sprite.foam.min(1.0);
         let ellipse = Ellipse::deep(sprite, foam, &view, &settings);
@@ -236,7 +239,7 @@ fn what_takes_no_part() {
 fn the_scene_hides_by_the_planes_depth() {
     let settings = settings();
     let view = view(DVec2::splat(2.0), DVec2::ZERO, 120, 120);
-    // Nearer on the right: half of it is before the scene.
+    // The sprite is nearer on its right side, and half of it is before the scene.
     let tilted = [moving([0.0, 0.0, -6.0], [20.0 * SPACING, 0.0, 18.0 * SPACING])];
     let wall = Image::new(120, 120, 6.0);
     let open = depth(&tilted, &view, 0, &settings, &nothing(&view));
@@ -246,7 +249,7 @@ fn the_scene_hides_by_the_planes_depth() {
     }
     let ratio = extents(&cut).0 as f64 / extents(&open).0 as f64;
     assert!((0.4..0.7).contains(&ratio), "{ratio}");
-    // What is no depth hides nothing.
+    // Invalid depths of the scene hide nothing.
     for none in [0.0, -4.0, f64::NAN, EMPTY] {
         assert_eq!(depth(&tilted, &view, 0, &settings, &Image::new(120, 120, none)), open);
     }
@@ -258,7 +261,7 @@ fn the_scene_hides_by_the_planes_depth() {
     let (all, half) = (sum(&nothing(&view), 0).x, sum(&wall, 0).x);
     assert!((0.4..0.7).contains(&(half / all)));
     assert!((sum(&wall, 2).x / half - 1.0).abs() < 0.05);
-    // The texel goes by the pixel after its middle.
+    // A texel uses the scene's depth at the pixel after its centre.
     let stripes = Image::from_fn(120, 120, |x, _| if x % 4 == 2 { 99.0 } else { 1.0 });
     assert!((sum(&stripes, 2).x / all - 1.0).abs() < 0.05);
     assert!(sum(&stripes, 0).x < 0.3 * all);
@@ -279,16 +282,17 @@ fn the_window_behind_the_nearest_foam() {
     assert!((foam.at(30, 30) - 4.0).abs() < 1e-9);
     let (all, near) = (of(&[at_4, at_7, at_8], &foam), of(&[at_4, at_7], &foam));
     for (x, y) in (0..61).flat_map(|y| (0..61).map(move |x| (x, y))) {
-        // 7 spacings are 3.5, and one more. Nothing where the depth has nothing, though there is some.
+        // 7 spacings are 3.5, then the window of one spacing. There is no front layer where the
+        // depth image is empty, although there is foam.
         let expected = if is_surface(foam.at(x, y)) { near.at(x, y)[0] } else { 0.0 };
         assert!((all.at(x, y)[1] - expected).abs() < 1e-12);
         assert!(all.at(x, y)[1] <= all.at(x, y)[0]);
     }
-    // By how far behind they lie, less a spacing: 3.4 and 4.1, of which 0.5.
+    // The weighted distance behind the frontmost foam: 3.4 and 4.1, minus a spacing of 0.5.
     let alone = |s: &Sprite| of(&[*s], &foam).at(30, 30)[0];
     let expected = alone(&at_7) * 2.9 / 3.4 + alone(&at_8) * 3.6 / 4.1;
     assert!((all.at(30, 30)[2] - expected).abs() < 1e-12 && expected > 0.0);
-    // Of little foam the depth is smaller than the thickness.
+    // For little foam the depth sprite is smaller than the thickness sprite.
     let little = [Sprite { foam: 0.0625, ..at_4 }];
     let rim = of(&little, &depth(&little, &view, 0, &settings, &none));
     assert!(rim.data.iter().any(|t| t[0] > 0.0 && t[1] == 0.0 && t[2] == 0.0));
@@ -310,21 +314,21 @@ fn the_noise_is_even_continuous_and_does_not_repeat() {
         sum += value;
         squares += value * value;
         most = most.max(value.abs());
-        // Every second across the border of cells.
+        // Every second sample lies across a border between cells.
         let at = if i % 2 == 0 { at } else { DVec3::new(at.x.round() - 5e-7, at.y, at.z) };
         let axis = [DVec3::X, DVec3::Y, DVec3::Z][i / 2 % 3];
         let step = if i % 2 == 0 { 1e-6 * axis } else { 1e-6 * DVec3::X };
         steepest = steepest.max((noise(at + step) - noise(at)).abs() / 1e-6);
     }
     let (mean, deviation) = (sum / n as f64, (squares / n as f64).sqrt());
-    // Neighbours of a sample are none of it: the samples are independent.
+    // The samples are independent, because they are far apart.
     assert!(mean.abs() < 4.0 * deviation / (n as f64).sqrt(), "{mean}");
     assert!(deviation > 0.2 && most > 0.8 && most <= noise_reach(), "{deviation}, {most}");
     assert!(steepest > 1.5 && steepest <= noise_slope(), "{steepest}");
     for corner in [DVec3::ZERO, DVec3::new(-3.0, 5.0, 64.0), DVec3::splat(-1.0)] {
         assert_eq!(noise(corner), 0.0);
     }
-    // No shift along an axis brings it back.
+    // The noise does not repeat with any of these shifts along an axis.
     let sample: Vec<DVec3> = (0..3000).map(|_| place(100.0)).collect();
     let values: Vec<f64> = sample.iter().map(|at| noise(*at)).collect();
     let norm: f64 = values.iter().map(|v| v * v).sum();
@@ -348,7 +352,7 @@ fn the_gradients_are_the_twelve_edges() {
         *found.entry(g).or_insert(0) += 1;
     }
     assert_eq!(found.len(), 12);
-    // Four of them of two hashes.
+    // Four of the gradients belong to two hash values.
     for (g, count) in found {
         let twice = [[1, 1, 0], [-1, 1, 0], [0, -1, 1], [0, -1, -1]].contains(&g);
         let expected = if twice { 512.0 } else { 256.0 };
@@ -356,8 +360,8 @@ fn the_gradients_are_the_twelve_edges() {
     }
 }
 
-/// Of all pairs of gradients at neighbours each is as frequent: chi squared of 255 degrees of freedom is no more
-/// than six of its standard deviations above its mean.
+/// All pairs of gradients at neighbouring lattice points are equally frequent: chi squared with 255
+/// degrees of freedom is at most six standard deviations above its mean.
 #[test]
 fn neighbours_gradients_do_not_know_of_each_other() {
     const EDGE: u32 = 32;
@@ -388,15 +392,15 @@ fn the_noise_is_each_particles_own_and_keeps_the_volume() {
     assert_ne!(later, by_id(1));
     let still = Settings { noise_rate: 0.0, ..settings };
     assert_eq!(of(Sprite { age: 0.1, id: 1, ..whole }, &still), by_id(1));
-    // Torn to nothing nowhere, as 0.9 of the noise is more than -1 nearly always: the mean is
-    // that without.
+    // 0.9 times the noise is nearly always above -1, so no thickness is clipped and the mean equals
+    // that without noise.
     let mean = (0..600).map(|id| total(&by_id(id)).x).sum::<f64>() / 600.0;
     assert!((mean / total(&smooth).x - 1.0).abs() < 0.02, "{mean}");
     let torn = Settings { noise: 4.0, ..settings };
     assert!(
         (0..9).all(|id| { of(Sprite { id, ..whole }, &torn).data.iter().all(|t| t[0] >= 0.0) })
     );
-    // An origin is in its range and a hash of its own.
+    // An origin lies in its range, and all are distributed uniformly.
     let origins: Vec<DVec3> = (0..4000).map(origin).collect();
     assert!(origins.iter().all(|o| o.min_element() >= 0.0 && o.max_element() < SPREAD));
     let mean = origins.iter().sum::<DVec3>() / 4000.0;
@@ -436,11 +440,11 @@ fn single_precision_stays_in_the_bounds() {
     let middle = usual.widths[..3].iter().map(|w| w[w.len() / 2]).collect::<Vec<_>>();
     assert!(middle[0] < 2e-5 && middle[1] < 3e-3 && middle[2] < 3e-3, "{middle:?}");
     assert!(usual.open[0] * 50 < usual.open[1], "{:?}", usual.open);
-    // The host rounds each operation to half an ulp, which is a tenth of what Vulkan asks for.
+    // The host rounds each operation to half an ulp, a tenth of what Vulkan permits.
     assert!(usual.worst[..3].iter().all(|worst| *worst > 0.05), "{:?}", usual.worst);
-    // One alone has nothing behind it.
+    // A single sprite has no foam behind it.
     let far = (many.widths[3].len(), many.worst[3]);
     assert!(usual.widths[3].is_empty() && far.0 > 100 && far.1 > 0.05, "{far:?}");
-    // At a threshold of the axes both ways are gone.
+    // At a threshold of the axes, both results occur.
     assert!(special.worst[1] > 0.9, "{:?}", special.worst);
 }

@@ -1,29 +1,32 @@
-//! The texels of the foam images: their width, which of them see a point, and occlusion.
+//! Texels of the foam images: their width, the pixels in which a point may be visible, and the
+//! depth of the scene.
 
 use super::super::{Image, View};
 use glam::{DVec2, DVec3};
 
-/// How wide a texel is at the depth of a point.
+/// Width of a texel, in world units, at the depth of a point.
 pub(super) fn texel(center: DVec3, view: &View) -> f64 {
     -center.z * view.slope_step().abs().max_element()
 }
 
-/// The pixels that may see anything within a distance of a point.
+/// Pixels whose rays may pass within `reach` of a point.
 pub fn pixels(view: &View, center: DVec3, reach: f64) -> impl Iterator<Item = (usize, usize)> {
     let (middle, half) = (center.truncate(), DVec2::splat(reach));
     let (columns, rows) = view.footprint(middle, half, -center.z - reach, -center.z + reach);
     rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
 }
 
-/// The pixel in which a texel's centre lies, of an image `2^level` times as fine: the last one
-/// where the texel sticks out.
+/// Value of the full image at the centre of a texel that covers `2^level` pixels along each axis.
+/// If the centre lies outside the image, the last pixel is used.
 pub(super) fn in_full<T: Clone>(image: &Image<T>, x: usize, y: usize, level: u32) -> T {
-    // The middle of a block lies on the border of two pixels and counts to the latter.
+    // The centre of a block lies on the border of two pixels; the one with the higher index is
+    // used.
     let middle = |i: usize| ((i << level) + (1 << level) / 2) as isize;
     image.clamped(middle(x), middle(y))
 }
 
-/// The scene's depth; what is no depth hides nothing.
+/// Depth of the scene. A value that is no valid depth counts as infinitely far, so that it hides
+/// nothing.
 pub fn scene_depth(scene: f64) -> f64 {
     if scene > 0.0 { scene } else { f64::INFINITY }
 }

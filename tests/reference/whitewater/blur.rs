@@ -1,18 +1,18 @@
-//! The blur of shadow and light.
+//! Twin of the blur of shadow and light.
 
 use super::super::{Image, View};
 use super::{Occlusion, Seen};
 
-/// Of a blur that reaches so many pixels to a side, how many it goes from number to number: no more than 32 are added up on
-/// a side, and those of an odd step, so that of each block of four by four pixels all are among them. That these are as
-/// good as all is what `a_wide_blur_is_nearly_the_gaussian` shows, which does not ask here.
+/// Step between the values of a blur with this reach in pixels: at most 32 values on each side, and
+/// an odd step, so that all pixels of each 4x4 block contribute.
+/// `a_wide_blur_is_nearly_the_gaussian`, which uses all pixels, shows that these values are enough.
 fn step_of(reach: usize) -> usize {
     (1..).step_by(2).find(|step| reach.div_ceil(*step) <= 32).unwrap_or(1)
 }
 
-/// Shadow and light, a number each and a colour, blurred along the rows and then along the columns.
-/// The radius is a pixel's own, of its first pass; what has no foam or lies more than a particle's
-/// diameter before or behind is left out. Pixels without foam keep theirs.
+/// Shadow and light, a number and a colour, blurred along rows and then along columns. The radius
+/// is that of the pixel's own first pass. Pixels without foam, or more than a particle's diameter
+/// before or behind, do not contribute. Pixels without foam keep their value.
 pub fn blur(
     values: &Image<[f64; 4]>,
     front: &Image<Option<Seen>>,
@@ -23,7 +23,7 @@ pub fn blur(
     along(&rows, front, view, settings, (0, 1))
 }
 
-/// The same along one axis.
+/// The blur along one axis.
 fn along(
     values: &Image<[f64; 4]>,
     front: &Image<Option<Seen>>,
@@ -39,7 +39,7 @@ fn along(
         let gap = 2.0 * seen.h * seen.depth / view.focal().y.abs();
         let gap = gap.max(2.0 * settings.least_blur * view.c_y() * seen.depth);
         let (at, last) = if dx == 1 { (x, view.width - 1) } else { (y, view.height - 1) };
-        // Beyond the picture there is nothing to ask for.
+        // Outside the picture there are no values.
         let reach = radius.floor().min(at.max(last - at) as f64) as usize;
         let step = step_of(reach);
         let most = (reach / step * step) as isize;
@@ -54,7 +54,7 @@ fn along(
                 continue;
             }
             let away = i as f64;
-            // The middle counts in whole, however narrow the blur.
+            // The pixel itself has the full weight, however narrow the blur.
             let weight = if i == 0 { 1.0 } else { (-away * away / (2.0 * sigma * sigma)).exp() };
             for (sum, value) in sum.iter_mut().zip(value) {
                 *sum += weight * value;

@@ -1,4 +1,4 @@
-//! Bounds of the foam images for single precision and fixed-point sums.
+//! Bounds of the foam images in single precision, with fixed-point sums.
 
 use super::super::surface_foam::Off;
 use super::super::{EMPTY, Image, View};
@@ -7,34 +7,35 @@ use super::{Particle, STEP, Settings};
 use crate::support::rounded::Rounded;
 use crate::support::tolerance::{Between, U};
 
-/// What may be the nearest foam in a pixel.
+/// A particle that may be the frontmost foam in a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
-    /// Which of the particles.
+    /// Index of the particle.
     pub particle: usize,
-    /// Its depth.
+    /// Depth.
     pub depth: Rounded,
-    /// Its search radius over half the height of the picture.
+    /// Search radius relative to half the picture's height.
     pub h: Rounded,
-    /// Its normal in the world, and the length of the error.
+    /// Normal in world space, with the length of its error.
     pub normal: Off,
 }
 
-/// Bounds of [`foam`](super::foam). What may or may not be there, by the rim of its disc, the scene
-/// or the near plane, is in the upper ones alone.
+/// Bounds of [`foam`](super::foam). Fragments that rounding may drop, at the disc's rim, at the
+/// scene or at the near plane, are only in the upper bounds.
 pub struct Bounds {
-    /// The depth of the nearest: `low` of any that may be there, `high` of those that surely are.
+    /// Depth of the frontmost foam: `low` of any that may be there, `high` of those that certainly
+    /// are.
     pub depth: Between,
-    /// What may be the nearest; there is none for sure where `depth.high` is [`EMPTY`].
+    /// Particles that may be the frontmost; if `depth.high` is [`EMPTY`] there may be none.
     pub candidates: Image<Vec<Candidate>>,
-    /// Of the three sums. Each addend is between the whole steps that its ends are rounded to:
-    /// beyond what is known of the addends a sum is off by no more than n/2 [`STEP`]s.
+    /// The three sums. Each contribution lies between the fixed-point steps to which its ends are
+    /// rounded, so rounding adds at most n/2 [`STEP`]s to a sum's error.
     pub sums: [Between; 3],
-    /// n, fragments that may be there.
+    /// n, the number of fragments that may be there.
     pub count: Image<u32>,
 }
 
-/// Bounds of the images of some particles, `scene` and `fluid` as in [`foam`](super::foam).
+/// Bounds of the images of some particles; `scene` and `fluid` as in [`foam`](super::foam).
 pub fn foam_bounds(
     particles: &[Particle],
     view: &View,
@@ -81,7 +82,7 @@ pub fn foam_bounds(
     for (all, nearest) in candidates.data.iter_mut().zip(&depth.high.data) {
         all.retain(|one: &Candidate| one.depth.v - one.depth.e <= *nearest);
     }
-    // The sum of steps becomes a number of single precision.
+    // The integer sum is converted to single precision.
     let sums = [0, 1, 2].map(|i| Between {
         low: ends.map(|sum| sum[i][0] * (1.0 - U)),
         high: ends.map(|sum| sum[i][1] * (1.0 + U)),
@@ -89,8 +90,8 @@ pub fn foam_bounds(
     Bounds { depth, candidates, sums, count }
 }
 
-/// What an addend may be rounded to, at least or at most by the sign: it and a half are added in
-/// single precision, or not.
+/// Contribution rounded to a step: down for a negative sign, up for a positive one. A half is added
+/// before truncation, with or without single precision.
 fn in_steps(addend: f64, sign: f64) -> f64 {
     let steps = addend / STEP * (1.0 + sign * 2.0 * U) + 0.5 + sign * 2.0 * U;
     (steps.floor() * STEP).max(0.0)

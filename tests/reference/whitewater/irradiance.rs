@@ -1,11 +1,12 @@
-//! Irradiance of foam: samples of the environment on the side of its normal.
+//! Irradiance of foam, from samples of the environment in the hemisphere around the foam's normal.
 
 use super::super::{Image, View};
 use super::{Occlusion, Seen, points};
 use glam::DVec3;
 
-/// The mean of the light from so many directions by their cosine: those of the points, mirrored to
-/// the normal's side. In the limit that is half of a light that is everywhere the same.
+/// Mean of radiance times cosine over the directions of the points. Directions below the surface
+/// are mirrored into the hemisphere of the normal. For constant radiance the mean tends to half of
+/// that radiance.
 pub fn irradiance_of(
     points: &[DVec3],
     view: &View,
@@ -25,8 +26,8 @@ pub fn irradiance_of(
     sum / points.len().max(1) as f64
 }
 
-/// The light in each pixel with foam, by all samples of its first pass: those that are not in the
-/// picture too.
+/// Irradiance of each pixel with foam, from all samples of the first occlusion pass, including
+/// those outside the picture.
 pub fn irradiance(
     front: &Image<Option<Seen>>,
     view: &View,

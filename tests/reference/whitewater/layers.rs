@@ -1,34 +1,34 @@
-//! The foam images: the nearest particle, and sums over all.
+//! The foam images: the frontmost particle, and sums over all particles.
 
 use super::super::{Image, View};
 use super::sprite::Sprite;
 use super::{Particle, Settings};
 use glam::DVec3;
 
-/// The nearest foam in a pixel.
+/// The frontmost foam in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
-    /// Its depth.
+    /// Depth.
     pub depth: f64,
-    /// h, the search radius of its particle over half the height of the picture.
+    /// h, the particle's search radius relative to half the picture's height.
     pub h: f64,
-    /// Its normal in the world.
+    /// Normal in world space.
     pub normal: DVec3,
 }
 
 /// The images of foam.
 #[derive(Clone, Debug)]
 pub struct Foam {
-    /// The nearest.
+    /// The frontmost foam.
     pub front: Image<Option<Seen>>,
-    /// Thickness above the fluid's surface, below it, and below it by how far.
+    /// Thickness above the fluid's surface, below it, and below it weighted by the distance.
     pub sums: Image<[f64; 3]>,
-    /// Fragments.
+    /// Number of fragments.
     pub count: Image<u32>,
 }
 
-/// The images of some particles. `scene`: the eye depth of what hides them, `fluid`: that of the
-/// fluid's surface, both [`EMPTY`](super::super::EMPTY) where there is nothing.
+/// The images of some particles. `scene`: eye depth of the scene, `fluid`: eye depth of the fluid's
+/// surface, both [`EMPTY`](super::super::EMPTY) where there is nothing.
 pub fn foam(
     particles: &[Particle],
     view: &View,

@@ -1,4 +1,4 @@
-//! The discs that a particle may have after rounding.
+//! The discs that rounding may make of a particle.
 
 use super::super::View;
 use super::super::surface_foam::Off;
@@ -9,7 +9,7 @@ use crate::support::tolerance::U;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// What a mean over the disc is off where it is a sum of many steps, in u: a millionth.
+/// Error of a mean over the disc that is a sum of many steps, in u: a millionth.
 const SUMMED: f64 = 1e-6 / U;
 
 /// A particle's disc and its errors.
@@ -17,7 +17,7 @@ const SUMMED: f64 = 1e-6 / U;
 pub(super) struct LooseSprite {
     kind: Kind,
     look: Look,
-    /// Whether it is surely drawn.
+    /// Whether it is certainly drawn.
     pub(super) sure: bool,
     depth: Rounded,
     radius: Rounded,
@@ -30,26 +30,27 @@ pub(super) struct LooseSprite {
     even: Rounded,
 }
 
-/// What of a sphere may be seen in a pixel.
+/// A sphere in a pixel, with errors.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LooseFragment {
     pub(super) depth: Rounded,
-    /// In eye space.
+    /// Normal in eye space.
     pub(super) normal: Off,
-    /// Least and most that it adds.
+    /// Min and max of its contribution.
     pub(super) amount: [f64; 2],
-    /// Whether it is surely there.
+    /// Whether it is certainly there.
     pub(super) sure: bool,
 }
 
 impl LooseSprite {
-    /// That of a particle, if it may be drawn. The near plane is made of the projection, 8u.
+    /// The disc of a particle, if it may be drawn. The near plane is computed from the projection,
+    /// 8u.
     ///
-    /// c. The slope is a quotient. By the pixel it is `slope scale + offset` or goes by way of the
-    /// clip space: either way no more than 8u of the terms in half extents. C is made of the
-    /// projection, 6u.
+    /// The centre's slope is a quotient. Its position in pixels is `slope scale + offset` or goes
+    /// through clip space; either way it errs by at most 8u of the terms, in half extents. C is
+    /// computed from the projection, 6u.
     pub(super) fn new(particle: &Particle, view: &View, settings: &Settings) -> Option<Self> {
-        // A quotient and a part of it; the half is exact.
+        // A quotient and a part of it; the factor of a half is exact.
         let radius = off(particle.drawn_radius(settings)?, 5.0);
         let center = Off::point(view.view.transform_point3(particle.position), view);
         let depth = Rounded { v: -center.v.z, e: center.e };
@@ -70,7 +71,7 @@ impl LooseSprite {
         let half = own.map(|own| own * widened);
         let kind = particle.kind;
         let told = rounded::smoothstep(exact(TOLD.0), exact(TOLD.1), least(half));
-        // Both ends of the step are exact.
+        // At both ends the smoothstep is exact.
         let told = match least(half) {
             least if least.v + least.e <= TOLD.0 => exact(0.0),
             least if least.v - least.e >= TOLD.1 => exact(1.0),
@@ -93,15 +94,15 @@ impl LooseSprite {
         Some(Self { kind, look, sure, depth, radius, at, half, facing, h, lifetime, told, even })
     }
 
-    /// The pixels of the picture that it may lie in.
+    /// The pixels that it may cover.
     pub(super) fn pixels(&self, view: &View) -> impl Iterator<Item = (usize, usize)> + use<> {
         let (at, reach) = reach(self.at, self.half);
         let (columns, rows) = pixels(at, reach, view);
         rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
     }
 
-    /// What of it may be in a pixel, before the scene, whose depth is made of the projection, 8u.
-    /// What lies within rounding of the rim or of the scene may be there in whole or not at all.
+    /// The sphere in a pixel, before the scene, whose depth is computed from the projection, 8u.
+    /// Within rounding of the rim or of the scene, it may be there completely or not at all.
     pub(super) fn meet(&self, x: usize, y: usize, scene: f64) -> Option<LooseFragment> {
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
         let [u, v] = place(pixel, self.at, self.half);
@@ -128,7 +129,7 @@ impl LooseSprite {
         Some(LooseFragment { depth, normal, amount, sure })
     }
 
-    /// The shape by the square of the distance: a root and a power.
+    /// The sprite's shape by the squared distance: a root and a power.
     fn shape(&self, square: Rounded) -> Rounded {
         let [n, m] = self.look.shapes[self.kind.index()];
         let f = loose_falloff(root(square), exact(1.0), n, m);
@@ -136,7 +137,7 @@ impl LooseSprite {
     }
 }
 
-/// See [`Settings::shares`]: least and most of each. The fluid's depth is made of the projection,
+/// Min and max of each of [`Settings::shares`]. The fluid's depth is computed from the projection,
 /// 8u.
 pub(super) fn loose_shares(settings: &Settings, depth: Rounded, fluid: f64) -> [[f64; 2]; 3] {
     if !has_fluid(fluid) {
@@ -159,8 +160,9 @@ pub(super) fn loose_shares(settings: &Settings, depth: Rounded, fluid: f64) -> [
     }
 }
 
-/// [`falloff`] of a distance: it falls, so that the ends of what the distance may be bound it; what
-/// the quotient and the powers add goes by the end too. Exact where no power is taken.
+/// [`falloff`] of an uncertain distance. The function decreases, so the ends of the distance's
+/// range bound it; errors of quotient and powers are added at the ends. Exact where no power is
+/// evaluated.
 fn loose_falloff(x: Rounded, b: Rounded, n: f64, m: f64) -> Rounded {
     let v = falloff(x.v, b.v, n, m);
     if x.v + x.e < 0.0 || x.v - x.e > b.v + b.e {
@@ -179,29 +181,29 @@ fn loose_falloff(x: Rounded, b: Rounded, n: f64, m: f64) -> Rounded {
     Rounded { v, e: (v - low).max(high - v).max(0.0) }
 }
 
-/// A power of what is not below 0; the first is the number itself.
+/// A power of a non-negative number; the first power is exact.
 fn power(x: Rounded, y: f64) -> Rounded {
     if y == 1.0 { x } else { x.pow(off(y, 1.0)) }
 }
 
-/// A root, of which nothing is known near 0 but that it is one.
+/// A root; near 0 only its range is known.
 fn root(x: Rounded) -> Rounded {
     let [low, v, high] = [-1.0, 0.0, 1.0].map(|sign| (x.v + sign * x.e).max(0.0).sqrt());
     Rounded { v, e: (v - low).max(high - v) + 9.0 * U * high }
 }
 
-/// Where a pixel's centre lies in the disc, in half-axes.
+/// Position of a pixel's centre in the disc, in half-axes.
 fn place(pixel: DVec2, at: [Rounded; 2], half: [Rounded; 2]) -> [Rounded; 2] {
     [0, 1].map(|i| (exact(pixel[i]) - at[i]) / half[i])
 }
 
-/// The middle of a disc and the furthest it may reach.
+/// Centre of a disc, and its max half-axes.
 fn reach(at: [Rounded; 2], half: [Rounded; 2]) -> (DVec2, DVec2) {
     let reach = |i: usize| half[i].v + half[i].e + at[i].e;
     (DVec2::new(at[0].v, at[1].v), DVec2::new(reach(0), reach(1)))
 }
 
-/// See [`weights`](super::sprite): a sum of so many, u each.
+/// See [`weights`](super::sprite): a sum whose terms err by u each.
 fn weights(at: [Rounded; 2], half: [Rounded; 2]) -> Rounded {
     let (middle, reach) = reach(at, half);
     let (mut sums, mut count) = ([0.0; 3], 0.0);

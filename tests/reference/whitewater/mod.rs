@@ -1,17 +1,17 @@
-//! Twin of the screen-space foam: spray, foam and bubbles as spheres that are discs in the picture,
-//! the nearest of them and how much there is, what they hide from each other, the light they get,
-//! and the picture.
+//! Twin of whitewater foam in screen space: spray, foam and bubbles as spheres that are discs in
+//! the picture; the frontmost of them and their thickness, their mutual occlusion, their light, and
+//! the picture.
 //!
-//! Lengths are scene units, `d` is the positive eye depth, C_x and C_y the world size of a pixel
-//! at depth 1. A sphere of radius r about a centre at depth d_c is an ellipse of `R = r / (d_c C)`
-//! pixels about the centre's place in the picture: the true outline of a sphere off the axis is
-//! another one. Sprites that fall between pixels are widened to R', their thickness is spread over
-//! what they meet.
+//! Lengths are in scene units, `d` is the positive eye depth, and C_x and C_y are the world size of
+//! a pixel at depth 1. A sphere of radius r at depth d_c is an ellipse with half-axes of `R = r /
+//! (d_c C)` pixels around the projected centre; the true outline of a sphere off the axis is
+//! different. Sprites that would fall between pixels are widened to R', and their thickness is
+//! spread over the pixels that they cover.
 //!
-//! [`foam`] is the definition; [`foam_bounds`] says between what single precision and sums of
-//! whole steps must lie. A number is [`Rounded`](crate::support::rounded::Rounded), a vector has
-//! the length of its error; roundings of an error are left out. u is half an ulp, operations are
-//! as exact as Vulkan asks for.
+//! [`foam`] is the definition, and [`foam_bounds`] gives its bounds for single precision and
+//! fixed-point sums. A number is [`Rounded`](crate::support::rounded::Rounded), a vector has the
+//! length of its error, and roundings of errors are neglected. u is half an ulp; operations are as
+//! accurate as Vulkan requires.
 
 mod blur;
 mod bounds;
@@ -38,14 +38,15 @@ pub use occlusion::{
 };
 pub use picture::{composite_hdr, composite_source, intensity, zeta_final};
 
-/// Sums of thickness are whole multiples of this.
+/// Sums of thickness are multiples of this.
 pub const STEP: f64 = 1.0 / 65536.0;
-/// Least half-axis of a sprite, in pixels: such a disc holds a pixel's centre wherever it lies.
+/// Min half-axis of a sprite in pixels: such a disc contains a pixel centre wherever it lies.
 const LEAST: f64 = 0.75;
-/// Half-axes, in pixels, between which the thickness goes from an even share to the kind's shape.
+/// Half-axes, in pixels, between which the thickness changes from a uniform distribution to the
+/// kind's shape.
 const TOLD: (f64, f64) = (1.0, 2.0);
 
-/// What a particle is.
+/// Kind of a particle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Foam on the surface.
@@ -57,7 +58,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind of a number: what is neither spray nor bubble is foam.
+    /// The kind of a number: everything except spray and bubbles is foam.
     pub fn of(code: u32) -> Self {
         match code {
             1 => Self::Spray,
@@ -71,12 +72,12 @@ impl Kind {
         Look::default().shape(self, x)
     }
 
-    /// Its mean.
+    /// Mean of the shape over the disc.
     pub fn mean(self) -> f64 {
         Look::default().mean(self)
     }
 
-    /// Which of a few it is.
+    /// Index of the kind.
     fn index(self) -> usize {
         match self {
             Self::Foam => 0,
@@ -86,21 +87,22 @@ impl Kind {
     }
 }
 
-/// What particles are like.
+/// Appearance of the particles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Of foam, spray, bubbles the powers of the [`falloff`] by which the thickness falls or, of a bubble, grows.
+    /// Exponents of the [`falloff`] of foam, spray and bubbles, by which the thickness decreases
+    /// from the middle or, for a bubble, increases.
     pub shapes: [[f64; 2]; 3],
-    /// Those of the lifetime.
+    /// Exponents of the falloff with age.
     pub life: [f64; 2],
-    /// How many sizes there are.
+    /// Number of sizes.
     pub sizes: u32,
-    /// Radius of a bubble in that of another particle.
+    /// Radius of a bubble relative to other particles.
     pub bubble: f64,
 }
 
 impl Default for Look {
-    /// The source's.
+    /// The source's values.
     fn default() -> Self {
         let shapes = [[2.25, 1.0], [1.5, 1.0], [2.0, 1.0]];
         Self { shapes, life: [2.0, 0.4], sizes: 5, bubble: 0.5 }
@@ -115,7 +117,8 @@ impl Look {
         if kind == Kind::Bubble { 1.0 - f } else { f }
     }
 
-    /// M, the mean of that over the disc: of `x^n` it is `2 / (n + 2)`. Else by rings of equal areas.
+    /// M, the mean of the shape over the disc: for `x^n` it is `2 / (n + 2)`. Otherwise by rings of
+    /// equal areas.
     pub fn mean(&self, kind: Kind) -> f64 {
         let [n, m] = self.shapes[kind.index()];
         let falls = match m {
@@ -129,47 +132,47 @@ impl Look {
     }
 }
 
-/// A whitewater particle, in the world.
+/// A whitewater particle in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// Its centre.
+    /// Position of its centre.
     pub position: DVec3,
-    /// What it is.
+    /// Kind.
     pub kind: Kind,
-    /// Its radius, if the data has one.
+    /// Its own radius, if it has one.
     pub radius: Option<f64>,
-    /// l, the part of its life that is over; from 1 on it is not drawn.
+    /// l, the fraction of its life that has passed; from 1 on it is not drawn.
     pub age: f64,
-    /// What it is known by: the size goes by it.
+    /// Id, which selects its size.
     pub id: u32,
 }
 
-/// What becomes of foam behind the fluid's surface.
+/// Treatment of foam behind the fluid's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Attenuation {
-    /// It is summed apart, for the water to attenuate it.
+    /// Summed separately, so that the water attenuates it.
     Water,
-    /// It is less by how far behind it lies: `falloff(x, max, n, m)`.
+    /// Reduced by its distance behind the surface: `falloff(x, max, n, m)`.
     Falloff {
-        /// From here on there is none left.
+        /// Distance from which on nothing is left.
         max: f64,
-        /// Inner power.
+        /// Inner exponent.
         n: f64,
-        /// Outer power.
+        /// Outer exponent.
         m: f64,
     },
 }
 
-/// What foam is drawn by.
+/// Settings of the foam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Radius of a particle without one.
+    /// Radius of a particle without its own.
     pub radius: f64,
     /// Rest spacing of the fluid's particles.
     pub spacing: f64,
-    /// What becomes of foam behind the fluid's surface.
+    /// Treatment of foam behind the fluid's surface.
     pub attenuation: Attenuation,
-    /// What particles are like.
+    /// Appearance of the particles.
     pub look: Look,
 }
 
@@ -180,8 +183,8 @@ impl Settings {
         Self { radius: 0.15 * spacing, spacing, attenuation: Attenuation::Water, look }
     }
 
-    /// What share of a fragment at a depth goes to the sums above the fluid's surface, below it,
-    /// and below it by how far.
+    /// Fractions of a fragment for the three sums: above the fluid's surface, below it, and below
+    /// it weighted by the distance.
     fn shares(&self, depth: f64, fluid: f64) -> [f64; 3] {
         let behind = depth - fluid;
         match self.attenuation {
@@ -197,7 +200,7 @@ impl Settings {
 }
 
 impl Particle {
-    /// r, the radius of its sphere, if it is drawn at all. Sizes differ by the id.
+    /// r, the radius of the sphere, if it is drawn. Sizes depend on the id.
     fn drawn_radius(&self, settings: &Settings) -> Option<f64> {
         let alive = self.age.is_finite() && self.age < 1.0;
         let whole = self.radius.unwrap_or(settings.radius);
@@ -206,14 +209,14 @@ impl Particle {
         (alive && self.position.is_finite() && r.is_finite() && r > 0.0).then_some(r)
     }
 
-    /// How much of it there is left by its age.
+    /// Fraction of the thickness left at its age.
     fn lifetime(&self, look: &Look) -> f64 {
         let [n, m] = look.life;
         falloff(self.age, 1.0, n, m)
     }
 }
 
-/// `(1 - (x/b)^n)^m` from 0 to b, 1 before, 0 beyond.
+/// `(1 - (x/b)^n)^m` from 0 to b, 1 below 0, 0 beyond b.
 pub fn falloff(x: f64, b: f64, n: f64, m: f64) -> f64 {
     match x {
         x if x < 0.0 => 1.0,
@@ -222,7 +225,7 @@ pub fn falloff(x: f64, b: f64, n: f64, m: f64) -> f64 {
     }
 }
 
-/// Whether a depth means a surface of fluid.
+/// Whether a depth belongs to a surface of the fluid.
 fn has_fluid(depth: f64) -> bool {
     depth < EMPTY
 }

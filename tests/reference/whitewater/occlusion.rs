@@ -1,4 +1,5 @@
-//! Ambient occlusion of the nearest foam: samples in spheres of several radii, each compared with the picture's depth.
+//! Ambient occlusion of the frontmost foam: samples in spheres with several radii, each compared
+//! with the picture's depths.
 
 use super::super::surface_foam::ray_off;
 use super::super::{Image, View, smoothstep};
@@ -8,7 +9,7 @@ use crate::support::tolerance::U;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// How far behind an occluder a sample is still hidden by it.
+/// Distance behind an occluder up to which it hides samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// In radii of the pass' sphere.
@@ -17,26 +18,27 @@ pub enum Reach {
     Scene(f64),
 }
 
-/// What the occlusion is found by.
+/// Settings of the occlusion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occlusion {
-    /// P, passes.
+    /// P, the number of passes.
     pub passes: u32,
-    /// Search radius of a pass in those of the foam: the first and what pass p adds p times.
+    /// Search radius in radii of the foam: of the first pass, and the increase per pass.
     pub radii: [f64; 2],
-    /// Samples to a cubic pixel.
+    /// Samples per cubic pixel.
     pub density: f64,
-    /// Fewest and most samples of a pass.
+    /// Min and max number of samples per pass.
     pub counts: [f64; 2],
-    /// How far occluders reach.
+    /// Reach of the occluders.
     pub reach: Reach,
-    /// Opacity of the fluid and of solids.
+    /// Opacities of the fluid and of the scene.
     pub opacities: [f64; 2],
-    /// Of the shadow `(scale omega)^power + offset`.
+    /// Scale, power and offset of the shadow `(scale omega)^power + offset`.
     pub shadow: [f64; 3],
-    /// Radius of the blur in that of the first pass' sphere.
+    /// Radius of the blur, in radii of the first pass' sphere.
     pub blur: f64,
-    /// Least radius of the blur in pixels; it is not across more than twice that in depth, or a particle's diameter.
+    /// Min radius of the blur in pixels. The blur does not cross gaps in depth larger than twice
+    /// its radius or a particle's diameter.
     pub least_blur: f64,
 }
 
@@ -56,84 +58,85 @@ impl Default for Occlusion {
     }
 }
 
-/// What samples are looked up in.
+/// The images that samples are compared with.
 #[derive(Clone, Copy)]
 pub struct Layers<'a> {
-    /// The nearest foam.
+    /// The frontmost foam.
     pub front: &'a Image<Option<Seen>>,
-    /// Intensity of all foam.
+    /// Opacity of all foam.
     pub opacity: &'a Image<f64>,
     /// Eye depth of the fluid's surface.
     pub fluid: &'a Image<f64>,
-    /// Eye depth of solids.
+    /// Eye depth of the scene.
     pub solid: &'a Image<f64>,
 }
 
-/// How much is hidden, 0 to 1, by the definition and in single precision at least and at most.
+/// Occluded fraction, 0 to 1, and its bounds in single precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Omega {
     /// By the definition.
     pub value: f64,
-    /// At least.
+    /// Lower bound.
     pub low: f64,
-    /// At most.
+    /// Upper bound.
     pub high: f64,
-    /// Where it is open, in eye space, of any length, and the length of the error.
+    /// Direction in which the surroundings are open, in eye space, of any length, and its error.
     pub open: (DVec3, f64),
 }
 
-/// What a direction to the eye counts beside that to where it is open.
+/// Weight of the direction to the eye, relative to the open directions.
 const TO_EYE: f64 = 0.02;
 
 impl Omega {
-    /// The normal that foam is lit by, in the world: that of its sphere, and the smaller that is, the more the one
-    /// to where the space about it is open. And the length of the error.
+    /// The normal with which foam is lit, in world space: that of its sphere for large foam, the
+    /// open direction for small foam, and a mixture between. Returns also its error.
     pub fn facing(&self, view: &View, h: f64, normal: (DVec3, f64)) -> (DVec3, f64) {
         let told = smoothstep(TOLD.0, TOLD.1, 0.5 * h * view.extent().y);
         let (open, open_e) = self.open;
         let length = open.length();
         let world = view.view.inverse().transform_vector3(open / length);
         let sum = world.lerp(normal.0, told);
-        // Two vectors that are so much apart are no more than twice that over the length apart as unit vectors.
+        // If two vectors differ by e, their unit vectors differ by at most 2 e over the length.
         let e = (1.0 - told) * (2.0 * open_e / length).min(2.0) + told * normal.1 + 64.0 * U;
         (sum.normalize(), (2.0 * e / sum.length()).min(2.0))
     }
 }
 
-/// By the definition, at least, at most.
+/// Value, lower bound, upper bound.
 type Ends = [f64; 3];
 
 impl Occlusion {
-    /// h_p, a pass' search radius over half the height of the picture.
+    /// h_p, the search radius of a pass, relative to half the height of the picture.
     pub fn search(&self, h: f64, pass: u32) -> f64 {
         h * (self.radii[0] + self.radii[1] * f64::from(pass))
     }
 
-    /// Samples of a sphere of so many pixels, not rounded.
+    /// Number of samples of a sphere with this radius in pixels, not rounded.
     fn wanted(&self, h_px: f64) -> f64 {
         let [fewest, most] = self.counts;
         (4.0 / 3.0 * PI * h_px.powi(3) * self.density).clamp(fewest, most)
     }
 
-    /// Samples of a sphere of so many pixels: the half is rounded up.
+    /// Number of samples, with halves rounded up.
     pub fn samples(&self, h_px: f64) -> usize {
         (self.wanted(h_px) + 0.5).floor() as usize
     }
 
-    /// What that may be in single precision: the radius is off by 8u, its cube and the rest 8u.
+    /// Range of that number in single precision: the radius errs by 8u, its cube and the rest by 8u
+    /// more.
     fn samples_ends(&self, h_px: f64) -> [usize; 2] {
         let wanted = self.wanted(h_px);
         let e = if self.counts.contains(&wanted) { 0.0 } else { (3.0 * 8.0 + 8.0) * U * wanted };
         [wanted - e, wanted + e].map(|n| (n + 0.5).floor() as usize)
     }
 
-    /// The shadow by what is hidden.
+    /// The shadow of an occluded fraction.
     pub fn zeta(&self, omega: f64) -> f64 {
         let [scale, power, offset] = self.shadow;
         ((omega.max(0.0) * scale).powf(power) + offset).clamp(0.0, 1.0)
     }
 
-    /// How much so much behind an occluder counts.
+    /// Weight of an occluder at this distance in front of a sample.
     fn falls(&self, behind: f64, radius: f64) -> f64 {
         let reach = match self.reach {
             Reach::Radii(radii) => radii * radius,
@@ -142,8 +145,8 @@ impl Occlusion {
         (1.0 - behind / reach).max(0.0).powi(2)
     }
 
-    /// How much of a sample at a depth, give or take, is hidden by what is seen in a pixel, and how much however far
-    /// that is.
+    /// How much of a sample at a depth with this error is hidden by what a pixel shows, with the
+    /// limited reach and with an unlimited one.
     fn hidden(
         &self,
         layers: &Layers<'_>,
@@ -158,8 +161,8 @@ impl Occlusion {
         let fluid = has_fluid(fluid).then_some((fluid, fluid_opacity));
         let (mut sums, mut blocked) = ([0.0; 3], [0.0; 3]);
         for (depth, opacity) in [foam, fluid, Some((solid, solid_opacity))].into_iter().flatten() {
-            // Depths are made of the projection, 8u. The radius 16u, the quotient, the difference,
-            // the square: less than 48u of no more than 1.
+            // Depths come from the projection with 8u. The radius 16u, the quotient, the difference
+            // and the square give less than 48u of at most 1.
             let (behind, e) = (d.0 - depth, d.1 + 8.0 * U * depth + U * (d.0 - depth).abs());
             let [near, far] = [behind - e, behind + e];
             let part = |behind: f64| self.falls(behind, radius) * opacity;
@@ -175,7 +178,8 @@ impl Occlusion {
         [sums, blocked].map(|sums| sums.map(|sum| sum.min(1.0)))
     }
 
-    /// What a sample adds to the three sums: what is hidden of it, what is however far, and all.
+    /// A sample's contribution to three sums: hidden within reach, hidden at any distance, and the
+    /// weight of all.
     fn sample(&self, layers: &Layers<'_>, view: &View, s: &Sample) -> [Ends; 3] {
         let (near, d) = (view.near(), -s.at.z);
         if d + s.e <= near * (1.0 - 8.0 * U) {
@@ -220,8 +224,8 @@ impl Occlusion {
         [hidden, blocked, counted]
     }
 
-    /// How much is hidden about the nearest foam of a pixel, if there is any. `points`: at least as
-    /// many of [`points`] as there may be samples.
+    /// Occluded fraction around the frontmost foam of a pixel, if there is any. `points`: at least
+    /// as many of [`points`] as there may be samples.
     pub fn omega(
         &self,
         layers: &Layers<'_>,
@@ -238,7 +242,7 @@ impl Occlusion {
         self.omega_by(layers, view, &|_| points, &weigh, at)
     }
 
-    /// The same of any points of each pass and what they count.
+    /// The same with given points for each pass, and a function for their weights.
     fn omega_by<'a>(
         &self,
         layers: &Layers<'_>,
@@ -252,7 +256,7 @@ impl Occlusion {
         let ray = ray_off(view, x, y);
         let (at, at_e) = (ray.v * seen.depth, (ray.e + U * ray.v.length()) * seen.depth);
         let ([mut hidden, mut blocked, mut counted], mut terms) = ([[0.0; 3]; 3], 0.0);
-        // The last two times the points, and the lengths of their errors.
+        // Sums of points weighted by the second and the third, and the lengths of their errors.
         let (mut dark, mut whole) = ((DVec3::ZERO, 0.0), (DVec3::ZERO, 0.0));
         for pass in 1..=self.passes {
             let h = self.search(seen.h, pass);
@@ -261,7 +265,8 @@ impl Occlusion {
             let count = self.samples(h_px);
             let ends = self.samples_ends(h_px);
             for (i, unit) in points(pass).iter().take(ends[1]).enumerate() {
-                // The radius 16u, a point u a coordinate, the product and the sum u each.
+                // The radius errs by 16u, a point by u per coordinate, and the product and the sum
+                // by u each.
                 let moved = radius * *unit;
                 let e = at_e + U * (19.0 * moved.length() + at.length());
                 let sample = Sample { lambdas: weigh(*unit), radius, at: at + moved, e };
@@ -281,7 +286,7 @@ impl Occlusion {
                 terms += 1.0;
             }
         }
-        // Two sums of so many and a quotient.
+        // Two sums with this number of terms, and a quotient.
         let rounding = (2.0 * terms + 5.0) * U;
         let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
         let share = |sums: Ends| -> Ends {
@@ -294,14 +299,15 @@ impl Occlusion {
         };
         let off = |[value, low, high]: Ends| (high - value).max(value - low);
         let [value, low, high] = share(hidden);
-        // What is hidden lies to one side: that much less than its part of what is counted lies to the other.
+        // Hidden samples lie on one side, so the mean direction of the others is the opposite of
+        // theirs.
         let part = share(blocked);
         let open = part[0] * whole.0 - dark.0 + (TO_EYE * counted[0]).max(1e-6) * DVec3::Z;
         let e = part[0] * whole.1
             + off(part) * (whole.0.length() + whole.1)
             + dark.1
             + TO_EYE * off(counted);
-        // Each of the sums is of no more than so much.
+        // None of the sums is larger than this.
         let e = e + rounding * (blocked[0] + part[0] * counted[0]);
         Some(Omega { value, low, high, open: (open, e) })
     }
@@ -309,16 +315,16 @@ impl Occlusion {
 
 /// A sample in eye space.
 struct Sample {
-    /// What it counts.
+    /// Its weight.
     lambdas: Ends,
-    /// World radius of that.
+    /// Radius of its pass' sphere in world units.
     radius: f64,
-    /// Where it is, and by what length that may be off.
+    /// Its position and the error's length.
     at: DVec3,
     e: f64,
 }
 
-/// How many pixels off a sample may be found: its slope a quotient, the rest 8u of its terms.
+/// Error of a sample's pixel position: its slope is a quotient, the rest adds 8u of its terms.
 fn pixels_off(view: &View, s: &Sample) -> DVec2 {
     let [x, y] = [0, 1].map(|i| {
         let slope = Rounded { v: s.at[i], e: s.e } / Rounded { v: -s.at.z, e: s.e };
@@ -329,14 +335,14 @@ fn pixels_off(view: &View, s: &Sample) -> DVec2 {
     DVec2::new(x, y)
 }
 
-/// How much is hidden in each pixel with foam.
+/// Occluded fraction in each pixel with foam.
 pub fn occlusion(layers: &Layers<'_>, view: &View, settings: &Occlusion) -> Image<Option<Omega>> {
     let points = points(settings.counts[1].ceil() as usize + 1);
     Image::from_fn(view.width, view.height, |x, y| settings.omega(layers, view, &points, (x, y)))
 }
 
-/// The same by a part of the points in each pixel of a block of sixteen: of `most`, in runs of [`pairs`], of which each pass
-/// has another.
+/// The same with a part of the points in each pixel of a 4x4 block: runs of [`pairs`] from a total
+/// of `most`, another run in each pass.
 pub fn shared_occlusion(
     layers: &Layers<'_>,
     view: &View,
@@ -352,17 +358,17 @@ pub fn shared_occlusion(
     })
 }
 
-/// A pixel's number in a Bayer matrix of four by four.
+/// A pixel's number in a 4x4 Bayer matrix.
 fn bayer(x: usize, y: usize) -> usize {
     let digit = |i: usize| [(x ^ y) >> i & 1, y >> i & 1];
     let [[a, b], [c, d]] = [digit(0), digit(1)];
     8 * a + 4 * b + 2 * c + d
 }
 
-/// One of each pair of points that lie opposite each other: a lattice of multiples of powers of the root of x^4 = x + 1,
-/// from the cube to the half of the unit sphere. As many lie in a part of it as there is of `lambda` in it.
+/// One point of each pair of opposite points: a lattice by the powers of the root of x^4 = x + 1,
+/// mapped from the cube to half of the unit sphere. Its density is `lambda`.
 pub fn pairs(count: usize) -> Vec<DVec3> {
-    // x = (1 + x)^(1/4), which comes nearer to the root at each step.
+    // x = (1 + x)^(1/4) converges to the root.
     let root = (0..64).fold(1.0_f64, |x, _| (1.0 + x).powf(0.25));
     let pair = |i: usize| {
         let [turn, radius, height] = [1, 2, 3].map(|power| i as f64 / root.powi(power) % 1.0);
@@ -373,7 +379,8 @@ pub fn pairs(count: usize) -> Vec<DVec3> {
     (1..=count).map(pair).collect()
 }
 
-/// The radius of a share of all `lambda`, `30 int r^2 (1-r)^2 dr` from 0 on: by Newton's method from where it is steepest.
+/// Radius of the sphere that contains this fraction of `lambda`, `30 int r^2 (1-r)^2 dr`, by
+/// Newton's method from the steepest point.
 fn within(share: f64) -> f64 {
     (0..100).fold(0.5, |r: f64, _| {
         let all = 30.0 * (r.powi(3) / 3.0 - r.powi(4) / 2.0 + r.powi(5) / 5.0);
@@ -387,12 +394,12 @@ pub fn points(count: usize) -> Vec<DVec3> {
     (1..).map(halton).filter(|s| s.length() < 1.0).take(count).collect()
 }
 
-/// A point of the Halton sequence to the bases 2, 3, 5, in the cube from -1 to 1.
+/// A point of the Halton sequence with bases 2, 3, 5, in the cube from -1 to 1.
 pub fn halton(index: u32) -> DVec3 {
     DVec3::from([2, 3, 5].map(|base| 2.0 * inverse(index, base) - 1.0))
 }
 
-/// The digits of a number mirrored at the point.
+/// The radical inverse of a number.
 fn inverse(mut index: u32, base: u32) -> f64 {
     let (mut sum, mut place) = (0.0, 1.0);
     while index > 0 {

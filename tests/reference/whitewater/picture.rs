@@ -1,19 +1,20 @@
-//! Intensity, and foam composited over a picture.
+//! Intensity of foam, and foam composited over a picture.
 
 use glam::DVec3;
 
-/// How much of what is behind it foam of a thickness hides, `rho^e / (m + rho^e)`.
+/// Opacity of foam with a thickness: `rho^e / (m + rho^e)`.
 pub fn intensity(thickness: f64, modifier: f64, power: f64) -> f64 {
     let grown = thickness.max(0.0).powf(power);
     grown / (modifier + grown)
 }
 
-/// What the shadow takes of each channel.
+/// Fraction of each channel that the shadow removes.
 pub fn zeta_final(zeta: f64, shadow_colour: DVec3) -> DVec3 {
     (zeta * (1.0 - shadow_colour)).clamp(DVec3::ZERO, DVec3::ONE)
 }
 
-/// Foam over a background as the source has it: light of at most 1, less the shadow.
+/// Foam over a background as in the source: the light is clamped to 1, and the shadow is
+/// subtracted.
 pub fn composite_source(
     background: DVec3,
     intensity: f64,
@@ -27,7 +28,8 @@ pub fn composite_source(
     (1.0 - intensity) * background + intensity * foam
 }
 
-/// The same for light of any brightness: the shadow takes its part of it.
+/// Foam over a background for light of any brightness: the light is multiplied by what the shadow
+/// leaves.
 pub fn composite_hdr(
     background: DVec3,
     intensity: f64,

@@ -10,7 +10,7 @@ use crate::reference::tests::view;
 use crate::support::scenes::Random;
 use glam::{DVec2, DVec3, Mat4, Vec2, Vec3, Vec4Swizzles};
 
-/// The nearest of the particles, its depth, search radius and normal.
+/// The frontmost particle in a pixel: index, depth, search radius and normal.
 type Nearest = Option<(usize, f32, f32, Vec3)>;
 
 fn shape(kind: Kind, x: f32) -> f32 {
@@ -26,7 +26,8 @@ fn step(x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// The definition in single precision; the sums in steps. `clip`: centres by way of the clip space.
+/// The definition in single precision, with sums in fixed-point steps. `clip`: centres are
+/// projected through clip space.
 fn single(
     particles: &[Particle],
     view: &View,
@@ -115,13 +116,13 @@ fn single(
     (front, sums)
 }
 
-/// A view whose matrix single precision holds.
+/// A rotated view whose matrix is exact in single precision.
 fn turned(base: &View, by: f32, eye: Vec3) -> View {
     let turn = Mat4::from_rotation_y(by) * Mat4::from_rotation_x(0.6 * by);
     View { view: (turn * Mat4::from_translation(eye)).as_dmat4(), ..*base }
 }
 
-/// Particles about a depth range, from specks to some that are ten pixels wide.
+/// Particles over a range of depths, from specks to a width of ten pixels.
 fn particles(view: &View, random: &mut Random, count: usize) -> Vec<Particle> {
     let back = view.view.inverse();
     let mut between = |low: f32, high: f32| f64::from(random.between(low, high));
@@ -206,7 +207,7 @@ fn single_precision_stays_in_the_bounds() {
     assert!(n > 3000 && widths[n / 2] < 1e-3, "{n} sums, {}", widths[n / 2]);
 }
 
-/// How much is hidden, in single precision.
+/// Occluded fraction in single precision.
 fn single_omega(
     layers: &Layers<'_>,
     view: &View,

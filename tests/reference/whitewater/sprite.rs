@@ -11,38 +11,38 @@ use std::ops::Range;
 pub(super) struct Sprite {
     kind: Kind,
     look: Look,
-    /// d_c, the depth of its centre.
+    /// d_c, the centre's depth.
     depth: f64,
-    /// r, the radius of the sphere.
+    /// r, the sphere's radius.
     radius: f64,
-    /// c, its centre in pixels.
+    /// c, the centre in pixels.
     at: DVec2,
-    /// R', its half-axes in pixels.
+    /// R', the half-axes in pixels.
     half: DVec2,
-    /// Which way eye space grows in the picture: (1, -1) unless that is mirrored.
+    /// Signs of eye space's x and y in the picture: (1, -1) unless it is mirrored.
     facing: DVec2,
-    /// h, its search radius over half the height of the picture.
+    /// h, the search radius relative to half the picture's height.
     pub(super) h: f64,
-    /// How much there is left of it.
+    /// Fraction of the thickness left at its age.
     lifetime: f64,
-    /// How much of its thickness goes by its shape.
+    /// Fraction of the thickness that has the kind's shape.
     told: f64,
-    /// What else there is of it, over the sum of `1 - rho^2` in all pixels.
+    /// The remaining thickness, divided by the sum of `1 - rho^2` over all pixels.
     even: f64,
 }
 
-/// What of a sphere is seen in a pixel.
+/// A sphere in a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fragment {
     pub(super) depth: f64,
     /// (u, v, w), the sphere's normal in eye space.
     pub(super) normal: DVec3,
-    /// What it adds to the thickness.
+    /// Contribution to the thickness.
     pub(super) amount: f64,
 }
 
 impl Sprite {
-    /// That of a particle, if it is drawn.
+    /// The disc of a particle, if it is drawn.
     pub(super) fn new(particle: &Particle, view: &View, settings: &Settings) -> Option<Self> {
         let radius = particle.drawn_radius(settings)?;
         let center = view.view.transform_point3(particle.position);
@@ -76,13 +76,13 @@ impl Sprite {
         })
     }
 
-    /// The pixels of the picture that it may lie in.
+    /// The pixels that it may cover.
     pub(super) fn pixels(&self, view: &View) -> impl Iterator<Item = (usize, usize)> + use<> {
         let (columns, rows) = pixels(self.at, self.half, view);
         rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
     }
 
-    /// What of it is in a pixel, before the scene.
+    /// The sphere in a pixel, without the scene.
     pub(super) fn meet(&self, x: usize, y: usize) -> Option<Fragment> {
         let q = (DVec2::new(x as f64 + 0.5, y as f64 + 0.5) - self.at) / self.half;
         let square = q.length_squared();
@@ -99,7 +99,7 @@ impl Sprite {
     }
 }
 
-/// Sum of `1 - rho^2` over all pixel centres in a disc, in the picture or not.
+/// Sum of `1 - rho^2` over all pixel centres in a disc, inside the picture and outside.
 fn weights(at: DVec2, half: DVec2) -> f64 {
     all_pixels(at, half)
         .map(|p| 1.0 - ((p - at) / half).length_squared())
@@ -114,7 +114,7 @@ pub(super) fn all_pixels(at: DVec2, half: DVec2) -> impl Iterator<Item = DVec2> 
     rows.flat_map(move |y| columns.clone().map(move |x| DVec2::new(x as f64 + 0.5, y as f64 + 0.5)))
 }
 
-/// The columns and rows of the picture that a disc may lie in.
+/// Columns and rows of the picture that a disc may cover.
 pub(super) fn pixels(at: DVec2, half: DVec2, view: &View) -> (Range<usize>, Range<usize>) {
     let (low, high) = ((at - half).floor() - 1.0, (at + half).ceil() + 1.0);
     // The casts saturate.

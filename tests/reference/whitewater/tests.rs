@@ -1,4 +1,4 @@
-//! The definition against known results.
+//! Compares the definition of whitewater foam with known results.
 
 use super::super::{EMPTY, Image, View};
 use super::*;
@@ -17,12 +17,12 @@ fn square(size: usize) -> View {
     view(DVec2::new(1.5, -1.5), DVec2::ZERO, size, size)
 }
 
-/// A particle of foam whose radius is that of the data.
+/// A foam particle with a radius of its own.
 fn particle(position: DVec3, radius: f64) -> Particle {
     Particle { position, kind: Kind::Foam, radius: Some(radius), age: 0.0, id: 0 }
 }
 
-/// The images of one particle with nothing else in the scene.
+/// The images of one particle without water and scene.
 fn alone(particle: Particle, view: &View) -> Foam {
     let none = Image::new(view.width, view.height, EMPTY);
     foam(&[particle], view, &Settings::new(1.0), &none, &none)
@@ -41,7 +41,7 @@ fn a_falloff_at_its_ends() {
     }
     near(falloff(3.0, 6.0, 2.0, 4.0), 0.75_f64.powi(4), 1e-15);
     near(falloff(0.25, 1.0, 1.5, 1.0), 0.875, 1e-15);
-    // A bubble is hollow.
+    // A bubble's sprite is empty in its middle.
     assert_eq!([0.0, 0.5, 1.0].map(|x| Kind::Bubble.shape(x)), [0.0, 0.25, 1.0]);
     assert_eq!([0.0, 1.0].map(|x| Kind::Foam.shape(x)), [1.0, 0.0]);
 }
@@ -76,7 +76,7 @@ fn what_is_drawn_and_how_large() {
     let half = total(&alone(Particle { age: 0.5, ..good }, &view));
     near(half / total(&alone(good, &view)), 0.75_f64.powf(0.4), 1e-12);
 
-    // h tells the radius.
+    // h gives the radius.
     let size = |particle: Particle| {
         let seen = alone(particle, &view).front.at(16, 16).expect("foam in the middle");
         seen.h * 4.0 / 1.5
@@ -88,8 +88,8 @@ fn what_is_drawn_and_how_large() {
     assert_eq!([0, 1, 2, 3].map(Kind::of), [Kind::Foam, Kind::Spray, Kind::Bubble, Kind::Foam]);
 }
 
-/// The whole thickness of sprites of so many pixels over what it should be: least, greatest, and
-/// the mean of many places in a pixel.
+/// Sum of the thickness of a sprite with this radius in pixels, relative to its integral: min, max
+/// and mean over positions within a pixel.
 fn totals(kind: Kind, pixels: f64, focal: DVec2) -> [f64; 3] {
     let view = view(focal, DVec2::ZERO, 32, 32);
     let d = 8.0;
@@ -127,7 +127,7 @@ fn a_small_sprite_is_all_there_wherever_it_lies() {
 
 #[test]
 fn a_larger_sprite_is_nearly_all_there() {
-    // A bubble's rim is a step, which pixels meet or miss.
+    // A bubble's rim is a step, which hits or misses pixel centres.
     for (kind, by) in [(Kind::Foam, 0.05), (Kind::Spray, 0.05), (Kind::Bubble, 0.3)] {
         for pixels in [1.5, 2.0, 3.0, 6.0] {
             let [least, most, mean] = totals(kind, pixels, DVec2::new(1.5, -1.5));
@@ -147,7 +147,7 @@ fn a_sphere_is_nearest_in_its_middle() {
     near(middle.depth, 3.5, 1e-12);
     near((middle.normal - DVec3::Z).length(), 0.0, 1e-12);
     near(middle.h, 0.5 * 1.5 / 4.0, 1e-12);
-    // R is 3.09 pixels: to the right, then up.
+    // The radius is 3.09 pixels; first to the right, then up.
     let part = 2.0 / (0.5 / (4.0 * view.c_x()));
     for (x, y, normal) in [(18, 16, DVec2::X), (16, 14, DVec2::Y)] {
         let there = seen.at(x, y).expect("foam beside the middle");
@@ -157,7 +157,8 @@ fn a_sphere_is_nearest_in_its_middle() {
     }
     assert!(seen.at(20, 16).is_none());
 
-    // In a mirrored picture the normal is the same on the other side; a view turns it.
+    // In a mirrored picture the normal is the same on the other side, and the view matrix rotates
+    // it.
     let turn = DMat4::from_rotation_y(0.5);
     let mirrored = crate::reference::tests::view(DVec2::new(-1.5, 1.5), DVec2::ZERO, 33, 33);
     let mirrored = View { view: turn, ..mirrored };
@@ -179,7 +180,7 @@ fn thickness_goes_where_the_fluid_says() {
     let open = images(EMPTY, EMPTY, Attenuation::Water);
     let middle = open.sums.at(16, 16);
     assert_eq!(middle, [1.0, 0.0, 0.0]);
-    // The middle is at 3.5: a quarter of the spacing behind.
+    // The sphere's front is at 3.5, a quarter of the spacing behind the water's surface.
     let sums = images(3.0, EMPTY, Attenuation::Water).sums.at(16, 16);
     let below = 0.25 * 0.25 * 2.5;
     for (found, expected) in sums.into_iter().zip([1.0 - below, below, below * 0.2]) {
@@ -194,7 +195,7 @@ fn thickness_goes_where_the_fluid_says() {
     assert_eq!(images(2.4, EMPTY, source).sums.at(16, 16), [0.0; 3]);
     assert_eq!(images(EMPTY, EMPTY, source).sums.data, open.sums.data);
 
-    // A solid hides what is not before it.
+    // A scene hides foam that is not before it.
     let cut = images(EMPTY, 3.6, Attenuation::Water);
     assert!(cut.sums.at(16, 16) == middle && cut.sums.at(19, 16) == [0.0; 3]);
     assert!(cut.front.at(19, 16).is_none() && open.front.at(19, 16).is_some());
@@ -215,7 +216,7 @@ fn what_rounding_decides_is_in_the_upper_bounds_alone() {
         let depth = [&bounds.depth.low, &bounds.depth.high].map(|depth| depth.at(16, 16));
         (sums, depth, bounds.candidates.at(16, 16).len())
     };
-    // Surely there, at the scene's depth, at the near plane.
+    // Foam certainly before the scene; at the scene's depth; at the near plane.
     let (sums, depth, candidates) = middle(&bounds(4.0, 3.6));
     near(sums[0], 1.0, 1e-4);
     near(sums[1], 1.0, 1e-4);
@@ -244,13 +245,14 @@ fn the_halton_points() {
     }
     let points = points(512);
     assert!(points.len() == 512 && points.iter().all(|s| s.length() < 1.0));
-    // None is decided by rounding.
+    // Rounding decides for no point whether it is in the sphere.
     let all = (1..2000).map(|i| (halton(i).length() - 1.0).abs());
     assert!(all.fold(1.0, f64::min) > 1e-6);
 }
 
-/// Points that count alike lie as `lambda` says: means of its powers over the sphere are `B(k + 3, 3) / B(3, 3)`, those of
-/// squares along each axis a third of the radius'. Each run of ten is nearly as good.
+/// Samples of equal weight are distributed as `lambda` says: the means of its powers over the
+/// sphere are `B(k + 3, 3) / B(3, 3)`, and those of squares along an axis are a third of the
+/// radius'. Each run of ten samples is nearly as good.
 #[test]
 fn pairs_lie_as_samples_count() {
     let pairs = pairs(160);
@@ -263,7 +265,7 @@ fn pairs_lie_as_samples_count() {
         near(mean(&|s| s[axis] * s[axis], &pairs), 2.0 / 21.0, 4e-3);
     }
     assert!(pairs.iter().all(|s| s.z >= 0.0 && s.length() < 1.0));
-    // What a sheet hides in reach, `(1 - z)^2` of a half.
+    // A sheet with limited reach occludes `(1 - z)^2` of one half.
     let hides = |s: &DVec3| 0.5 * (1.0 - s.z).powi(2);
     near(mean(&hides, &pairs), 25.0 / 84.0, 2e-3);
     for run in pairs.chunks(10) {
@@ -271,7 +273,7 @@ fn pairs_lie_as_samples_count() {
     }
 }
 
-/// How much is hidden about the middle of a flat opaque sheet of foam, of so many samples.
+/// Occlusion at the middle of a flat opaque sheet of foam, with this number of samples.
 fn sheet(samples: usize, reach: Reach) -> f64 {
     let view = square(65);
     let depth = 5.0;
@@ -287,11 +289,11 @@ fn sheet(samples: usize, reach: Reach) -> f64 {
     omega.value
 }
 
-/// With the reach R of the sphere a sample z R behind the sheet counts by `(1 - z)^2`:
+/// With a reach of R, a sample at a distance of z R behind the sheet counts `(1 - z)^2`:
 ///
 /// `2 pi int r^2 (1-r)^2 int_0^1 (1 - r mu)^2 dmu dr = 2 pi (B(3,3) - B(4,3) + B(5,3) / 3)`,
 ///
-/// that is `2 pi 5/252`, over `4 pi int r^2 (1-r)^2 dr = 4 pi / 30`: 25/84.
+/// which is `2 pi 5/252`. Divided by `4 pi int r^2 (1-r)^2 dr = 4 pi / 30` it is 25/84.
 #[test]
 fn a_flat_sheet_hides_half() {
     let far = Reach::Radii(1e9);
@@ -299,16 +301,17 @@ fn a_flat_sheet_hides_half() {
     near(sheet(20_000, Reach::Scene(1e9)), 0.5, 2e-3);
     near(sheet(20_000, Reach::Radii(1.0)), 25.0 / 84.0, 2e-3);
     near(sheet(512, far), 0.5, 0.02);
-    // Few points lie as they lie.
+    // The value of these 16 samples.
     near(sheet(16, far), 0.2933, 1e-4);
     near(Occlusion::default().zeta(0.5), 0.30, 5e-3);
     near(Occlusion::default().zeta(0.1), 0.0, 0.0);
 }
 
-/// The normal of foam that is a tilted sheet, and of the sheet, in the world; the foam's spheres point elsewhere.
+/// The normal found for foam that forms a tilted sheet, and the sheet's normal, both in world
+/// space. The foam's spheres have another normal.
 fn facing(slope: DVec2, opacity: f64, h: f64) -> (DVec3, DVec3) {
     let view = View { view: DMat4::from_rotation_x(0.4), ..square(129) };
-    // At depth 5 in the middle of the picture: n . p is the same everywhere.
+    // A plane at depth 5 in the middle of the picture, with constant n . p.
     let depth = |x: usize, y: usize| 5.0 / (1.0 - slope.dot(view.ray(x, y).truncate()));
     let front =
         Image::from_fn(129, 129, |x, y| Some(Seen { depth: depth(x, y), h, normal: DVec3::X }));
@@ -323,22 +326,23 @@ fn facing(slope: DVec2, opacity: f64, h: f64) -> (DVec3, DVec3) {
 
 #[test]
 fn small_foam_faces_where_it_is_open() {
-    // Spheres of half a pixel, whose samples reach over four to eleven.
+    // Spheres of half a pixel, whose samples reach four to eleven pixels.
     let h = 0.5 / 64.5;
     for slope in [DVec2::ZERO, DVec2::new(0.8, 0.0), DVec2::new(-0.3, 0.6)] {
         let (facing, sheet) = facing(slope, 1.0, h);
-        // Of the points of one side the mean by their weights is n/8 from that of all, and the eye's 0.02:
-        // int r^3 (1-r)^2 dr = 1/60, over 1/30 that is 1/2, times the mean cosine of a half, 1/2, times 1/2.
+        // The mean of the visible samples differs from the mean of all by n/8, and the eye adds
+        // 0.02: int r^3 (1-r)^2 dr = 1/60, over 1/30 is 1/2; the mean cosine of a hemisphere is
+        // 1/2; and half of the samples are visible.
         let eye = DMat4::from_rotation_x(-0.4).transform_vector3(DVec3::Z);
         let expected = (sheet / 8.0 + 0.02 * eye).normalize();
         let angle = facing.angle_between(expected);
         assert!(angle < 0.02, "{slope}: {facing} of {expected}, {angle} apart");
     }
-    // Haze has no side.
+    // Transparent foam is open on all sides, so it faces the eye.
     let (facing_haze, sheet) = facing(DVec2::new(0.8, 0.0), 0.01, h);
     let eye = DMat4::from_rotation_x(-0.4).transform_vector3(DVec3::Z);
     assert!(facing_haze.angle_between(eye) < 0.2 * sheet.angle_between(eye), "{facing_haze}");
-    // What is told by its shape is its sphere.
+    // Large foam has its sphere's normal.
     let (large, _) = facing(DVec2::new(0.8, 0.0), 1.0, 2.0 / 64.5);
     near((large - DVec3::X).length(), 0.0, 1e-12);
 }
@@ -351,7 +355,7 @@ fn samples_go_by_the_pixels() {
     assert_eq!(settings.samples(4.0), 134);
     near(settings.search(0.5, 1), 4.0, 1e-15);
     near(settings.search(0.5, 3), 11.0, 1e-15);
-    // Half up.
+    // A half is rounded up.
     assert_eq!(Occlusion { counts: [16.5, 16.5], ..settings }.samples(1.0), 17);
 }
 
@@ -375,7 +379,7 @@ fn occluders_add_up_to_one_and_count_where_they_are_seen() {
     near(middle(5.0, EMPTY, 0.25, false), 0.75 * whole, 1e-6);
     near(middle(5.0, EMPTY, 0.75, false), whole, 1e-6);
     near(middle(5.0, 5.0, 0.0, false), whole, 1e-6);
-    // Before all samples, behind all of them.
+    // The water lies before all samples, then behind all of them.
     near(middle(1.0, EMPTY, 0.0, false), 0.5, 1e-6);
     near(middle(9.0, 9.0, 0.0, false), 0.0, 1e-6);
     let one = middle(EMPTY, EMPTY, 1.0, true);
@@ -384,7 +388,8 @@ fn occluders_add_up_to_one_and_count_where_they_are_seen() {
 
 #[test]
 fn what_leaves_the_picture_does_not_count() {
-    // From so far that the spheres are hardly in perspective; they stick out by more than half.
+    // The camera is so far away that perspective is weak; the spheres extend beyond the picture by
+    // more than half.
     let view = view(DVec2::new(150.0, -150.0), DVec2::ZERO, 65, 65);
     let seen = Seen { depth: 5.0, h: 0.05, normal: DVec3::Z };
     let front = Image::new(65, 65, Some(seen));
@@ -397,7 +402,8 @@ fn what_leaves_the_picture_does_not_count() {
         let omega = settings.omega(&layers, &view, &points, at).expect("foam");
         near(omega.value, 0.5, 0.05);
     }
-    // Nor does what is before the near plane: less of the half that is never hidden.
+    // Samples before the near plane do not count either; they would be visible, so the occluded
+    // fraction increases.
     let view = square(65);
     let near_by = front.map(|_| Some(Seen { depth: 0.11, h: 0.6, normal: DVec3::Z }));
     let layers = Layers { front: &near_by, opacity: &opacity, fluid: &none, solid: &none };
@@ -414,8 +420,7 @@ fn even_light_gives_a_half() {
         let found = irradiance_of(&points(samples), &view, normal, |_| DVec3::ONE);
         near(found.x, 0.5, by);
     }
-    // Of light that comes from above alone, the half is E / 2 pi: along the normal a cosine's
-    // square, 1/3.
+    // With light only from above, the mean is that of a squared cosine, 1/3.
     let above = irradiance_of(&points(20_000), &view, normal, |dir| {
         assert!(dir.dot(normal) >= 0.0 && (dir.length() - 1.0).abs() < 1e-9);
         DVec3::new(dir.dot(normal), 0.0, 2.0)
@@ -428,7 +433,7 @@ fn even_light_gives_a_half() {
     *front.at_mut(3, 4) = Some(seen);
     let settings = Occlusion::default();
     let image = irradiance(&front, &view, &settings, |_| DVec3::ONE);
-    // 8 h is 1.32 pixels: the fewest.
+    // 8 h is 1.32 pixels, for which the min number of samples is used.
     let expected = irradiance_of(&points(16), &view, normal, |_| DVec3::ONE);
     assert_eq!((image.at(3, 4), image.at(4, 4)), (Some(expected), None));
 }
@@ -437,7 +442,7 @@ fn even_light_gives_a_half() {
 fn a_blur_keeps_what_is_even_and_stops_at_gaps() {
     let view = square(64);
     let settings = Occlusion::default();
-    // Radii of 1.5 * 8 h 32: 7.7 pixels, and 77, of which 32 are taken.
+    // Kernel radii of 1.5 * 8 h 32: 7.7 pixels, and 77, which is limited to 32.
     for h in [0.02, 0.2] {
         let deep = |x: usize| if x < 32 { 5.0 } else { 9.0 };
         let front = Image::from_fn(64, 64, |x, y| {
@@ -453,7 +458,7 @@ fn a_blur_keeps_what_is_even_and_stops_at_gaps() {
             }
         }
     }
-    // A point in a flat sheet: a Gaussian along each axis, cut at the radius.
+    // A single value in a flat sheet becomes a Gaussian along each axis, cut at the radius.
     let (h, size) = (0.02, 64);
     let front = Image::new(size, size, Some(Seen { depth: 5.0, h, normal: DVec3::Z }));
     let mut values = Image::new(size, size, [0.0; 4]);
@@ -468,7 +473,7 @@ fn a_blur_keeps_what_is_even_and_stops_at_gaps() {
     }
     assert_eq!(found.at(40, 32), [0.0; 4]);
     near(found.data.iter().map(|v| v[1]).sum(), 1.0, 1e-12);
-    // Less than a pixel: as it was.
+    // A radius below one pixel changes nothing.
     let narrow = front.map(|seen| seen.map(|seen| Seen { h: 0.002, ..seen }));
     assert_eq!(blur(&values, &narrow, &view, &settings).data, values.data);
 }
@@ -488,7 +493,7 @@ fn intensity_and_picture() {
     for composite in [composite_source, composite_hdr] {
         assert_eq!(composite(back, 0.0, 0.3, light, dark, scale), back);
     }
-    // Light of (0.5, 1, 0.2) or (0.5, 2, 0.2), shadow of (0.5, 0.5, 0.4), half of it.
+    // Light (0.5, 1, 0.2) or (0.5, 2, 0.2), shadow (0.5, 0.5, 0.4), opacity a half.
     let source = composite_source(back, 0.5, 0.5, light, dark, scale);
     near((source - DVec3::new(0.5, 0.5, 0.0)).length(), 0.0, 1e-12);
     let hdr = composite_hdr(back, 0.5, 0.5, light, dark, scale);
