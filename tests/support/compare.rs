@@ -121,9 +121,9 @@ pub fn same_color(name: &str, actual: &Image<[f32; 4]>, expected: &Image<[f32; 4
     }
 }
 
-/// Asserts that two pictures are the same but for what two pipelines round otherwise: a compiler may contract the same
-/// sums of products in each as it likes. As the twins of what shades, 400u of a channel and of 1; by what it is there, where
-/// both are one pipeline, [`same_color`] is asked.
+/// Asserts that two pictures are equal up to rounding: compilers may contract sums of products
+/// differently in two pipelines. The bound is that of the twins of the shading, 400u of 1 plus the
+/// channel's value. For pictures of a single pipeline use [`same_color`].
 pub fn same_but_rounded(name: &str, actual: &Image<[f32; 4]>, expected: &Image<[f32; 4]>) {
     assert_eq!((actual.width, actual.height), (expected.width, expected.height), "{name}");
     let off = |i: usize| {

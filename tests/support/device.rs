@@ -83,8 +83,8 @@ pub fn layer_version() -> u32 {
     layers.expect("layers").iter().find(|layer| named(layer)).map_or(0, |layer| layer.spec_version)
 }
 
-/// Whether the validation layer checks the shaders' storage accesses: since 1.4 only with an environment variable,
-/// which tools/test sets.
+/// Whether the validation layer checks storage accesses of shaders. Since version 1.4 it does so
+/// only if an environment variable is set, which tools/test does.
 pub fn sees_storage() -> bool {
     let switch = std::env::var_os("VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC");
     validates()
@@ -183,7 +183,7 @@ impl Gpu {
         Self::own_with(&DeviceOptions::default())
     }
 
-    /// The same with options.
+    /// A device of the test's own, created with these options.
     pub fn own_with(options: &DeviceOptions) -> Self {
         Self::new(None, Held::Own(Box::new(make(options))))
     }
@@ -194,7 +194,7 @@ impl Gpu {
         Self::new(Some(lock), Held::Own(Box::new(make(&DeviceOptions::default()))))
     }
 
-    /// Panics unless it is [`spied`](Self::spied).
+    /// Panics unless the device was created by [`spied`](Self::spied).
     pub fn assert_spied(&self) {
         let own = matches!(self.device, Some(Held::Own(_)));
         assert!(own && self._lock.is_some(), "Gpu::spied() is for spies and claims");
@@ -224,7 +224,7 @@ impl Gpu {
         }
     }
 
-    /// Moves the device out, for tests with their own device; the lock is kept.
+    /// Moves the device out of the fixture, for tests with a device of their own. The lock is kept.
     pub fn take_device(&mut self) -> Device {
         match self.device.take() {
             Some(Held::Own(device)) => *device,
@@ -232,7 +232,7 @@ impl Gpu {
         }
     }
 
-    /// Returns the messages so far, which then do not fail the test.
+    /// Returns the messages so far. They no longer fail the test.
     pub fn expect_messages(&self) -> Vec<String> {
         messages_of(self)
     }
@@ -263,8 +263,9 @@ impl Gpu {
             .optimal_tiling_features
     }
 
-    /// Overhead of images of this extent and of its halves, as a fraction of their bytes: devices round rows and
-    /// columns up to whole tiles (720 rows take 768 if a tile is 128 high).
+    /// Max overhead of images of this extent, its half and its quarter, as a fraction of their
+    /// bytes. Devices round rows and columns up to whole tiles: 720 rows take 768 if a tile is 128
+    /// high.
     pub fn padding(&self, extent: vk::Extent2D) -> f64 {
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::STORAGE;
         let part = |(level, format, bytes): (u32, vk::Format, u64)| {
@@ -319,7 +320,7 @@ impl Drop for Gpu {
         let mut messages = messages_of(self);
         if let Some(Held::Own(device)) = self.device.take() {
             if !failed && !self.leaks {
-                // The allocator's blocks must go before the device.
+                // The allocator's memory blocks must be freed before the device is destroyed.
                 let spied = self.allocator.clone();
                 let real = device.allocator.clone();
                 for (allocator, functions) in [(spied, &self.functions), (real, &device.device)] {

@@ -51,7 +51,7 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// The image as handed to a record, which receives and returns it in `state`.
+    /// The image as it is handed to a record, which expects and leaves it in `state`.
     pub fn host_image(&self) -> HostImage {
         HostImage::new(self.image, self.view, self.format, self.extent, self.state)
     }
@@ -434,7 +434,7 @@ impl Stub {
         texture
     }
 
-    /// Reads the bytes of an image, and returns it to its state.
+    /// Reads the bytes of an image, and restores the image's state.
     pub fn download(
         &self,
         image: vk::Image,
@@ -449,7 +449,8 @@ impl Stub {
         back.bytes().to_vec()
     }
 
-    /// Reads the bytes of every mip of a cube of edge `size`, face by face, and returns it to its state.
+    /// Reads the bytes of every mip level of a cube of edge `size`, face by face, and restores the
+    /// image's state.
     pub fn download_cube(
         &self,
         image: vk::Image,
@@ -507,7 +508,7 @@ impl Stub {
         self.barrier(cmd, image, aspect, COPIED_FROM, state);
     }
 
-    /// Records the copy of a compute shader's buffer into one that the CPU reads.
+    /// Records the copy of a buffer that a compute shader writes into a buffer that the CPU reads.
     pub fn record_buffer_copy(&self, cmd: vk::CommandBuffer, from: vk::Buffer, back: &Data) {
         let written = Access::new(
             Stage::COMPUTE_SHADER,

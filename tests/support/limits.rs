@@ -1,5 +1,5 @@
-//! A device that claims stricter limits than it has, by stand-ins in the instance's function table. Only one test uses
-//! this at a time.
+//! Lets a device claim stricter limits than it has, by replacing functions of the instance's
+//! function table. Only one test at a time may use this module.
 
 use std::sync::Mutex;
 
@@ -7,7 +7,7 @@ use ash::vk;
 
 use super::device::Gpu;
 
-/// The claims; `None`: the truth.
+/// Claimed limits. `None`: the real limit.
 #[derive(Clone, Copy, Default)]
 pub struct Claims {
     /// Offset alignment of storage and of uniform buffers.
@@ -28,7 +28,7 @@ type Families =
 
 type Formats = unsafe extern "system" fn(vk::PhysicalDevice, vk::Format, *mut vk::FormatProperties);
 
-/// The real functions.
+/// The driver's functions.
 type Real = (Properties, Families, Formats);
 
 static CLAIMED: Mutex<(Claims, Option<Real>)> = Mutex::new((
@@ -107,7 +107,7 @@ unsafe extern "system" fn formats(
     }
 }
 
-/// Makes the instance that the library gets report these claims.
+/// Makes the library see these claims.
 pub fn claim(gpu: &mut Gpu, claims: Claims) {
     gpu.assert_spied();
     let instance = &gpu.instance;

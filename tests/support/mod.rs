@@ -1,5 +1,5 @@
-//! Foundations of the GPU tests: a device with its validation messages, a host stub, a spy in the device's function
-//! table, comparisons that write pictures, rounding bounds and scenes.
+//! Foundations of the GPU tests: a device that collects validation messages, a host stub, a spy in
+//! the device's function table, comparisons that write pictures, rounding bounds, and scenes.
 
 pub mod compare;
 pub mod device;

@@ -1,4 +1,4 @@
-//! Cameras of every convention, and particles that are equal in every run.
+//! Cameras of every convention, and particles that are the same in every run.
 
 use ash::vk;
 use glam::{DMat4, DVec4, Mat4, Vec3, vec3};
@@ -73,7 +73,7 @@ pub fn camera(lens: Lens, extent: vk::Extent2D) -> Camera {
     Camera::of(view, projection(lens, extent))
 }
 
-/// The same camera for the twins, which look down -z.
+/// The camera as a view of the twins, which look along -z.
 pub fn twin(camera: &Camera, extent: vk::Extent2D) -> View {
     let (mut view, mut projection) =
         (camera.view_matrix().as_dmat4(), camera.projection_matrix().as_dmat4());
@@ -154,7 +154,7 @@ pub fn block(seed: u64, spacing: f32, size: [usize; 3], corner: [f32; 3]) -> Vec
     points
 }
 
-/// Settings for a drawn radius, with light in which all colours are near 1.
+/// Settings for a drawn radius. The light is such that all colours are near 1.
 pub fn settings(radius: f32) -> Settings {
     let mut settings = Settings::default();
     settings.water.spacing = radius / 0.656;

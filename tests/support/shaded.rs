@@ -49,9 +49,10 @@ fn changes(inputs: &Inputs<'_>, at: DVec2) -> [[f64; 3]; 2] {
     most
 }
 
-/// The slope per texel of the smoothed image. Rises are differences of two numbers, and their mean
-/// one more; the weighted mean of the smoothed one is four products and three sums, the weights are
-/// quotients of sums (9u), and so is the mean (5u and the sum below it, 4u).
+/// Slope of the smoothed surface per texel, along an axis. `rises` is the sum of the absolute depth
+/// differences that enter the slope. Their rounding, that of the weights and of the weighted mean
+/// are proportional to `rises`; the division and the sum of the weights add an error proportional
+/// to the slope.
 fn slope(surface: &Surface, axis: usize, drop: Rounded) -> Rounded {
     let parts = &surface.parts;
     let [smooth, rises] = parts.smooth.map(|s| s[axis]);
@@ -61,8 +62,8 @@ fn slope(surface: &Surface, axis: usize, drop: Rounded) -> Rounded {
     mix(smooth, sphere, drop)
 }
 
-/// A channel of the light from water with a path length, under a surface with a brightness in the sun, over level
-/// ground.
+/// A channel of the light that water of a given path length passes on and scatters. `sunlit`:
+/// brightness that a matte surface at the water's surface has in the sun, on level ground.
 pub fn through(
     medium: &Medium,
     behind: Rounded,
@@ -91,33 +92,37 @@ pub fn through(
     }
 }
 
-/// The surface of a pixel, with rounding.
+/// Inputs of a pixel's shading, with rounding errors.
 struct Lit {
     z: Rounded,
     path: Rounded,
-    /// Brightness as a matte surface in the sun, over level ground.
+    /// Brightness of a matte surface with the same normal in the sun, on level ground.
     sunlit: Rounded,
     /// Displacement of the look-up.
     offset: [Rounded; 2],
-    /// Share of the reflection, with the error of its direction, and of the sun's highlight.
+    /// Share of the reflection in the pixel; `turned` is the error of the reflected direction,
+    /// `shine` the sun's highlight.
     share: Rounded,
-    /// Share of the environment where the scene is not met.
+    /// Share of the reflection that comes from the environment, where the reflected ray does not
+    /// hit the scene.
     sky: Rounded,
     turned: f64,
     shine: Rounded,
     /// Colour of the baseline's foam.
     foam: [Rounded; 3],
-    /// Share of the scene under the water, and vertical metres of water above it.
+    /// Fraction to which the scene touches the water, and height of the water above the scene in
+    /// metres.
     wet: Rounded,
     down: Rounded,
-    /// Metres of water along z.
+    /// Thickness of the water along z in metres.
     thick: Rounded,
 }
 
-/// Share of the scene that touches the water, from how much of the room in front of the scene the water fills.
+/// Fraction to which the scene touches the water: it depends on how much of the distance from the
+/// surface to the scene the water fills.
 fn wet(t: Rounded, room: Rounded, limited: bool) -> Rounded {
     if limited || room.v == 0.0 {
-        // Either a number divided by itself, or no room; rounding may choose either.
+        // The distance is a number divided by itself, or zero; rounding may decide which.
         let v = f64::from(u8::from(room.v > 0.0));
         return Rounded { v, e: if room.v <= room.e { room.e.min(1.0).ceil() } else { 0.0 } };
     }
@@ -128,7 +133,7 @@ fn wet(t: Rounded, room: Rounded, limited: bool) -> Rounded {
     smoothstep(off(0.5, 1.0), off(0.7, 1.0), t / room)
 }
 
-/// Ratio of the refracted path to the eye to the straight one.
+/// Ratio of the length of the refracted path to the eye to that of the straight path.
 fn bent_way(bed: &Bed, n: [Rounded; 3], v: [Rounded; 3], up: [Rounded; 3]) -> Rounded {
     // The error of a root and two quotients.
     let ratio = off(bed.index.recip(), 8.0);
@@ -144,7 +149,7 @@ fn bent_way(bed: &Bed, n: [Rounded; 3], v: [Rounded; 3], up: [Rounded; 3]) -> Ro
     mix(exact(1.0), bent, level)
 }
 
-/// Colour of the scene under water, of which a part is visible.
+/// Colour of the scene under water, of which the water lets only a fraction through.
 fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3]) -> [Rounded; 3] {
     let Some(bed) = settings.bed.filter(|_| lit.wet.v + lit.wet.e > 0.0) else { return dry };
     // Sums and products of a few rounded numbers, their quotients, and a power.
@@ -203,12 +208,13 @@ fn lit(
 ) -> Lit {
     let radius = off(settings.radius, 2.0);
     let spacing = off(settings.radius / 0.656, 1.0);
-    // Weighted means: four products, three sums, weights of 9u; the mean of two of them adds the same again.
+    // Weighted means: four products, three sums, weights with 9u. A mean of two weighted means adds
+    // the same error again.
     let means = if surface.parts.case == Case::Whole { 4.0 } else { 13.0 };
     let means = if surface.parts.mixed > 0.0 { means + 26.0 } else { means };
     let z = off(-surface.position.z, means);
     let (low, high) = (off(0.6, 1.0) * spacing, off(0.9, 1.0) * spacing);
-    // Without a slope of its own the pixel is not a drop.
+    // Without a slope of its own depth the pixel cannot be a drop.
     let drop = match surface.parts.drop {
         0.0 => exact(0.0),
         _ => exact(1.0) - smoothstep(low, high, t),
@@ -367,7 +373,8 @@ fn mirrored(
 const NOTHING: (Rounded, [Rounded; 3]) =
     (Rounded { v: 0.0, e: 0.0 }, [Rounded { v: 0.0, e: 0.0 }; 3]);
 
-/// The most that a wet bed changes for a change of its colour when dry: 1/q, with the 0.53 of water.
+/// Max change of a wet surface's colour relative to the change of its dry colour: 1/q, with q =
+/// 0.53 for water.
 const WET: f64 = 1.9;
 
 /// The colour where a ray meets the scene, with the water that lies on it. Its error is the largest change of that colour
@@ -488,7 +495,7 @@ pub fn shaded(
     Shaded { color: over(settings, &lit, behind, env, of_scene, filter), moved, met, sure }
 }
 
-/// Thickness of the front sheet, T2 and `apart`, with their rounding.
+/// Thickness of the front sheet, of the back sheet and of the gap, with rounding errors.
 fn sheets(
     inputs: &Inputs<'_>,
     behind: &Behind<'_>,
@@ -524,7 +531,8 @@ fn sheets(
     [t + (exact(1.0) - open) * t2, t2 * open, apart * open]
 }
 
-/// The same for a pixel that may show two sheets; `envs` holds the environment for the front one and the back one.
+/// The pixel at (x, y) if it may show two sheets. `envs` holds the environment for the front and
+/// for the back sheet.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 pub fn shaded_both(
     inputs: &Inputs<'_>,

@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-/// Writes past the test harness, which swallows the output of passing tests. A test that runs alone has the harness's
-/// name.
+/// Writes to stderr directly, because the test harness hides the output of passing tests. If only
+/// one test runs, its thread has the harness's name.
 pub fn skipped(why: &str) {
     let thread = std::thread::current();
     let test = thread.name().unwrap_or("a test");

@@ -61,7 +61,8 @@ impl Function {
     }
 }
 
-/// Functions with a result: the spy's stand-ins. `made` is the number of objects that a success creates.
+/// Stand-ins of the functions that return a result. `made` is the number of objects that a
+/// successful call creates.
 macro_rules! spied {
     ($(
         $id:ident $name:literal ($($arg:ident: $type:ty),*) made $made:expr $(, notes $note:expr)?;
@@ -205,12 +206,12 @@ spied_void! {
     DESTROY_FENCE c"vkDestroyFence" (d: vk::Device, h: u64, a: P) undoes CREATE_FENCE if h;
     DESTROY_QUERY_POOL c"vkDestroyQueryPool" (d: vk::Device, h: u64, a: P)
         undoes CREATE_QUERY_POOL if h;
-    // Compute pipelines are counted with the graphics ones.
+    // Compute pipelines are counted together with graphics pipelines.
     DESTROY_PIPELINE c"vkDestroyPipeline" (d: vk::Device, h: u64, a: P)
         undoes CREATE_GRAPHICS_PIPELINES if h;
 }
 
-/// Everything that waits, submits, allocates or compiles, which a record must not do.
+/// Functions that wait, submit, allocate or compile, which recording must not call.
 pub static NOT_IN_A_RECORD: [&Function; 12] = [
     &QUEUE_SUBMIT,
     &QUEUE_SUBMIT2,
@@ -226,7 +227,7 @@ pub static NOT_IN_A_RECORD: [&Function; 12] = [
     &FREE_MEMORY,
 ];
 
-/// Everything that creates objects and can fail.
+/// Functions that create objects and can fail.
 pub static MAKERS: [&Function; 19] = [
     &ALLOCATE_MEMORY,
     &BIND_BUFFER_MEMORY,
@@ -249,7 +250,7 @@ pub static MAKERS: [&Function; 19] = [
     &CREATE_COMPUTE_PIPELINES,
 ];
 
-/// The watched commands.
+/// The commands that the spy counts.
 pub static COMMANDS: [&Function; 8] = [
     &CMD_BARRIER,
     &CMD_BIND_PIPELINE,
@@ -315,7 +316,8 @@ pub type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
 
 /// Events, while buffers are watched.
 static EVENTS: Mutex<Option<Vec<Event>>> = Mutex::new(None);
-/// Storage buffers of the sets since a pool was reset, by set and binding. A set is bound right after it is made.
+/// Storage buffers by set and binding, of the sets written since a pool was reset. A set is bound
+/// right after it was written.
 static SETS: Mutex<BTreeMap<(u64, u32), vk::Buffer>> = Mutex::new(BTreeMap::new());
 /// Bound sets of compute and of graphics.
 static BOUND_SETS: [AtomicU64; 2] = [AtomicU64::new(0), AtomicU64::new(0)];
@@ -338,13 +340,13 @@ fn note(event: Event) {
     }
 }
 
-/// The library's buffers of a size.
+/// The library's buffers that have this size.
 pub fn buffers_of_size(bytes: u64) -> Vec<vk::Buffer> {
     let sizes = held(&SIZES);
     sizes.iter().filter(|(_, size)| **size == bytes).map(|b| vk::Buffer::from_raw(*b.0)).collect()
 }
 
-/// Buffers that share a descriptor set with another buffer.
+/// All buffers of the descriptor sets that contain this buffer.
 pub fn buffers_beside(buffer: vk::Buffer) -> Vec<vk::Buffer> {
     let sets = held(&SETS);
     let with = sets.iter().filter(|(_, other)| **other == buffer).map(|(at, _)| at.0);
@@ -352,7 +354,8 @@ pub fn buffers_beside(buffer: vk::Buffer) -> Vec<vk::Buffer> {
     sets.iter().filter(|(at, _)| with.contains(&at.0)).map(|(_, other)| *other).collect()
 }
 
-/// Drops the `nth` barrier of a buffer, from 0, in the next watch: neither the driver nor a layer sees it.
+/// Drops the `nth` barrier (from 0) of a buffer in the next watch, so that neither the driver nor a
+/// validation layer sees it.
 pub fn leave_out(buffer: vk::Buffer, nth: usize) {
     *held(&LEFT_OUT) = Some((buffer, nth));
 }
@@ -432,10 +435,11 @@ unsafe extern "system" fn cmd_barrier(c: vk::CommandBuffer, i: P) {
 
 /// Written by hand, because it remembers the cube.
 pub static CREATE_IMAGE: Function = Function::new(c"vkCreateImage");
-/// The last image created with six layers and mips: the environment, which is in no layer of a frame.
+/// The last image created with six layers and mips: the environment's cube map, which is no layer
+/// of a frame.
 static CUBE: AtomicU64 = AtomicU64::new(0);
 
-/// The environment of the last renderer.
+/// The environment's cube map of the renderer that was created last.
 pub fn cube() -> vk::Image {
     vk::Image::from_raw(CUBE.load(SeqCst))
 }
@@ -545,7 +549,8 @@ static STAMPS: Mutex<Option<Stamps>> = Mutex::new(None);
 /// A timestamp for each query.
 pub type Stamps = Box<dyn Fn(usize) -> u64 + Send>;
 
-/// Answers to queries from now on, by their number; `None`: the driver's.
+/// Replaces the timestamps of queries from now on, by their number. `None`: the driver's values are
+/// returned.
 pub fn answer(stamps: Option<Stamps>) {
     *held(&STAMPS) = stamps;
 }

@@ -1,5 +1,5 @@
-//! Rounding bounds. u is half an ulp of single precision; every bound is a count of operations
-//! times u times the magnitude of the operands.
+//! Rounding bounds. u is half an ulp of single precision. A bound is a number of operations times u
+//! times the magnitude of the operands.
 
 use glam::{DVec3, DVec4};
 
@@ -33,10 +33,11 @@ pub fn eye_space(center: DVec3, view: &View) -> f64 {
     7.0 * U * 2.0 * (center.length() + eye)
 }
 
-/// How far off a sphere's depth and the ends of its span may be. The depth: its product with the
-/// view, and the few sums of a slice. A tangent's slope is `(x z +- r sqrt(x^2 + z^2 - r^2)) /
-/// (z^2 - r^2)`: the centre's error moves it by 1 / (z - r) of it, operations by 16u of its terms and
-/// of what is left of those below; in pixels four more.
+/// Error bounds for a sphere's depth and for the ends of its span in pixels. The depth comes from
+/// the product with the view matrix and a few additions. The tangents have the slopes `(x z +- r
+/// sqrt(x^2 + z^2 - r^2)) / (z^2 - r^2)`: the error of the centre changes a slope by at most that
+/// error over z - r, and the operations add 16u of their terms and of the cancelled denominator.
+/// The conversion to pixels adds 4u.
 pub fn span(sphere: &Sphere, view: &View) -> Slack {
     let (c, r) = (sphere.center, sphere.radius);
     let z = -c.z;
@@ -50,21 +51,23 @@ pub fn span(sphere: &Sphere, view: &View) -> Slack {
     Slack { depth: from + 8.0 * U * z.abs(), pixels: pixels.min(1e6) }
 }
 
-/// How far off the distance between a ray and a sphere's centre may be. The slope: pixel·scale + offset, 2 rounded numbers and 2 operations, 4u of the image's
-/// reach plus its span, times the depth. w·c / w·w, c − w·along: 12 operations, 12u of |c| |w|.
+/// Error bound for the distance between a ray and a sphere's centre. The slope pixel·scale + offset
+/// has two rounded operands and two operations: 4u of the image's reach plus its span, times the
+/// depth. The terms w·c / w·w and c - w·along take 12 operations: 12u of |c| |w|.
 pub fn ray_distance(center: DVec3, view: &View) -> f64 {
     let span = 3.0 * (1.0 + reach(view));
     let slope = 4.0 * span * center.z.abs() + 12.0 * (1.0 + reach(view)) * center.length();
     eye_space(center, view) + U * slope
 }
 
-/// Bounds of the depth splats: a sphere as much larger and smaller as its distance from the ray is
-/// uncertain; the root and the difference add 8u of the depth.
+/// Bounds of the depth splats: spheres enlarged and shrunk by the error of the distance to the ray.
+/// The root and the difference add 8u of the depth.
 pub fn depth(spheres: &[Sphere], view: &View) -> Between {
     depth_where(spheres, view, |_, _, _| (true, true))
 }
 
-/// The same for spheres that count at a pixel: certainly, or possibly.
+/// Bounds of the depth splats where `counts` tells whether a sphere certainly counts at a pixel,
+/// and whether it possibly does.
 pub fn depth_where(
     spheres: &[Sphere],
     view: &View,
@@ -93,7 +96,7 @@ pub fn depth_where(
                 let ray = view.ray(x, y);
                 let Some(nearest) = hit(ray, &larger).map(|t| t - slack) else { continue };
                 let farthest = hit(ray, &smaller).map(|t| t + slack);
-                // Without a certain hit it may lie anywhere up to the silhouette.
+                // If no hit is certain, the ray may touch the sphere anywhere up to its silhouette.
                 let latest =
                     farthest.unwrap_or_else(|| ray.dot(center) / ray.length_squared() + slack);
                 if latest >= near * (1.0 - 8.0 * U) {
@@ -111,13 +114,14 @@ pub fn depth_where(
     Between { low, high }
 }
 
-/// What a step of the smoothing rounds at a pixel, and the largest change of it that a difference
-/// just at the falloff can make.
+/// Rounding error of one smoothing step at a pixel, plus the change of the step if a depth
+/// difference close to the falloff is treated differently.
 ///
-/// The new depth is rounded once. Differences within a surface are exact (Sterbenz) but for their
-/// last sum; every product and sum of the forms adds u of the absolute values that enter it: Ē, F̄,
-/// Ḡ, L̄, M̄, N̄ below are sums of absolute values. The quotient's error is that of the numerator over
-/// the denominator, plus the quotient times the denominator's relative error.
+/// The new depth is rounded once. Depth differences within a surface are exact (Sterbenz's lemma),
+/// except for the last addition of second differences. Each product and sum of the quadratic forms
+/// adds u times the absolute values of its operands. The variables with the suffix `_abs` are those
+/// sums of absolute values. The quotient's error is the numerator's error over the denominator,
+/// plus the quotient times the relative error of the denominator.
 fn smoothing_round(
     z: &Image<f64>,
     (x, y): (usize, usize),
@@ -158,7 +162,7 @@ fn smoothing_round(
         let above = c_y * half(d.x, d.xx, c_y2) + c_x * half(d.y, d.yy, c_x2);
         32.0 * U * above / (big * big.sqrt())
     };
-    // A difference this near to the falloff may be cut here and kept there.
+    // Rounding may decide on which side of the falloff such a difference lies.
     let slack = 2.0 * error + 4.0 * U * here;
     let side =
         |falloff: f64| rate(z, px, py, view, rule, &Params { depth_falloff: falloff, ..*params });
@@ -175,9 +179,9 @@ fn smoothing_round(
     U * here + step * (rounded + jump)
 }
 
-/// The twin's smoothing with a bound of the difference that single precision makes: a stable step
-/// is a mean of its stencil, so the error of a pixel is the largest of its neighbours' plus what the
-/// step rounds. `plan`: iterations and steps.
+/// The twin's smoothing, and a bound of its difference from single precision. A stable step is a
+/// weighted mean of its stencil, so a pixel's error is at most the largest error of the stencil
+/// plus the rounding of the step. `plan`: number of iterations and step size of each pixel.
 pub fn smoothing(
     reduced: &Image<f64>,
     plan: &Image<(u32, f64)>,
@@ -212,7 +216,7 @@ pub fn smoothing(
 /// Steps of the fixed-point sums per amplitude of a whole particle.
 pub const UNITS: f64 = 16_777_216.0;
 
-/// How the sums of the thickness are formed.
+/// How the thickness is summed.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Sum {
     /// In floating point: each addition rounds the sum.
@@ -220,7 +224,7 @@ pub enum Sum {
     /// In fixed point: each addend is rounded to a multiple of 2^-24 of a whole particle's amplitude; the sum is
     /// converted once.
     Fixed,
-    /// The difference of two such sums.
+    /// Difference of two fixed-point sums.
     FixedRest,
 }
 
@@ -252,15 +256,15 @@ pub struct Splats<'a> {
     pub sum: Sum,
 }
 
-/// Bounds of the thickness splats: each sprite's centre is as uncertain as its distance from the
-/// ray; kernel and amplitude add 40u (exp 3 + 2·2 ulp, sqrt and quotients 2.5 ulp each), the sums as
-/// their kind.
+/// Bounds of the thickness splats. The position of a sprite's centre has the same error as its
+/// distance from the ray. Kernel and amplitude add 40u: exp 3 + 2·2 ulp, square root and quotients
+/// 2.5 ulp each. Rounding of the sum depends on its [`Sum`].
 pub fn thickness(splats: &Splats<'_>) -> Between {
     thickness_where(splats, |_, _, _| (1.0, 1.0))
 }
 
-/// The same for the share of each sphere that counts at a texel, as a lower and an upper bound. A share of zero adds
-/// nothing.
+/// Bounds of the thickness splats where each sphere counts with a share at a texel, given as lower
+/// and upper bound. A share of zero adds nothing.
 pub fn thickness_where(
     splats: &Splats<'_>,
     share: impl Fn(usize, usize, &Sphere) -> (f64, f64),
@@ -282,7 +286,7 @@ pub fn thickness_where(
         if d < near * (1.0 - 8.0 * U) - uncertain {
             continue;
         }
-        // Distance inside the frustum, minus its possible rounding.
+        // Distance to the inner side of the frustum's planes.
         let inside = |p: &DVec4| p.dot(sphere.center.extend(1.0)) + whole;
         let inside = planes.iter().map(inside).fold(f64::INFINITY, f64::min);
         if inside < -uncertain {

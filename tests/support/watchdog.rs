@@ -1,4 +1,5 @@
-//! Ends the run if a test hangs: an endless shader would block the driver, and with it all tests, for ever.
+//! Aborts the run if a test hangs. A shader that never ends would block the driver, and with it all
+//! other tests.
 
 use std::cell::RefCell;
 use std::io::Write;
@@ -12,7 +13,7 @@ thread_local! {
     static OWN: RefCell<Weak<Watch>> = const { RefCell::new(Weak::new()) };
 }
 
-/// A test holds this while it is watched.
+/// A test holds this object while it is watched.
 pub struct Watch {
     test: String,
     begun: Instant,
@@ -38,7 +39,7 @@ impl Watch {
     }
 }
 
-/// Waits for the GPU under watch.
+/// Waits for the GPU. The watchdog measures the time of the wait.
 pub fn waiting<T>(wait: impl FnOnce() -> T) -> T {
     let own = OWN.with_borrow(Weak::upgrade);
     if let Some(watch) = &own {
@@ -51,7 +52,7 @@ pub fn waiting<T>(wait: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Ends the process if a test hangs; nothing less frees a thread that waits for the driver.
+/// Aborts the process if a test hangs; no other way frees a thread that waits in the driver.
 fn look() {
     let seconds = std::env::var("WHITEWATER_WATCHDOG").ok().and_then(|s| s.parse().ok());
     let most = Duration::from_secs(seconds.unwrap_or(60));
@@ -63,11 +64,13 @@ fn look() {
         };
         for watch in all {
             let waits = *watch.waits.lock().unwrap_or_else(PoisonError::into_inner);
-            // Waits inside the library are not visible here, so the whole test is timed.
+            // Waits inside the library are not visible here, so the duration of the whole test is
+            // limited too.
             let hangs = waits.is_some_and(|since| since.elapsed() > most)
                 || watch.begun.elapsed() > 10 * most;
             if hangs {
-                // Writes past the capture of the test's output.
+                // Writes to stderr directly, because the test harness captures the output of
+                // `eprintln!`.
                 let _ = writeln!(
                     std::io::stderr().lock(),
                     "\nwatchdog: {} waits for the GPU for more than {} s: a shader that does not end? \

@@ -17,7 +17,7 @@ pub struct Soaped {
     pub color: Image<[f32; 4]>,
     /// Reflectance of films: cosines in columns, thicknesses in rows.
     pub film: Image<[f32; 4]>,
-    /// Layers of each pixel, and the largest opacity.
+    /// Layers of blobs of each pixel, and the largest opacity.
     pub layers: Vec<Vec<u32>>,
     /// Statistics of the blobs: [`whitewater::Diagnostics::blobs`].
     pub range: [u32; 5],
@@ -27,7 +27,7 @@ pub struct Soaped {
 pub struct Foamed(Data, u32);
 
 impl Rig<'_> {
-    /// A buffer of a shot's blobs.
+    /// Uploads a shot's blobs.
     pub fn blobs(&self, shot: &Shot) -> Foamed {
         let mut bytes = bytemuck::cast_slice(&shot.blobs).to_vec();
         bytes.resize(bytes.len().max(size_of::<Bubble>()), 0);
@@ -45,7 +45,7 @@ impl Rig<'_> {
         all.chunks_exact(words as usize).map(<[u32]>::to_vec).collect()
     }
 
-    /// Words of a buffer that is a transfer source.
+    /// First words of a buffer that has the usage TRANSFER_SRC.
     pub fn words_of(&self, buffer: vk::Buffer, count: u32) -> Vec<u32> {
         let size = 4 * u64::from(count);
         let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);

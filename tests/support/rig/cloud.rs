@@ -52,7 +52,7 @@ impl WhitewaterCloud {
     }
 }
 
-/// The same for the twin.
+/// The whitewater particles in the twin's representation.
 pub fn twins(all: &Whitewater<'_>) -> Vec<Particle> {
     let particle = |(i, position): (usize, &[f32; 3])| Particle {
         position: Vec3::from(*position).as_dvec3(),

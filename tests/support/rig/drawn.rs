@@ -28,20 +28,21 @@ pub struct Drawn {
     pub foam: Option<Foaming>,
     /// Optical depth of spray; set with spray.
     pub spray: Option<Image<f32>>,
-    /// Sunlit part of that; set with spray.
+    /// Part of the optical depth of spray that the sun reaches; set with spray.
     pub lit_spray: Option<Image<f32>>,
     /// Set with motion vectors.
     pub motion: Option<Image<[f32; 2]>>,
     /// Height of the surface noise, if it is drawn.
     pub noise: Option<Image<f32>>,
-    /// The light's maps: metres along the light to the first fluid; metres of water and foam, and both
-    /// times where they lie; light over what comes without water.
+    /// Map of the light: distance along the light to the nearest fluid, in metres.
     pub light_front: Option<Image<f32>>,
-    /// As above.
+    /// Map of the light: thickness of water and of foam in metres, and each of them times its
+    /// position along the light.
     pub light_thickness: Option<Image<[f32; 4]>>,
-    /// Of whitewater particles: thickness, metres along the light to its middle and of its spread.
+    /// Map of the light for whitewater particles: thickness, and mean and standard deviation of
+    /// their position along the light in metres.
     pub light_whitewater: Option<Image<[f32; 4]>>,
-    /// As above.
+    /// Map of the light: irradiance relative to that without water.
     pub caustics: Option<Image<f32>>,
     /// Set with whitewater particles.
     pub whitewater: Option<DrawnWhitewater>,
@@ -52,7 +53,7 @@ pub struct Drawn {
     pub shore: Option<Image<[u8; 4]>>,
     /// All pages of the host's shadow map as a Fourier basis.
     pub shadow_basis: Option<Image<[f32; 4]>>,
-    /// Words of the particles with their ellipsoids.
+    /// Words of the buffer of particles and their ellipsoids.
     pub shapes: Option<Vec<u32>>,
     pub work: Work,
 }
@@ -107,15 +108,15 @@ pub struct Work {
 #[derive(Clone)]
 pub struct Foaming {
     pub depth: Image<f32>,
-    /// Thickness of all foam, and of foam right behind the frontmost.
+    /// Thickness of all foam, and of the foam close behind the frontmost foam.
     pub thickness: Image<[f32; 2]>,
-    /// Sunlit part of the second.
+    /// Sunlit part of the foam close behind the frontmost foam.
     pub lit: Image<f32>,
     /// Thickness of all foam times its mean distance behind the frontmost.
     pub far: Image<f32>,
     /// Thickness of the water before the frontmost foam.
     pub before: Image<f32>,
-    /// Number of times that all images are halved.
+    /// Level of the foam images: each is halved this many times.
     pub level: u32,
 }
 

@@ -31,9 +31,10 @@ pub fn extent(width: u32, height: u32) -> vk::Extent2D {
     vk::Extent2D { width, height }
 }
 
-/// A configuration for tests: a small environment, kept layers, sums that do not depend on the order, and all water in
-/// one sheet, because most twins have one. The smoothing has one level except in the long tests: the composite of tiles
-/// with several levels takes half of the time to make a renderer, and few tests need it.
+/// A configuration for tests: a small environment, layers that are kept, sums that do not depend on
+/// the order of the particles, and all water in one sheet, because most twins have one. Only the
+/// long tests smooth on several levels: the pipeline that composites tiles of several levels takes
+/// half of the time to create a renderer, and few tests need it.
 pub fn config(size: vk::Extent2D) -> Config {
     Config::new(size, OUTPUT, 4096).with(|it| {
         it.environment_size = 16;
@@ -41,7 +42,7 @@ pub fn config(size: vk::Extent2D) -> Config {
         it.depth_splat = Some(Splat::Compute);
         it.thickness_splat = Some(Splat::Compute);
         it.sheets = 1;
-        // Most twins see only the scene right behind a pixel.
+        // Most twins know only the part of the scene directly behind a pixel.
         it.mirror_steps = 0;
         it.exit = Exit::Straight;
         it.kernels = Kernels::Spheres;
@@ -49,7 +50,7 @@ pub fn config(size: vk::Extent2D) -> Config {
     })
 }
 
-/// The same, with coarser levels where water is near.
+/// The configuration with coarser levels where water is near.
 pub fn coarsening(config: Config) -> Config {
     config.with(|it| it.coarsening = Config::new(config.extent, OUTPUT, 1).coarsening)
 }
@@ -59,7 +60,7 @@ pub fn headless(size: vk::Extent2D) -> Headless {
     Headless::new(Gpu::own().take_device(), &config(size)).expect("headless")
 }
 
-/// Ends it, and asserts that validation was silent.
+/// Destroys the scene and asserts that there were no validation messages.
 pub fn finish(headless: Headless) {
     let device = headless.finish().expect("finish");
     assert_eq!(device.take_messages(), Vec::<String>::new());
@@ -135,7 +136,8 @@ impl<'g> Rig<'g> {
         self.turned_environment(size, texels, 1.0, 0.0);
     }
 
-    /// The same, brighter and rotated.
+    /// Sets an environment from an equirectangular image, multiplied by `scale` and rotated by
+    /// `turn`.
     pub fn turned_environment(
         &mut self,
         size: vk::Extent2D,
@@ -155,7 +157,7 @@ impl<'g> Rig<'g> {
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
-    /// The same from a map with the sun and a map without it.
+    /// Sets an environment from an image with the sun and an image without it.
     pub fn environment_with_sun(
         &mut self,
         size: vk::Extent2D,
@@ -182,17 +184,18 @@ impl<'g> Rig<'g> {
         self.stub.uploaded(OUTPUT, size, usage, bytemuck::cast_slice(texels), after)
     }
 
-    /// A renderer with an environment of values from 0 to 1. (If the environment were only cleared, SwiftShader would
-    /// prepare it for draws alone, and compute shaders would read garbage at the seams of the cube.)
+    /// A renderer with an environment of values from 0 to 1. (SwiftShader prepares an environment
+    /// that is only cleared for draws only; compute shaders would read wrong values at the seams of
+    /// the cube.)
     pub fn lit(gpu: &'g Gpu, config: &Config, slots: u32) -> Self {
         let mut rig = Self::with_slots(gpu, config, slots);
         rig.light();
         rig
     }
 
-    /// Sets that environment. With films it is grey where a driver has one mip level per group of pixels: in
-    /// SwiftShader an explicit level is that of one lane, even one that has ended, so the same ray could have two
-    /// colours in two draws.
+    /// Sets the environment of [`lit`](Self::lit). With bubble foam it is grey in SwiftShader,
+    /// which uses the mip level of one lane, even of a finished one, for a whole group of pixels:
+    /// the same ray could get two colours in two draws.
     pub fn light(&mut self) {
         let expected = std::env::var("WHITEWATER_EXPECT_ADAPTER").unwrap_or_default();
         let grey = self.config.bubbles.is_some() && expected.contains("SwiftShader");
@@ -267,7 +270,7 @@ impl<'g> Rig<'g> {
         self.draw_whitewater(shot, particles, None)
     }
 
-    /// The same with whitewater particles.
+    /// Draws a shot with whitewater particles.
     pub fn draw_whitewater(
         &mut self,
         shot: &Shot,

@@ -11,7 +11,7 @@ use crate::reference::{Image, Sphere, View};
 use crate::support::scenes;
 use crate::support::tolerance::{Splats, Sum};
 
-/// Colour of the margin around a view. A filter that reads it, even with weight 0, spoils its result.
+/// Colour of the margin around a view. A filter that reads it, even with weight 0, gets NaN.
 pub const AROUND: [f32; 4] = [f32::NAN, f32::INFINITY, 25.0, 0.5];
 
 pub fn is_around(texel: &[f32; 4]) -> bool {
@@ -73,7 +73,7 @@ impl Shot {
         shot
     }
 
-    /// Largest depth difference within one surface, as rounded by the renderer.
+    /// Max depth difference within one surface, rounded as in the renderer.
     pub fn falloff(&self) -> f32 {
         self.settings.water.depth_falloff * self.settings.water.radius()
     }
@@ -95,7 +95,7 @@ impl Shot {
         (whole, vk::Rect2D { offset, extent: view })
     }
 
-    /// The texels of such an image, with `around` in the margin.
+    /// The texels of an image with the margin, which is filled with `around`.
     pub fn pad<T: Copy>(&self, view: vk::Extent2D, texels: &[T], around: T) -> Vec<T> {
         let (whole, rect) = self.with_margin(view);
         let mut padded = vec![around; (whole.width * whole.height) as usize];
@@ -116,7 +116,8 @@ impl Shot {
         self.view(self.depth_extent).view
     }
 
-    /// Fills the scene's depth from an eye depth per texel; `None` is no scene.
+    /// Fills the scene's depth image from an eye depth per texel; `None` means that there is no
+    /// scene.
     pub fn scene_depth(&mut self, eye: impl Fn(u32, u32) -> Option<f64>) {
         let view = self.view(self.depth_extent);
         let far = view.far().map_or_else(
