@@ -1,6 +1,8 @@
-//! The particle-cache readers and writers: every format and encoding, bad input, sequences, spacing.
+//! The readers and writers of particle caches: every format and encoding, bad input, sequences,
+//! spacing.
 //!
-//! Samples are made here byte by byte. With `WHITEWATER_DATA` set to a folder of published caches, those are read too.
+//! Samples are built here byte by byte. If `WHITEWATER_DATA` names a folder of published caches,
+//! those are read too.
 #![allow(clippy::unwrap_used)] // a test may
 
 #[path = "formats/allocation.rs"]
@@ -81,7 +83,7 @@ fn attributes_are_listed_with_their_shape() {
             ("density", 1, AttributeType::F32),
         ]
     );
-    // A lifetime is one number: the `life` of two is something else.
+    // A lifetime is a single number; a `life` of two components has another meaning.
     assert_eq!(particles.lifetimes, None);
 }
 
@@ -115,7 +117,8 @@ fn whitewater_attributes_are_read() {
 
 #[test]
 fn base64_with_a_header_of_its_own() {
-    // Some writers encode the length of uncompressed data apart, padding included.
+    // Some writers encode the length of uncompressed data separately from the data, each with its
+    // own padding.
     use base64::Engine;
     let encode = |b: &[u8]| base64::engine::general_purpose::STANDARD.encode(b);
     let raw = samples::floats(samples::cloud().positions.as_flattened(), 4, false);

@@ -1,4 +1,5 @@
-//! Counts the allocations of each thread, to prove that false sizes in headers cost no memory.
+//! Counts the allocated bytes of each thread, to prove that false sizes in headers allocate
+//! nothing.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -11,7 +12,7 @@ thread_local! {
 }
 
 fn grow(size: usize) {
-    // Fails only while a thread ends, when nothing is measured.
+    // This fails only while a thread ends, when nothing is measured.
     let _ = LIVE.try_with(|live| {
         live.set(live.get().saturating_add(size));
         let _ = PEAK.try_with(|peak| peak.set(peak.get().max(live.get())));
@@ -40,7 +41,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// Runs `f` and gives the most bytes that it held at once on this thread.
+/// Runs `f`, and returns the max number of bytes that it held at once on this thread.
 pub fn peak<T>(f: impl FnOnce() -> T) -> (T, usize) {
     let before = LIVE.get();
     PEAK.set(before);

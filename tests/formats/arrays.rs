@@ -9,7 +9,7 @@ fn npy(descr: &str, shape: &str, fortran: bool, raw: &[u8]) -> Vec<u8> {
 
 fn read(name: &str, bytes: &[u8], hint: Extension) -> Particles {
     let whole = read_bytes(bytes, hint).unwrap_or_else(|e| panic!("{name}: {e}"));
-    // In parts they are the same.
+    // Reading in parts gives the same positions and warnings.
     for most in [1, 3, 100] {
         let parts = Parts::of_bytes(bytes, hint, most).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(parts.about().warnings, whole.warnings, "{name}");
@@ -30,12 +30,12 @@ fn error(bytes: &[u8], hint: Extension, parts: &[&str]) {
     }
 }
 
-/// The values of a list of vectors, all of a component together.
+/// The values of a list of vectors, component by component.
 fn columns(v: &[[f32; 3]]) -> Vec<f32> {
     (0..3).flat_map(|c| v.iter().map(move |v| v[c])).collect()
 }
 
-/// `f4` values of rows of the cloud, so many of position and velocity and then zeros.
+/// Rows of `f4` values: position, velocity and then zeros, cut to this number of columns.
 fn rows(columns: usize) -> Vec<u8> {
     let cloud = samples::cloud();
     let row = |(p, v): (&[f32; 3], &[f32; 3])| {
@@ -344,7 +344,7 @@ fn shapes_of_json() {
     let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
     assert_eq!(p.positions[2], [5.0, 6.0, 7.0]);
     assert!(p.warnings[0].contains("2 of 3 positions are not finite"), "{:?}", p.warnings);
-    // Comments, and commas behind the last value.
+    // Comments, and commas after the last value.
     for text in [
         "// of a run\n{\"positions\": [[1, 2, 3], [4, 5, 6],], /* [ */ \"a // b\": \"/* ,]\",}",
         "/* [[0, */ [[1, 2, 3], // , ]\n [4, 5, 6], /* last */ ]",

@@ -1,4 +1,5 @@
-//! Bad input gives an error that says what is wrong: never a panic, and no allocation for a false size in a header.
+//! Bad input gives an error that describes the problem: never a panic, and never an allocation for
+//! a false size in a header.
 
 use std::path::Path;
 
@@ -26,7 +27,7 @@ const HINTS: [Extension; 15] = [
     Extension::Unknown,
 ];
 
-/// The error of bytes that must not be read; its words must have each of `parts` in them.
+/// Asserts that reading fails, and that the message contains each of `parts`. Returns the error.
 fn refused(bytes: &[u8], hint: Extension, parts: &[&str]) -> ReadError {
     match read_bytes(bytes, hint) {
         Ok(p) => panic!(
@@ -43,12 +44,13 @@ fn refused(bytes: &[u8], hint: Extension, parts: &[&str]) -> ReadError {
     }
 }
 
-/// Reads and checks what holds for all results, and that memory stays in proportion to the input.
+/// Reads bytes. Asserts what holds for every result, and that memory is proportional to the input.
 fn read_checked(name: &str, bytes: &[u8], hint: Extension) -> Result<Particles, ReadError> {
     let (result, peak) = allocation::peak(|| read_bytes(bytes, hint));
-    // The dictionary of LZMA is set aside whole: 66 MiB at most.
+    // The LZMA decoder allocates its whole dictionary, at most 64 MiB, and up to 2 MiB more.
     let fixed = if name.contains("lzma") { 68 << 20 } else { 1 << 20 };
-    // Compressed samples are a few kB at most: 300 is what LZ4 and JSON come to.
+    // Compressed samples have a few kB at most. LZ4 and JSON take up to 300 bytes per byte of
+    // input.
     let limit = fixed + 300 * bytes.len();
     assert!(peak <= limit, "{name}: {peak} bytes held for {} of input", bytes.len());
     if let Ok(p) = &result {
@@ -95,7 +97,7 @@ fn unknown_extension() {
         &["unknown extension", "1 2 3"],
     );
     assert!(matches!(error, ReadError::UnknownFormat { .. }));
-    // Rows of numbers are positions, also with names, or with a count and a comment.
+    // Rows of three numbers are positions, also below names, or below a count and a comment.
     let rows = "0.5 1 2\n0.5 1 3\n0.5 1 4\n";
     for head in ["", "# dam\n", "x y z\n", "3\n\n", "3\nframe 1\n"] {
         let p = read_bytes(format!("{head}{rows}").as_bytes(), Extension::Unknown).unwrap();
@@ -110,7 +112,7 @@ fn unknown_extension() {
     ] {
         refused(other.as_bytes(), Extension::Unknown, &["unknown extension"]);
     }
-    // A name that does not fit is no excuse to guess either.
+    // A wrong file extension does not permit guessing either.
     refused(b"1 2 3\n", Extension::Ply, &["Ply"]);
     refused(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], Extension::Unknown, &[]);
 }
@@ -135,7 +137,7 @@ fn known_formats_that_are_not_read_say_what_to_do() {
 
 #[test]
 fn wrong_counts() {
-    // More points than bytes, and the most that the header can say.
+    // More points than bytes, and the largest numbers that the header can hold.
     for (at, value) in [(9, 12_i32), (9, i32::MAX), (9, -1), (25, 1000), (25, i32::MAX)] {
         let mut bytes = samples::bgeo(&samples::cloud());
         bytes[at..at + 4].copy_from_slice(&value.to_be_bytes());
@@ -161,7 +163,6 @@ fn wrong_counts() {
         ] {
             let bytes =
                 swap(samples::vtk(&samples::cloud(), "5.1", binary, false, false), from, &to);
-            // In a text the values that are left over are found as an unknown section: a warning or an error.
             let result = read_checked("vtk", &bytes, Extension::Vtk);
             assert!(result.is_err(), "{binary} {from} {to}");
         }
@@ -242,7 +243,7 @@ fn places_are_told() {
         Extension::Ply,
         &["line 3", "vertex one"],
     );
-    // The number that is missing, not the line that is taken for another then.
+    // The message names the missing number instead of the next line, which the reader takes for it.
     let head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n";
     let vtk = |points: &str| format!("{head}{points}\nPOINT_DATA 2\nVECTORS v float\n1 2 3 4 5 6");
     let said = ["a number for POINTS, found \"POINT_DATA\"", "at byte 74"];
@@ -253,7 +254,7 @@ fn places_are_told() {
     refused(&bytes, Extension::Bgeo, &["the points", "at byte 154", "528", "46 are there"]);
 }
 
-/// Of two arrays that may be the velocities one is used; the other has to be sound as well.
+/// If two arrays may be the velocities, one is used, but the other must be valid too.
 #[test]
 fn arrays_that_have_no_meaning_are_checked() {
     let array = |name: &str, numbers: &str| {
@@ -316,7 +317,7 @@ fn ids_that_do_not_fit_are_dropped() {
     ];
     let p = read_bytes(&samples::npz(&arrays, false), Extension::Npz).unwrap();
     assert_eq!(p.ids, None);
-    // Of longer integers the low half tells particles apart, unless it repeats.
+    // Of longer integers the lower half is used as id, unless it repeats.
     for (id, expected) in [("4294967298", 2), ("1000000000001", 3_567_587_329)] {
         let text = format!("x,y,z,id\n0,0,0,1\n1,1,1,{id}\n");
         let p = read_bytes(text.as_bytes(), Extension::Csv).unwrap();
@@ -345,7 +346,7 @@ fn what_unpacks_without_end_is_refused() {
 
 #[test]
 fn pieces_that_share_data_are_bounded() {
-    // A thousand pieces point to the same packed array of a hundred thousand points.
+    // A thousand pieces refer to the same compressed array of a hundred thousand points.
     use std::io::Write;
     let raw = vec![0_u8; 1_200_000];
     let mut packed = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
@@ -364,15 +365,15 @@ fn pieces_that_share_data_are_bounded() {
     assert!(peak < 128 << 20, "{peak}");
 }
 
-/// Every file cut off at every length up to some hundred, and at many beyond.
+/// Every file cut off at some forty lengths, spread over the file.
 #[test]
 fn cut_off_files() {
     for s in samples::all() {
-        // The rest of a sequence of encodings differ little in their beginning.
+        // More lengths are not needed: the encodings differ little at the start of the file.
         let step = (s.bytes.len() / 40).max(1);
         for length in (0..s.bytes.len()).step_by(step) {
             let result = read_checked(&s.name, &s.bytes[..length], s.hint);
-            // A binary file that lacks half of itself cannot be read.
+            // A binary file that lacks half of its bytes cannot be read.
             let binary = !s.bytes.is_ascii() && s.has == Has::All;
             if binary && length < s.bytes.len() / 2 && !s.name.contains("bgeo") {
                 assert!(result.is_err() || s.name.starts_with("vtk"), "{} at {length}", s.name);
@@ -381,11 +382,12 @@ fn cut_off_files() {
     }
 }
 
-/// Numbers below a given one. No seed of the clock: a failure repeats.
+/// Pseudo-random numbers below a given one. The seed is constant, so that a failure can be
+/// reproduced.
 pub fn numbers() -> impl FnMut(usize) -> usize {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     move |n: usize| {
-        // xorshift64*
+        // xorshift64*, shifts 12, 25, 27
         state ^= state >> 12;
         state ^= state << 25;
         state ^= state >> 27;
@@ -393,7 +395,7 @@ pub fn numbers() -> impl FnMut(usize) -> usize {
     }
 }
 
-/// A file with flips, cuts, doubled and removed parts.
+/// Damages a file with flipped bits, cuts, and duplicated or removed ranges.
 pub fn damaged(bytes: &[u8], next: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..1 + next(4) {
@@ -406,7 +408,7 @@ pub fn damaged(bytes: &[u8], next: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
                 bytes.splice(a..a, part);
             }
             3 if a < bytes.len() => bytes[a] = [0, 0xff, 0x7f, b'9', b'-'][next(5)],
-            // Digits make counts that lie.
+            // Digits turn into false counts.
             4 => {
                 if let Some(i) = bytes.iter().skip(a).position(u8::is_ascii_digit) {
                     bytes.splice(a + i..=a + i, b"999999999999".iter().copied().take(1 + next(12)));
@@ -419,8 +421,8 @@ pub fn damaged(bytes: &[u8], next: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
     bytes
 }
 
-/// How many times each file is damaged: more where `WHITEWATER_ROUNDS` says by how much, for an hour of it. `WHITEWATER_FORMAT`
-/// has those alone whose name begins so.
+/// Number of times that each file is damaged. `WHITEWATER_ROUNDS` multiplies it, for runs of an
+/// hour; `WHITEWATER_FORMAT` limits the test to files whose name begins so.
 pub fn rounds(usual: usize) -> usize {
     let times = std::env::var("WHITEWATER_ROUNDS").ok().and_then(|times| times.parse().ok());
     usual * times.unwrap_or(1)
@@ -444,7 +446,8 @@ fn mutations() {
     assert!(read > 0 && read < cases, "{read} of {cases}");
 }
 
-/// Sound files of other formats are named with the way out, and none of them is called damaged.
+/// Valid files of other formats are named in the error, with a way to convert them. The error does
+/// not call them damaged.
 #[test]
 fn files_of_other_formats_are_named() {
     let zip = |name: &str| {

@@ -1,4 +1,5 @@
-//! Published caches, if `WHITEWATER_DATA` names their folder, and frames of the project's own, always.
+//! Published caches, if `WHITEWATER_DATA` names their folder, and frames of this project's own
+//! scenes.
 
 use std::path::PathBuf;
 
@@ -16,7 +17,7 @@ fn folder() -> Option<PathBuf> {
     folder
 }
 
-/// A frame of a scene of the project's own. The published crate is without them.
+/// A frame of one of the project's own scenes, which the published crate does not contain.
 fn own(file: &str) -> Option<PathBuf> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets").join(file);
     if !path.exists() {
@@ -26,14 +27,15 @@ fn own(file: &str) -> Option<PathBuf> {
     Some(path)
 }
 
-/// Scenes, particles, spacing, and the error of its estimate in percent, as measured; it may move by a percent.
+/// File, number of particles, spacing, and measured error of the estimated spacing in percent. The
+/// error may change by one percent.
 const OWN: [(&str, usize, f32, f32); 3] = [
     ("waterfall/waterfall_0240.bgeo", 29_408, 0.04, 2.6),
     ("corridor/corridor_0090.bgeo", 27_117, 0.04, 1.3),
     ("bamboo/bamboo_0115.bgeo", 30_230, 0.02, 5.6),
 ];
 
-/// Our frames as each format that we write: the same to the last bit.
+/// Frames written in each format that this library writes, and read back bit for bit.
 #[test]
 fn our_frames_in_every_format_that_is_written() {
     for (file, count, spacing, expected) in OWN {
@@ -86,7 +88,7 @@ fn load(path: &std::path::Path) -> Particles {
     read(path).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The largest difference, in units of the seventh digit of the larger value of a component in the cloud.
+/// Asserts that values agree within a relative error of `digits`.
 fn differ(name: &str, a: &[f32], b: &[f32], digits: f32) {
     assert_eq!(a.len(), b.len(), "{name}");
     for (i, (a, b)) in a.iter().zip(b).enumerate() {
@@ -109,7 +111,7 @@ fn one_frame_in_23_files() {
         let name = file.file_name().unwrap().to_string_lossy().into_owned();
         let p = load(&file);
         let text = ["ascii", "csv", "json"].iter().any(|t| name.contains(t));
-        // VTK writes legacy text with six digits, and a seventh of its own rounding elsewhere.
+        // VTK writes legacy text with six digits; the other text has seven.
         let digits = match (text, name.contains("legacy51_ascii")) {
             (false, _) => 0.0,
             (true, false) => 6e-7,
@@ -178,7 +180,8 @@ fn other_programs() {
     assert!(block.velocities.is_some() && block.densities.is_some() && block.ids.is_some());
     let pysph = load(&folder.join("pysph/spheric2_fluid_01180.vtu"));
     assert_eq!(pysph.positions.len(), 23_760);
-    // `u v w` and `rho`: the fastest is a jet along x, the density that of water.
+    // Arrays `u`, `v`, `w` and `rho`: the fastest particle is in a jet along x, and the density is
+    // that of water.
     let fastest = pysph.velocities.unwrap().iter().map(|v| v[0]).fold(0.0, f32::max);
     assert!((fastest - 3.245_584).abs() < 1e-5, "{fastest}");
     assert!(pysph.densities.unwrap().iter().all(|d| (990.0..1016.0).contains(d)));
@@ -192,7 +195,7 @@ fn other_programs() {
     assert_eq!(load(&folder.join("partio/base.bgeo")).positions, binary.positions);
 }
 
-/// The error of each estimate in percent, as measured; it may move by a percent.
+/// Measured errors of the estimated spacing in percent. They may change by one percent.
 #[test]
 fn spacing_of_the_caches() {
     let Some(folder) = folder() else { return };
@@ -209,7 +212,7 @@ fn spacing_of_the_caches() {
         ("double_dam_pillar/ParticleData_Fluid_57.bgeo", 0.05, 1.4),
         ("double_dam_small/ParticleData_Fluid_13.bgeo", 0.05, 4.4),
         ("double_dam_small/ParticleData_Fluid_62.bgeo", 0.05, 4.3),
-        // Two thirds of this one fly about.
+        // Two thirds of these particles are in the air.
         ("formats/dam27_uncompressed.bgeo", 0.05, 9.4),
     ];
     for (file, spacing, expected) in cases {

@@ -1,4 +1,4 @@
-//! The same particles in the layouts and spellings of common programs.
+//! The same particles in the layouts and with the attribute names of common programs.
 
 use whitewater::io::particles::{Extension, Format, Particles, read_bytes};
 
@@ -17,11 +17,11 @@ fn error(text: &str, hint: Extension, parts: &[&str]) -> String {
     error
 }
 
-/// Two particles, by their columns.
+/// Two particles with eight columns: position, velocity, id, density.
 const ROWS: [[f64; 8]; 2] =
     [[1.5, 2.5, -3.0, 0.25, -0.5, 4.0, 7.0, 998.5], [10.0, 0.125, 2.0, 1.0, 2.0, 3.0, 8.0, 1001.0]];
 
-/// Whether all of it was read: position, velocity, id and density.
+/// Asserts that position, velocity, id and density were read, without warnings.
 fn check(name: &str, p: &Particles) {
     let all = |column: usize| ROWS.map(|row| [0, 1, 2].map(|k| row[column + k] as f32));
     assert_eq!(p.positions, all(0), "{name}");
@@ -31,7 +31,7 @@ fn check(name: &str, p: &Particles) {
     assert!(p.warnings.is_empty(), "{name}: {:?}", p.warnings);
 }
 
-/// The rows, with what separates numbers and what ends lines.
+/// The two rows as text with this separator between numbers and this end of line.
 fn rows(separator: &str, end: &str) -> String {
     let line = |row: &[f64; 8]| {
         let words: Vec<_> = row.iter().map(f64::to_string).collect();
@@ -40,7 +40,7 @@ fn rows(separator: &str, end: &str) -> String {
     ROWS.iter().map(line).collect()
 }
 
-/// Names of eight columns as programs write them.
+/// Names of the eight columns as programs write them.
 const NAMES: [(&str, [&str; 8]); 22] = [
     ("plain", ["x", "y", "z", "vx", "vy", "vz", "id", "rho"]),
     ("sphsol", ["X", "Y", "Z", "VX", "VY", "VZ", "ID", "DENSITY"]),
@@ -170,7 +170,7 @@ fn names_of_columns() {
     for (name, names) in NAMES {
         let text = format!("{}\n{}", names.join(","), rows(",", "\n"));
         check(name, &read(&text, Extension::Csv));
-        // Behind `#`, after comments, with a separator at the end of each line, and in quotes.
+        // Names after `#`, below comments, with a separator at the end of each line, and in quotes.
         let above = "# solver: example 1.2\n#\n# time = 0.32 s\n\n";
         let text = format!("{above}# {}\n{}", names.join(","), rows(", ", "\n"));
         check(name, &read(&text, Extension::Csv));
@@ -182,7 +182,7 @@ fn names_of_columns() {
         check(name, &read(&text, Extension::Xyz));
         let text = format!("{}\n{}", quoted.join("\t"), rows("\t", "\n"));
         check(name, &read(&text, Extension::Csv));
-        // Between blanks.
+        // Names separated by spaces.
         if !names.iter().any(|name| name.contains(' ') && !name.contains(['[', '('])) {
             for hint in [Extension::Csv, Extension::Xyz, Extension::Text] {
                 let text = format!("{above}# {}\n{}", names.join("  "), rows("   ", "\n"));
@@ -210,7 +210,7 @@ fn names_of_arrays() {
         assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{position}");
         assert_eq!(p.velocities, Some(vec![[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]), "{velocity}");
     }
-    // What is another thing: normals, a component of a tensor, a number of a process.
+    // Columns with another meaning: normals, a component of a tensor, a process number.
     let p =
         read("x,y,z,nx,ny,nz,sxx,origProc,Points_Magnitude\n1,2,3,0,0,1,5,3,4\n", Extension::Csv);
     assert_eq!((p.velocities, p.ids, p.densities), (None, None, None));
@@ -225,13 +225,13 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
     assert!(p.warnings[0].contains("2 lines above"), "{:?}", p.warnings);
     p.warnings.clear();
     check("head lines", &p);
-    // Sections in brackets are no JSON.
+    // Section names in brackets are not JSON.
     let cfx = "X [ m ], Y [ m ], Z [ m ]";
     let text = format!("\n[Name]\nwater\n\n[Data]\n{cfx}\n1, 2, 3\n4, 5, 6\n");
     let p = read(&text, Extension::Csv);
     assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     assert!(p.warnings[0].contains("3 lines above"), "{:?}", p.warnings);
-    // Units below the names, and a rule.
+    // A line of units or a ruler below the names.
     for (names, below, separator) in [
         ("x,y,z,id", "m,m,m,-", ","),
         ("x,y,z,id", "[m],[m],[m],", ","),
@@ -246,14 +246,14 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
         let p = read(&format!("{names}\n{below}\n{}{}", row(7), row(8)), Extension::Csv);
         assert_eq!((p.positions, p.ids), (vec![[1.0, 2.0, 3.0]; 2], Some(vec![7, 8])), "{names}");
     }
-    // Points of PLY that are called so.
+    // PLY files that name the element `point` instead of `vertex`.
     let ply = "ply\nformat ascii 1.0\nelement point 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
     assert_eq!(read(&format!("{ply}1 2 3\n4 5 6\n"), Extension::Ply).positions.len(), 2);
-    // As many comments above the names as there are.
+    // Any number of comments may precede the names.
     let comments: String = (0..200).map(|i| format!("# line {i} of the log\n")).collect();
     let p = read(&format!("{comments}x,y,z\n1,2,3\n"), Extension::Csv);
     assert_eq!((p.positions, p.warnings.len()), (vec![[1.0, 2.0, 3.0]], 0));
-    // Tables one below the other.
+    // Several tables in one file.
     for text in [
         "x,y,z\n1,2,3\n4,5,6\nx,y,z\n1,2,3\n",
         "TIMESTEP, 0.1\nx,y,z\n1,2,3\n4,5,6\nTIMESTEP, 0.2\nx,y,z\n1,2,3\n",
@@ -269,15 +269,15 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
         Extension::Csv,
         &["three columns for each particle", "time,x,y,z"],
     );
-    // Vectors in a cell are named.
+    // A column whose cells contain vectors is reported by its name.
     for row in ["7,\"(0.1, 0.2, 0.3)\"", "7,\"[0.1 0.2 0.3]\""] {
         let text = format!("id,position\n{row}\n{row}\n");
         error(&text, Extension::Csv, &["vector in each cell of column `position`", "x,y,z"]);
     }
-    // A comment with names in its words is none of them.
+    // A comment that contains the words of column names is not a header.
     let p = read("# x and y are in metres\n1 2 3\n4 5 6\n", Extension::Xyz);
     assert_eq!((p.positions.len(), p.warnings.len()), (2, 0));
-    // Faults are told with their line in the file.
+    // Errors name the line in the file.
     error(&format!("{head}{names}\n1;2;3;4;5;6;7;x\n"), Extension::Csv, &["line 5", "Rhop"]);
     error(
         &format!("{head}{names}\n{}1;2;3\n", rows(";", "\n")),
@@ -288,7 +288,7 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
     assert!(!error_of.contains("damaged"), "{error_of}");
     let p = read("x|y|z\n1|2|3\n", Extension::Csv);
     assert_eq!(p.positions, [[1.0, 2.0, 3.0]]);
-    // Names of which none is a position are told.
+    // If no column is a position, the error lists the columns.
     error("a,b,c\n1,2,3\n", Extension::Csv, &["expected positions", "a: 1 x number, b"]);
 }
 
@@ -303,7 +303,7 @@ fn decimal_commas_where_others_separate() {
     assert_eq!(p.positions, [[0.5, 1.0, 2.25], [1.0, 2.0, 3.0]]);
     let p = read("1 2 3\n0,5 1 2,25\n", Extension::Xyz);
     assert_eq!(p.positions[1], [0.5, 1.0, 2.25]);
-    // Commas that separate.
+    // Commas as separators.
     let p = read("1, 2,\t3\n4, 5,\t6\n", Extension::Xyz);
     assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
 }
@@ -359,7 +359,7 @@ fn elements_of_counted_xyz() {
         "2\n1 2.5 3\n4 5 6\n",
         "2\n\n1 2.5 3\n4 5 6\n",
         "O 1 2.5 3\nH 4 5 6\n",
-        // A comment that is numbers: the sides of a box.
+        // A comment of numbers: the sides of a box.
         "2\n10 10 10\nO 1 2.5 3\nH 4 5 6\n",
         "# made by hand\n  2\nx y z\n1 2.5 3\n4 5 6\n",
     ] {
@@ -413,7 +413,7 @@ fn dumps_of_lammps() {
     );
     let two = dump(800, "x y z vx vy vz id rho") + &dump(900, "x y z vx vy vz id rho");
     error(&two, Extension::Unknown, &["several frames", "line 12"]);
-    // Parts of the sides of the box, which are 2, 1 and 1 long.
+    // Coordinates relative to the sides of the box, which have lengths 2, 1 and 1.
     let scaled = read(&dump(1, "xs ys zs vx vy vz id rho"), Extension::Unknown);
     assert_eq!(scaled.positions, [[3.0, 2.5, -3.0], [20.0, 0.125, 2.0]]);
     let moved = dump(1, "zsu vx xsu vy ysu vz id rho").replace("mm\n0 2", "mm\n-1 3");
@@ -439,7 +439,7 @@ fn ids_that_repeat_are_dropped_and_told() {
         assert_eq!(p.ids, None);
         assert!(p.warnings[0].contains("`Idp` is dropped"), "{:?}", p.warnings);
     }
-    // One that is there twice is no reason to lose the others.
+    // A single duplicate id is no reason to drop the ids.
     for id in [&(|i: usize| i + 7) as &dyn Fn(usize) -> usize, &|i| i.max(1)] {
         let p = table(id);
         assert!(p.ids.is_some() && p.warnings.is_empty(), "{:?}", p.warnings);
@@ -505,7 +505,7 @@ fn doubles_far_from_the_origin_lose_nothing() {
     let mut moved = first.clone();
     moved.move_to([403_000.0, 3_604_900.0, 100.0]);
     assert_eq!(moved.positions[0], [0.25, 0.5, 20.125]);
-    // What is near is as it is.
+    // Positions near the origin are not moved.
     let near = read("x,y,z\n100,0,0\n101,1,1\n", Extension::Csv);
     assert_eq!((near.origin, near.positions[0]), ([0.0; 3], [100.0, 0.0, 0.0]));
 }
@@ -516,7 +516,7 @@ fn several_steps_in_one_table_are_refused() {
         let step = |t| (0..20).map(move |i| row(t, i)).collect::<String>();
         format!("{names}\n{}", (0..3).map(step).collect::<String>())
     };
-    // One after the other, and by particle.
+    // Frames one after the other, and the frames of each particle one after the other.
     let text = table("time,x,y,z", &|t, i| format!("{},{i},{t},0\n", 0.5 * t as f64));
     error(&text, Extension::Csv, &["3 frames", "`time` goes from 0 to 1", "one file per frame"]);
     let text = table("id,TimeStep,x,y,z", &|t, i| format!("{i},{t},{i},0,0\n"));
@@ -524,7 +524,8 @@ fn several_steps_in_one_table_are_refused() {
     let rows: String =
         (0..20).flat_map(|i| (0..3).map(move |t| format!("{i} {t} {i} 0 0\n"))).collect();
     error(&format!("# id frame x y z\n{rows}"), Extension::Xyz, &["3 frames", "frame"]);
-    // One time is that of the frame; of each particle another one is something else.
+    // If all rows have one time, it is the time of the frame. If the ids show that each row is
+    // another particle, times that differ are an attribute of the particles.
     let text = table("time,x,y,z,id", &|t, i| format!("0.25,{i},{t},0,{}\n", 100 * t + i));
     assert_eq!(read(&text, Extension::Csv).time, Some(0.25));
     let text = table("time,x,y,z,id", &|t, i| format!("{t},{i},{t},0,{}\n", 100 * t + i));
@@ -542,7 +543,7 @@ fn lines_of_old_macs_and_vectors_in_brackets() {
     assert_eq!(p.positions, ROWS.map(|row| [0, 1, 2].map(|k| row[k] as f32)));
 }
 
-/// Positions in any plane, and words where numbers would tell kinds apart.
+/// Positions in any coordinate plane, and words in place of numbers for the kind.
 #[test]
 fn two_axes_and_words() {
     for (names, expected) in
@@ -572,12 +573,12 @@ fn tables_of_tecplot() {
     let next = zone.replace("0.32", "0.36");
     error(&format!("{text}ZONE{next}"), Extension::Text, &["several frames", "line 6"]);
     error(&text.replace("F=POINT", "F=BLOCK"), Extension::Text, &["in blocks (line 3)", "POINT"]);
-    // A record over several lines, and names on a line each.
+    // A record over several lines, and names on separate lines.
     let lines = text.replace("\", \"", "\"\n\"").replace(", I=2", "\n I = 2, J=1\n");
     let mut p = read(&lines, Extension::Csv);
     p.warnings.clear();
     check("Tecplot", &p);
-    // A column may have the name.
+    // A column may be called `zone`.
     let named = format!("zone x y z\n1 {}", "0 1 2\n");
     assert_eq!(read(&named, Extension::Xyz).positions, [[0.0, 1.0, 2.0]]);
 }
@@ -611,7 +612,7 @@ fn a_first_column_that_counts_is_the_id() {
             assert_eq!(p.ids.unwrap()[4], 4 + first as u32);
             assert!(p.warnings.len() == 1 && p.warnings[0].contains("counts"), "{:?}", p.warnings);
         }
-        // Three columns are positions, whatever they are.
+        // Three columns are always positions.
         assert_eq!(read(&table(separator, 0, 3), hint).positions[4], [4.0, 5.5, 2.0]);
     }
 }

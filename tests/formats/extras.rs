@@ -1,4 +1,4 @@
-//! Attributes that are requested by name, and reports about the others.
+//! Attributes that are requested by name, and reports about attributes that were not read.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use whitewater::io::particles::{
     Extra, Meaning, Particles, WriteFormat, read, read_with, same_name, write,
 };
 
-/// Where a test's own file goes.
+/// Path of a file that only one test uses.
 fn place(name: &str) -> PathBuf {
     std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
@@ -28,7 +28,7 @@ fn attributes_are_read_that_are_asked_for() {
     let all = read_with(&csv, &["press", "MK", "type", "density"]).unwrap();
     let extra = |name: &str, values: [f64; 3]| Extra { name: name.into(), values: values.into() };
     assert_eq!(all.extras, [extra("Mk", [11.0, 1.0, 1.0]), extra("Press [Pa]", [0.5, 1.5, -2.0])]);
-    // Nothing else differs, and nothing is asked for any more.
+    // Without the extra attributes the result is the same, and `read` returns no extra attributes.
     assert_eq!(Particles { extras: Vec::new(), ..all.clone() }, plain);
     assert_eq!(read(&csv).unwrap(), plain);
     let mut some = all;
@@ -39,7 +39,7 @@ fn attributes_are_read_that_are_asked_for() {
     assert!(same_name("Press [Pa]", "press") && !same_name("press", "pressure"));
 }
 
-/// What has a meaning as well can be asked for, in any format.
+/// An attribute with a known meaning can be requested too, in any format.
 #[test]
 fn kinds_can_be_asked_for() {
     let mut particles = Particles::from_positions(vec![[0.0; 3], [1.0; 3]]);

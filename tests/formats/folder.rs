@@ -1,4 +1,4 @@
-//! A folder of files that is removed at the end of a test.
+//! A temporary folder that is removed at the end of a test.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ impl Folder {
         &self.0
     }
 
-    /// Writes a file, and the folders that it stands in.
+    /// Writes a file, and creates the folders of its path.
     pub fn put(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -1,4 +1,4 @@
-//! HDF5 and XDMF files, as written by the original libraries: `hdf5/make.py`.
+//! HDF5 and XDMF files, which `hdf5/make.py` wrote with the original libraries.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/formats/hdf5").join(name)
 }
 
-/// Moved back along x.
+/// Moves particles back along x.
 fn moved(mut particles: Particles, by: f32) -> Particles {
     particles.positions.iter_mut().for_each(|p| p[0] -= by);
     particles
@@ -45,7 +45,7 @@ fn files_of_one_frame_are_the_cloud() {
     }
 }
 
-/// Walls lie beside the fluid; the time is that of the solver.
+/// PySPH stores walls beside the fluid; only the fluid is read. The time is the solver's.
 #[test]
 fn of_pysph_the_fluid_is_read() {
     let particles = read(&path("pysph.hdf5")).unwrap();
@@ -58,7 +58,8 @@ fn of_pysph_the_fluid_is_read() {
     assert_eq!(extra.extras[0].values, [0.1; 11]);
 }
 
-/// Steps of VTK, of which each has a particle less, and groups that differ in a number, which come in its order.
+/// Time steps of VTKHDF, each with one particle fewer than the previous one, and groups whose names
+/// differ in a number, which gives their order.
 #[test]
 fn steps_are_frames() {
     assert_eq!(times("steps.vtkhdf"), [0.0, 0.5, 1.0].map(Some));
@@ -88,7 +89,7 @@ fn steps_are_frames() {
             });
         }
     }
-    // Of groups that differ in a number anywhere, those of the fluid.
+    // If groups differ in a number at any place of their path, those of the fluid are read.
     for (i, by) in [0.0, 0.5].into_iter().enumerate() {
         let found = moved(frame("numbered.h5", i), by);
         assert_eq!(found.positions.len(), samples::COUNT);
@@ -98,14 +99,14 @@ fn steps_are_frames() {
         assert!(pairs.all(|off| off < 1.0e-6), "{i}");
         assert!(found.warnings[0].contains("are not read: /0000/walls, /0005/walls"));
     }
-    // One that is not named is none.
+    // Without a frame number, a file with several frames is not read.
     let error = read(&path("steps.vtkhdf")).unwrap_err().to_string();
     assert!(error.contains("3 frames") && error.contains("steps.vtkhdf"), "{error}");
     let none = Step::new(3, None);
     read_step(&path("steps.vtkhdf"), none, &[]).unwrap_err();
 }
 
-/// Points that are written once are those of all frames.
+/// Points that are stored once belong to all frames.
 #[test]
 fn a_series_of_xdmf_is_frames() {
     assert_eq!(times("series.xdmf"), [Some(0.0), Some(0.5)]);
@@ -119,7 +120,7 @@ fn a_series_of_xdmf_is_frames() {
     let alone = folder.put("alone.xmf", &text);
     let error = read(&alone).unwrap_err().to_string();
     assert!(error.contains("cloud.h5") && error.contains("check the name"), "{error}");
-    // Numbers in the text, and components apart.
+    // Numbers within the text of the file, and coordinates in separate arrays.
     let apart = "<Xdmf><Domain><Grid><Geometry GeometryType=\"X_Y_Z\"><DataItem Dimensions=\"2\">1 2</DataItem>\
                  <DataItem Dimensions=\"2\">3 4</DataItem><DataItem Dimensions=\"2\">5 6</DataItem></Geometry>\
                  <Attribute Name=\"rho\"><DataItem Dimensions=\"2\">8 9</DataItem></Attribute></Grid></Domain></Xdmf>";
@@ -137,7 +138,7 @@ fn what_is_not_read_is_named() {
     assert!(text.contains("lzf.h5") && text.contains("compression='gzip'"), "{text}");
     let error = read(&path("series.h5")).unwrap_err().to_string();
     assert!(error.contains("expected positions") && error.contains("/data0"), "{error}");
-    // What was never written has no place in the file, and none in memory.
+    // Data that were never written take no space in the file, and none in memory.
     let (result, peak) = allocation::peak(|| steps(&path("sparse.vtkhdf")));
     let error = result.unwrap_err().to_string();
     assert!(error.contains("PartOffsets` unpacks to more than"), "{error}");
@@ -154,7 +155,7 @@ fn what_is_not_read_is_named() {
     }
 }
 
-/// A mutation is read, or an error, and never takes more memory than the size of a file warrants.
+/// A damaged file is read or gives an error, and its memory is limited by the size of the file.
 #[test]
 fn damaged_files() {
     let mut next = numbers();
@@ -165,7 +166,8 @@ fn damaged_files() {
         for _ in 0..super::bad::rounds(24) {
             let bytes = damaged(&bytes, &mut next);
             let (result, peak) = allocation::peak(|| read_bytes(&bytes, Extension::Unknown));
-            // What may be unpacked, once as it lies there and once as numbers.
+            // Bound of the unpacked bytes, times three because they are held as stored and as
+            // numbers.
             let limit = 3 * ((16 << 20) + 64 * bytes.len());
             assert!(peak <= limit, "{name}: {peak} bytes held for {}", bytes.len());
             cases += 1;
@@ -176,7 +178,7 @@ fn damaged_files() {
     assert!(sound > 0 && sound < cases, "{sound} of {cases}");
 }
 
-/// The same of XDMF: its text, with the arrays beside it as they are, and with arrays that are damaged.
+/// XDMF with damaged text and intact arrays, and with damaged arrays.
 #[test]
 fn damaged_xdmf() {
     let folder = Folder::new("damaged-xdmf");
@@ -193,7 +195,7 @@ fn damaged_xdmf() {
         [("cloud", text("cloud.xdmf")), ("series", text("series.xdmf")), ("inline", inline.into())]
     {
         for round in 0..super::bad::rounds(48) {
-            // Every eighth time the arrays are.
+            // In every eighth round the arrays are damaged instead of the text.
             let of_array = round % 8 == 7 && name != "inline";
             let changed = if of_array { bytes.clone() } else { damaged(&bytes, &mut next) };
             if of_array {

@@ -1,4 +1,5 @@
-//! Files that list other files, pieces of a frame, ghost particles among them, and messages about meshes and times.
+//! Index files that list other files, pieces of a frame, ghost particles, and messages about meshes
+//! and times.
 
 use std::path::Path;
 
@@ -23,7 +24,7 @@ fn vtu(of: &Particles, storage: Storage, vtp: bool) -> Vec<u8> {
     xml.bytes(of)
 }
 
-/// Some of the cloud.
+/// A range of the cloud's particles.
 fn some(from: usize, to: usize) -> Particles {
     let all = samples::cloud();
     let mut some = Particles::from_positions(all.positions[from..to].to_vec());
@@ -59,7 +60,7 @@ fn pieces_of_ranks_are_one_frame() {
     let parts: Vec<_> = parts.collect::<Result<_, _>>().unwrap();
     assert_eq!(parts.iter().map(|p| p.positions.len()).collect::<Vec<_>>(), [3, 3, 3, 2]);
     assert_eq!(parts.iter().flat_map(|p| p.positions.clone()).collect::<Vec<_>>(), whole.positions);
-    // Faults are told by the piece.
+    // An error names the piece.
     folder.put("p-8.2.vtu", &vtu(&some(4, 11), Storage::AppendedRaw, false)[..700]);
     let error = read(&index).unwrap_err().to_string();
     assert!(error.contains("p-8.2.vtu"), "{error}");
@@ -172,7 +173,7 @@ fn lists_of_frames_are_sequences() {
         frames(&list).unwrap(),
         [(0, Some(0.5), "d_0.vtk".into()), (1, Some(1.0), "d_1.vtk".into())]
     );
-    // Ranks without an index of their own are one frame.
+    // Ranks at one time without an index file are one frame.
     let list = folder.put("ranks.pvd", pvd(&[set("0", "a_0.vtu"), set("0", "a_1.vtu")]));
     assert_eq!(frames(&list).unwrap(), [(0, Some(0.0), "a_0.vtu".into())]);
     for (name, bytes) in
@@ -195,12 +196,12 @@ fn pieces_among_the_frames_are_refused() {
     let error = expand(&[pattern("*.vtu")], None).unwrap_err();
     assert!(matches!(error, SequenceError::Piece { .. }));
     assert!(error.to_string().contains("p_8.pvtu: give that one"), "{error}");
-    // One by itself is a file as any other.
+    // A single piece is read as any other file.
     assert_eq!(expand(&[pattern("p_8_1.vtu")], None).unwrap().len(), 1);
     assert_eq!(expand(&[pattern("*.pvtu")], None).unwrap()[0].number, 8);
 }
 
-/// Four points, the second and the fourth of which are copies.
+/// Four points, of which the second and the fourth are ghosts.
 fn with_ghosts(name: &str, values: &str) -> String {
     format!(
         "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"4\"><PointData>\

@@ -1,5 +1,5 @@
-//! Files that are read in parts: the parts together equal reading at once, errors included, and at most one part is in
-//! memory.
+//! Files that are read in parts. All parts together equal the particles that `read` returns, errors
+//! are the same, and at most one part is in memory.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use whitewater::io::particles::{
     read_bytes, write, write_to,
 };
 
-/// Parts put together, with how many of them there were.
+/// Joins the parts, and counts them.
 fn together(parts: Parts<'_>, size: usize) -> Result<(Particles, usize), ReadError> {
     fn append<T>(all: &mut Option<Vec<T>>, part: Option<Vec<T>>) {
         assert_eq!(all.is_some(), part.is_some(), "a list that not all parts have");
@@ -43,7 +43,7 @@ fn in_parts(bytes: &[u8], hint: Extension, size: usize) -> Result<Particles, Rea
     together(Parts::of_bytes(bytes, hint, size)?, size.max(1)).map(|(all, _)| all)
 }
 
-/// All that is in them, to the last bit: no NaN is equal to itself.
+/// All data of the particles. Floats are compared by their bits, because no NaN equals itself.
 fn bits(particles: &Particles) -> impl PartialEq + std::fmt::Debug + use<> {
     let word = |list: &Vec<f32>| list.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     let vector = |list: &Vec<[f32; 3]>| word(&list.as_flattened().to_vec());
@@ -56,8 +56,9 @@ fn bits(particles: &Particles) -> impl PartialEq + std::fmt::Debug + use<> {
     )
 }
 
-/// The same particles, or the same fault in the same words; of rows of one length with several faults one that their
-/// header tells.
+/// Asserts that reading in parts gives the same particles or the same error as reading at once. If
+/// rows have a fixed length and a file has several errors, the parts may report one that the header
+/// shows. Returns whether the file was read.
 fn same(name: &str, bytes: &[u8], hint: Extension, sizes: &[usize]) -> bool {
     let whole = read_bytes(bytes, hint);
     for size in sizes {
@@ -76,7 +77,7 @@ fn same(name: &str, bytes: &[u8], hint: Extension, sizes: &[usize]) -> bool {
     whole.is_ok()
 }
 
-/// A sample whose rows have one length each, or that is a zip of such.
+/// Whether the rows of a sample have a fixed length. An NPZ archive counts if its arrays do.
 fn is_rows(name: &str, format: Format, gzip: bool) -> bool {
     match format {
         Format::Bgeo { .. } => true,
@@ -87,7 +88,7 @@ fn is_rows(name: &str, format: Format, gzip: bool) -> bool {
     }
 }
 
-/// A sample that is not read as a whole.
+/// Whether a sample is read in parts instead of as a whole.
 fn comes_in_parts(name: &str, format: Format, gzip: bool) -> bool {
     match format {
         Format::Json => false,
@@ -117,14 +118,14 @@ fn parts_of_any_size_are_the_whole_together() {
             let expected = comes_in_parts(&s.name, s.format, gzip);
             assert_eq!(!parts.in_memory(), expected, "{} {gzip}", s.name);
             rows += usize::from(!parts.in_memory());
-            // Those that fit into one are not read again.
+            // If all particles fit into one part, the first pass keeps them.
             assert!(Parts::of_bytes(bytes, s.hint, samples::COUNT).unwrap().in_memory());
         }
     }
     assert!(rows > 900, "{rows}");
 }
 
-/// So many whitewater particles.
+/// This many whitewater particles, with all attributes.
 fn cloud(count: usize) -> Particles {
     let at = |i: usize| [i as f32 * 0.25, (i % 17) as f32, -(i as f32)];
     let mut all = Particles::from_positions((0..count).map(at).collect());
@@ -144,7 +145,7 @@ const FORMATS: [(WriteFormat, Extension); 5] = [
     (WriteFormat::Npz, Extension::Npz),
 ];
 
-/// A line for each of these whitewater particles.
+/// A CSV table with one line per particle.
 fn table(particles: &Particles) -> Vec<u8> {
     let [ids, kinds] = [&particles.ids, &particles.kinds].map(|list| list.as_ref().unwrap());
     let mut out = String::from("x,y,z,vx,vy,vz,id,type,lifetime\n");
@@ -166,14 +167,14 @@ fn written(particles: &Particles, format: WriteFormat) -> Vec<u8> {
 
 type Make = Box<dyn Fn(&Particles) -> Vec<u8>>;
 
-/// A way to write particles that have all attributes.
+/// A way to write particles with all attributes.
 struct Maker {
     name: String,
     hint: Extension,
     make: Make,
 }
 
-/// Formats that come in parts and are no rows of one length.
+/// Formats that are read in parts and whose rows have no fixed length.
 fn makers() -> Vec<Maker> {
     let mut all = Vec::new();
     let mut add = |name: &str, hint, make: Make| {
@@ -230,7 +231,8 @@ fn makers() -> Vec<Maker> {
     all
 }
 
-/// More than is read at a time of any of them, so that lines, words, blocks and groups of base64 are cut anywhere.
+/// The files are larger than one read from the file, so that reads end within lines, words, blocks
+/// and groups of base64.
 #[test]
 fn large_files_are_read_across_all_that_is_read_at_a_time() {
     let mut next = bad::numbers();
@@ -248,7 +250,8 @@ fn large_files_are_read_across_all_that_is_read_at_a_time() {
     }
 }
 
-/// Pieces whose numbers stand in the file in another order than they are read in, and a text that no space ends.
+/// Pieces of a VTK file whose data are stored in another order than the pieces, and text without a
+/// line break at its end.
 #[test]
 fn pieces_lie_in_any_order() {
     let particles = cloud(2000);
@@ -278,7 +281,7 @@ fn pieces_lie_in_any_order() {
     }
 }
 
-/// Faults anywhere in files of more than is read at a time.
+/// Errors anywhere in files that are larger than one read from the file.
 #[test]
 fn large_files_that_are_damaged_have_the_same_faults() {
     let mut next = bad::numbers();
@@ -288,7 +291,7 @@ fn large_files_that_are_damaged_have_the_same_faults() {
         let sound = make(&particles);
         for i in 0..16 {
             let mut bytes = sound.clone();
-            // What is in the middle of numbers does not hit the header.
+            // Damage in the middle of the file does not hit the header.
             let at = bytes.len() / 4 + next(bytes.len() / 2);
             match i % 4 {
                 0 => bytes = bad::damaged(&bytes, &mut next),
@@ -306,7 +309,8 @@ fn large_files_that_are_damaged_have_the_same_faults() {
 
 #[test]
 fn what_only_all_particles_tell_is_told() {
-    // More than the samples by which the reach of 32 bits is judged; none in the last case.
+    // More particles than the sample that tells whether positions need more than 32 bits. The last
+    // case has no particles.
     let count = 9001;
     let mut odd = cloud(count);
     odd.positions[4000] = [f32::NAN, 0.0, 0.0];
@@ -327,12 +331,13 @@ fn what_only_all_particles_tell_is_told() {
     }
 }
 
-/// An attribute that only a later part shows to be none is in no part.
+/// If a later part shows that an attribute is invalid, no part has this attribute.
 #[test]
 fn what_is_dropped_is_dropped_from_all_parts() {
     let particles = cloud(50);
     let mut bytes = written(&particles, WriteFormat::Bgeo { gzip: false });
-    // x y z w, velocity, density, id, lifetime, type: 44 bytes, of which the id begins at 32. Two bytes end the file.
+    // A row has x y z w, velocity, density, id, lifetime, type: 44 bytes, with the id at byte 32.
+    // Two bytes follow the last row.
     let row = |i: usize| bytes.len() - 2 - 44 * (50 - i);
     let (id, kind) = (row(33) + 32, row(49) + 40);
     bytes[id] = 0x80;
@@ -354,7 +359,7 @@ fn what_is_dropped_is_dropped_from_all_parts() {
         assert!(parts.about().ids.is_none() && !parts.about().warnings.is_empty());
         assert_eq!(parts.about().kinds.is_some(), to != ",0,1.5,");
     }
-    // Numbers with a fraction, of which the first is told.
+    // Several types are not integers; the message names the first.
     let text = |kind: f32| {
         let head = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n\
                     property float y\nproperty float z\nproperty float type\nend_header\n";
@@ -367,7 +372,7 @@ fn what_is_dropped_is_dropped_from_all_parts() {
     assert_eq!(together(parts, 1).unwrap().0.kinds, Some(vec![1, 2, 2]));
 }
 
-/// Attributes of different lengths are found by the headers, before any number is read.
+/// Attributes of different lengths are found from the headers, before any number is read.
 #[test]
 fn what_headers_tell_is_told_first() {
     let arrays = |rows: &str, length: usize| {
@@ -383,7 +388,7 @@ fn what_headers_tell_is_told_first() {
     same("no positions", no_positions, Extension::Ply, &[1]);
     let none = b"ply\nformat binary_big_endian 1.0\nelement face 0\nproperty int q\nend_header\n";
     same("no vertices", none, Extension::Ply, &[1]);
-    // What lies before the vertices is passed over, in whatever kind of line the header has.
+    // Elements before the vertices are skipped, whatever line ending the header uses.
     let before = |end: &str, faces: &[u8]| {
         let head = "ply\nformat binary_big_endian 1.0\nelement face 2\nproperty short a\n\
             property uchar b\nelement vertex 2\nproperty uchar x\nproperty char y\nproperty short z\n\
@@ -398,7 +403,7 @@ fn what_headers_tell_is_told_first() {
     same("faces that end", &cut[..cut.len() - 4], Extension::Ply, &[1, 2]);
 }
 
-/// Headers longer than what is read of a file first, down to the last character.
+/// Headers longer than the first read from the file, for every alignment of the end.
 #[test]
 fn long_headers_are_read_to_their_end() {
     for length in [65_533, 65_534, 65_535, 65_536, 65_537, 200_000] {
@@ -425,7 +430,8 @@ fn cut_off_files_have_the_same_faults() {
             if !comes_in_parts(&s.name, s.format, gzip) {
                 continue;
             }
-            // The rest of a sequence of encodings differ little in their beginning.
+            // Other samples are cut at fewer lengths: their encodings differ little at the start of
+            // the file.
             let rows = is_rows(&s.name, s.format, gzip);
             let step = if rows { 1 } else { (bytes.len() / 40).max(1) };
             for length in (0..bytes.len()).step_by(step) {
@@ -440,7 +446,8 @@ fn cut_off_files_have_the_same_faults() {
     }
 }
 
-/// What comes behind the last particle has to be sound as well: in files of more than is read to tell their format.
+/// The bytes after the last particle are checked too, in files larger than the read that detects
+/// the format.
 #[test]
 fn the_end_of_what_is_packed_is_checked() {
     let particles = cloud(5000);
@@ -451,13 +458,13 @@ fn the_end_of_what_is_packed_is_checked() {
             same(&format!("{format:?} {cut}"), &bytes[..end - cut], hint, &[999, 5000]);
         }
         if format == (WriteFormat::Bgeo { gzip: true }) {
-            // The checksum stands before the length, which ends it.
+            // The checksum comes before the length, which ends the file.
             let mut bytes = bytes;
             bytes[end - 8] ^= 1;
             assert!(!same("checksum", &bytes, hint, &[999, 5000]));
         }
     }
-    // A number in an array that is stored as it is.
+    // A flipped bit of a number in an uncompressed array of a ZIP archive.
     let zeros = |shape: &str, n: usize| samples::npy("<f4", shape, false, 1, &vec![0; n]);
     let arrays = [("pos", zeros("(9000, 3)", 108_000)), ("life", zeros("(9000,)", 36_000))];
     let sound = samples::npz(&arrays, false);
@@ -490,7 +497,8 @@ fn mutations_have_the_same_faults() {
             cases += 1;
             let ((), peak) = allocation::peak(|| {
                 if s.format == Format::Npz {
-                    // Of an archive with several faults another may be found first.
+                    // If an archive has several errors, the two ways of reading may find different
+                    // ones first.
                     match (read_bytes(&bytes, s.hint), in_parts(&bytes, s.hint, sizes[0])) {
                         (Ok(whole), Ok(parts)) => assert_eq!(bits(&whole), bits(&parts)),
                         (Err(_), Err(_)) => {}
@@ -502,7 +510,7 @@ fn mutations_have_the_same_faults() {
                     read += usize::from(same(&s.name, &bytes, s.hint, &sizes));
                 }
             });
-            // The dictionary of LZMA is set aside whole.
+            // The LZMA decoder allocates its whole dictionary.
             let fixed = if s.name.contains("lzma") { 68 << 20 } else { 2 << 20 };
             assert!(peak <= fixed + 300 * bytes.len(), "{}: {peak} bytes held", s.name);
         }
@@ -531,7 +539,7 @@ fn what_unpacks_without_end_is_refused() {
     }
 }
 
-/// What is said at [`Parts`] of the bytes that are in memory.
+/// Memory bound that [`Parts`] documents.
 fn bound(size: usize) -> usize {
     160 * size + (2 << 20)
 }
@@ -569,7 +577,8 @@ fn two_million_particles_take_no_more_memory_than_a_part() {
         assert!(peak <= bound(SIZE), "{name}: {peak} bytes held, {} allowed", bound(SIZE));
         std::fs::remove_file(&path).unwrap();
     }
-    // Arrays side by side, each unpacked on its own; fewer, since packing them takes long.
+    // The arrays of an archive are unpacked side by side. There are fewer particles, because
+    // compression is slow.
     let path = folder.path().join("a.npz");
     write(&path, &cloud(300_000), WriteFormat::Npz).unwrap();
     let (all, peak) = allocation::peak(|| {
@@ -584,7 +593,7 @@ fn two_million_particles_take_no_more_memory_than_a_part() {
     });
 }
 
-/// The others as well, also within gzip.
+/// The other formats have the same memory bound, also within gzip.
 #[test]
 fn text_and_arrays_take_no_more_memory_than_a_part() {
     const COUNT: usize = 50_000;
@@ -613,7 +622,7 @@ fn text_and_arrays_take_no_more_memory_than_a_part() {
     }
 }
 
-/// Columns that could be positions, if there were no others.
+/// Columns that would be positions if there were no better ones.
 #[test]
 fn columns_of_no_meaning_take_no_memory() {
     const SIZE: usize = 20_000;
@@ -629,7 +638,8 @@ fn columns_of_no_meaning_take_no_memory() {
     assert!(found == 60_000 && peak <= bound(SIZE), "{found}: {peak} bytes held");
 }
 
-/// An attribute that is split is three, and each has a place of its own in the file, of what is packed twice.
+/// A velocity that is split into three attributes is read from three positions of the file, and the
+/// file may be compressed twice.
 #[test]
 fn many_attributes_take_no_more_memory_than_is_said() {
     const SIZE: usize = 500;
@@ -670,7 +680,7 @@ fn many_attributes_take_no_more_memory_than_is_said() {
     }
 }
 
-/// So many points in blocks of zlib, each with bytes of no use behind it.
+/// A VTP file of `count` points in blocks of zlib, with `behind` unused bytes after each block.
 fn blocks(count: usize, blocks: usize, behind: usize) -> (Vec<u8>, Vec<[f32; 3]>) {
     let positions = cloud(count).positions;
     let raw = samples::floats(positions.as_flattened(), 4, false);
@@ -699,7 +709,7 @@ fn blocks(count: usize, blocks: usize, behind: usize) -> (Vec<u8>, Vec<[f32; 3]>
     (bytes, positions)
 }
 
-/// All of an array in a block is unpacked as it is needed.
+/// If a whole array is one block, it is unpacked piece by piece.
 #[test]
 fn a_block_may_be_larger_than_a_part() {
     const COUNT: usize = 400_000;
@@ -710,7 +720,7 @@ fn a_block_may_be_larger_than_a_part() {
     });
     assert!(all == COUNT && peak <= bound(1000), "{all} {peak}");
     assert!(same("block", &bytes, Extension::Vtp, &[150_001]));
-    // More than is said of it.
+    // The block unpacks to more bytes than its header says.
     let size = (12 * COUNT as u32).to_le_bytes();
     let at = bytes.windows(4).position(|window| window == size).unwrap();
     let mut more = bytes.clone();
@@ -720,7 +730,7 @@ fn a_block_may_be_larger_than_a_part() {
     assert!(!same("more", &more, Extension::Vtp, &[1000, 150_001]));
     let said = read_bytes(&more, Extension::Vtp).unwrap_err().to_string();
     assert!(said.contains("unpacks to more than 4799988 bytes"), "{said}");
-    // A byte that is wrong, those that are missing, and a wrong checksum.
+    // A wrong byte, missing bytes, and a wrong checksum.
     let (at, end) = (bytes.len() - 100, bytes.len() - 1);
     for (name, bytes) in [
         ("flipped", [&bytes[..at], &[!bytes[at]], &bytes[at + 1..]].concat()),
@@ -740,7 +750,8 @@ fn what_is_behind_the_end_of_a_block_is_passed_over() {
     }
 }
 
-/// Padding ends base64: in the middle it is a fault, wherever what is decoded at a time ends.
+/// Padding may only end base64: within the text it is an error, wherever a chunk of decoded text
+/// ends.
 #[test]
 fn padding_stands_at_the_end_alone() {
     let xml = samples::Xml {
@@ -763,13 +774,14 @@ fn padding_stands_at_the_end_alone() {
         bytes[points + end] = b'=';
         assert!(!same("padding", &bytes, Extension::Vtp, &[700]), "{end}");
         let said = read_bytes(&bytes, Extension::Vtp).unwrap_err().to_string();
-        // There it ends what may be a header of its own, and the numbers lack a byte.
+        // Here the padding ends text that could be a separate header, so the numbers lack a byte.
         let expected = if end == 11 { "needs 60000 bytes" } else { "base64 in array `Points`" };
         assert!(said.contains(expected), "{end}: {said}");
     }
 }
 
-/// Texts in elements that are long are read where they are: what stands around them is as if they were in memory.
+/// Long texts in XML elements are read directly from the file. Whatever surrounds them, the result
+/// is as if the file were in memory.
 #[test]
 fn long_texts_in_elements_are_read_where_they_are() {
     let numbers = |count: usize| {
@@ -800,7 +812,7 @@ fn long_texts_in_elements_are_read_where_they_are() {
         ("attribute", file(500, &named, &long, &named)),
         ("other", file(500, &other, &long, &other)),
         ("instruction", file(500, "<?a b > c?>", &format!("<?a b?>{long}"), "")),
-        // These are no bytes that can be read where they are.
+        // Texts with references or CDATA cannot be read directly from the file.
         ("entity", file(500, "", &format!("{first}&#32;{second}"), "")),
         ("characters", file(500, "", &format!("<![CDATA[{first}]]>{second}"), "")),
         ("characters behind", file(500, "", &format!("{first}<![CDATA[{second}]]>"), "")),
@@ -812,7 +824,7 @@ fn long_texts_in_elements_are_read_where_they_are() {
             assert_eq!(whole.positions[499], [499.0, (499 % 7) as f32, -499.0], "{name}");
         }
     }
-    // Faults are told by their places in the file.
+    // Errors name the place in the file.
     let line = |text: &str, needle: &str| text[..text.find(needle).unwrap()].split('\n').count();
     let say = |bytes: &[u8]| {
         assert!(!same("fault", bytes, Extension::Vtp, &[1, 77, 400]));
@@ -865,7 +877,7 @@ fn a_file_that_changes_on_the_way_is_an_error() {
     assert_eq!(faults.len(), 1);
     assert!(faults[0].to_string().contains("a.bgeo: the file ends too early"), "{}", faults[0]);
     assert!(parts.next().is_none());
-    // An id that was none before.
+    // The second pass finds an invalid id that was valid in the first pass.
     std::fs::write(&path, &sound).unwrap();
     let parts = Parts::open(&path, 30).unwrap();
     let mut other = sound.clone();
@@ -874,7 +886,7 @@ fn a_file_that_changes_on_the_way_is_an_error() {
     std::fs::write(&path, &other).unwrap();
     let fault = parts.map(|part| part.map(drop)).find_map(Result::err).unwrap().to_string();
     assert!(fault.contains("the first reading"), "{fault}");
-    // Lines and arrays, more and fewer of them, and a number that is none.
+    // The file becomes shorter, longer, or gets an invalid number between the two passes.
     let rows = table(&cloud(100));
     let xml = samples::Xml {
         vtp: false,
@@ -917,7 +929,7 @@ fn a_file_that_changes_on_the_way_is_an_error() {
             assert!(parts.next().is_none());
         }
     }
-    // What is no file has the words of reading at once.
+    // Errors of missing or wrong files have the same text as those of `read`.
     let missing = folder.path().join("none.ply");
     let said = |error: ReadError| error.to_string();
     assert_eq!(said(Parts::open(&missing, 1).unwrap_err()), said(read(&missing).unwrap_err()));

@@ -1,11 +1,12 @@
-//! Damaged scene files give an error or a scene: never a panic, and no allocation for a false count.
+//! Damaged scene files give an error or a scene: never a panic, and never an allocation for a false
+//! count.
 
 use whitewater::headless::scene::Scene;
 
 use super::allocation;
 use super::bad::{damaged, numbers};
 
-/// A part and one of its own parts, with indices, normals and a colour.
+/// A node with a child node, with indices, normals and a colour.
 const GLB: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
     "nodes":[{"mesh":0,"children":[1]},{"mesh":0,"translation":[1,2,3],"rotation":[0,0,0,1]}],
     "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0},"indices":1,"material":0}]}],
@@ -15,7 +16,7 @@ const GLB: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]
     "bufferViews":[{"buffer":0,"byteLength":36},
     {"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":44}]}"#;
 
-/// The JSON with a triangle as its data.
+/// A GLB file with this JSON and the data of one triangle.
 fn glb(json: &[u8]) -> Vec<u8> {
     let mut data = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
     data.extend([0, 0, 1, 0, 2, 0, 0, 0]);
@@ -45,7 +46,7 @@ type Parse = fn(&[u8]) -> Result<Scene, String>;
 fn damaged_scenes() {
     let samples: [(&str, Vec<u8>, Parse); 4] = [
         ("glb", glb(GLB.as_bytes()), Scene::parse_glb),
-        // Damage to the text alone: its chunk keeps its length.
+        // Only the JSON is damaged; the length of its chunk is correct.
         ("glb's text", GLB.into(), |text| Scene::parse_glb(&glb(text))),
         ("obj", OBJ.into(), Scene::parse_obj),
         ("json", JSON.into(), Scene::parse_json),
@@ -59,7 +60,7 @@ fn damaged_scenes() {
         for _ in 0..cases {
             let bytes = damaged(bytes, &mut next);
             let (result, peak) = allocation::peak(|| parse(&bytes));
-            // A shape of a hundred bytes becomes some hundred vertices of 32.
+            // A shape of a hundred bytes becomes a few hundred vertices of 32 bytes.
             let limit = (1 << 20) + 1000 * bytes.len();
             assert!(peak <= limit, "{name}: {peak} bytes held for {} of input", bytes.len());
             match result {
@@ -81,7 +82,7 @@ fn damaged_scenes() {
 
 #[test]
 fn a_glb_that_doubles_itself_is_refused() {
-    // Thirty nodes, each with the next as its child twice: 2^30 meshes.
+    // Thirty nodes that have the next node as child twice: 2^30 meshes.
     let nodes: Vec<String> =
         (1..=30).map(|next| format!("{{\"mesh\":0,\"children\":[{next},{next}]}}")).collect();
     let (head, rest) = GLB.split_once("\"nodes\":[{\"mesh").unwrap();

@@ -1,4 +1,4 @@
-//! Input arguments become numbered frames.
+//! Input arguments become a list of numbered frames.
 
 use super::folder::Folder;
 use whitewater::io::particles::sequence::{SequenceError, expand, expand_joined, parse_range};
@@ -41,7 +41,7 @@ fn natural_order() {
     let expected = named(&[(1, "frame_1.bgeo"), (2, "frame_2.bgeo"), (10, "frame_10.bgeo")]);
     assert_eq!(folder.frames(&["frame_*.bgeo"], None), expected);
     assert_eq!(folder.frames(&["frame_%d.bgeo"], None), expected);
-    // As the shell expands it, in its order.
+    // The list of files in the order in which a shell expands the pattern.
     assert_eq!(folder.frames(&["frame_1.bgeo", "frame_10.bgeo", "frame_2.bgeo"], None), expected);
     assert_eq!(folder.frames(&["frame_*.bgeo"], Some("2-9")), expected[1..2]);
     assert_eq!(folder.frames(&["frame_*.bgeo"], Some("10")), expected[2..]);
@@ -66,7 +66,7 @@ fn the_number_is_the_run_that_differs() {
         folder.frames(&["*.ply"], None),
         named(&[(3, "run2_f3_v1.ply"), (12, "run2_f12_v1.ply")])
     );
-    // Where two runs differ it is the last.
+    // If two numbers differ between the names, the last one is the frame number.
     let folder = Files::new("two", &["t5_f10.ply", "t6_f20.ply"]);
     assert_eq!(folder.frames(&["*.ply"], None), named(&[(10, "t5_f10.ply"), (20, "t6_f20.ply")]));
     let folder = Files::new("single", &["dam27.npz", "still.ply", "a.ply"]);
@@ -74,7 +74,7 @@ fn the_number_is_the_run_that_differs() {
     assert_eq!(folder.frames(&["*.ply"], None), named(&[(0, "a.ply"), (1, "still.ply")]));
 }
 
-/// Files in an order that is not theirs, and their times.
+/// Lists the files of a pattern, with their numbers and times.
 fn times(name: &str, files: &[&str], pattern: &str) -> Vec<(u64, Option<f64>, String)> {
     let folder = Files::new(name, files);
     let root = format!("{}/", folder.0.path().display());
@@ -83,7 +83,7 @@ fn times(name: &str, files: &[&str], pattern: &str) -> Vec<(u64, Option<f64>, St
     found.into_iter().map(|f| (f.number, f.time, short(&f.path))).collect()
 }
 
-/// Names of times, in their order.
+/// Names that contain times, listed in the order of the times.
 #[test]
 fn times_order_the_frames() {
     for (name, pattern, files) in [
@@ -140,12 +140,12 @@ fn numbers_that_are_no_times() {
             &[(3_000_000_000, "p_3000000000_of_4.ply"), (3_000_001_000, "p_3000001000_of_4.ply")],
         ),
         ("ranks", "*.vtu", &[(0, "p-00008.0000.vtu"), (1, "p-00008.0001.vtu")]),
-        // A hash behind the number, hours before minutes.
+        // A hash after the frame number; and times of day, with the hours first.
         ("more runs", "*.ply", &[(3, "f_3_99.ply"), (4, "f_4_17.ply"), (5, "f_5_3.ply")]),
         ("clocks", "*.ply", &[(0, "d_10_58.ply"), (1, "d_10_59.ply"), (2, "d_11_01.ply")]),
-        // No program writes 1.10 for 1.1 among times of fewer decimals.
+        // No program writes 1.1 as 1.10 next to times with fewer decimals, so 1.10 comes after 1.9.
         ("steps of runs", "*.vtk", &[(0, "run1.9.vtk"), (1, "run1.10.vtk")]),
-        // A minus behind another sign is that of the number.
+        // A minus after another separator is a sign.
         (
             "negative",
             "*.npz",
@@ -156,7 +156,7 @@ fn numbers_that_are_no_times() {
         let names: Vec<_> = files.iter().rev().map(|(_, file)| *file).collect();
         assert_eq!(times(name, &names, pattern), expected, "{name}");
     }
-    // A pattern says which number is that of the frame.
+    // A pattern with `%d` determines which number is the frame.
     let files = ["f.1.0004.vtu", "f.1.0010.vtu"];
     assert_eq!(times("said", &files, "f.1.%04d.vtu"), [frame(4, files[0]), frame(10, files[1])]);
 }
@@ -199,7 +199,7 @@ fn errors_say_what_is_there() {
     assert!(matches!(fails(&["f_%d_%d.bgeo"], None), SequenceError::Pattern { .. }));
     assert!(matches!(fails(&["f_[.bgeo"], None), SequenceError::Pattern { .. }));
     assert!(matches!(fails(&["?_3.bgeo"], None), SequenceError::Twice { number: 3, .. }));
-    // One input that gives nothing is an error, though others give something.
+    // An input without a file is an error, even if another input has files.
     let none = fails(&["f_3.bgeo", "h_*.bgeo"], None).to_string();
     assert!(none.contains("h_*.bgeo") && none.contains("the first is f_3.bgeo"), "{none}");
     let outside = fails(&["f_*.bgeo"], Some("5-9")).to_string();
@@ -210,7 +210,7 @@ fn errors_say_what_is_there() {
     assert_eq!(parse_range("3-9").unwrap(), 3..=9);
 }
 
-/// Files of several processes are parts of the frames, not frames.
+/// Files of several processes are parts of one frame.
 #[test]
 fn ranks_are_no_frames() {
     let folder = Folder::new("ranks");

@@ -1,8 +1,8 @@
-//! Estimates of rest spacing and densities, where the answer is known.
+//! Estimates of rest spacing and densities in cases with a known answer.
 
 use whitewater::io::particles::{estimate_densities, estimate_spacing};
 
-/// A cubic grid, moved a little by a hash.
+/// A cubic lattice whose points are displaced by pseudo-random numbers.
 fn grid(n: usize, spacing: f32, noise: f32) -> Vec<[f32; 3]> {
     let mut seed = 1_u32;
     let mut random = || {
@@ -64,11 +64,11 @@ fn a_million() {
     let took = start.elapsed();
     println!("{} particles: {spacing:?} in {took:?}", points.len());
     close(spacing, 0.025, 0.1);
-    // Generous: test machines are shared, and this build is not optimised.
+    // A generous limit: test machines are shared, and this build is not optimised.
     assert!(took.as_secs_f32() < 20.0, "{took:?}");
 }
 
-/// The numbers of the cubic spline by hand: W(0) = 1/π, W(1) = 1/4π, W(√2) = 0.25 (2 - √2)³ / π.
+/// Values of the cubic spline by hand: W(0) = 1/π, W(1) = 1/4π, W(√2) = 0.25 (2 - √2)³ / π.
 #[test]
 fn densities_of_few_and_of_many() {
     let pi = std::f64::consts::PI;
@@ -93,7 +93,7 @@ fn densities_of_few_and_of_many() {
     assert!(estimate_densities(&[], 1.0).is_empty());
 }
 
-/// Pieces that repeat each other: each particle is there four times.
+/// Pieces that repeat all particles: each position occurs four times.
 #[test]
 fn copies_are_no_neighbours() {
     let block: Vec<_> =

@@ -1,4 +1,4 @@
-//! Files with several frames, and frames in several files.
+//! Files with several frames, and frames that consist of several files.
 
 use std::path::Path;
 
@@ -7,7 +7,8 @@ use super::samples::{self, gzip};
 use whitewater::io::particles::sequence::{SequenceError, expand, expand_joined};
 use whitewater::io::particles::{Particles, Step, read, read_step, read_with, steps};
 
-/// The cloud, moved along x by the number of the frame and without as many particles.
+/// The cloud of a frame: moved along x by the frame's number, with that number of particles
+/// removed.
 fn cloud(frame: usize) -> Particles {
     let mut cloud = samples::cloud();
     cloud.positions.iter_mut().for_each(|p| p[0] += frame as f32);
@@ -16,7 +17,7 @@ fn cloud(frame: usize) -> Particles {
     cloud
 }
 
-/// Rows of numbers: id, position, velocity.
+/// Rows of id, position and velocity.
 fn rows(of: &Particles, first: &str, separator: &str) -> String {
     let row = |i: usize| {
         let numbers = of.positions[i].iter().chain(&of.velocities.as_ref().unwrap()[i]);
@@ -44,7 +45,8 @@ fn check(path: &Path, times: &[Option<f64>]) {
 
 const TIMES: [Option<f64>; 3] = [Some(0.0), Some(0.25), Some(0.5)];
 
-/// By a column of times, whatever their order in the file; packed or not.
+/// Frames are separated by a column of times, whatever their order in the file, with and without
+/// compression.
 #[test]
 fn a_table_with_times_is_frames() {
     let folder = Folder::new("steps");
@@ -58,10 +60,10 @@ fn a_table_with_times_is_frames() {
     check(&folder.put("b.csv", format!("{head}{}", body([2, 0, 1]))), &TIMES);
     check(&folder.put("a.csv.gz", gzip(text.as_bytes())), &TIMES);
     check(&folder.put("a.txt", text.replace(',', " ")), &TIMES);
-    // Without a frame that is named it is refused as before.
+    // Without a frame number the file is still refused.
     let error = read(&folder.put("c.csv", &text)).unwrap_err().to_string();
     assert!(error.contains("3 frames"), "{error}");
-    // One time is no sequence.
+    // A table with a single time is no sequence.
     let one = folder.put("one.csv", format!("{head}{}", rows(&cloud(0), "0.5,", ",")));
     assert!(steps(&one).unwrap().is_empty());
     assert_eq!(read(&one).unwrap().time, Some(0.5));
@@ -84,14 +86,14 @@ fn frames_of_xyz_one_after_the_other() {
     check(&folder.put("a.xyz.gz", gzip(text.as_bytes())), &TIMES);
     let named: String = (0..3).map(|i| frame("id x y z vx vy vz", i)).collect();
     check(&folder.put("b.xyz", &named), &[None; 3]);
-    // A fault is told by its line in the file.
+    // An error names its line in the file.
     let text_of_bad = format!("{}what\n", named.strip_suffix("-2\n").unwrap());
     let line = text_of_bad.lines().count();
     let bad = folder.put("bad.xyz", text_of_bad);
     let found = steps(&bad).unwrap();
     let errors: Vec<_> = found.iter().filter_map(|s| read_step(&bad, *s, &[]).err()).collect();
     assert!(errors[0].to_string().contains(&format!("in line {line}")), "{line}: {}", errors[0]);
-    // One that is cut off is there, and a fault.
+    // A frame that is cut off is listed, but reading it gives an error.
     let cut = folder.put("cut.xyz", &text[..text.len() - 30]);
     let found = steps(&cut).unwrap();
     assert_eq!(found.len(), 3);
@@ -120,7 +122,8 @@ fn dumps_of_lammps_one_after_the_other() {
     assert!(steps(&folder.put("one.dump", frame(0, true))).unwrap().is_empty());
 }
 
-/// Zones are frames by their times or order; those of one time, or of different names, are parts of one.
+/// Zones are frames if they differ in time, or by their order. Zones with one time, or with
+/// different names, are parts of one frame.
 #[test]
 fn zones_of_tecplot() {
     let folder = Folder::new("tecplot");
@@ -143,7 +146,7 @@ fn zones_of_tecplot() {
         |i: usize| frame(&format!("SOLUTIONTIME={}", 0.25 * i as f32), i).replace(' ', ",");
     let text: String = (0..3).map(commas).collect::<String>().replace("ZONE,", "ZONE ");
     check(&folder.put("e.csv", format!("{head}{text}")), &TIMES);
-    // Water and walls.
+    // Zones of water and of walls are one frame.
     let both = |i: usize, time: &str| {
         frame(&format!("T=\"water\"{time}"), i) + &frame(&format!("T=\"walls\"{time}"), i + 1)
     };
@@ -162,7 +165,7 @@ fn zones_of_tecplot() {
     assert_eq!(second.extras[0].values.iter().sum::<f64>(), (samples::COUNT - 2) as f64);
 }
 
-/// Frames of as many particles each, as arrays hold them.
+/// A frame of an array, in which all frames have the same number of particles.
 fn even(frame: usize) -> Particles {
     let mut even = samples::cloud();
     even.positions.iter_mut().for_each(|p| p[0] += frame as f32);
@@ -197,7 +200,7 @@ fn arrays_of_frames() {
         &[None; 3],
         false,
     );
-    // Component after component, as `a.transpose(0, 2, 1)` is, and in Fortran's order.
+    // Axes ordered as in `a.transpose(0, 2, 1)`, and Fortran order.
     let value = |t: usize, n: usize, c: usize| even(t).positions[n][c];
     let range = |n: usize| 0..n;
     let turned: Vec<f32> = range(3)
@@ -219,7 +222,7 @@ fn arrays_of_frames() {
         &[None; 3],
         false,
     );
-    // With velocities, ids of all frames, densities of each, and times.
+    // With velocities and densities per frame, ids for all frames, and times.
     let ids: Vec<u8> = (0..count as u32).flat_map(u32::to_le_bytes).collect();
     let densities = samples::floats(&vec![1000.0; 3 * count], 4, false);
     let times = samples::floats(&[0.0, 0.25, 0.5], 8, false);
@@ -233,7 +236,7 @@ fn arrays_of_frames() {
         ]
     };
     for (name, packed) in [("positions", true), ("positions", false), ("frames_of_dam", false)] {
-        // What no name tells is the only one of its kind.
+        // An array with an unknown name holds the positions if no other array can.
         let known = name == "positions";
         let all = arrays(name);
         let some = if known { &all[..] } else { &all[..1] };
@@ -250,10 +253,10 @@ fn arrays_of_frames() {
         (axis, samples::npy("<f4", &format!("(3, {count})"), false, 1, &all))
     });
     check_even(&folder.put("axes.npz", samples::npz(&axes, true)), &[None; 3], false);
-    // One frame is no sequence.
+    // A single frame is no sequence.
     let one = samples::npy("<f4", &format!("(1, {count}, 3)"), false, 1, &positions[..12 * count]);
     assert!(steps(&folder.put("one.npy", one)).unwrap().is_empty());
-    // Cut off within the last frame: the others are read.
+    // If the file ends within the last frame, the other frames can be read.
     let cut = samples::npy("<f4", &shape, false, 1, &positions[..positions.len() - 12]);
     let cut = folder.put("cut.npy", cut);
     let all = steps(&cut).unwrap();
@@ -295,7 +298,7 @@ fn json_of_frames() {
     check(&folder.put("e.json", format!("[{}]", all(&held, ", "))), &TIMES);
     let named = |i: usize| format!("\"frame_{}\": {}", 8 + i, timed(i));
     check(&folder.put("f.json", format!("{{{}}}", all(&named, ", "))), &TIMES);
-    // Arrays with one dimension more.
+    // Arrays with an additional dimension for the frames.
     let even = |of: &dyn Fn(Particles) -> Vec<[f32; 3]>| all(&|i| list(&of(even(i))), ", ");
     let p = even(&|of| of.positions);
     let v = even(&|of| of.velocities.unwrap());
@@ -303,7 +306,7 @@ fn json_of_frames() {
         format!("{{\"positions\": [{p}], \"velocities\": [{v}], \"times\": [0, 0.25, 0.5]}}");
     check_even(&folder.put("g.json", text), &TIMES, true);
     check_even(&folder.put("h.json", format!("[{p}]")), &[None; 3], false);
-    // One frame, however deep.
+    // One frame, however deep it is nested.
     for text in
         [format!("[{}]", positions(0)), format!("[{}]", columns(0, "")), columns(0, ""), objects(0)]
     {
@@ -313,7 +316,7 @@ fn json_of_frames() {
     }
 }
 
-/// Of a list of frames each is read where it is: what the others hold is not looked at.
+/// Each frame of a list is read on its own; the contents of the other frames are not parsed.
 #[test]
 fn json_frames_are_read_alone() {
     let folder = Folder::new("json-parts");
@@ -335,7 +338,7 @@ fn json_frames_are_read_alone() {
         let path = folder.put(&format!("{i}.json"), &text);
         let steps = steps(&path).unwrap();
         assert_eq!(steps.len(), 3, "{text}");
-        // Names say another order than the file's.
+        // The names give another order than the file.
         let first = |k: usize| if i == 3 { 2 - k } else { k };
         for (k, step) in steps.iter().enumerate() {
             let alone = frame(first(k));
@@ -349,13 +352,13 @@ fn json_frames_are_read_alone() {
             assert_eq!(of(&others), first(k) as f32, "{others}");
             read_step(&path, Step::new(k, step.time), &[]).unwrap_err();
         }
-        // One that has become another file is read as that.
+        // If the file is replaced in between, its new contents are read, and nothing panics.
         let path = folder.put(&format!("{i}.json"), format!("[[], {}]", frame(7)));
         let _ = read_step(&path, steps[1], &[]);
     }
 }
 
-/// Of arrays with one dimension more each frame is read where it is in each of them.
+/// In arrays with an additional dimension for the frames, each frame is read on its own.
 #[test]
 fn json_frames_of_arrays_are_read_alone() {
     let folder = Folder::new("json-stacked");
@@ -394,7 +397,7 @@ fn json_frames_of_arrays_are_read_alone() {
     }
 }
 
-/// Of a table of trajectories, one particle below the other, the frames are those of its times.
+/// In a table of trajectories, one particle after the other, the times give the frames.
 #[test]
 fn trajectories_below_each_other_are_frames() {
     let folder = Folder::new("trajectories");
@@ -414,7 +417,7 @@ fn trajectories_below_each_other_are_frames() {
     }
 }
 
-/// Phases in a file each, and the ranks that a PVD has at one time.
+/// Phases in separate files, and a PVD with several ranks at one time.
 #[test]
 fn files_of_one_number_are_one_frame_where_told() {
     let folder = Folder::new("join");
@@ -442,7 +445,8 @@ fn files_of_one_number_are_one_frame_where_told() {
     let phase = all.extras.iter().find(|extra| extra.name == "phase").unwrap();
     assert!(phase.values[..4] == [1.0; 4] && phase.values[4..].iter().all(|v| v.is_nan()));
     assert!(all.warnings.is_empty(), "{:?}", all.warnings);
-    // The same ids tell nothing, and velocities of a part are none.
+    // Ids that occur in both files identify nothing and are dropped, and so are velocities of only
+    // one file.
     let mut other = read(&frames[0].path);
     other.velocities = Some(vec![[1.0; 3]; 4]);
     all.append(other);

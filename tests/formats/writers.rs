@@ -1,4 +1,4 @@
-//! Written files read back the same.
+//! Files that were written are read back unchanged.
 
 use super::samples;
 use whitewater::io::particles::{Particles, WriteError, WriteFormat, read, write};
@@ -23,7 +23,7 @@ fn written_particles_read_back() {
     let folder = folder("write");
     let empty = Particles::from_positions(Vec::new());
     let bare = Particles::from_positions(samples::cloud().positions);
-    // More than one block of VTU.
+    // More than one compressed block of VTU.
     let mut large = Particles::from_positions(
         (0..70_000).map(|i| [i as f32, 0.5, -(i as f32).sqrt()]).collect(),
     );
@@ -42,7 +42,7 @@ fn written_particles_read_back() {
             assert!(back.warnings.is_empty(), "{what} {name}: {:?}", back.warnings);
         }
     }
-    // Written twice over each other, and nothing else is left there.
+    // Each file was written four times, and no temporary files are left.
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), NAMES.len());
     std::fs::remove_dir_all(&folder).unwrap();
 }
@@ -64,7 +64,7 @@ fn failures_leave_nothing() {
         assert_eq!(read(&path).unwrap().ids, p.ids, "{format:?}");
     }
     std::fs::remove_file(&path).unwrap();
-    // A folder stands where the file should go: the renaming fails.
+    // A folder has the name of the file, so that the final rename fails.
     std::fs::create_dir(&path).unwrap();
     assert!(matches!(write(&path, &p, WriteFormat::Vtu), Err(WriteError::Io { .. })));
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);

@@ -30,7 +30,7 @@ pub fn bgeo(of: &Particles) -> Vec<u8> {
         out.extend(floats(&velocities(of)[i], 4, true));
         out.extend(floats(&[densities(of)[i]], 4, true));
     }
-    // Primitives and their attributes follow; nothing of them is needed.
+    // Primitives and their attributes follow, which the reader does not need.
     out.extend(b"\0\x09generator\0\x01\0\0\0\x04\0\0\0\x01\0\x04papi\0\0\x80\0\0\xff");
     out
 }

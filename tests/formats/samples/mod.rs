@@ -1,4 +1,5 @@
-//! One small cloud in every format and encoding, byte by byte: the cloud, its check, and the list of all samples.
+//! One small cloud in every format and encoding, built byte by byte: the cloud, its check, and the
+//! list of all samples.
 
 mod houdini;
 mod plain;
@@ -15,7 +16,7 @@ pub use vtk::{Xml, vtk};
 
 pub const COUNT: usize = 11;
 
-/// The cloud that all samples have, with positions that 32-bit floats, and text of seven digits, hold exactly.
+/// The cloud of all samples. 32-bit floats and text of seven digits represent its values exactly.
 pub fn cloud() -> Particles {
     let of = |f: fn(f32) -> [f32; 3]| (0..COUNT).map(|i| f(i as f32)).collect::<Vec<_>>();
     let mut cloud = Particles::from_positions(of(|t| {
@@ -43,7 +44,7 @@ fn ids(of: &Particles) -> &[u32] {
     of.ids.as_ref().unwrap()
 }
 
-/// What a sample has beside positions.
+/// Attributes of a sample besides positions.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Has {
     Positions,
@@ -68,7 +69,7 @@ fn sample(
     Sample { name: name.into(), hint, bytes: bytes.into(), has, format }
 }
 
-/// Fails unless the particles are those of this file.
+/// Asserts that the particles are those of the cloud.
 pub fn check(name: &str, particles: &Particles, has: Has) {
     let cloud = cloud();
     assert_eq!(particles.positions, cloud.positions, "{name}: positions");
@@ -86,7 +87,7 @@ pub fn check(name: &str, particles: &Particles, has: Has) {
     assert!(!particles.attributes.is_empty(), "{name}: attributes");
 }
 
-/// Values as bytes of `size` 4 or 8.
+/// Values as floats of `size` 4 or 8 bytes.
 pub fn floats(values: &[f32], size: usize, big: bool) -> Vec<u8> {
     values
         .iter()

@@ -5,7 +5,8 @@ use whitewater::io::particles::{Extension, Format, Particles};
 
 use super::{Has, Sample, densities, floats, ids, ints, positions, sample, velocities, words};
 
-/// PLY with an element and a list before and among the vertices.
+/// PLY, optionally with other elements before the vertices and a list property among the vertices'
+/// properties.
 pub fn ply(of: &Particles, format: &str, double: bool, lists: bool) -> Vec<u8> {
     let count = of.positions.len();
     let real = if double { "double" } else { "float32" };
@@ -82,7 +83,7 @@ pub fn npz(arrays: &[(&str, Vec<u8>)], deflate: bool) -> Vec<u8> {
     archive.finish().unwrap().into_inner()
 }
 
-/// All values of the first component, then all of the second ...
+/// The values of the vectors, component by component.
 pub fn columns(vectors: &[[f32; 3]]) -> Vec<f32> {
     (0..3).flat_map(|c| vectors.iter().map(move |v| v[c])).collect()
 }

@@ -6,7 +6,7 @@ use whitewater::io::particles::{Compression, Particles, Storage};
 
 use super::{densities, floats, ids, ints, positions, velocities, words};
 
-/// Legacy VTK. `double` writes double and 64-bit ids.
+/// Legacy VTK. `double`: positions in double precision, ids with 64 bits.
 pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: bool) -> Vec<u8> {
     let count = of.positions.len();
     let mut out = format!(
@@ -16,7 +16,7 @@ pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: 
     )
     .into_bytes();
     let size = if double { 8 } else { 4 };
-    // All three are 32 bits wide.
+    // All three types have 32 bits.
     let id_32 = match (polydata, version) {
         (true, "4.2") => "vtkIdType",
         (true, _) => "int",
@@ -29,7 +29,7 @@ pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: 
         out.push(b'\n');
     };
     let numbers: Vec<u32> = (0..count as u32).collect();
-    // Something of no use before the points, as ParaView has with time values.
+    // A field before the points that is not used, such as ParaView's time values.
     put(
         &mut out,
         "FIELD FieldData 1\nTIME 1 1 double\n".into(),
@@ -69,7 +69,7 @@ pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: 
         let types = vec![1_u32; count];
         put(&mut out, format!("CELL_TYPES {count}\n"), ints(&types, 4, true), words(types));
     }
-    // Of the cells: must not be taken for those of the points.
+    // Data of the cells, which must not be taken for data of the points.
     out.extend(format!("CELL_DATA {count}\n").as_bytes());
     put(
         &mut out,
@@ -115,7 +115,7 @@ pub struct Xml {
     pub compression: Compression,
     pub big: bool,
     pub wide: bool,
-    /// Where the particles are cut into two pieces.
+    /// Whether the particles are split into two pieces.
     pub pieces: bool,
     pub double: bool,
 }
@@ -127,7 +127,7 @@ fn pack(block: &[u8], compression: Compression) -> Vec<u8> {
             out.write_all(block).unwrap();
             out.finish().unwrap()
         }
-        // One run of literals.
+        // A single run of literals.
         Compression::Lz4 => {
             let mut out = Vec::new();
             match block.len().checked_sub(15) {
@@ -155,7 +155,7 @@ impl Xml {
         let (head, data) = if self.compression == Compression::None {
             (self.word(raw.len()), raw.to_vec())
         } else {
-            // As VTK makes them, or so that there are some of them.
+            // Blocks of VTK's usual size, or small ones so that there are several.
             let block = if raw.len() > 1 << 12 { 1 << 15 } else { 48 };
             let blocks: Vec<_> = raw.chunks(block).map(|b| pack(b, self.compression)).collect();
             let mut head =
