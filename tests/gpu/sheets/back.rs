@@ -1,4 +1,4 @@
-//! The depth of the back sheet and its smoothing against the twins, on the tiles near gaps.
+//! The depth of the back sheet and its smoothing against the twins, in the tiles near gaps.
 
 use glam::{DVec2, DVec3};
 use whitewater::water::Rule;
@@ -25,7 +25,8 @@ use super::picture::Layers;
 use super::thickness::{check_thickness, is_behind};
 use super::{SPACING, drop_at, of, rule, shot, shot_of, some, spacing, two, unsmoothed, visible};
 
-/// Where the back sheet lies among the levels: what of that is fixed; its level.
+/// Asserts that the back sheet's first level is one coarser than the front sheet's, and has the
+/// expected size and slopes. Returns the level.
 pub fn back_level(name: &str, drawn: &Drawn, shot: &Shot) -> u32 {
     let back: &SmoothingLevel = &drawn.levels.level[4];
     let edge = back.texel[2];
@@ -33,7 +34,8 @@ pub fn back_level(name: &str, drawn: &Drawn, shot: &Shot) -> u32 {
     let level = (edge as u32).ilog2();
     let view = shot.view(shot.size).reduced(level);
     assert_eq!(back.rect[2..], [view.width as i32, view.height as i32], "{name}: its size");
-    // Both from numbers that are rounded a few times, as slopes in `tolerance::ray_distance`.
+    // The slopes are computed from numbers that are rounded a few times, as in
+    // `tolerance::ray_distance`.
     let slope = 4.0 * U * 3.0 * (1.0 + tolerance::reach(&view));
     for (x, y) in [(0, 0), (view.width - 1, view.height - 1)] {
         let [sx, sy, ox, oy] = back.slope.map(f64::from);
@@ -47,7 +49,7 @@ pub fn back_level(name: &str, drawn: &Drawn, shot: &Shot) -> u32 {
     level
 }
 
-/// The texels where there are two sheets.
+/// The texels with two sheets.
 pub fn split(boundaries: &Boundaries<'_>, full: &View, level: u32) -> Image<bool> {
     let view = full.reduced(level);
     Image::from_fn(view.width, view.height, |x, y| {
@@ -55,8 +57,9 @@ pub fn split(boundaries: &Boundaries<'_>, full: &View, level: u32) -> Image<bool
     })
 }
 
-/// Asserts that the unsmoothed depth of the back sheet is the twin's, by the boundaries and the depth
-/// that were found; returns how many texels of it are water behind water, and how many are not made.
+/// Asserts that the unsmoothed depth of the back sheet is the twin's, computed from the boundaries
+/// and the depth that were read back. Returns the number of texels with water behind water, and of
+/// texels in tiles that are not made.
 pub fn check_back(
     name: &str,
     depth: &Image<f32>,
@@ -82,7 +85,7 @@ pub fn check_back(
             water += usize::from(is_surface(f64::from(sheets.surface.at(x, y))));
             continue;
         } else {
-            // A copy rounds nothing.
+            // A copied depth has no rounding error.
             let (px, py) = sheets::pixel_of_texel(&full, level, x, y);
             depth.at(px, py)
         };
@@ -118,10 +121,11 @@ fn the_back_sheets_depth_is_the_twins() {
                     check_back(name, &drawn.depth, of(drawn), shot, thickness_level, level)
                 };
                 let (water, _) = check(&name, &drawn, &shot);
-                // A twentieth of the picture.
+                // At least a twentieth of the picture.
                 let texels = of(&drawn).surface.data.len();
                 assert!(water * 20 > texels, "{name}: {water} of {texels} texels");
-                // What the scene hides of the front sheet is gone, of the back one nothing.
+                // Depths of the front sheet behind the scene are removed; those of the back sheet
+                // are kept.
                 shot.scene_depth(|x, y| {
                     ((x / 9 + y / 5) % 2 == 0).then_some(2.0 + f64::from(y % 9))
                 });
@@ -131,7 +135,7 @@ fn the_back_sheets_depth_is_the_twins() {
     }
 }
 
-/// Away from all gaps the back sheet is empty, and only there.
+/// The back sheet's depth is empty in the tiles that are away from all gaps, and only there.
 #[test]
 fn tiles_are_made_near_gaps() {
     let gpu = Gpu::shared();
@@ -158,7 +162,7 @@ fn tiles_are_made_near_gaps() {
     }
 }
 
-/// A frame as the twins draw it, of single precision.
+/// A frame as the twins compute it, rounded to single precision.
 pub fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn {
     let (spheres, full) = (visible(shot), shot.view(shot.size));
     let narrow = |image: &Image<f64>| image.map(|v| *v as f32);
@@ -214,7 +218,7 @@ pub fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> D
     drawn
 }
 
-/// The checkers of thickness and depth pass the twins themselves, and see what is off by little.
+/// The checks of thickness and depth accept the twins' own results, and detect small faults.
 #[test]
 fn a_planted_fault_is_seen() {
     let (size, level) = (extent(97, 61), 1);
@@ -243,7 +247,7 @@ fn a_planted_fault_is_seen() {
         let mut other = good.clone();
         other.boundaries.data[texel] = EMPTY as f32;
         assert!(!unseen(&thick_of, &other));
-        // A boundary elsewhere: other water is behind it.
+        // A moved boundary: other water is behind it.
         let mut other = good.clone();
         other.boundaries.data.iter_mut().filter(|b| **b < 1e9).for_each(|b| *b += 1.0);
         assert!(!unseen(&thick_of, &other) && !unseen(&back, &other));
@@ -282,7 +286,8 @@ fn the_back_surface_is_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(193, 121);
     for smoothing_level in 0..3 {
-        // The same depth unsmoothed: only this rule has a width.
+        // This configuration draws the unsmoothed depth. Only this rule has a width, which is set
+        // to 0.
         let config = two(size).with(|it| {
             it.smoothing_level = smoothing_level;
             it.rule = Rule::ConstantWidth;
@@ -312,7 +317,7 @@ fn the_back_surface_is_the_twins() {
                 let (expected, error) = tolerance::smoothing(&reduced, &plan, &view, twin, &params);
                 let surface = &of(&drawn).surface;
                 compare::close(&name, surface, &expected, 0, |x, y, _| error.at(x, y));
-                // Of the texels that the picture looks at.
+                // Only the texels that the picture uses.
                 let texels = wide(&of(&drawn).boundaries);
                 let boundaries = Boundaries { texels: &texels, level: 0 };
                 let split = split(&boundaries, &full, level);
@@ -330,7 +335,7 @@ fn the_back_surface_is_the_twins() {
     }
 }
 
-/// All do the same arithmetic: bit for bit.
+/// All forms do the same arithmetic, so their results are equal bit for bit.
 #[test]
 fn all_forms_give_the_same_back_surface() {
     let gpu = Gpu::shared();
@@ -364,8 +369,8 @@ fn all_forms_give_the_same_back_surface() {
     }
 }
 
-/// Of the back sheet's coarser levels each texel is the nearest of its first level's under it, planned and
-/// smoothed where it shows and a bit around.
+/// A texel of a coarser level of the back sheet is the nearest of the first level's texels that it
+/// covers. Texels are planned and smoothed where they are visible, and a little around.
 #[test]
 fn coarser_back_sheets_are_the_twins() {
     let gpu = Gpu::shared();
@@ -381,7 +386,7 @@ fn coarser_back_sheets_are_the_twins() {
         });
         let flat = Rig::new(&gpu, &config).draw(&unsmoothed(&shot));
         let mut rig = Rig::new(&gpu, &config);
-        // The second frame starts from what the first one left.
+        // The second frame starts from the state that the first one left.
         rig.draw(&shot);
         let drawn = rig.draw(&shot);
         let name = format!("back-levels-{cap}");
@@ -398,7 +403,7 @@ fn coarser_back_sheets_are_the_twins() {
             if level > needed {
                 continue;
             }
-            // Of one surface or another: the nearest.
+            // The nearest texel is taken even if the texels belong to different surfaces.
             let reduced = reduce::nearest(&first, level - 1);
             let wanted = |near| levels.is_wanted(near, level, false, level == 3);
             let name = format!("{name}-{level}");

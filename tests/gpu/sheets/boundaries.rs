@@ -1,4 +1,4 @@
-//! The boundaries between two sheets against the twin, which says where rounding decides.
+//! The boundaries between two sheets against the twin, which tells where rounding may change them.
 
 use glam::Vec3;
 
@@ -13,7 +13,7 @@ use crate::support::tolerance::{self, U};
 
 use super::{of, rule, shot, spacing, unpruned, visible};
 
-/// What the texels of frames were.
+/// Number of texels that spheres touch, that have a boundary, and that rounding leaves undecided.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Texels {
     touched: usize,
@@ -30,18 +30,18 @@ impl std::ops::AddAssign for Texels {
 }
 
 impl Texels {
-    /// Asserts that there were gaps, and that rounding left hardly any texel open.
+    /// Asserts that there were enough gaps, and that rounding left few texels undecided.
     fn suffice(&self, name: &str) {
         assert!(self.split * 10 > self.touched, "{name}: hardly a gap in {self:?}");
         assert!(self.unsure * 20 < self.touched, "{name}: too many are open of {self:?}");
     }
 }
 
-/// What rounding adds of a number on the way to a boundary: an end of an air is off by 4u of it, its middle
-/// and the mean's products and sums make 9u, the sum of the weights and the quotient 6u, the limits 6u.
+/// Relative rounding error of a boundary. An end of an air gap has an error of 4u. Its middle and
+/// the mean's products and sums add 9u, the sum of the weights and the quotient 6u, the limits 6u.
 const RELATIVE: f64 = 33.0 * U;
 
-/// What is known of the boundaries of a shot whose depth was found.
+/// What is known of a shot's boundaries, given the depth that was read back.
 fn judged(shot: &Shot, depth: &Image<f32>, level: u32) -> Image<KnownTexel> {
     let (spheres, view) = (visible(shot), shot.view(shot.size));
     let rounded = |sphere: &Sphere| tolerance::span(sphere, &view);
@@ -49,8 +49,8 @@ fn judged(shot: &Shot, depth: &Image<f32>, level: u32) -> Image<KnownTexel> {
     sheets::judged_texels(&cells, &wide(depth), level, rule(shot), RELATIVE)
 }
 
-/// Asserts that the boundaries are the twin's, by the depth that was found. Where the answer depends on
-/// rounding it must still be in the range of the cells.
+/// Asserts that the boundaries are the twin's, computed from the depth that was read back. A
+/// boundary that depends on rounding must still lie in the depth range of the cells.
 pub fn check_boundaries(
     name: &str,
     found: &Image<f32>,
@@ -70,7 +70,7 @@ pub fn check_boundaries(
         let (low, high) = (texel.low * (1.0 - RELATIVE), texel.high * (1.0 + RELATIVE));
         let sound = match is_surface(found) {
             true => texel.maybe_one && found >= low && found <= high,
-            // Exactly so: other passes compare with it.
+            // Exactly EMPTY, because other passes compare with it.
             false => texel.maybe_none && found == EMPTY,
         };
         if !sound {
@@ -85,7 +85,7 @@ pub fn check_boundaries(
     count
 }
 
-/// The definition of the cells in single precision, as plainly as it can be put.
+/// A straightforward implementation of the cells in single precision.
 fn single_precision(shot: &Shot) -> Image<Cell> {
     let view = shot.view(shot.size);
     let (width, height) = (view.width as f32, view.height as f32);
@@ -100,7 +100,7 @@ fn single_precision(shot: &Shot) -> Image<Cell> {
             continue;
         }
         let h = z * z - radius * radius;
-        // First pixel and last.
+        // First and last pixel.
         let along = |across: f32, focal: f32, shift: f32, extent: f32| {
             let reach = radius * (across * across + h).sqrt();
             let slopes = [(across * z - reach) / h, (across * z + reach) / h];
@@ -140,8 +140,8 @@ fn single_precision(shot: &Shot) -> Image<Cell> {
     }
 }
 
-/// The twin's certainty is what it says: neither single precision nor anything in the slack makes
-/// another answer of a texel, and an answer that is off is seen.
+/// The twin judges certainty correctly: neither single precision nor any error within the slack
+/// changes a certain texel, and wrong boundaries are detected.
 #[test]
 fn certain_texels_stay_in_all_of_the_slack() {
     let mut random = Random(77);
@@ -174,7 +174,7 @@ fn certain_texels_stay_in_all_of_the_slack() {
             check_boundaries(&name, &texels(&other), &depth, &shot, level);
         }
         let split = found.data.iter().position(|b| *b < 1e9).expect("a gap");
-        // A texel of one sheet, if there is any.
+        // A texel with one sheet, if there is any.
         let one = found.data.iter().position(|b| *b >= 1e9).unwrap_or(split);
         for (texel, other) in [
             (split, EMPTY as f32),
@@ -189,7 +189,7 @@ fn certain_texels_stay_in_all_of_the_slack() {
             let seen = fails(|| {
                 check_boundaries(&name, &planted, &depth, &shot, level);
             });
-            // Where rounding decides either answer may pass.
+            // If rounding decides, either answer may pass.
             let certain = judged(&shot, &depth, level).data[texel].certain;
             assert!(seen || !certain, "{name}: {other} in texel {texel}");
         }
@@ -217,7 +217,7 @@ fn the_boundaries_are_the_twins() {
     count.suffice("boundaries");
 }
 
-/// Smaller spheres of thin water, and those that are set aside as spray.
+/// Thin water with smaller spheres, and spheres that are classified as spray.
 #[test]
 fn the_boundaries_are_of_the_drawn_spheres() {
     let gpu = Gpu::shared();
@@ -234,7 +234,7 @@ fn the_boundaries_are_of_the_drawn_spheres() {
     count.suffice("boundaries-thin");
 }
 
-/// Spheres round the eye, whose projections have no bounds or large ones; many layers behind them.
+/// Spheres around the eye, whose projections are unbounded or large, with many layers behind them.
 fn near_shots() -> [Shot; 2] {
     [(Lens::Standard, 90.0), (Lens::ReversedInfinite, 400.0)].map(|(lens, far)| {
         let mut near = scenes::cloud(6, 12, 0.4, 2.0);

@@ -1,5 +1,5 @@
-//! Passes `gaps` and `back`, thickness by sheets, and two sheets in the picture: water behind water.
-//! Here the scenes: drops and a torn sheet before a pool.
+//! Passes `gaps` and `back`, the thickness of each sheet, and two sheets in the picture: water
+//! behind water. This file has the scenes: drops and a torn sheet before a pool.
 
 mod back;
 mod boundaries;
@@ -23,7 +23,7 @@ const SPACING: f32 = 0.25;
 
 type Points = Vec<[f32; 3]>;
 
-/// So many of a list of cases; all of them where the long tests are asked for.
+/// Number of cases to test; all of them in the long tests.
 fn some(cases: usize) -> usize {
     if slow() { usize::MAX } else { cases }
 }
@@ -32,7 +32,7 @@ fn jittered(random: &mut Random, at: [f32; 3], part: f32) -> [f32; 3] {
     at.map(|v| v + SPACING * part * random.between(-0.2, 0.2))
 }
 
-/// Two layers of water below the eye, (x, y, depth) of eye space: still (0) or wavy (1).
+/// Two layers of water below the eye, (x, y, depth) in eye space: level (0) or wavy (1).
 fn pool(wavy: f32) -> Points {
     let mut random = Random(12);
     let columns = (0..28).flat_map(|z| (0..36).map(move |x| (x as f32, z as f32)));
@@ -90,7 +90,7 @@ fn two(size: vk::Extent2D) -> Config {
     config(size).with(|it| it.sheets = 2)
 }
 
-/// One that leaves the boundaries as they were found.
+/// A configuration that keeps the boundaries as they were found.
 fn unpruned(size: vk::Extent2D, thickness_level: u32) -> Config {
     two(size).with(|it| {
         it.thickness_splat = Some(Splat::Raster);
@@ -102,12 +102,12 @@ fn of(drawn: &Drawn) -> &Sheets {
     drawn.sheets.as_ref().expect("two sheets")
 }
 
-/// Texels with two sheets.
+/// Number of texels with two sheets.
 fn gaps(drawn: &Drawn) -> usize {
     of(drawn).boundaries.data.iter().filter(|b| **b < 1e9).count()
 }
 
-/// The spheres that the culling leaves.
+/// The spheres that culling keeps.
 fn visible(shot: &Shot) -> Vec<Sphere> {
     let water = &shot.settings.water;
     let params = CullParams::new(f64::from(water.radius()), f64::from(water.rest_density));
@@ -118,12 +118,12 @@ fn spacing(shot: &Shot) -> f64 {
     f64::from(shot.settings.water.spacing)
 }
 
-/// What decides of a shot's boundaries.
+/// Parameters of a shot's boundaries.
 fn rule(shot: &Shot) -> Rule {
     Rule { spacing: spacing(shot), falloff: f64::from(shot.falloff()) }
 }
 
-/// Asserts that no texel is another, of those that are `sure`.
+/// Asserts that two images are equal in the texels that are `sure`.
 fn same_where(name: &str, found: &Image<f32>, expected: &Image<f32>, sure: &Image<bool>) {
     let masked = |image: &Image<f32>| {
         assert_eq!((image.width, image.height), (sure.width, sure.height), "{name}");

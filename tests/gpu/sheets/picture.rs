@@ -24,7 +24,7 @@ use crate::support::tolerance::U;
 use super::back::{back_level, twins_frame};
 use super::{SPACING, of, shot, shot_of, some, two};
 
-/// A slab before a slanted one, seen from above: what is mirrored is above the horizon.
+/// A slab before a slanted one, seen from above, so that reflected rays end above the horizon.
 fn slabs(size: vk::Extent2D) -> Shot {
     let mut points = scenes::block(6, SPACING, [8, 6, 3], [-1.3, -0.7, 3.0]);
     let slanted = scenes::block(7, SPACING, [34, 20, 4], [-4.2, -2.4, 6.0]);
@@ -37,7 +37,7 @@ fn slabs(size: vk::Extent2D) -> Shot {
     shot
 }
 
-/// What the twins of a picture take.
+/// Inputs of the twins for a picture.
 pub struct Layers {
     depth: Image<f64>,
     smoothed: Image<f64>,
@@ -90,19 +90,19 @@ impl Layers {
     }
 }
 
-/// How many pixels were of each kind.
+/// Number of pixels of each kind.
 #[derive(Clone, Copy, Debug, Default)]
 struct Kinds {
-    /// No boundary, and the back sheet itself.
+    /// `one`: a single sheet. `behind`: two sheets, of which the pixel shows only the back one.
     one: usize,
     behind: usize,
-    /// The front sheet over the back one: that is there, partly, or not found.
+    /// The front sheet over the back sheet, which was found completely, partly, or not at all.
     both: usize,
     partly: usize,
     unfound: usize,
-    /// There is not only air between them.
+    /// The space between the sheets is not only air.
     touching: usize,
-    /// The surface is of the back sheet's image, in part.
+    /// The surface comes partly from the back sheet's image.
     mixed: usize,
     unsure: usize,
 }
@@ -120,8 +120,8 @@ impl std::ops::AddAssign for Kinds {
     }
 }
 
-/// Asserts that a picture under an even sky is the twin's, of the layers that were read back. Bounds
-/// and what is undecided are as in tests of `composite`.
+/// Asserts that a picture under a uniform sky equals the twin's, computed from the layers that were
+/// read back. Bounds and undecided pixels are treated as in the tests of `composite`.
 fn check_picture(
     name: &str,
     drawn: &Drawn,
@@ -135,8 +135,8 @@ fn check_picture(
     check_levels(name, drawn, shot, levels, bits, fault, &|_, _| true)
 }
 
-/// The same of images at the levels of the front and the back sheet's surface and of the thickness; where
-/// a pixel shows them.
+/// Like [`check_picture`], for images at these levels: of the front sheet's surface, of the back
+/// sheet's surface and of the thickness. `shows` selects the pixels that show these levels.
 fn check_levels(
     name: &str,
     drawn: &Drawn,
@@ -183,7 +183,7 @@ fn check_levels(
             let either = sides.map(|(dx, dy)| hidden(&inputs, z, *q + DVec2::new(dx, dy) * moved));
             either.iter().any(|h| *h != either[0])
         };
-        // Depths are means of 13u, mixed once more; the falloff a product.
+        // Depths are means with an error of 13u, mixed once more; the falloff is a product.
         let front = -shown.front.position.z;
         let mut unsure = shown.front.parts.margin <= 40.0 * U * (front + falloff);
         if let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) {
@@ -225,7 +225,7 @@ const MEDIA: [(&str, Medium); 3] = [
     ("none", Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] }),
 ];
 
-/// An environment that is the same in all directions.
+/// A uniform environment.
 fn even(gpu: &Gpu, config: Config) -> Rig<'_> {
     let mut rig = Rig::new(gpu, &config);
     let [r, g, b] = Sky::Even.radiance(DVec3::Y).as_vec3().to_array();
@@ -233,11 +233,11 @@ fn even(gpu: &Gpu, config: Config) -> Rig<'_> {
     rig
 }
 
-/// A highlight that is wide, and a scene of one colour or the gradient.
+/// A wide highlight, and a scene of one colour or a gradient.
 fn look(mut shot: Shot, flat: bool) -> Shot {
     let water = &mut shot.settings.water;
     (water.specular, water.shininess) = (0.3, 20.0);
-    // Where there is any: on the front sheet alone.
+    // If noise is drawn, its foam is only on the front sheet.
     shot.settings.noise.foam = 1.0;
     if flat {
         shot.color.fill(FLAT);
@@ -245,8 +245,8 @@ fn look(mut shot: Shot, flat: bool) -> Shot {
     shot
 }
 
-/// Two sheets, at all resolutions and by both ways of shading; what is not only air between them, and
-/// surfaces that only the back sheet's image has.
+/// Two sheets at all resolutions and with both ways of shading, including gaps that are not only
+/// air, and surfaces that only the back sheet's image contains.
 #[test]
 fn the_picture_of_two_sheets_is_the_twins() {
     let gpu = Gpu::shared();
@@ -313,7 +313,8 @@ fn the_front_sheet_lies_over_the_back_one() {
     }
 }
 
-/// What stands between the sheets or behind both hides and is not refracted.
+/// The scene stands before, between and behind the sheets. It hides the water behind it, and no
+/// refracted look-up shows a part of the scene in front of the water.
 #[test]
 fn the_scene_stands_among_the_sheets() {
     let gpu = Gpu::shared();
@@ -338,7 +339,7 @@ fn the_scene_stands_among_the_sheets() {
     assert!(kinds.unfound > 100 && kinds.both > 100, "{kinds:?}");
 }
 
-/// Water so near that coarser levels show: of both sheets the one that their distances ask for.
+/// Water so near that coarser levels are shown, for each sheet the level for its distance.
 #[test]
 fn near_sheets_are_the_twins() {
     let gpu = Gpu::shared();
@@ -370,7 +371,8 @@ fn near_sheets_are_the_twins() {
             let boundary = |x: usize, y: usize| {
                 of(&drawn).boundaries.at(x >> thickness_level, y >> thickness_level)
             };
-            // What a pixel shows alone, of the front sheet and of the back one.
+            // Levels of the front and of the back sheet that a pixel shows without blending; 0 if
+            // it blends levels.
             let shown = Image::from_fn(160, 100, |x, y| {
                 let of_pixel = |z: f32| levels.shown(levels.nearness_at((x, y), f64::from(z)));
                 let z = drawn.depth.at(x, y);
@@ -381,7 +383,7 @@ fn near_sheets_are_the_twins() {
                     (back.max(1), back == 0 || behind == 0.0, covers)
                 };
                 let (back, whole, covers) = behind(boundary(x, y));
-                // The boundary may be that of any of the four texels round the pixel.
+                // The pixel may use the boundary of any of the four texels around it.
                 let half = (1 << thickness_level) / 2;
                 let near =
                     |at: usize, size: usize| [at.saturating_sub(half), (at + half).min(size - 1)];
@@ -392,7 +394,8 @@ fn near_sheets_are_the_twins() {
                 (if alone { front } else { 0 }, back, covers)
             });
             for (front, back) in (1..4).flat_map(|front| (1..4).map(move |back| (front, back))) {
-                // Tiles that have no boundary within a texel are drawn as one sheet.
+                // Tiles without a boundary, up to a texel beyond their edge, are drawn as one
+                // sheet.
                 let two = |x: usize, y: usize| {
                     let around = |at: usize, size: usize| {
                         let tile = at / 16 * 16;
@@ -406,8 +409,9 @@ fn near_sheets_are_the_twins() {
                 };
                 let own =
                     |(f, b, covers): &&(usize, usize, bool)| *covers && (*f, *b) == (front, back);
-                // The twin takes thickness of the surface's own level by its texels; where that changes from pixel to
-                // pixel ours goes by the surface at each texel's middle.
+                // If thickness and surface have the same level, the twin reads the thickness texel
+                // by texel. The renderer, whose level changes from pixel to pixel, filters it by
+                // the surface at each texel's centre. These cases are skipped.
                 let other = thickness_level == 0 || thickness_level != front as u32;
                 if !other || shown.data.iter().filter(own).count() < 20 {
                     continue;
@@ -430,13 +434,13 @@ fn near_sheets_are_the_twins() {
     assert!(seen.iter().all(|pixels| *pixels >= 100), "{seen:?} pixels of the back sheet's levels");
 }
 
-/// Of two pictures that are smoothed by hardly more, pixels in which the back sheet comes to another level
-/// change no more than the others: twice as much in the mean, where they are few.
+/// Between two pictures with slightly different smoothing, pixels whose back sheet changes its
+/// level change on average at most twice as much as the others.
 #[test]
 fn the_back_sheets_levels_pass_without_a_step() {
     let gpu = Gpu::shared();
     let size = extent(160, 100);
-    // So few iterations that the levels are as rough as they are different.
+    // So few iterations that the surfaces of two levels differ clearly.
     let config = two(size).with(|it| {
         it.smoothing_level = 0;
         it.thickness_level = 0;
@@ -467,7 +471,8 @@ fn the_back_sheets_levels_pass_without_a_step() {
                 let change = (0..3)
                     .map(|c| f64::from((drawn.output.data[i][c] - last.output.data[i][c]).abs()))
                     .sum::<f64>();
-                // The first two levels of the front sheet are one of the back sheet.
+                // The front sheet's first two levels correspond to a single level of the back
+                // sheet.
                 let moved = shown[i] > was[i] && was[i] > 0;
                 let sums = if moved { &mut crossing } else { &mut others };
                 sums[0] += change;
@@ -484,7 +489,7 @@ fn the_back_sheets_levels_pass_without_a_step() {
 
 type Fault = fn(&mut Layers);
 
-/// Faults of the layers that a picture's check must see.
+/// Faults of the layers that the check of a picture must detect.
 const FAULTS: [(&str, Fault); 7] = [
     ("order", |layers| layers.parts.data.iter_mut().for_each(|t| t.swap(0, 1))),
     ("front", |layers| layers.parts.data.iter_mut().for_each(|t| t[0] *= 1.001)),
@@ -495,7 +500,7 @@ const FAULTS: [(&str, Fault); 7] = [
     ("boundary", |layers| layers.boundaries.data.iter_mut().for_each(|b| *b -= 1.0)),
 ];
 
-/// The checker of the picture passes the twins' own, and sees what is off by little.
+/// The check of the picture accepts the twin's own layers, and detects small faults.
 #[test]
 fn a_planted_fault_of_the_picture_is_seen() {
     let size = extent(160, 100);

@@ -14,23 +14,24 @@ use crate::support::tolerance::{self, Between, Sum, U};
 
 use super::{of, shot, spacing, two, unpruned, visible};
 
-/// Whether a sphere surely belongs, and whether it may belong, to the back sheet: its depth is
-/// rounded, the boundary is as it was read.
+/// Whether a sphere certainly belongs to the back sheet, and whether it possibly does. The depth
+/// has a rounding error; the boundary is exact, because it was read back.
 pub fn is_behind(sphere: &Sphere, boundary: f64, view: &View) -> (bool, bool) {
     let (z, e) = (-sphere.center.z, tolerance::eye_space(sphere.center, view));
     (z - e >= boundary, z + e >= boundary)
 }
 
-/// Least and greatest shares of a splat: in the front sheet, in the back one and in the window. Each
-/// falls or rises with the depth, which is rounded with its differences from the boundary; the cubic
-/// makes 5u, of a quotient of 5u that counts one and a half times, the difference from 1 one more.
+/// Min and max share of a splat in the front sheet, in the back sheet and in the window. Each share
+/// is monotonic in the depth, which is rounded, as is its difference from the boundary. The cubic
+/// adds 5u, its argument is a quotient of 5u that counts one and a half times, and the difference
+/// from 1 adds 1u.
 fn share_bounds(sphere: &Sphere, boundary: f64, spacing: f64, view: &View) -> [(f64, f64); 3] {
     let z = -sphere.center.z;
     let e = tolerance::eye_space(sphere.center, view) + 4.0 * U * (z + boundary + spacing);
     let front = |z: f64| sheets::shares(z, boundary, spacing).0;
     let window = |away: f64| sheets::shares(boundary + away.max(0.0), boundary, spacing).1;
     let away = (z - boundary).abs();
-    // What is cut to 0 or 1 rounds nothing.
+    // A share that is clamped to 0 or 1 has no error.
     let open = |(low, high): (f64, f64)| match (low, high) {
         (_, 0.0) => (0.0, 0.0),
         (1.0, _) => (1.0, 1.0),
@@ -40,8 +41,8 @@ fn share_bounds(sphere: &Sphere, boundary: f64, spacing: f64, view: &View) -> [(
     [(least, most), (1.0 - most, 1.0 - least), (window(away + e), window(away - e))].map(open)
 }
 
-/// Bounds of the thickness of the front sheet, of the back one and of the window, by the boundaries
-/// that were found; of no texel without one.
+/// Bounds of the thickness of the front sheet, of the back sheet and of the window, for the
+/// boundaries that were read back. In texels without a boundary they are 0.
 fn thickness_bounds(shot: &Shot, boundaries: &Image<f32>, level: u32, sum: Sum) -> [Between; 3] {
     let (spheres, view, boundaries) = (visible(shot), shot.view(shot.size), wide(boundaries));
     [0, 1, 2].map(|i| {
@@ -56,8 +57,8 @@ fn thickness_bounds(shot: &Shot, boundaries: &Image<f32>, level: u32, sum: Sum) 
     })
 }
 
-/// Asserts that all water is the twin's and each part of it, by the boundaries that were found;
-/// returns how many texels hold water of both sheets.
+/// Asserts that the thickness of all water and of each sheet is the twin's, for the boundaries that
+/// were read back. Returns the number of texels with water of both sheets.
 pub fn check_thickness(
     name: &str,
     all: &Image<f32>,
@@ -81,7 +82,8 @@ pub fn check_thickness(
                 (*low, *high) = ((*low - rounding).max(0.0), *high + rounding);
                 continue;
             }
-            // One sheet: the same sums; blended, each of as many roundings as there are splats.
+            // With one sheet the sums are equal. A blended sum is rounded as often as there are
+            // splats.
             let whole = [all, 0.0, sheets::ONE_SHEET * all][i];
             let rounding = match (sum, i) {
                 (Sum::Float, 2) => 2.0 * spheres.len() as f64 * U * whole,
@@ -115,7 +117,7 @@ fn each_sheets_thickness_is_the_twins() {
                 let name = format!("sheets-thickness-{splat:?}-{level}-{lens:?}");
                 let drawn = rig.draw(&shot);
                 let both = check_thickness(&name, &drawn.thickness, of(&drawn), &shot, level, sum);
-                // A tenth of the picture.
+                // At least a tenth of the picture.
                 assert!(both * 10 > drawn.thickness.data.len(), "{name}: {both} texels of both");
                 shot.scene_depth(|x, y| {
                     ((x / 9 + y / 5) % 2 == 0).then_some(2.0 + f64::from(y % 9))
@@ -128,8 +130,9 @@ fn each_sheets_thickness_is_the_twins() {
     }
 }
 
-/// Asserts that the boundaries are those that were found, but where all water is of one sheet;
-/// returns of how many texels that was.
+/// Asserts that pruning removes only boundaries of texels whose water is all of one sheet, and
+/// changes no other boundary. Returns the number of texels with certainly one sheet, and with
+/// certainly two.
 fn check_pruned(
     name: &str,
     pruned: &Image<f32>,
@@ -147,7 +150,8 @@ fn check_pruned(
         if f64::from(*found) == EMPTY {
             continue;
         }
-        // All of the addends may round to nothing, and what lies between the bounds.
+        // A sheet whose lower bound is zero may have no water, because all addends may round to
+        // zero.
         let none = front.low.data[i] == 0.0 || back.low.data[i] == 0.0;
         let some = front.high.data[i] > 0.0 && back.high.data[i] > 0.0;
         match f64::from(*pruned) == EMPTY {
@@ -194,8 +198,8 @@ fn where_nothing_is_to_be_told_apart_there_is_one_sheet() {
     assert!(gone > 100 && kept > 100, "{gone} texels were of one sheet, {kept} of two");
 }
 
-/// What the scene hides at a texel's centre may show beside it: there the boundary stays, or the pixels along the
-/// scene's outline would be of one sheet, texel by texel.
+/// Water that the scene hides at a texel's centre may be visible beside it. Its boundary stays;
+/// otherwise pixels along the outline of the scene would show one sheet, in squares of a texel.
 #[test]
 fn boundaries_stay_where_the_scene_hides_them() {
     let gpu = Gpu::shared();
@@ -206,7 +210,7 @@ fn boundaries_stay_where_the_scene_hides_them() {
         let compute = config.with(|it| it.thickness_splat = Some(Splat::Compute));
         let mut kept = Rig::new(&gpu, &compute);
         let mut shot = shot(size, Lens::Standard);
-        // A wall before all water, whose upper edge is aslant.
+        // A wall before all water, with a slanted upper edge.
         let wall = |x: u32, y: u32| 3 * y > 100 + x;
         shot.scene_depth(|x, y| wall(x, y).then_some(1.0));
         let [found, kept] = [&mut found, &mut kept].map(|rig| rig.draw(&shot));

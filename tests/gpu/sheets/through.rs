@@ -11,7 +11,7 @@ use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 
 const SIZE: (u32, u32) = (97, 61);
-/// Front and back of the water that lies on the bed, metres from the eye.
+/// Depths of the front and of the back of the pool on the bed, in metres.
 const POOL: (f32, f32) = (9.0, 11.4);
 
 fn two_interfaces() -> Config {
@@ -23,7 +23,8 @@ fn two_interfaces() -> Config {
     })
 }
 
-/// Particles before a pool of eight layers that covers the view, on a bed, seen from above. Points are those of the eye.
+/// Particles before a pool of eight layers on a bed, seen from above. The pool covers the view.
+/// Points are in eye space.
 fn before_pool(front: &[[f32; 3]], bed: impl Fn(u32) -> f32) -> Shot {
     let mut points = front.to_vec();
     points.extend(scenes::block(3, 0.3, [54, 40, 8], [-8.1, -6.0, POOL.0 + 0.15]));
@@ -39,7 +40,8 @@ fn before_pool(front: &[[f32; 3]], bed: impl Fn(u32) -> f32) -> Shot {
     shot
 }
 
-/// Mean of the first channel over pixels of the front water, and their number. Near the view's edges a ray may leave it.
+/// Mean of the first channel over the pixels of the front water, and their number. Rows near the
+/// view's edges are left out, because a refracted ray may leave the view there.
 fn mean_of_front(drawn: &Drawn, columns: std::ops::Range<usize>) -> (f32, usize) {
     let all = columns.flat_map(|x| (20..41).map(move |y| (x, y)));
     let front: Vec<_> = all.filter(|&(x, y)| drawn.depth.at(x, y) < 6.0).collect();
@@ -47,8 +49,9 @@ fn mean_of_front(drawn: &Drawn, columns: std::ops::Range<usize>) -> (f32, usize)
     (sum / front.len() as f32, front.len())
 }
 
-/// Dark water dims the bed's light on its way up, and the sun's and the sky's on their way down to it. Water before it adds no
-/// light: an even bed is as dark through it as beside it, or darker. (What the bed is without water would be seen brighter.)
+/// Dark water attenuates the bed's light on its way up, and the light of sun and sky on its way
+/// down to the bed. Water before the pool adds no light: a uniform bed looks at most as bright
+/// through it as beside it. (A bed that is lit as if without water would look brighter.)
 #[test]
 fn a_bed_is_no_brighter_through_water_before_its_pool() {
     let gpu = Gpu::shared();
@@ -75,8 +78,9 @@ fn a_bed_is_no_brighter_through_water_before_its_pool() {
     );
 }
 
-/// A wedge turns what is behind it towards its thick side. The bed brightens to the right; so what is seen of it through a
-/// wedge that is thicker to the right is brighter than through one that is thicker to the left.
+/// A wedge refracts rays towards its thick side. The bed is brighter on the right, so it looks
+/// brighter through a wedge that is thicker on the right than through one that is thicker on the
+/// left.
 #[test]
 fn a_wedge_before_a_pool_is_a_prism() {
     let gpu = Gpu::shared();

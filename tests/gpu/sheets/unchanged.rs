@@ -1,4 +1,5 @@
-//! What must not change the picture: order, chunks, unit, size, an earlier frame, a gap far away.
+//! Changes that must not affect the picture: order, chunks, unit of length, size, an earlier frame,
+//! a distant gap.
 
 use ash::vk;
 use whitewater::Config;
@@ -39,7 +40,7 @@ fn one_sheet_is_the_default_where_there_is_no_gap() {
             for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
                 let shot = Shot::new(size, lens, 0.2, &points);
                 let [one, two] = rigs.each_mut().map(|rig| {
-                    // The second frame starts from what the first one left.
+                    // The second frame starts from the state that the first one left.
                     rig.draw(&shot);
                     rig.draw(&shot)
                 });
@@ -57,14 +58,14 @@ fn one_sheet_is_the_default_where_there_is_no_gap() {
     }
 }
 
-/// The farthest, in pixels, that what a pixel shows may come from by the smoothing of the front
-/// image: a texel an iteration, and those round it that the surface is rebuilt of.
+/// Distance in pixels within which smoothing of the front image can affect a pixel: one texel per
+/// iteration, plus the texels from which the surface is reconstructed.
 fn smoothing_reach(drawn: &Drawn) -> u32 {
     let most = drawn.plan.data.iter().map(|p| p & 511).max().unwrap_or(0);
     (most + 3) * drawn.levels.level[0].texel[2] as u32
 }
 
-/// The pixels farther than 64 from all texels with two sheets.
+/// The pixels that are more than 64 pixels away from all texels with two sheets.
 fn far_from_gaps(boundaries: &Image<f32>, level: u32, width: usize, height: usize) -> Image<bool> {
     const FAR: usize = 64;
     let mut far = Image::new(width, height, true);
@@ -83,7 +84,7 @@ fn far_from_gaps(boundaries: &Image<f32>, level: u32, width: usize, height: usiz
     far
 }
 
-/// What is in front of the pool somewhere is no matter elsewhere.
+/// Water before a part of the pool changes nothing elsewhere.
 #[test]
 fn a_drop_before_a_pool_leaves_the_rest_as_it_is() {
     let gpu = Gpu::shared();
@@ -92,7 +93,8 @@ fn a_drop_before_a_pool_leaves_the_rest_as_it_is() {
     drop.extend(&pool);
     for way in [Shading::Raster, Shading::Compute] {
         let config = two(size).with(|it| {
-            // Sums of integers: blending rounds in the order of the particles.
+            // The compute splat sums integers. Blended sums would depend on the order of the
+            // particles.
             it.thickness_splat = Some(Splat::Compute);
             it.composite = Some(way);
             it.coarsening = 0;
@@ -127,11 +129,12 @@ fn a_drop_before_a_pool_leaves_the_rest_as_it_is() {
     }
 }
 
-/// A drop far before a torn slanted sheet before a pool changes what it covers, and what is smoothed or refracted with
-/// that, but no cell of the boundaries.
+/// A drop far before a torn slanted sheet and a pool changes the pixels that it covers and those
+/// that smoothing and refraction reach from there, but no whole cells of boundaries.
 #[test]
 fn a_drop_far_before_a_sheet_leaves_no_square() {
-    /// Pixels from what it covers: a texel of the back sheet and the next ones, and the march over the thickness.
+    /// Distance in pixels from the covered ones that may change: a texel of the back sheet and its
+    /// neighbours, and the march through the thickness.
     const REACH: usize = 8;
     let gpu = Gpu::shared();
     let (width, height) = (320, 192);
@@ -158,7 +161,7 @@ fn a_drop_far_before_a_sheet_leaves_no_square() {
             rig.draw(&unsmoothed(&shot_of(size, Lens::Standard, &points)))
         };
         let (with, without) = (draw(&[[0.1, 0.12, 1.6]]), draw(&[]));
-        // Where its sphere or its splat is.
+        // Pixels that the drop's sphere or splat covers.
         let mut covered = Image::from_fn(width as usize, height as usize, |x, y| {
             let texel = (x >> thickness_level, y >> thickness_level);
             with.depth.at(x, y) != without.depth.at(x, y)
@@ -207,7 +210,7 @@ fn the_order_of_the_particles_is_no_matter() {
     same_drawn("sheets-permutation", &second, &first);
 }
 
-/// The stride there may be decides how many particles are worked on at a time.
+/// `max_stride` limits how many particles are processed at a time.
 #[test]
 fn chunks_do_not_show() {
     let gpu = Gpu::shared();
@@ -245,7 +248,7 @@ fn no_particles_are_no_sheet() {
             let mut rig = Rig::lit(&gpu, &two(size).with(|it| it.composite = Some(way)), 1);
             let mut none = shot(size, Lens::Standard);
             none.positions.clear();
-            // Another frame's water must not come back.
+            // The water of the earlier frame must not appear.
             rig.draw(&shot(size, Lens::Standard));
             let drawn = rig.draw(&none);
             let (width, height) = (width as usize, height as usize);
@@ -295,7 +298,7 @@ fn what_an_earlier_frame_left_is_not_seen() {
     let size = extent(320, 192);
     let mut points = drop_at(&mut Random(3), [-0.9, -0.45, 2.6]);
     points.extend(pool(0.0));
-    // Sheets everywhere, at other depths.
+    // The earlier frame has two sheets everywhere, at other depths.
     let mut other = scenes::block(1, 0.4, [16, 10, 1], [-3.0, -2.0, 2.0]);
     other.extend(scenes::block(2, 0.4, [40, 26, 1], [-8.0, -5.0, 7.0]));
     let other = Shot::new(size, Lens::OffAxis, 0.3, &other);
@@ -324,7 +327,7 @@ fn what_an_earlier_frame_left_is_not_seen() {
     }
 }
 
-/// Powers of two scale every number without rounding.
+/// Scaling by a power of two rounds nothing.
 #[test]
 fn the_unit_of_length_does_not_show() {
     let gpu = Gpu::shared();

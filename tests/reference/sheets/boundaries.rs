@@ -1,5 +1,5 @@
-//! The boundaries themselves: which cells a sphere counts in, the airs of a cell, the spread to the cells
-//! round, and which air is a texel's.
+//! The boundaries: the cells in which a sphere counts, the air gaps of a cell, the borrowing of
+//! gaps, and the boundary of a texel.
 
 use glam::DVec2;
 use std::ops::Range;
@@ -11,14 +11,15 @@ use super::{
     UNBOUNDED,
 };
 
-/// The pixels whose centres lie in the bounding box of a sphere's projection, grown by so many
-/// pixels; none where the projection has no bounds. The tangents through the eye lie at `asin(r / l)`
-/// to either side of the centre's direction, in the planes of x and of y, at its distance l there.
+/// Pixels whose centres lie in the bounding box of a sphere's projection, grown by `grown` pixels;
+/// `None` if the projection is unbounded. In the planes of x and of y the tangents through the eye
+/// lie `asin(r / l)` on either side of the direction to the centre, whose distance in that plane is
+/// l.
 pub fn span(sphere: &Sphere, view: &View, grown: f64) -> Option<Part> {
     span_with(sphere, view, DVec2::splat(grown))
 }
 
-/// The pixels whose cells a sphere counts in.
+/// Pixels whose cells a sphere counts in.
 pub fn counted(sphere: &Sphere, view: &View, spacing: f64, grown: f64) -> Option<Part> {
     if sphere.radius < DROP * spacing {
         return None;
@@ -40,7 +41,7 @@ fn span_with(sphere: &Sphere, view: &View, grown: DVec2) -> Option<Part> {
     let ((left, right), (low, high)) = (tangents(c.x), tangents(c.y));
     let a = view.pixel_of_slope(DVec2::new(left, low));
     let b = view.pixel_of_slope(DVec2::new(right, high));
-    // A negative focal length swaps the two. The casts saturate.
+    // A negative focal length swaps a and b. The casts saturate.
     let range = |a: f64, b: f64, grown: f64, extent: usize| {
         let first = (a.min(b) - grown - 0.5).ceil().max(0.0) as usize;
         let past = ((a.max(b) + grown - 0.5).floor() + 1.0).max(0.0) as usize;
@@ -49,46 +50,47 @@ fn span_with(sphere: &Sphere, view: &View, grown: DVec2) -> Option<Part> {
     Some((range(a.x, b.x, grown.x, view.width), range(a.y, b.y, grown.y, view.height)))
 }
 
-/// The cells of a part of the pixels.
+/// Cells that contain these pixels.
 pub fn cells_of((columns, rows): Part) -> Part {
     let cells = |pixels: Range<usize>| match pixels.is_empty() {
         true => 0..0,
         false => pixels.start / CELL..(pixels.end - 1) / CELL + 1,
     };
     let (columns, rows) = (cells(columns), cells(rows));
-    // No pixel of a row is none at all.
+    // Without rows there are no cells, whatever the columns.
     if rows.is_empty() { (0..0, 0..0) } else { (columns, rows) }
 }
 
-/// A value for each cell of a view.
+/// An image with a value for each cell of a view.
 pub fn by_cell<T: Clone>(view: &View, value: T) -> Image<T> {
     Image::new(view.width.div_ceil(CELL), view.height.div_ceil(CELL), value)
 }
 
-/// The slice of a depth behind the nearest, of the first or the last.
+/// Slice of a depth behind the nearest centre, limited to the first and the last slice.
 pub fn slice(behind: f64, spacing: f64) -> usize {
     // The cast saturates.
     ((behind / (SLICE * spacing)).floor().max(0.0) as usize).min(SLICES - 1)
 }
 
-/// Air between two runs of marked slices, and how much the second is a body of water.
+/// An air gap between two runs of marked slices. `body`: 0 if the water behind the gap is a drop, 1
+/// if it is a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Air<T> {
-    /// Where it begins and where the water behind it does.
+    /// Where the gap begins, and where the water behind it begins.
     pub from: T,
     pub to: T,
     pub body: f64,
 }
 
 impl Air<usize> {
-    /// As depths.
+    /// The gap in eye depths.
     pub fn behind(&self, nearest: f64, spacing: f64) -> Air<f64> {
         let [from, to] = [self.from, self.to].map(|k| nearest + k as f64 * (SLICE * spacing));
         Air { from, to, body: self.body }
     }
 }
 
-/// The first airs of a cell.
+/// The first air gaps of a cell.
 pub fn airs_of(marked: &[bool]) -> Vec<Air<usize>> {
     let mut runs = Vec::new();
     for (k, _) in marked.iter().enumerate().filter(|(_, marked)| **marked) {
@@ -99,7 +101,7 @@ pub fn airs_of(marked: &[bool]) -> Vec<Air<usize>> {
     }
     let between = runs.windows(2).map(|two| {
         let water = &two[1];
-        // What reaches the end may go on.
+        // Water that reaches the last slice may continue, so it counts as a body.
         let body = match water.end >= SLICES - 1 {
             true => 1.0,
             false => ((water.len() as f64 - BODY[0]) / (BODY[1] - BODY[0])).clamp(0.0, 1.0),
@@ -109,15 +111,15 @@ pub fn airs_of(marked: &[bool]) -> Vec<Air<usize>> {
     between.take(AIRS).collect()
 }
 
-/// What a cell knows.
+/// The air gaps of a cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cell {
     pub airs: Vec<Air<f64>>,
-    /// They are of another cell.
+    /// Whether the gaps are borrowed from another cell.
     pub lent: bool,
 }
 
-/// The airs of a cell, of the depths of the spheres that touch it.
+/// The air gaps of a cell, from the depths of the spheres that touch it.
 pub fn cell(depths: &[f64], spacing: f64) -> Cell {
     let nearest = depths.iter().copied().fold(f64::INFINITY, f64::min);
     let mut marked = [false; SLICES];
@@ -130,11 +132,11 @@ pub fn cell(depths: &[f64], spacing: f64) -> Cell {
     Cell { airs, lent: false }
 }
 
-/// The cells round one, from it, in the order in which it asks them.
+/// Offsets to the neighbours of a cell, in the order in which it looks for gaps to borrow.
 pub const AROUND: [(isize, isize); 8] =
     [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)];
 
-/// Cells without air have that of the first of those round them that has any.
+/// Cells without air gaps borrow those of the first neighbour that has any.
 pub fn spread(cells: &Image<Cell>) -> Image<Cell> {
     Image::from_fn(cells.width, cells.height, |x, y| {
         let own = cells.at(x, y);
@@ -147,7 +149,7 @@ pub fn spread(cells: &Image<Cell>) -> Image<Cell> {
     })
 }
 
-/// The cells round a texel of the thickness, with their weights; more than zero all.
+/// The cells around a texel of the thickness, with their bilinear weights, which are above zero.
 pub fn round(
     p: (usize, usize),
     level: u32,
@@ -165,27 +167,28 @@ pub fn round(
     all.filter(|t| t.2 > 0.0).collect()
 }
 
-/// What decides besides the cells.
+/// Parameters of the boundaries.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
     pub spacing: f64,
-    /// Depths farther apart are on different surfaces.
+    /// Depths that differ by more belong to different surfaces.
     pub falloff: f64,
 }
 
 impl Rule {
-    /// The width of air that counts in full.
+    /// Width from which on an air gap counts fully.
     pub fn full(&self) -> f64 {
         2.0 * (self.falloff - self.spacing).max(SLICE * self.spacing)
     }
 }
 
-/// The boundary of a texel whose surface lies at a depth, of the cells round it with their weights; and
-/// how near any comparison was that decided: of depths, and of what airs count for.
+/// Boundary of a texel whose surface lies at depth z, from the cells around it and their weights.
+/// Also returns the smallest difference in any comparison that decided: of depths, and of sums of
+/// the gaps' counts.
 pub fn between(cells: &[(Cell, f64)], z: f64, rule: Rule) -> (f64, [f64; 2]) {
     let (spacing, full) = (rule.spacing, rule.full());
     let mut near = [f64::INFINITY; 2];
-    // Once those behind the surface and then those before it.
+    // First the gaps behind the surface, then those before it.
     for behind in [true, false] {
         let (mut best, mut after) = (None::<(f64, f64)>, 0.0);
         loop {
@@ -218,7 +221,8 @@ pub fn between(cells: &[(Cell, f64)], z: f64, rule: Rule) -> (f64, [f64; 2]) {
             let (mut start, mut end) = (0.0_f64, f64::INFINITY);
             for (air, (cell, weight)) in of.iter().zip(cells) {
                 let Some(air) = air else { continue };
-                // Another may be the first; those that begin with one sphere stay as they are.
+                // Rounding may make another gap the first. Gaps with equal ends stem from one
+                // sphere, so they stay equal.
                 let ahead = ahead(&first, air);
                 near[0] = near[0].min(if ahead == 0.0 { f64::INFINITY } else { ahead });
                 near[0] = near[0].min((first.to - air.from).abs().min((air.to - first.from).abs()));
@@ -239,7 +243,7 @@ pub fn between(cells: &[(Cell, f64)], z: f64, rule: Rule) -> (f64, [f64; 2]) {
                 at = at.clamp(start + edge, end - edge);
             }
             near[1] = near[1].min((open - CHOSEN).abs());
-            // Two that both count for nothing stay in their order.
+            // If both sums are zero, rounding does not change their order.
             if let Some((most, _)) = best.filter(|(most, _)| open != 0.0 || *most != 0.0) {
                 near[1] = near[1].min((open - most).abs());
             }
@@ -258,7 +262,7 @@ pub fn between(cells: &[(Cell, f64)], z: f64, rule: Rule) -> (f64, [f64; 2]) {
     (EMPTY, near)
 }
 
-/// The nearest depth of the pixels of a texel.
+/// Nearest depth of a texel's pixels.
 pub fn front(depth: &Image<f64>, level: u32, p: (usize, usize)) -> f64 {
     let pixels = |p: usize, extent: usize| p << level..((p + 1) << level).min(extent);
     let all = pixels(p.1, depth.height)
@@ -266,7 +270,7 @@ pub fn front(depth: &Image<f64>, level: u32, p: (usize, usize)) -> f64 {
     all.fold(EMPTY, f64::min)
 }
 
-/// The boundary of each texel of the thickness, of the airs of the cells and the depth image.
+/// Boundary of each texel of the thickness, from the cells' air gaps and the depth image.
 pub fn of_texels(cells: &Image<Cell>, depth: &Image<f64>, level: u32, rule: Rule) -> Image<f64> {
     let cells = spread(cells);
     let texels = |extent: usize| extent.div_ceil(1 << level);
@@ -277,14 +281,14 @@ pub fn of_texels(cells: &Image<Cell>, depth: &Image<f64>, level: u32, rule: Rule
     })
 }
 
-/// The airs of each cell. `spheres`: those that the culling leaves.
+/// Air gaps of each cell. `spheres`: those that culling keeps.
 pub fn cells(spheres: &[Sphere], view: &View, spacing: f64) -> Image<Cell> {
     let spans =
         spheres.iter().map(|sphere| (-sphere.center.z, counted(sphere, view, spacing, GROWN)));
     cells_from(spans, view, spacing)
 }
 
-/// The same from depths and spans.
+/// Air gaps of each cell, from the depths and spans of spheres.
 pub fn cells_from(
     spans: impl Iterator<Item = (f64, Option<Part>)>,
     view: &View,

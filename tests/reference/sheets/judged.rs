@@ -1,5 +1,5 @@
-//! What rounding may make of the boundaries: the bounds of all depths and spans, carried through the
-//! definition.
+//! Effect of rounding on the boundaries: the error bounds of all depths and spans, carried through
+//! the definition.
 
 use std::ops::Range;
 
@@ -11,27 +11,28 @@ use super::boundaries::{
 };
 use super::{GROWN, Part, REACH, SLICE, SLICES};
 
-/// By how much what decides of a sphere may be off.
+/// Error bounds of the numbers that decide in which cells and slices a sphere counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Slack {
-    /// Of its depth.
+    /// Error of the depth.
     pub depth: f64,
-    /// Of the ends of its span, in pixels.
+    /// Error of the ends of the span, in pixels.
     pub pixels: f64,
 }
 
-/// What is known of the airs of a cell.
+/// What is known of a cell's air gaps.
 #[derive(Clone, Debug)]
 pub struct Known {
-    /// Without slack.
+    /// The cell without rounding errors.
     pub cell: Cell,
     /// Whether a sphere may touch the cell.
     pub touched: bool,
-    /// All that it may be but for the rounding of one number; `None` if that is too much to try.
+    /// All cells that rounding may produce, each up to the error `rounding`; `None` if there are
+    /// too many to try.
     pub answers: Option<Vec<Cell>>,
-    /// By how much that may move the airs.
+    /// Error of the gaps' ends in each answer.
     pub rounding: f64,
-    /// Depths that hold all airs that may be.
+    /// Range of depths that contains all possible gaps.
     pub low: f64,
     pub high: f64,
 }
@@ -39,29 +40,29 @@ pub struct Known {
 /// What is known of a texel's boundary.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownTexel {
-    /// Without slack.
+    /// Boundary without rounding errors.
     pub boundary: f64,
-    /// Whether a sphere may touch a cell that it goes by.
+    /// Whether a sphere may touch a cell around the texel.
     pub touched: bool,
-    /// Whether there may be none, and whether there may be one.
+    /// Whether there may be no boundary, and whether there may be one.
     pub maybe_none: bool,
     pub maybe_one: bool,
-    /// Whether nothing but the rounding of one number is left open.
+    /// Whether the boundary is known up to the rounding of a depth.
     pub certain: bool,
-    /// Least and greatest that it may be, if there is one.
+    /// Min and max boundary, if there is one.
     pub low: f64,
     pub high: f64,
 }
 
-/// The spheres that touch a cell, by the least and the greatest that their depths may be: those that
-/// do whatever the slack, and all that may.
+/// Min and max depths of spheres that touch a cell: of those that certainly do, and of all that
+/// possibly do.
 #[derive(Clone, Default)]
 struct Touching {
     surely: Vec<(f64, f64)>,
     maybe: Vec<(f64, f64)>,
 }
 
-/// Each cell with what rounding may make of it: the bounds of all depths and spans are carried
+/// What rounding may make of each cell. The error bounds of all depths and spans are carried
 /// through the definition.
 pub fn judged(
     spheres: &[Sphere],
@@ -73,7 +74,7 @@ pub fn judged(
     for sphere in spheres {
         let (z, slack) = (-sphere.center.z, slack(sphere));
         let depths = (z - slack.depth, z + slack.depth);
-        // The box of the sphere at its nearest, where it is, and at its farthest.
+        // Boxes of the sphere at its min depth, at its depth and at its max depth.
         let moved = [-1.0, 0.0, 1.0].map(|by| {
             let mut moved = *sphere;
             moved.center.z -= by * slack.depth;
@@ -110,9 +111,10 @@ pub fn judged(
     Image { width: exact.width, height: exact.height, data: data.collect() }
 }
 
-/// Slices that rounding may leave open and are all tried, marked and not.
+/// Max number of slices that rounding may leave undecided; all combinations of marked and unmarked
+/// are tried.
 const OPEN: usize = 8;
-/// What cells may be together that is all tried.
+/// Max number of combinations of neighbouring cells that are tried.
 const TRIED: usize = 256;
 
 impl Known {
@@ -126,16 +128,18 @@ impl Known {
         }
     }
 
-    /// Whether it may have no air of its own.
+    /// Whether the cell may have no air gap of its own.
     fn maybe_none(&self) -> bool {
         self.answers.as_ref().is_none_or(|all| all.iter().any(|cell| cell.airs.is_empty()))
     }
 }
 
-/// What the slack of the depths and of who touches it makes of a cell.
+/// Cells that may result from the errors of the depths and from spheres that possibly touch the
+/// cell.
 fn judge(touching: &Touching, cell: &Cell, spacing: f64) -> Known {
     let Touching { surely, maybe } = touching;
-    // Any of these is the nearest: one that surely touches the cell, or one before that which may.
+    // The nearest sphere may be any that possibly touches the cell and may be nearer than the
+    // nearest certain one.
     let surest = surely.iter().map(|z| z.1).fold(f64::INFINITY, f64::min);
     let nearest: Vec<_> = maybe.iter().filter(|z| z.0 <= surest).collect();
     let low = nearest.iter().map(|z| z.0).fold(f64::INFINITY, f64::min);
@@ -186,8 +190,8 @@ fn judge(touching: &Touching, cell: &Cell, spacing: f64) -> Known {
     known
 }
 
-/// What the slack of the cells makes of the texels of the thickness, of a depth image that has none.
-/// `relative`: how much of a number rounding adds on the way to it.
+/// What rounding may make of each texel's boundary. The depth image has no error. `relative`:
+/// relative error that the arithmetic adds to a boundary.
 pub fn judged_texels(
     cells: &Image<Known>,
     depth: &Image<f64>,
@@ -196,7 +200,7 @@ pub fn judged_texels(
     relative: f64,
 ) -> Image<KnownTexel> {
     let exact = spread(&cells.map(|known| known.cell.clone()));
-    // Each cell with those whose airs it may have.
+    // Each cell with all gaps that it may have or borrow.
     let lent = Image::from_fn(cells.width, cells.height, |x, y| {
         let mut all = cells.at(x, y);
         all.cell = exact.at(x, y);
@@ -217,7 +221,7 @@ pub fn judged_texels(
                     .for_each(|answer| all.add(Cell { lent: true, ..answer.clone() })),
                 None => all.answers = None,
             }
-            // No other is asked.
+            // This neighbour certainly has gaps, so the cell asks no other.
             if !there.maybe_none() {
                 return all;
             }
@@ -236,9 +240,10 @@ pub fn judged_texels(
         let rounding = of.iter().map(|(known, _)| known.rounding).fold(0.0, f64::max);
         let least = of.iter().map(|(known, _)| known.low).fold(f64::INFINITY, f64::min);
         let most = of.iter().map(|(known, _)| known.high).fold(0.0, f64::max);
-        // Of the difference of two depths; what airs count for are widths over one.
+        // Error of a difference of two depths. Below it is divided by `full` for the sums, which
+        // contain widths over `full`.
         let off = 2.0 * (rounding + relative * most);
-        // All that the cells may be together.
+        // All combinations of what the cells may be.
         let mut together = Some(vec![Vec::new()]);
         for (known, weight) in &of {
             together = together.zip(known.answers.as_ref()).and_then(|(all, answers)| {
@@ -275,7 +280,7 @@ pub fn judged_texels(
         let low = there().fold(f64::INFINITY, f64::min) - rounding;
         let high = there().fold(0.0, f64::max) + rounding;
         let (maybe_none, maybe_one) = (found.contains(&EMPTY), there().next().is_some());
-        // Answers of one sphere differ by no more than the middle of what is known of its depth.
+        // Answers with the same gaps differ by no more than the error of a depth.
         let certain = maybe_none != maybe_one && high - low <= 3.0 * rounding + off;
         KnownTexel { maybe_none, maybe_one, certain: certain || !maybe_one, low, high, ..open }
     })

@@ -1,20 +1,25 @@
-//! Twin of the sheets: where one body of water stands before another with air between, each texel of
-//! the thickness has a boundary, the eye depth between the centres of the front sheet and of the back
-//! one. With `s` the spacing and `z` the eye depth of a centre, the spheres whose box, grown by what
-//! 0.35 s are there beyond four pixels, touches a cell of 8x8 pixels mark the slices of `s / 2` from
-//! the nearest of them on that lie in `z - 0.75 s .. z + 0.75 s`, 256 slices in all (what lies farther
-//! is in the last). Unmarked slices with marked ones behind them are air; the first five are kept.
-//! Cells without air borrow that of the first that has any of those at the left, right, above, below
-//! and on the diagonals. Spheres of less than 0.6 drawn radii mark nothing.
+//! Twin of the sheets. Where one body of water stands before another with air between, each texel
+//! of the thickness has a boundary: an eye depth between the centres of the front sheet's particles
+//! and those of the back sheet's.
 //!
-//! A texel goes by the nearest depth of its pixels and by the cells round it, with bilinear weights.
-//! Of each cell it takes the first air whose middle lies behind that depth, and of those the one that
-//! begins first, with all that overlap it. They count for `w / (2 (f - s))`, at most 1, each, with `w`
-//! their width and `f` the falloff, times 0.05 to 1 for water behind them of three to six slices;
-//! borrowed ones for nothing. If that is half or more in all, these are chosen; otherwise the same is
-//! asked of what begins behind the first, and what counts for most is chosen. Without any air behind
-//! the surface it is the last before it. The boundary is the weighted mean of their middles, or of two
-//! spacings behind where they begin, kept half a spacing inside of what they have in common.
+//! Let `s` be the spacing and `z` the eye depth of a centre. A sphere counts in the cells of 8x8
+//! pixels that its projected box touches. The box is grown by the amount by which 0.35 s exceeds
+//! four pixels. A cell has 256 depth slices of `s / 2`, from its nearest centre on; the last slice
+//! holds everything farther away. A sphere marks the slices in `z - 0.75 s .. z + 0.75 s`; spheres
+//! below 0.6 drawn radii mark nothing. Unmarked slices between marked ones are an air gap. The
+//! first five gaps are kept. A cell without gaps borrows those of the first neighbour that has any,
+//! in the order left, right, above, below, diagonals.
+//!
+//! A texel uses the nearest depth of its pixels as its surface, and the cells around it with
+//! bilinear weights. From each cell it takes the first gap whose middle lies behind the surface. Of
+//! these gaps it selects the one that begins first and all that overlap it. A gap of width `w`
+//! counts `w / (2 (f - s))`, at most 1, where `f` is the falloff, times a factor from 0.05 to 1 for
+//! water of three to six slices behind the gap. Borrowed gaps count 0. If the weighted sum is at
+//! least one half, the selected gaps are chosen. Otherwise gaps that begin behind the first one are
+//! selected in the same way, and the selection with the largest sum is chosen. Without a gap behind
+//! the surface, the last gap before it is chosen. The boundary is the weighted mean of the gaps'
+//! middles, but at most two spacings behind the beginning of each gap. It lies half a spacing
+//! inside the range that the chosen gaps share.
 
 mod boundaries;
 mod judged;
@@ -32,38 +37,39 @@ pub use parts::{
 
 /// Edge of a cell in pixels.
 pub const CELL: usize = 8;
-/// Slices of a cell.
+/// Number of slices of a cell.
 pub const SLICES: usize = 256;
 /// Edge of a tile in texels of the smoothing.
 pub const TILE: usize = 16;
 
-/// How far the box of a projection is grown, in pixels.
+/// Pixels by which the box of a projection is grown.
 pub const GROWN: f64 = 1.0 / 64.0;
-/// Depth from a centre that its sphere marks, in spacings.
+/// Depth before and behind its centre that a sphere marks, in spacings.
 const REACH: f64 = 0.75;
-/// What a sphere counts for beside its box, in spacings, less half a cell.
+/// Distance beside its box in which a sphere counts, in spacings; half a cell is subtracted.
 const BESIDE: f64 = 0.35;
-/// A slice, in spacings.
+/// Depth of a slice, in spacings.
 const SLICE: f64 = 0.5;
-/// Spheres smaller than this, in spacings, are drops: 0.6 of the drawn radius.
+/// Spheres with a radius below this, in spacings, are drops, which mark nothing: 0.6 drawn radii.
 const DROP: f64 = 0.6 * 0.656;
-/// Airs of a cell.
+/// Max number of air gaps of a cell.
 const AIRS: usize = 5;
-/// Marked slices of a drop, and of a body.
+/// Marked slices of a drop, and of a body of water.
 const BODY: [f64; 2] = [3.0, 6.0];
-/// What air before a drop counts for.
+/// Factor of a gap before a drop.
 const LEAST: f64 = 0.05;
-/// What airs count for that are chosen.
+/// Sum from which on gaps are chosen.
 const CHOSEN: f64 = 0.5;
-/// The boundary lies no farther than so many spacings behind the water before it.
+/// Max distance of the boundary behind the beginning of a gap, in spacings.
 const BEYOND: f64 = 2.0;
-/// Half the depth in which the share of the sheets goes over, in spacings.
+/// Half the depth range in which the share passes from one sheet to the other, in spacings.
 const SOFT: f64 = 0.5;
-/// Water so near to the boundary fills the window between the sheets, and so far none of it.
+/// Distances from the boundary up to which water fills the window, and from which on it does not
+/// count, in spacings.
 const WINDOW: [f64; 2] = [0.5, 1.0];
-/// Where there is one sheet the window holds so many times the water.
+/// With one sheet the window holds this many times the water's thickness.
 pub const ONE_SHEET: f64 = 1e6;
-/// Nearer than this, in radii, a projection has no bounds.
+/// Distance, in radii, below which the projection of a sphere is unbounded.
 const UNBOUNDED: f64 = 1.01;
 
 /// Columns and rows of pixels or cells.

@@ -1,4 +1,4 @@
-//! Results of the boundaries: the thickness of each sheet and the depth of the back one.
+//! Results of the boundaries: the thickness of each sheet, and the depth of the back sheet.
 
 use super::super::depth::splat_where;
 use super::super::thickness::{self, Amplitude};
@@ -6,8 +6,8 @@ use super::super::{EMPTY, Image, Sphere, View, is_surface, smoothstep};
 
 use super::{CELL, ONE_SHEET, SOFT, TILE, WINDOW};
 
-/// How much of a splat with its centre at a depth belongs to the front sheet, and to the window
-/// between the sheets.
+/// Shares of a splat whose centre has the depth z: in the front sheet, and in the window between
+/// the sheets.
 pub fn shares(z: f64, boundary: f64, spacing: f64) -> (f64, f64) {
     if !is_surface(boundary) {
         return (1.0, ONE_SHEET);
@@ -18,8 +18,8 @@ pub fn shares(z: f64, boundary: f64, spacing: f64) -> (f64, f64) {
     (1.0 - back, 1.0 - smoothstep(near, far, (z - boundary).abs()))
 }
 
-/// The thickness of the front sheet, of the back one and of the window between them. `full` is the
-/// view of the frame, whose scene hides what lies behind it.
+/// Thickness of the front sheet, of the back sheet and of the window between them. `full`: view of
+/// the frame at full resolution.
 pub fn thickness(
     spheres: &[Sphere],
     full: &View,
@@ -42,7 +42,7 @@ pub fn thickness(
     })
 }
 
-/// Leaves the boundaries where there is something to tell apart; elsewhere all is the front sheet's.
+/// Removes the boundaries where a sheet has no water; all water belongs to the front sheet there.
 pub fn prune(boundaries: &mut Image<f64>, thickness: &mut Image<[f64; 3]>) {
     for (boundary, texel) in boundaries.data.iter_mut().zip(&mut thickness.data) {
         let [front, back, _] = *texel;
@@ -53,7 +53,7 @@ pub fn prune(boundaries: &mut Image<f64>, thickness: &mut Image<[f64; 3]>) {
     }
 }
 
-/// The boundaries of a frame: one for each texel of the thickness, of a level.
+/// The boundaries of a frame, one for each texel of the thickness at its level.
 #[derive(Clone, Copy, Debug)]
 pub struct Boundaries<'a> {
     pub texels: &'a Image<f64>,
@@ -61,13 +61,13 @@ pub struct Boundaries<'a> {
 }
 
 impl Boundaries<'_> {
-    /// Of the texel that a pixel lies in.
+    /// Boundary of the texel that contains a pixel.
     pub fn of_pixel(&self, x: usize, y: usize) -> f64 {
         self.texels.at(x >> self.level, y >> self.level)
     }
 }
 
-/// The pixel that a texel of `2^level` pixels, one at least a level coarser than the frame, goes by.
+/// The pixel whose boundary a texel of `2^level` pixels uses; `level` is at least 1.
 pub fn pixel_of_texel(full: &View, level: u32, x: usize, y: usize) -> (usize, usize) {
     let along = |i: usize, extent: usize| ((i << level) + (1 << level) / 2).min(extent - 1);
     (along(x, full.width), along(y, full.height))
@@ -85,9 +85,9 @@ pub fn boundary_at(
     boundaries.of_pixel(x, y)
 }
 
-/// The depth of the back sheet at a level: the nearest hit of the ray through a texel's centre with
-/// the spheres of the back sheet, whatever the scene hides; where there is one sheet the depth image,
-/// and nothing away from all gaps.
+/// Depth of the back sheet at a level: the nearest hit of the ray through a texel's centre with the
+/// spheres of the back sheet, even behind the scene. With one sheet it is the depth image, and away
+/// from all gaps it is EMPTY.
 pub fn back_depth(
     spheres: &[Sphere],
     full: &View,
@@ -110,8 +110,8 @@ pub fn back_depth(
     })
 }
 
-/// The texels whose tile is made: within a tile's edge of it lies a cell at whose middle there are
-/// two sheets.
+/// Texels of the tiles that are made. A tile is made if a cell within a tile's edge of it has two
+/// sheets at its centre.
 pub fn made(boundaries: &Boundaries<'_>, full: &View, level: u32) -> Image<bool> {
     let view = full.reduced(level);
     let (columns, rows) = (full.width.div_ceil(CELL), full.height.div_ceil(CELL));
@@ -119,7 +119,7 @@ pub fn made(boundaries: &Boundaries<'_>, full: &View, level: u32) -> Image<bool>
         let middle = |k: usize, extent: usize| (CELL * k + CELL / 2).min(extent - 1);
         is_surface(boundaries.of_pixel(middle(x, full.width), middle(y, full.height)))
     });
-    // Cells that overlap the texels from a tile before one to a tile behind it.
+    // Cells that overlap the tile or a neighbouring tile.
     let cells = |tile: usize, cells: usize| {
         let edge = TILE << level;
         let pixels = (tile * edge).saturating_sub(edge)..(tile + 2) * edge;

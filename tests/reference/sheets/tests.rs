@@ -15,32 +15,32 @@ fn at(x: f64, y: f64, z: f64) -> Sphere {
     Sphere { center: DVec3::new(x, y, -z), radius: RADIUS }
 }
 
-/// Spheres behind each other in the middle of a pixel of the view of one cell.
+/// Spheres one behind the other, at the centre of a pixel of a view with a single cell.
 fn row(depths: &[f64]) -> Vec<Sphere> {
     let ray = wide(8, 8).ray(4, 4);
     depths.iter().map(|z| at(ray.x * z, ray.y * z, *z)).collect()
 }
 
-/// A lattice of particles that faces the eye and covers the view at its depth.
+/// A lattice of particles parallel to the image that covers the view at its depth.
 fn plane(z: f64) -> Vec<Sphere> {
     let n = (2.0 * z / SPACING) as i32;
     let along = |i: i32| f64::from(i) * SPACING;
     (-n..=n).flat_map(|y| (-n..=n).map(move |x| at(along(x), along(y), z))).collect()
 }
 
-/// A view 45 degrees to either side.
+/// A view with an angle of 45 degrees to either side.
 fn wide(width: usize, height: usize) -> View {
     view(DVec2::new(1.0, -1.0), DVec2::ZERO, width, height)
 }
 
-/// More than single precision rounds.
+/// A larger error than single precision has.
 fn rounded(sphere: &Sphere) -> Slack {
     Slack { depth: 1e-5 * sphere.center.z.abs(), pixels: 1.0 / 32.0 }
 }
 
 const RULE: Rule = Rule { spacing: SPACING, falloff: 3.5 * SPACING };
 
-/// The airs of a view of one cell.
+/// The air gaps of a view with a single cell.
 fn airs(spheres: &[Sphere]) -> Cell {
     let found = cells(spheres, &wide(8, 8), SPACING);
     assert_eq!((found.width, found.height), (1, 1));
@@ -55,7 +55,7 @@ fn cell_of(airs: &[Air<f64>]) -> Cell {
     Cell { airs: airs.to_vec(), lent: false }
 }
 
-/// The boundary that a texel at a depth has of one cell.
+/// The boundary of a texel at depth z in a view with a single cell.
 fn one(depths: &[f64], z: f64) -> f64 {
     between(&[(airs(&row(depths)), 1.0)], z, RULE).0
 }
@@ -63,18 +63,19 @@ fn one(depths: &[f64], z: f64) -> f64 {
 #[test]
 fn a_drop_before_a_plane_is_a_sheet_of_its_own() {
     let view = wide(64, 64);
-    // Pixels are 0.266 wide at the drop: it spans 2.5 of them, in the middle of cell (5, 2).
+    // At the drop's depth a pixel is 0.266 wide. The drop spans 2.5 pixels in the middle of cell
+    // (5, 2).
     let drop = at(44.0 * 8.5 / 32.0 - 8.5, 8.5 - 20.0 * 8.5 / 32.0, 8.5);
     let mut spheres = plane(10.0);
     spheres.push(drop);
     let found = cells(&spheres, &view, SPACING);
     for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
-        // The drop marks slices 0 and 1, the plane 4 (from (1.5 - 0.375) / 0.25 on) to 7, which is a
-        // third of the way from a drop to a body.
+        // The drop marks slices 0 and 1, the plane slices 4, which is (1.5 - 0.375) / 0.25, to 7.
+        // Four slices are a third of the way from a drop to a body.
         let expected = if (x, y) == (5, 2) { vec![air(9.0, 9.5, 1.0 / 3.0)] } else { Vec::new() };
         assert_eq!(found.at(x, y).airs, expected, "({x}, {y})");
     }
-    // Nearer to the plane the air between is less than a slice.
+    // The nearer the drop is to the plane, the narrower is the gap. Less than a slice is no gap.
     assert_eq!(one(&[8.0, 10.0], 7.7), 9.0);
     assert_eq!(one(&[8.75, 10.0], 8.4), 9.375);
     assert_eq!(one(&[9.0, 10.0], 8.7), EMPTY);
@@ -96,22 +97,24 @@ fn contiguous_water_is_one_sheet_and_no_water_none() {
 
 #[test]
 fn the_air_behind_the_surface_decides() {
-    // Slices 0 and 1, 6 to 9, 14 to 17: all of them drops, of which the first air counts.
+    // The spheres mark slices 0 and 1, 6 to 9, 14 to 17. No gap counts half, and of equal ones the
+    // first is chosen.
     let three = airs(&row(&[9.0, 5.0, 7.0]));
     assert_eq!(three.airs, [air(5.5, 6.5, 1.0 / 3.0), air(7.5, 8.5, 1.0 / 3.0)]);
     assert_eq!(one(&[9.0, 5.0, 7.0], 4.7), 6.0);
-    // The second one's own surface, which may lie before its marks; then the last one's, behind which
-    // there is none.
+    // The surface of the second sphere, which may lie before the slices that the sphere marks. Then
+    // the surface of the last sphere, behind which there is no gap.
     assert_eq!(one(&[9.0, 5.0, 7.0], 6.1), 8.0);
     assert_eq!(one(&[9.0, 5.0, 7.0], 8.7), 8.0);
     assert_eq!(one(&[9.0, 5.0, 7.0], EMPTY), 8.0);
-    // A body is not passed, a drop before it is; the boundary keeps near to what is before it.
+    // A gap before a body is chosen, a gap before a drop is not. The boundary lies close to the
+    // water before the gap.
     assert_eq!(one(&[5.0, 8.0, 8.5, 20.0], 4.7), 6.5);
     assert_eq!(one(&[5.0, 8.0, 20.0, 20.5], 4.7), 9.5);
-    // Of little air before a body, 1.0 of 2.5, none is chosen; of 1.5 it is.
+    // A gap of 1.0 before a body counts 1.0 / 2.5 and is not chosen; a gap of 1.5 is chosen.
     assert_eq!(one(&[5.0, 7.0, 7.5, 20.0, 20.5], 4.7), 9.0);
     assert_eq!(one(&[5.0, 7.5, 8.0, 20.0, 20.5], 4.7), 5.5 + 0.75);
-    // Five airs are kept.
+    // Five gaps are kept.
     let many: Vec<f64> = (0..8).map(|k| 5.0 + 2.0 * f64::from(k)).collect();
     assert_eq!(airs(&row(&many)).airs.len(), 5);
     assert_eq!(one(&many, EMPTY), 14.0);
@@ -124,7 +127,7 @@ fn airs_are_lent_to_the_cells_round() {
     *cells.at_mut(0, 0) = cell_of(&first);
     *cells.at_mut(2, 1) = cell_of(&second);
     let found = spread(&cells);
-    // At the left first, on a diagonal last.
+    // Cells to the left lend first, cells on a diagonal last.
     let expected = [[1, 1, 2, 2, 0], [1, 2, 2, 2, 0], [0, 2, 2, 2, 0], [0; 5]];
     for (y, x) in (0..4).flat_map(|y| (0..5).map(move |x| (y, x))) {
         let airs: [&[Air<f64>]; 3] = [&[], &first, &second];
@@ -140,21 +143,22 @@ fn texels_are_between_the_cells_whose_airs_overlap() {
     *cells.at_mut(0, 0) = cell_of(&[air(3.0, 5.0, 1.0)]);
     *cells.at_mut(1, 0) = cell_of(&[air(3.5, 5.5, 1.0)]);
     *cells.at_mut(2, 0) = cell_of(&[air(4.25, 6.25, 1.0)]);
-    // The middle of texel p lies at p / 2 - 1 / 4 from that of the first cell; the fourth cell
-    // has the airs of the third.
+    // The centre of texel p lies p / 2 - 1 / 4 cells to the right of the first cell's centre. The
+    // fourth cell borrows the gaps of the third.
     let depth = Image::new(40, 8, 2.0);
     let found = of_texels(&cells, &depth, 2, RULE);
     assert_eq!((found.width, found.height), (10, 2));
     let expected = [4.0, 4.125, 4.375, 4.6875, 5.0625, 5.25, 5.25, 5.25, 5.25, EMPTY];
     for (x, expected) in expected.into_iter().enumerate() {
-        // Of the third texel's cells the second decides by 3/4; of the fifth's the limits do not.
+        // In the third texel the second cell has a weight of 3/4. The limits change no boundary,
+        // not even in the fifth texel.
         assert_eq!([found.at(x, 0), found.at(x, 1)], [expected; 2], "{x}");
     }
-    // Each texel of level 3 is a cell.
+    // At level 3 each texel is one cell.
     let found = of_texels(&cells, &depth, 3, RULE);
     assert_eq!(found.data, [4.0, 4.5, 5.25, 5.25, EMPTY]);
     assert_eq!(of_texels(&cells, &depth, 0, RULE).at(8, 5), 4.0 * 0.4375 + 4.5 * 0.5625);
-    // The nearest of a texel's pixels is its surface.
+    // The surface of a texel is the nearest of its pixels.
     let mut near = Image::new(40, 8, 9.0);
     *cells.at_mut(0, 0) = cell_of(&[air(3.0, 5.0, 1.0), air(6.0, 8.0, 1.0)]);
     assert_eq!(of_texels(&cells, &near, 3, RULE).at(0, 0), 7.0);
@@ -162,7 +166,8 @@ fn texels_are_between_the_cells_whose_airs_overlap() {
     assert_eq!(of_texels(&cells, &near, 3, RULE).at(0, 0), 4.0);
 }
 
-/// Both cells know both bodies behind the surface, but one of them no air before the nearer.
+/// Both cells see both bodies behind the surface, but one of them has no gap before the nearer
+/// body.
 #[test]
 fn what_more_cells_see_is_chosen() {
     let both = cell_of(&[air(3.0, 6.0, 1.0), air(8.0, 12.0, 1.0)]);
@@ -173,11 +178,11 @@ fn what_more_cells_see_is_chosen() {
         let cells = [(joined.clone(), 1.0 - share), (both.clone(), share)];
         assert_eq!(between(&cells, 2.0, RULE).0, expected, "{share}, the other way round");
     }
-    // Airs that are lent do not vote, but are better than none.
+    // Borrowed gaps do not vote, but are used if there are no others.
     let lent = Cell { lent: true, ..both.clone() };
     assert_eq!(between(&[(lent.clone(), 0.9), (joined, 0.1)], 2.0, RULE).0, 9.0);
     assert_eq!(between(&[(lent, 1.0)], 2.0, RULE).0, 4.0);
-    // It lies in the air that all of them have.
+    // The boundary lies in the range that all chosen gaps share.
     let (far, near) = (cell_of(&[air(3.0, 13.0, 1.0)]), cell_of(&[air(3.0, 3.75, 1.0)]));
     assert_eq!(between(&[(far, 0.75), (near, 0.25)], 2.0, RULE).0, 3.5);
 }
@@ -189,7 +194,8 @@ fn the_last_slice_holds_all_that_is_farther() {
     let until = |z: f64| -> Vec<f64> {
         (0..).map(|i| 5.0 + 0.25 * f64::from(i)).take_while(|d| *d <= z).collect()
     };
-    // The layer at 68 marks to slice 253 (63.375 / 0.25), that at 68.25 to 254, at 68.5 to 255.
+    // The layer at 68 marks up to slice 253 (63.375 / 0.25), the layer at 68.25 up to 254, the
+    // layer at 68.5 up to 255.
     for (last, far, air_from) in [
         (68.0, Some(100.0), Some(254.0)),
         (68.0, None, None),
@@ -213,7 +219,7 @@ fn a_sphere_at_the_eye_takes_no_part() {
     }
 }
 
-/// All pixels that see the sphere are in its span, whose sides are those of the silhouette.
+/// The span contains all pixels that see the sphere, and ends at the silhouette.
 #[test]
 fn a_span_bounds_the_projection() {
     for (focal, shift) in [
@@ -234,19 +240,19 @@ fn a_span_bounds_the_projection() {
                 all().min().unwrap_or(0)..all().max().unwrap_or(0) + 1
             };
             for (found, silhouette) in [(columns, ends(|p| p.0)), (rows, ends(|p| p.1))] {
-                // Where the silhouette turns it may pass between the pixels' centres.
+                // At its extremes the silhouette may pass between the pixels' centres.
                 assert!(found.start <= silhouette.start && found.end >= silhouette.end);
                 assert!(found.start + 1 >= silhouette.start && found.end <= silhouette.end + 1);
             }
         }
     }
-    // By the closed form: 0.5 of 0.4 / sqrt(0.9999 - 0.16) of it either side of the middle.
+    // Closed form: the tangents have slopes of 0.4 / sqrt(1 - 0.16), and a slope of 1 is 50 pixels.
     let view = wide(100, 100);
     let sphere = Sphere { center: DVec3::new(0.0, 0.0, -1.0), radius: 0.4 };
     let half = 50.0 * 0.4 / (1.0_f64 - 0.16).sqrt();
     let (first, last) = ((49.5 - half).ceil() as usize, (49.5 + half).floor() as usize);
     assert_eq!(span(&sphere, &view, 0.0), Some((first..last + 1, first..last + 1)));
-    // Between the centres of pixels there are none, grown there are.
+    // A span between the centres of pixels is empty; if it is grown, it contains pixels.
     let tiny = Sphere { center: DVec3::new(0.0, 0.0, -1.0), radius: 1e-4 };
     assert!(span(&tiny, &view, GROWN).is_some_and(|(columns, _)| columns.is_empty()));
     assert_eq!(span(&tiny, &view, 0.5), Some((49..51, 49..51)));
@@ -262,16 +268,17 @@ fn a_cell_is_certain_unless_rounding_decides() {
     assert!(apart.low < 8.5 && apart.high > 8.5 + 256.0 * 0.25);
     let none = |known: &Known| known.is_certain() && known.cell.airs.is_empty();
     assert!(none(&judge(&[8.5])) && none(&judge(&[8.5, 9.5])));
-    // The second marks from slice 3 on, or from 2 on: a gap or none.
+    // The second sphere marks from slice 3 or from slice 2 on, so there is a gap or none.
     let edge = 8.5 + 3.0 * 0.25 + 0.375;
     let either = judge(&[8.5, edge]);
     assert!(!either.is_certain(), "{either:?}");
     assert!(judge(&[8.5, edge + 1e-3]).is_certain());
-    // The same of slices 4 and 3, or of where the first sheet ends: a gap that is wider or not.
+    // The second sphere marks from slice 4 or from slice 3 on, or the first sheet ends one slice
+    // later: the gap has one width or another.
     for depths in [&[8.5, edge + 0.25][..], &[8.5, 8.875, 12.0]] {
         assert!(!judge(depths).is_certain(), "{depths:?}");
     }
-    // What is not known of a cell is not known of the texels round it.
+    // If a cell is uncertain, so are the texels around it.
     let mut cells = Image::new(2, 1, judge(&[8.5, 10.0]));
     *cells.at_mut(1, 0) = either.clone();
     let depth = Image::new(16, 8, 8.2);
@@ -279,21 +286,22 @@ fn a_cell_is_certain_unless_rounding_decides() {
     let KnownTexel { boundary, low, high, certain, maybe_none, maybe_one, .. } = texels(3).at(0, 0);
     assert!(certain && maybe_one && !maybe_none && low < 9.25 && high > 9.25 && boundary == 9.25);
     assert!(high - low < 4e-4);
-    // It may have the boundary of the first, or its own; never none.
+    // This texel may have the boundary of the first cell or its own; it always has one.
     let KnownTexel { low, high, certain, maybe_none, maybe_one, .. } = texels(3).at(1, 0);
     assert!(!certain && maybe_one && !maybe_none && low <= 9.126 && high >= 9.2499);
     assert!(low > 9.0 && high < 9.26, "{low} {high}");
     assert!(!texels(2).at(1, 0).certain);
-    // Where the surface is at the middle of the air, rounding decides whether that is behind it.
+    // If the surface lies in the middle of the gap, rounding decides whether the gap is behind the
+    // surface.
     for (z, certain) in [(9.25, false), (9.25 - 1e-2, true), (9.25 + 1e-2, true)] {
         let depth = Image::new(16, 8, z);
         let texel = judged_texels(&cells, &depth, 3, RULE, 1e-6).at(0, 0);
         assert_eq!(texel.certain, certain, "{z}");
     }
     let view = wide(8, 8);
-    // A sphere that may touch the cell or not.
+    // A sphere that may or may not touch the cell.
     let beside = |by: f64| {
-        // Its left tangent passes the middle of the last pixel at so many pixels.
+        // The sphere's left tangent lies `by` pixels to the right of the last pixel's centre.
         let angle = ((3.5 + by) / 4.0).atan() + (RADIUS / 10.0).asin();
         let (x, z) = (10.0 * angle.sin(), 10.0 * angle.cos());
         let spheres = [row(&[6.0])[0], at(x, view.ray(4, 4).y * z, z)];
@@ -308,8 +316,9 @@ fn a_cell_is_certain_unless_rounding_decides() {
 #[test]
 fn each_sheet_has_its_own_thickness() {
     let view = wide(32, 16);
-    // Before, at and behind the boundary, of which the share goes over in half a spacing to
-    // either side, the window's in half of one to one.
+    // Spheres before, at and behind the boundary. The share passes from the front to the back sheet
+    // within half a spacing of the boundary; the share of the window falls to zero between half a
+    // spacing and one.
     let depths = [5.0, 6.875, 7.0, 7.375, 9.0];
     let spheres = depths.map(|z| at(0.5, -0.5, z));
     let (fronts, windows) = ([1.0, 0.84375, 0.5, 0.0, 0.0], [0.0, 1.0, 1.0, 0.5, 0.0]);
@@ -333,7 +342,7 @@ fn each_sheet_has_its_own_thickness() {
             for (found, expected) in found.at(i, j).iter().zip(texel) {
                 assert!((found - expected).abs() <= 1e-9 * expected.abs(), "({i}, {j})");
             }
-            // Nothing to tell apart.
+            // If a sheet has no water, there is only one sheet.
             *expected.at_mut(i, j) = match texel[0] == 0.0 || texel[1] == 0.0 {
                 true => [all, 0.0, 1e6 * all],
                 false => found.at(i, j),
@@ -350,7 +359,7 @@ fn each_sheet_has_its_own_thickness() {
 
 #[test]
 fn the_back_sheet_is_seen_where_there_are_two() {
-    // Odd: the last texel goes by the last pixel.
+    // The extents are odd: the last texel uses the last pixel.
     let view = wide(37, 21);
     let (front, back) = (plane(3.0), plane(9.0));
     let all: Vec<_> = front.iter().chain(&back).copied().collect();
@@ -371,17 +380,17 @@ fn the_back_sheet_is_seen_where_there_are_two() {
         }
         assert!(hits.data.iter().any(|z| is_surface(*z)));
     }
-    // Of the spheres of the back alone, and none is left without.
+    // Without spheres of the back sheet a texel with two sheets is empty.
     let found = back_depth(&front, &view, 1, &of(&cells), &marked);
     assert_eq!(found.at(9, 5), EMPTY);
 }
 
 #[test]
 fn tiles_near_a_gap_are_made() {
-    // Level 1: 100 x 60 texels, 7 x 4 tiles.
+    // Level 1 has 100 x 60 texels, in 7 x 4 tiles.
     let view = wide(200, 120);
     let mut cells = Image::new(25, 15, EMPTY);
-    // Pixels 96 to 103, texels 48 to 51: tile 3, next to tile 2.
+    // Pixels 96 to 103 are texels 48 to 51. They lie in tile 3, beside tile 2.
     *cells.at_mut(12, 0) = 6.0;
     let found = made(&Boundaries { texels: &cells, level: 3 }, &view, 1);
     let depth = Image::new(200, 120, 9.0);
@@ -392,7 +401,7 @@ fn tiles_near_a_gap_are_made() {
         let split = (48..52).contains(&x) && y < 4;
         assert_eq!(filled.at(x, y), if near && !split { 9.0 } else { EMPTY }, "({x}, {y})");
     }
-    // The middle of a cell is asked for alone.
+    // Only the boundary at the centre of a cell counts.
     let mut pixels = Image::new(200, 120, EMPTY);
     let any = |pixels: &Image<f64>| {
         made(&Boundaries { texels: pixels, level: 0 }, &view, 1).data.contains(&true)
