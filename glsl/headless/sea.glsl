@@ -1,11 +1,15 @@
-// The sea of pass `scene`: a level sheet of water or lava, found by the pixel's ray alone, so that no depth knows of it.
-// Its normal is of a sum of sines, each of which loses what the pixel's footprint cannot show; what is lost widens the
-// sun's glint and the mirror image. Slopes are normally distributed (Cox and Munk 1954), and weighted by how much of a
-// facet the eye sees (Ross, Dion and Potvin 2005): in closed form their mean, towards which the environment is mirrored.
-// The mean of Fresnel's law is the fit of Bruneton, Neyret and Holzschuch 2010. Gusts make short waves higher in patches.
-// Light is absorbed and scattered along the ray as it goes on when bent, but what is seen lies where the ray goes on
-// straight; patterns alone waver with the waves. The sun's light gathers on the floor by how the waves bend a bundle of
-// it. Only the environment is mirrored.
+// The sea of pass `scene`: a level sheet of water or lava. The pixel's ray is intersected with the
+// sheet's plane; the sea is not in the depth image.
+// The normal of water comes from a sum of sines. Waves that are too short for the pixel's footprint
+// are filtered out; the variance of their slopes widens the sun's glint and blurs the reflection.
+// Slopes are normally distributed (Cox and Munk 1954) and weighted by the visible area of their
+// facets (Ross, Dion and Potvin 2005). The mean visible slope has a closed form and gives the
+// direction of the reflection. The mean Fresnel reflectance is the fit of Bruneton, Neyret and
+// Holzschuch (2010). Gusts make short waves higher in patches.
+// Light is attenuated and scattered along the refracted ray. What lies under water is looked up
+// along the straight ray; the waves displace only its patterns. Caustics are brighter where the
+// waves converge a bundle of the sun's rays.
+// Only the environment is reflected.
 // Needs scene.glsl, noise.glsl, light.glsl. Reads: the scene's block, environment, irradiance.
 
 const uint WATER = 1;
@@ -19,7 +23,7 @@ const float FINER = 0.2;           // variance of slopes of ripples too short fo
 const float CLOUDED = 0.256;       // mean opacity of the clouds of sky.frag
 const float WHITEWATER = 1.2;      // mean path of skylight per metre of depth under water
 
-// Whether the eye is above the sea; from below it is not drawn.
+// Whether the eye is above the sea. From below the sea is not drawn.
 bool over_sea() {
     return SEA != 0u && scene.eye.y > scene.sea.x;
 }
@@ -70,12 +74,13 @@ vec2 unrest(vec2 at) {
     return sum;
 }
 
-// By how much gusts make short waves steeper or flatter: patches of all sizes from many to few of the largest waves.
-// `width`: of the footprint, in lengths of the largest wave.
+// Factor by which gusts make short waves steeper or flatter, in patches of one to a hundred lengths
+// of the largest wave.
+// `width`: width of the footprint, in lengths of the largest wave.
 float gusts(vec2 at, float width) {
     vec2 q = at / scene.sea.y;
     vec2 towards = scene.flow.xy;
-    // Along the wind they are drawn out.
+    // The patches are elongated along the wind.
     q = vec2(0.55 * dot(q, towards), dot(q, vec2(-towards.y, towards.x)));
     float sum = 0.0;
     float frequency = 0.008;
@@ -147,7 +152,8 @@ vec3 wobble(Surf s, float depth) {
 // Transmittance of hazy air over a distance. Over the sea salt and smoke scatter more than the air itself, by the
 // wavelength to the power of -1.3 (atmosphere.glsl), so blue light is lost first.
 vec3 clear_air(float distant) {
-    // Not a choice between vectors: of such a specialization lavapipe 22.3 chooses the first component alone.
+    // `mix` instead of a conditional: if a specialization constant chooses between vectors, lavapipe
+    // 22.3 selects only the first component.
     vec3 rate = mix(vec3(1.0), vec3(0.80, 1.0, 1.39), SEA == WATER ? 1.0 : 0.0);
     return exp(-distant * scene.air.x * rate);
 }
@@ -163,7 +169,7 @@ vec3 over_the_sea(vec3 sky, float up) {
     return sky * mix(vec3(1.0), vec3(0.68, 0.95, 1.30), scene.air.z * smoothstep(0.0, 0.2, up));
 }
 
-// Thin clouds before the sky, of which `thick` is opaque.
+// Thin clouds before the sky; `thick` is their opacity.
 vec3 with_clouds(vec3 sky, float up, float thick) {
     vec3 lit = scene.sun_color.rgb * vec3(0.172, 0.185, 0.205);
     return mix(sky, max(lit, sky), scene.air.z * 0.75 * thick * smoothstep(0.0, 0.05, up));
@@ -242,7 +248,7 @@ vec3 seen_slope(vec3 hidden, vec3 n, vec3 v) {
     return vec3(spread / s * below / (a * below + at), variance);
 }
 
-// Reflected environment, from above the horizon. Its clouds are blurred.
+// Reflected environment above the horizon, with clouds of mean opacity.
 vec3 mirror(vec3 n, vec3 v, vec3 seen) {
     n = normalize(n / n.y + vec3(seen.x, 0.0, seen.y));
     vec3 r = reflect(-v, n);
@@ -260,7 +266,7 @@ vec3 glint(vec2 slope, vec3 hidden, vec3 v) {
     if (l.y <= 0.0 || h.y <= 0.0) {
         return vec3(0.0);
     }
-    // And the width of the disc.
+    // The sun's disc has a width too.
     vec2 variance = hidden.xy + 4.0e-6;
     vec2 off = -h.xz / h.y - slope;
     float determinant = variance.x * variance.y - hidden.z * hidden.z;
