@@ -21,7 +21,7 @@ const float REFRACTION = 1.333;
 const float MIRRORED = 0.02037; // reflectance at normal incidence
 const float FINER = 0.2;           // variance of slopes of ripples too short for the sum of waves, over that of the sum
 const float CLOUDED = 0.256;       // mean opacity of the clouds of sky.frag
-const float WHITEWATER = 1.2;      // mean path of skylight per metre of depth under water
+const float SKY_PATH = 1.2;        // mean path of skylight per metre of depth under water
 
 // Whether the eye is above the sea. From below the sea is not drawn.
 bool over_sea() {
@@ -228,7 +228,7 @@ vec3 sun_under(vec3 at, float depth) {
 }
 
 vec3 sky_under(float depth) {
-    return exp(-extinction() * depth * WHITEWATER);
+    return exp(-extinction() * depth * SKY_PATH);
 }
 
 // Mean slope of the facets that are seen from a direction, over that of the surface itself, and the variance of the
