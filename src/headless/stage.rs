@@ -14,11 +14,11 @@ use crate::gpu::access;
 use crate::gpu::descriptors::Descriptors;
 use crate::gpu::image::{Image, ImageDesc};
 
-/// The stand-in scene with the sets of its frame.
+/// The stand-in scene with the descriptor sets for drawing it.
 pub(super) struct Stage {
     pub renderer: SceneRenderer,
     descriptors: Descriptors,
-    /// Frame of the scene that was drawn last, and whether edges were smoothed.
+    /// Frame of the scene at the last set-up, and whether edges are smoothed.
     drawn: (u64, bool),
     /// The last picture of the scene, reused while the camera is at rest.
     kept: Option<Kept>,
@@ -32,7 +32,7 @@ struct Kept {
     camera: Option<Camera>,
 }
 
-/// The kept images between frames.
+/// State of the kept images between frames.
 const KEPT_REST: Access = access::COPY_READ;
 
 impl Kept {
@@ -61,9 +61,9 @@ impl Headless {
         self.set_up_scene(scene, antialias, None)
     }
 
-    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time): parts and sea
-    /// move, nothing else may change. Moving parts keep their baked light; the sun's shadow map is redrawn. If
-    /// only the sea moves this costs nothing.
+    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time). Only
+    /// parts and the sea may move. Moving parts keep their baked light, and the sun's shadow map is
+    /// redrawn. If only the sea moves, nothing is uploaded or redrawn here.
     ///
     /// # Errors
     /// Those of [`scene`](Self::scene).

@@ -105,7 +105,7 @@ fn terrace(scene: &mut Scene, place: &Place) {
     if let Some(ground) = &mut scene.ground {
         ground.reach = Some(reach * m);
     }
-    // The same slabs as the basin's, because each pattern costs a pipeline.
+    // The terrace has the slabs of the basin, because each further pattern costs a pipeline.
     let slabs = Pattern::Stone { course: b.wide };
     let blocks = Pattern::Blocks { course: 0.155 * m };
     let wall = material([0.45, 0.41, 0.345], 0.9, blocks);
@@ -149,7 +149,8 @@ fn terrace(scene: &mut Scene, place: &Place) {
             b.push("coping", mesh);
         }
     }
-    // Headlands: the two directions from the line of sight to the right, distance and height.
+    // Each headland: its two ends in degrees to the right of the line of sight, its distance and
+    // height in metres, and the seed of its shape.
     let sight =
         vec2(place.middle.x - place.eye.x, place.middle.z - place.eye.z).normalize_or(Vec2::NEG_Y);
     let land = material([0.052, 0.052, 0.042], 0.95, slabs);
@@ -168,12 +169,13 @@ fn terrace(scene: &mut Scene, place: &Place) {
     let calm = Sea::default();
     scene.sea = Some(Sea {
         level: b.middle.y - CLIFF * m,
-        // Less clear than far from land: greener, and lighter.
+        // Water near a coast is less clear than far from land: greener, and lighter.
         absorption: [0.42, 0.070, 0.045].map(|a: f32| a / m),
         scattering: [0.004, 0.014, 0.015].map(|s: f32| s / m),
         waves: 0.15 * m,
         length: 9.0 * m,
-        // Across the line of sight: crests along it, not in lines from side to side.
+        // The waves run obliquely to the line of sight, so that crests do not form
+        // lines parallel to the horizon.
         towards: Vec2::from_angle(1.0).rotate(sight).to_array(),
         ..calm
     });

@@ -105,7 +105,7 @@ struct Side {
     sign: f32,
     /// Coordinate on the axis.
     at: f32,
-    /// Heights of the water at the side: exceeded nearly always, and hardly ever.
+    /// Quantiles of the water's height along the side: 25 % (`level`) and 90 % (`highest`).
     level: f32,
     highest: f32,
     /// Height up to which the water touches the side.
@@ -233,7 +233,7 @@ pub fn basin_round(
     // Walls behind standing water (not splashes) are as high as the water.
     let stands = sides.iter().filter(|side| !towards_eye(side)).map(|side| side.level + thick);
     let stands = stands.fold(floor, f32::max);
-    // They are not so high that they hide the water, or shade it from the sun.
+    // Other walls have a limited height, so that they neither hide the water nor shade it.
     let top_of = |near: bool| {
         let most = if near { 0.12 } else { 0.2 };
         let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
@@ -263,7 +263,8 @@ pub fn basin_round(
         let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
         meshes.push(cuboid("basin lining", from, to, &tiles, &[2, 3, outside]));
         let outer = inner + side.sign * thick;
-        // The lining extends into the slab, because the inside of a solid takes its light from beside it.
+        // The wall ends inside the slab: vertices inside a solid take the light of their neighbours,
+        // so no dark edge is visible.
         let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
         let mut mesh = masonry::dressed(from, to, 0.3 * lining, stone.clone(), &[2, 3]);
         mesh.name = "basin wall".into();

@@ -104,12 +104,12 @@ struct Recording<'a> {
     view: View,
     /// The whole frame.
     area: vk::Rect2D,
-    /// All but the texture.
+    /// What shaders of the scene read, except the texture.
     resources: [(u32, Resource); 6],
 }
 
 impl Recording<'_> {
-    /// Everything that a shader of the scene may read.
+    /// Everything that shaders of the scene read, with this texture.
     fn resources(&self, texture: usize) -> [(u32, Resource); 7] {
         let [a, b, c, d, e, f] = self.resources;
         [a, b, c, d, (4, self.textures.resource(texture)), e, f]
@@ -177,7 +177,8 @@ impl SceneRenderer {
         self.surroundings.move_sea(scene)
     }
 
-    /// The sun's shadow map in the form that a host passes. `bias` is in metres and is added to that of a texel.
+    /// The sun's shadow map in the form that a host passes. `bias`: depth bias in metres, to which
+    /// the width of a texel is added.
     pub fn shadow(&self, bias: f32) -> crate::contract::Shadow {
         self.shadow.handed_over(bias)
     }
