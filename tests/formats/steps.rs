@@ -445,8 +445,8 @@ fn files_of_one_number_are_one_frame_where_told() {
     let phase = all.extras.iter().find(|extra| extra.name == "phase").unwrap();
     assert!(phase.values[..4] == [1.0; 4] && phase.values[4..].iter().all(|v| v.is_nan()));
     assert!(all.warnings.is_empty(), "{:?}", all.warnings);
-    // Ids that occur in both files identify nothing and are dropped, and so are velocities of only
-    // one file.
+    // Ids that occur in both files do not identify particles and are dropped. Velocities that only
+    // one file has are dropped too.
     let mut other = read(&frames[0].path);
     other.velocities = Some(vec![[1.0; 3]; 4]);
     all.append(other);

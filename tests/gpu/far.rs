@@ -37,7 +37,7 @@ fn plane(count: usize, spacings: f32, left: f32) -> Foamy {
     plane_in(HIGH, count, spacings, left)
 }
 
-/// The same for a view of this height in degrees.
+/// Particles as in [`plane`], for a view of this height in degrees.
 fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
     let mut random = Random(11);
     let depth = spacings * SPACING / slope(high);

@@ -43,7 +43,7 @@ pub fn same_drawn(name: &str, actual: &Drawn, expected: &Drawn) {
     compare::same_color(name, &actual.output, &expected.output);
 }
 
-/// The same boundaries, thicknesses and back surface of both sheets.
+/// Asserts that boundaries, thicknesses and back surface of both sheets are equal.
 pub fn same_sheets(name: &str, actual: &Sheets, expected: &Sheets) {
     compare::same(&format!("{name}-boundaries"), &actual.boundaries, &expected.boundaries);
     let [found, wanted] =

@@ -83,7 +83,7 @@ impl Noisy {
         self.check_other(name, level, drawn, &self.settings())
     }
 
-    /// The same check against a twin with other settings.
+    /// Checks the noise against a twin with other settings. Returns how many texels have noise.
     fn check_other(&self, name: &str, level: u32, drawn: &Drawn, by: &noise::Settings) -> usize {
         let view = self.shot.view(self.shot.size);
         let twin = noise::noise(&self.particles(), &view, by, &wide(&drawn.depth), level);

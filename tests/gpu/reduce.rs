@@ -123,7 +123,7 @@ pub fn decoded(drawn: &Drawn, rule: smooth::Rule, params: &Params) -> Image<(u32
     decoded_plan(&drawn.plan, rule, params)
 }
 
-/// The same for any level.
+/// Iterations and steps of a plan of any level.
 pub fn decoded_plan(plan: &Image<u32>, rule: smooth::Rule, params: &Params) -> Image<(u32, f64)> {
     let most = most(rule, params);
     plan.map(|p| (p & 511, f64::from(p >> 9) / 8_388_607.0 * most))

@@ -245,7 +245,7 @@ fn a_snapshot_of_nothing_is_empty() {
     making.step(&sea(0), &settings(), 0.03, 0);
     assert!(making.step(&sea(1), &settings(), 0.03, 1).counts[0] > 0);
     assert_eq!(left(&making.snapshot(&nothing, &settings(), 2)), (0, 0, 0, &[][..]));
-    // The same for water without valid positions.
+    // Water without valid positions removes earlier particles too.
     let mut nowhere = sea(0);
     nowhere.positions.fill([f32::NAN; 3]);
     assert_eq!(left(&making.snapshot(&nowhere, &settings(), 2)), (0, 0, 0, &[][..]));

@@ -112,8 +112,7 @@ fn record_only_records() {
     }
 }
 
-/// The same checks for a frame with everything that the renderer can draw, with raster and compute
-/// splats.
+/// Checks a frame with everything that the renderer can draw, with raster and compute splats.
 #[test]
 fn record_only_records_with_foam_spray_and_light() {
     let gpu = spied();

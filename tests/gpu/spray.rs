@@ -134,8 +134,8 @@ impl Sprayed {
         self.check_behind(name, drawn, drawn)
     }
 
-    /// The same check before a scene. The frame's water layer lacks what the scene hides, so the
-    /// twin takes the water of `open`, a frame without the scene.
+    /// Checks spray that the scene partly hides. The frame's water layer lacks what the scene
+    /// hides, so the twin takes the water of `open`, a frame without the scene.
     fn check_behind(&self, name: &str, drawn: &Drawn, open: &Drawn) -> (Image<u32>, usize) {
         let (view, scene) = (self.shot.view(self.shot.size), self.shot.scene_at(self.shot.size, 0));
         let (water, settings) = (wide(&open.depth), self.settings());
@@ -144,8 +144,8 @@ impl Sprayed {
         (twin.count, of(drawn).data.iter().filter(|x| **x > 0.0).count())
     }
 
-    /// Checks that the picture is the spray over `behind`, and is unchanged to the bit where there
-    /// is nothing.
+    /// Checks that the picture is the spray over `behind`, and equals `behind` bit for bit where
+    /// there is no spray.
     fn check_over(&self, name: &str, drawn: &Drawn, behind: &[[f32; 4]]) {
         let (look, sun) = (&self.shot.settings.spray, &self.shot.settings.light);
         let toward = DVec3::from(sun.direction.map(f64::from));

@@ -270,7 +270,7 @@ fn what_moves_as_one_does_not_flicker() {
     }
 }
 
-/// The same sequences with each fault exceed every bound.
+/// With each planted fault the sequences exceed every bound.
 #[test]
 fn planted_flicker_is_seen() {
     let gpu = Gpu::shared();

@@ -20,7 +20,7 @@ pub fn splat(spheres: &[Sphere], view: &View) -> Image<f64> {
     splat_where(spheres, view, |_, _, _| true)
 }
 
-/// The same with only those spheres that count at a pixel.
+/// Depth of the nearest sphere among those that count at a pixel.
 pub fn splat_where(
     spheres: &[Sphere],
     view: &View,

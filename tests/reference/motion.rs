@@ -224,7 +224,7 @@ fn texels(
                             least = 0.0;
                             continue;
                         };
-                        // One u more under the root.
+                        // The radius is rounded once more under the root.
                         let rho = Rounded { e: hit.rho_squared.e + U, ..hit.rho_squared };
                         let shape = falling(|r| kernel(r.clamp(0.0, 1.0)), rho);
                         let away = hit.k - exact(f64::from(*front));

@@ -52,7 +52,7 @@ pub struct Settings {
 
 /// The noise of an image.
 pub struct Noise {
-    /// By the definition, without fixed-point steps.
+    /// Exact value of the definition, without fixed-point steps.
     pub image: Image<f64>,
     pub bounds: Between,
     /// Number of particles that may contribute to a texel.
@@ -130,7 +130,7 @@ pub fn noise(
             if !is_surface(surface) {
                 continue;
             }
-            // The same sum of products as for a pixel.
+            // The slope is a sum of products as for a pixel, so it has the same error.
             let terms = surface_foam::ray_off(view, 0, 0).e;
             let v = view.ray_at(DVec2::new(x as f64 + 0.5, y as f64 + 0.5) * edge);
             let ray = Off { v, e: terms };

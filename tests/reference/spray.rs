@@ -112,7 +112,7 @@ impl Sums {
         [low.max(0.0), sum * (1.0 + by).powf(n) + n * least]
     }
 
-    /// The same bounds for a value that is itself such a sum, made in another order.
+    /// Bounds for a value that is itself such a sum, made in another order.
     pub fn again(&self, sum: f64, count: u32) -> [f64; 2] {
         if sum < self.exact() {
             return [sum; 2];
@@ -612,7 +612,7 @@ pub fn spray(
     spray_in_sun(particles, view, settings, scene, water, &|_, _, _| exact(1.0))
 }
 
-/// The same with a fraction of sunlight for each droplet.
+/// The spray of particles, with a fraction of sunlight for each droplet.
 pub fn spray_in_sun(
     particles: &[Particle],
     view: &View,

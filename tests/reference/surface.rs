@@ -34,17 +34,18 @@ pub struct Surface {
     pub lens: f64,
     /// Noise that has tilted the normal.
     pub ripple: Ripple,
-    /// What the surface was made from.
+    /// Intermediate results of the surface.
     pub parts: Parts,
 }
 
-/// What a surface was made from. Slopes are in depth per texel of the smoothed image.
+/// Intermediate results of a surface. Slopes are in depth per texel of the smoothed image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parts {
     pub case: Case,
-    /// Slope of the smoothed depth, and the same mean of the absolute differences.
+    /// Slope of the smoothed depth, and the weighted mean of the absolute differences that the
+    /// slope consists of.
     pub smooth: [DVec2; 2],
-    /// The same for the unsmoothed depth.
+    /// Slope of the unsmoothed depth, and the mean of the absolute differences.
     pub sphere: [DVec2; 2],
     /// Thickness before it is limited by the scene.
     pub full: f64,

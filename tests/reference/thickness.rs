@@ -46,7 +46,7 @@ pub fn splat(
     splat_where(spheres, view_of_the_image, scene, amplitude, |_, _, _| 1.0)
 }
 
-/// The same with a fraction of each sphere that counts at a pixel.
+/// Thickness of spheres of which only a fraction counts at a pixel.
 pub fn splat_where(
     spheres: &[Sphere],
     view_of_the_image: &View,

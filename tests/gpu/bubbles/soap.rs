@@ -98,7 +98,8 @@ impl<'g> Scene<'g> {
         Self::of(gpu, side, 3, config(extent(112, 96)))
     }
 
-    /// The same with this number of layers, and another configuration.
+    /// A scene like that of [`new`](Self::new), with this number of layers and another
+    /// configuration.
     pub fn of(gpu: &'g Gpu, side: DVec3, layers: u32, config: Config) -> Self {
         let bubbles = BubbleConfig::new(64).with(|it| {
             it.variants = 3;
@@ -131,7 +132,7 @@ impl<'g> Scene<'g> {
         self.shot_in(lens, many, (0.1, &[]))
     }
 
-    /// The same with water particles of this radius.
+    /// A shot that also has water particles of this radius.
     pub fn shot_in(&self, lens: Lens, many: bool, (radius, points): (f32, &[[f32; 3]])) -> Shot {
         let mut shot = Shot::new(self.rig.config.extent, lens, radius, points);
         let mut random = Random(11);

@@ -82,7 +82,7 @@ fn in_place_and_apart_give_the_same_picture() {
     }
 }
 
-/// The host's images come from any layout and access, and are left in those that the host asked
+/// The host hands over images in any layout and access, and gets them back in those that it asked
 /// for.
 #[test]
 fn images_are_taken_from_and_left_in_any_state() {

@@ -41,8 +41,8 @@ pub fn shot(coasts: &Mapped<'_>, points: &[[f32; 3]]) -> Shot {
     over_bottom(coasts, points, extent(96, 64), |x| 0.02 * x)
 }
 
-/// The same with a picture of this size, and a seabed that lies `behind` metres of depth behind the
-/// water level at a pixel's x.
+/// A shot over a seabed that lies `behind` metres of depth behind the water level, as a function of
+/// the pixel's x.
 fn over_bottom(
     coasts: &Mapped<'_>,
     points: &[[f32; 3]],

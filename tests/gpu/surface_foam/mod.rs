@@ -137,7 +137,8 @@ fn check(name: &str, case: &Foamy, drawn: &Drawn, level: u32) {
     check_sprites(name, case, &case.sprites(), drawn, level);
 }
 
-/// The same check with these sprites, which include their sunlight.
+/// Checks that a frame's depth and thicknesses are the twin's for these sprites, which include
+/// their sunlight.
 pub fn check_sprites(name: &str, case: &Foamy, sprites: &[Sprite], drawn: &Drawn, level: u32) {
     let (shot, found) = (&case.shot, of(drawn));
     let (view, settings) = (shot.view(shot.size), case.settings());
@@ -263,8 +264,9 @@ fn what_is_foam_is_no_water() {
     }
 }
 
-/// The same picture by another shader: composite with foam splits the water in two parts, one of
-/// which is empty here. This adds an exponential and a few products.
+/// Asserts that two pictures differ only by the rounding of another shader: composite with foam
+/// splits the water in two parts, one of which is empty here. This adds an exponential and a few
+/// products.
 pub(crate) fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
     for (i, (found, wanted)) in drawn.output.data.iter().zip(&expected.output.data).enumerate() {
         let near = found

@@ -208,8 +208,8 @@ fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
     }
 }
 
-/// The same comparison for shapes, lives and sizes that differ from the source's, with and without
-/// its falloff under water.
+/// Compares foam whose shapes, lives and sizes differ from the source's, with and without the
+/// source's falloff under water.
 #[test]
 fn foam_of_any_shape_is_the_twins() {
     let gpu = Gpu::shared();

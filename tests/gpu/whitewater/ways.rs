@@ -29,8 +29,8 @@ fn all_ways_are_the_same() {
     }
 }
 
-/// The same except for rounding, which differs between pipelines; a falloff ends in a difference of
-/// nearly equal numbers.
+/// Asserts equality except for rounding, which differs between pipelines. A falloff ends in a
+/// difference of nearly equal numbers.
 fn same(way: WhitewaterSplat, found: &Drawn, expected: &Drawn) {
     compare::same_but_rounded(&format!("whitewater-{way:?}"), &found.output, &expected.output);
     let [found, expected] = [found, expected].map(|drawn| drawn.whitewater.as_ref().expect("foam"));
@@ -85,7 +85,8 @@ fn the_frontmost_of_equals_is_the_same() {
             same(way, &draw(way, points), &expected);
         }
     }
-    // Raster takes the first of them, which shows that there are such pixels.
+    // Of two particles at one depth, raster takes the first, so its normals show that such pixels
+    // exist.
     let [one, other] = [&points, &turned].map(|points| draw(WhitewaterSplat::Raster, points));
     let normals = [one, other].map(|drawn| drawn.whitewater.expect("foam").normal.data);
     let equals = normals[0].iter().zip(&normals[1]).filter(|(a, b)| a != b).count();

@@ -279,7 +279,8 @@ impl Ray {
         (left >= 0.0).then(|| [along - left.sqrt(), along + left.sqrt()])
     }
 
-    /// The same; if rounding makes the ray miss the sphere, it touches it.
+    /// Distances at which the ray meets a sphere. If rounding makes the ray miss the sphere, it
+    /// touches the sphere.
     fn touches(self, center: DVec3, radius: f64) -> [f64; 2] {
         let along = (center - self.origin).dot(self.direction);
         self.meets(center, radius).unwrap_or([along; 2])

@@ -141,7 +141,7 @@ fn on_plane(inputs: &Inputs<'_>, view: &View, start: DVec3, found: DVec3) -> DVe
     found.truncate() + moved.clamp_length_max(4.0 * size.y)
 }
 
-/// The same, and its error.
+/// Displacement of [`bed_offset`], and its error in pixels.
 pub fn bed_about(
     inputs: &Inputs<'_>,
     surface: &Surface,
@@ -222,8 +222,8 @@ pub fn exit(
     seen
 }
 
-/// The same with errors of light and path, summed over the effects of each input's error in both
-/// directions, and whether the ray certainly meets the same thing.
+/// Light and path of the exit, with their errors, summed over the effects of each input's error in
+/// both directions, and whether the ray certainly meets the same surface.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 pub fn exit_about(
     inputs: &Inputs<'_>,

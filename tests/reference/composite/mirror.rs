@@ -123,9 +123,9 @@ pub fn direction(surface: &Surface) -> DVec3 {
     2.0 * n.dot(v) * n - v
 }
 
-/// The same, with its error in pixels for a rotated direction and a relative error of the position,
-/// and whether the ray may meet something else: from marches of rays with these errors in both
-/// directions.
+/// What a surface mirrors, the error of its position in pixels for a rotated direction and a
+/// relative error of the surface's position, and whether the ray may meet something else. The
+/// errors come from marches of rays with these deviations in both directions.
 pub fn met_about(
     inputs: &Inputs<'_>,
     settings: &Settings,

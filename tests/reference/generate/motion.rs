@@ -28,7 +28,8 @@ pub fn carried(position: DVec3, fluid: &Fluid, spacing: f32) -> Carried {
     carried_by(near(position, spacing, fluid.parts(spacing)), spacing)
 }
 
-/// The same from particles that are or may be neighbours. Products saturate like on the GPU.
+/// The fluid around a position, from particles that are or may be neighbours. Products saturate as
+/// on the GPU.
 pub(super) fn carried_by(all: impl Iterator<Item = Near>, spacing: f32) -> Carried {
     let unit = unit(spacing);
     let most = DVec3::splat(MOST_STEPS * unit);
@@ -68,7 +69,7 @@ pub fn moved(particle: &Particle, fluid: &Fluid, settings: &Settings, dt: f32) -
     moved_in(particle, &water, settings, dt)
 }
 
-/// The same in the given fluid.
+/// Result of [`moved`] in the given fluid.
 pub(super) fn moved_in(
     particle: &Particle,
     water: &Carried,

@@ -55,7 +55,7 @@ struct Surface {
 struct Crest {
     sum: f64,
     terms: u32,
-    /// As in [`Potentials`].
+    /// Rounding error, as in [`Potentials`].
     off: f64,
     /// Whether rounding may decide more than that.
     loose: bool,

@@ -185,7 +185,7 @@ fn the_surface_of_a_block_is_its_outside() {
     ] {
         let p = at(place.0, place.1, place.2);
         close_all(p.normal.expect("it is at the surface"), normal);
-        // Of 6 + 12 + 8 + 6 particles within a support.
+        // A particle inside has 6 + 12 + 8 + 6 neighbours within a support.
         assert_eq!((p.neighbours, p.loose), (neighbours, false), "{place:?}");
     }
     for n in 0..125 {

@@ -79,7 +79,7 @@ impl Fluid {
     }
 }
 
-/// Those of the parts that are or may be neighbours of a place.
+/// Particles that are or may be neighbours of a position.
 pub(super) fn near(
     place: DVec3,
     spacing: f32,
@@ -113,7 +113,7 @@ impl Grid {
         (place / (1.001 * support(self.spacing))).floor().to_array().map(|x| x as i64)
     }
 
-    /// As [`near`], with all particles.
+    /// Like [`near`], with all particles.
     pub fn near(&self, place: DVec3) -> impl Iterator<Item = Near> {
         let middle = self.cell(place);
         let around = (0..27).filter_map(move |n| {

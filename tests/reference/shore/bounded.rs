@@ -150,7 +150,7 @@ impl Bounded {
         rounded(power.value, power.error, 6.0 + 4.0 * most).wider(f64::from(f32::MIN_POSITIVE))
     }
 
-    /// The same to the base 2.
+    /// 2 to the power of the value.
     pub fn exp2(self) -> Self {
         let most = self.value.abs() + self.error;
         let power = self.rising(f64::exp2);

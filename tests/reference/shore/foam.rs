@@ -298,7 +298,7 @@ pub fn clipped(over: Bounded) -> Option<bool> {
     (over.value.abs() > over.error).then_some(over.value >= 0.0)
 }
 
-/// The same with four samples: a multiple of a quarter, rounded by the pixel's position in a 2x2
+/// Coverage by four samples: a multiple of a quarter, rounded by the pixel's position in a 2x2
 /// block.
 pub fn by_samples(part: Bounded, [x, y]: [usize; 2]) -> Bounded {
     let order = [[0.125, 0.625], [0.875, 0.375]][y % 2][x % 2];

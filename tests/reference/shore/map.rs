@@ -414,7 +414,7 @@ impl Shore {
         least
     }
 
-    /// The same by comparing all segments.
+    /// Distance to the nearest of all segments.
     pub fn distance_by_all(&self, at: DVec2) -> f64 {
         self.segments.iter().map(|s| from_segment(at, *s)).fold(f64::INFINITY, f64::min)
     }

@@ -145,7 +145,7 @@ impl Clock {
         speed.map(|speed| held(self.turned(f64::from(scale) * speed)))
     }
 
-    /// The same in metres; 0 for a pattern without detail.
+    /// Displacement of a pattern in metres; 0 for a pattern without detail.
     pub fn moved(&self, scale: f32, speed: [f32; 2]) -> [Bounded; 2] {
         let scale = f64::from(scale);
         speed.map(|speed| match scale {

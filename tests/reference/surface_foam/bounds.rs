@@ -194,7 +194,7 @@ fn value_bounds(
         return (low.max(0.0) * (1.0 - rounding), high * (1.0 + rounding));
     }
     let place = sprite.place(hit.x.v, hit.y.v, settings);
-    // One sum per axis, and the product with the age.
+    // Roundings of the position: one sum per axis, and the product with the age.
     let sums = place.abs().element_sum() + (sprite.age * settings.noise_rate).abs();
     let moved = CELLS * (hit.x.e + hit.y.e) + U * sums;
     let (here, error) = (noise(place), noise_slope() * moved + noise_rounding());

@@ -102,7 +102,8 @@ impl Ellipse {
         Self { half: thick.half * depth_part(foam), ..thick }
     }
 
-    /// The same, at least as wide as texels of this width can represent, and the noise's strength.
+    /// The ellipse, at least as wide as texels of this width can represent, and the strength of its
+    /// noise.
     fn wide(self, texel: f64, settings: &Settings) -> (Self, f64) {
         let cell = self.half.y / (CELLS * texel);
         let torn = settings.noise * smoothstep(TOLD_APART.0, TOLD_APART.1, cell);

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
     use crate::support::scenes::Random;
 
-    /// One phase, and foam at rest.
+    /// A single phase, and foam at rest.
     const STILL: (DVec3, &[Phase]) =
         (DVec3::ZERO, &[Phase { part: 1.0, carried: 0.0, began: 0.0 }]);
 

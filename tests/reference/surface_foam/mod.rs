@@ -160,7 +160,7 @@ impl Sprite {
         (finite && self.foam > 0.0).then_some(self.foam.min(1.0))
     }
 
-    /// The same, if its centre lies beyond a depth.
+    /// f, if the sprite may be drawn and its centre lies beyond a depth.
     fn part_beyond(&self, near: f64) -> Option<f64> {
         self.part().filter(|_| -self.center.z > near)
     }

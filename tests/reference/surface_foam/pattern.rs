@@ -69,7 +69,7 @@ struct Place {
 }
 
 impl Pattern {
-    /// Both phases.
+    /// The two phases at the pattern's time.
     pub fn phases(&self) -> [Phase; 2] {
         let gone = |late: f64| (self.time / self.period + late).rem_euclid(1.0);
         let weight = |late| 1.0 - (2.0 * gone(late) - 1.0).abs();
@@ -149,7 +149,7 @@ impl Pattern {
                 let part = height * off(phase.part, 2.0);
                 centre = centre + part * here;
                 let cell = scale * self.size * spacing;
-                // By central differences, unlike in the shader.
+                // The slope by central differences, unlike in the shader.
                 let step = 1.0e-5;
                 let along = |axis: DVec3| {
                     (noise(place.v + step * axis) - noise(place.v - step * axis)) / (2.0 * step)

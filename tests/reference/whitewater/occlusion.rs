@@ -74,7 +74,7 @@ pub struct Layers<'a> {
 /// Occluded fraction, 0 to 1, and its bounds in single precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Omega {
-    /// By the definition.
+    /// Exact value of the definition.
     pub value: f64,
     /// Lower bound.
     pub low: f64,
@@ -242,7 +242,7 @@ impl Occlusion {
         self.omega_by(layers, view, &|_| points, &weigh, at)
     }
 
-    /// The same with given points for each pass, and a function for their weights.
+    /// Occluded fraction with given points for each pass, and a function for their weights.
     fn omega_by<'a>(
         &self,
         layers: &Layers<'_>,
@@ -341,8 +341,8 @@ pub fn occlusion(layers: &Layers<'_>, view: &View, settings: &Occlusion) -> Imag
     Image::from_fn(view.width, view.height, |x, y| settings.omega(layers, view, &points, (x, y)))
 }
 
-/// The same with a part of the points in each pixel of a 4x4 block: runs of [`pairs`] from a total
-/// of `most`, another run in each pass.
+/// Occluded fraction with fewer points per pixel, spread over blocks of 4x4 pixels: each pixel uses
+/// a run of [`pairs`] from a total of `most`, and another run in each pass.
 pub fn shared_occlusion(
     layers: &Layers<'_>,
     view: &View,

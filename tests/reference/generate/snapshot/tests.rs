@@ -96,7 +96,7 @@ fn a_way_ends_with_the_water() {
             let living = alive(stage.seconds, &all_make()) > 0.0;
             assert_eq!(stage.make > 0.0, x > -1.0 && living, "{stage:?}");
             both[usize::from(x > -1.0)] += 1;
-            // The same on the GPU, within the error of the place.
+            // The GPU decides in the same way, within the error of the position.
             let none = stage.counts == [0; 2];
             assert!(none || x > -1.01 - stage.off, "{stage:?}");
             nothing += u32::from(none && living);
