@@ -538,8 +538,8 @@ fn turbid_media_are_exact() {
     check("turbid-dark", &mut rig, &shot, Sky::Even);
 }
 
-/// Water over a bed that slopes away behind it; the share of the bed under water goes from all to
-/// nothing.
+/// Water over a bed that slopes away behind it; the fraction to which the bed is under water goes
+/// from 1 to 0.
 fn on_bed(size: ash::vk::Extent2D, lens: Lens) -> Shot {
     let mut shot = shot(size, lens);
     shot.scene_depth(|x, _| Some(4.6 + 0.02 * f64::from(x)));

@@ -97,7 +97,7 @@ pub struct Phases {
     pub map: HashMap<u32, Entry>,
     /// Number of ids whose phase changed.
     pub changed: u32,
-    /// Number of those that used a random number because they left water or foam.
+    /// Number of ids that used a random number because they left water or foam.
     pub drawn: u32,
 }
 
@@ -304,8 +304,8 @@ mod tests {
         assert_eq!(out, Out { foam: 0.0, age: 0.0, phase: Phase::Water });
         assert_eq!((entry(&phases, 7), phases.changed), (Entry::default(), 0));
 
-        // At the threshold it begins to turn to foam, in a time of 0.25 + 0.25 * 7461844 / 2^24 =
-        // 0.361190140...
+        // At the threshold the particle begins to turn to foam, in a time of 0.25 + 0.25 * 7461844
+        // / 2^24 = 0.361190140...
         let out = one(&mut phases, dt, 7, 10.0);
         assert_eq!(out, Out { foam: 0.0, age: 0.125, phase: Phase::WaterToFoam });
         let lifetime = 0.361_190_14_f32;

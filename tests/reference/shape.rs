@@ -87,7 +87,7 @@ struct Formed {
     /// m, in units of the reach.
     middle: DVec3,
     middle_off: f64,
-    /// Fraction to which it is an ellipsoid.
+    /// Fraction to which the particle is an ellipsoid.
     share: f64,
     share_off: f64,
 }

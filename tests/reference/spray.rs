@@ -211,8 +211,8 @@ fn depth_of(p: Off) -> Rounded {
 }
 
 impl Particle {
-    /// Fraction of the particle that is spray; None if it can be none. The ramp may be narrower
-    /// than the rounding of its ends: then the bounds allow any fraction near them.
+    /// Fraction of the particle that is spray; `None` if the particle has no spray. The ramp may be
+    /// narrower than the rounding of its ends: then the bounds allow any fraction near them.
     fn share(&self, settings: &Settings) -> Option<Rounded> {
         let is = |v: DVec3| v.is_finite() && v.abs().max_element() < NOWHERE;
         if !(self.density > 0.0 && is(self.position) && is(self.velocity)) {
@@ -1020,7 +1020,7 @@ mod tests {
             Particle { velocity: far, ..good },
             particle([0.0, 0.0, -0.09]),
             particle([0.0, 0.0, 3.0]),
-            // Nearer than twice its half-axis.
+            // Nearer than twice the droplet's half-axis.
             particle([0.0, 0.0, -0.3]),
         ] {
             assert_eq!(total(&[bad], &view, &settings), 0.0, "{bad:?}");

@@ -24,7 +24,7 @@ fn scattered(cell: IVec3, seed: u32) -> DVec3 {
 }
 
 /// Vector from the nearest lattice point, and the difference of the distances to the second nearest
-/// and to it.
+/// and to the nearest point.
 fn nearest(place: DVec3, seed: u32) -> (DVec3, f64) {
     let middle = place.floor().as_ivec3();
     let around = (-1..2).flat_map(|z| (-1..2).flat_map(move |y| (-1..2).map(move |x| (x, y, z))));
@@ -65,8 +65,8 @@ fn place(d: DVec3) -> DVec2 {
     }
 }
 
-/// Direction of a position. Beyond an edge, the direction on the other side of it, where the halves
-/// meet.
+/// Direction of a position in the octahedral map. A position beyond an edge of the map continues at
+/// the mirrored position on the same edge, where the halves meet.
 fn direction(mut p: DVec2) -> DVec3 {
     if p.x.abs() > 1.0 {
         p = DVec2::new(2.0 * p.x.signum() - p.x, -p.y);
@@ -125,7 +125,8 @@ fn an_octahedron_folds_back() {
         let d = DVec3::from(d).normalize();
         assert!(direction(place(d)).distance(d) < 1.0e-12, "{d}");
     }
-    // Beyond an edge lies what is at the same distance from it on the other side.
+    // Positions at the same distance outside and inside of an edge, at mirrored places along it,
+    // have one direction.
     let across = direction(DVec2::new(1.01, 0.3));
     assert!(across.distance(direction(DVec2::new(0.99, -0.3))) < 1.0e-12);
 }

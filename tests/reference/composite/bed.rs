@@ -29,7 +29,7 @@ pub struct Bed {
     pub sun: f64,
     /// Irradiance of level ground.
     pub irradiance: [f64; 3],
-    /// Fraction of it that comes from the sky.
+    /// Fraction of the irradiance that comes from the sky.
     pub shade: [f64; 3],
 }
 
@@ -73,7 +73,7 @@ pub struct Under {
     pub wet: f64,
     /// Depth of that water in metres, vertically.
     pub down: f64,
-    /// Path through it to the eye, in metres.
+    /// Path through that water to the eye, in metres.
     pub path: f64,
 }
 

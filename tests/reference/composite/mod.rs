@@ -50,7 +50,7 @@ pub enum Medium {
         own: [f64; 3],
         /// Fraction of the own radiance that is scattered and not emitted.
         share: f64,
-        /// Fraction of its light that also arrives in the shade.
+        /// Fraction of the scattered light that also arrives in the shade.
         shade: [f64; 3],
     },
     /// The source's colours.

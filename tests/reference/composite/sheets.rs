@@ -142,7 +142,7 @@ impl<'a> Two<'a> {
             t += (1.0 - open) * t2;
             (t2, apart) = (open * t2, open * apart);
             let mut surface = backs.made_of((x, y), &found, t2, None, f64::INFINITY);
-            // Without a surface of its own it has unlimited room.
+            // Where the back sheet has no surface, the distance to the scene is unlimited.
             if !there {
                 (surface.thickness, surface.room) = (t2, f64::INFINITY);
             }

@@ -117,7 +117,7 @@ fn lifetime(id: u32, settings: &Settings) -> f64 {
     low + (high - low) * uniform_of(settings.seed, id, 0)
 }
 
-/// Whether it is too old or outside.
+/// Whether the particle is too old or outside of the bounds.
 fn gone(particle: &Particle, settings: &Settings) -> bool {
     let outside = settings.bounds.is_some_and(|bounds| {
         let [low, high] = bounds.map(|corner| DVec3::from(corner.map(f64::from)));

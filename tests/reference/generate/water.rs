@@ -47,7 +47,7 @@ pub(super) struct Near {
 }
 
 impl Near {
-    /// Whether it is a neighbour.
+    /// Whether the particle is a neighbour of the place.
     pub fn counts(&self) -> bool {
         self.q < 1.0
     }

@@ -103,7 +103,7 @@ impl Disc {
         Some(disc)
     }
 
-    /// Columns or rows that it may cover, also outside the map.
+    /// Columns or rows that the disc may cover, also outside the map.
     fn range(&self, axis: usize) -> std::ops::Range<i64> {
         let (at, reach) = (self.at[axis], self.reach.v + self.reach.e + self.at[axis].e + 1.0);
         (at.v - reach).floor() as i64..(at.v + reach).ceil() as i64

@@ -164,7 +164,7 @@ impl LooseEllipse {
             rho_squared.e += self.turned(p.length_squared());
             (Rounded { v: k, e: k_e }, x, y, rho_squared)
         } else {
-            // The ray may meet it anywhere.
+            // The ray may meet the ellipse anywhere.
             let any = Rounded { v: 0.0, e: f64::INFINITY };
             (any, any, any, any)
         };

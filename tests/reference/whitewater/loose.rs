@@ -38,7 +38,7 @@ pub(super) struct LooseFragment {
     pub(super) normal: Off,
     /// Min and max of its contribution.
     pub(super) amount: [f64; 2],
-    /// Whether it is certainly there.
+    /// Whether the contribution is certain.
     pub(super) sure: bool,
 }
 
@@ -94,7 +94,7 @@ impl LooseSprite {
         Some(Self { kind, look, sure, depth, radius, at, half, facing, h, lifetime, told, even })
     }
 
-    /// The pixels that it may cover.
+    /// The pixels that the disc may cover.
     pub(super) fn pixels(&self, view: &View) -> impl Iterator<Item = (usize, usize)> + use<> {
         let (at, reach) = reach(self.at, self.half);
         let (columns, rows) = pixels(at, reach, view);

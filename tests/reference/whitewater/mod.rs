@@ -150,7 +150,7 @@ pub struct Particle {
 /// Treatment of foam behind the fluid's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Attenuation {
-    /// Summed separately, so that the water attenuates it.
+    /// The foam is summed separately, so that the water attenuates it.
     Water,
     /// Reduced by its distance behind the surface: `falloff(x, max, n, m)`.
     Falloff {

@@ -122,8 +122,8 @@ impl Occlusion {
         (self.wanted(h_px) + 0.5).floor() as usize
     }
 
-    /// Range of that number in single precision: the radius errs by 8u, its cube and the rest by 8u
-    /// more.
+    /// Range of the number of samples in single precision: the radius errs by 8u, its cube and the
+    /// rest by 8u more.
     fn samples_ends(&self, h_px: f64) -> [usize; 2] {
         let wanted = self.wanted(h_px);
         let e = if self.counts.contains(&wanted) { 0.0 } else { (3.0 * 8.0 + 8.0) * U * wanted };
@@ -256,7 +256,8 @@ impl Occlusion {
         let ray = ray_off(view, x, y);
         let (at, at_e) = (ray.v * seen.depth, (ray.e + U * ray.v.length()) * seen.depth);
         let ([mut hidden, mut blocked, mut counted], mut terms) = ([[0.0; 3]; 3], 0.0);
-        // Sums of points weighted by the second and the third, and the lengths of their errors.
+        // Sums of the points with the second and with the third of their weights, and the lengths
+        // of the sums' errors.
         let (mut dark, mut whole) = ((DVec3::ZERO, 0.0), (DVec3::ZERO, 0.0));
         for pass in 1..=self.passes {
             let h = self.search(seen.h, pass);

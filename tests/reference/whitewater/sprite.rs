@@ -76,7 +76,7 @@ impl Sprite {
         })
     }
 
-    /// The pixels that it may cover.
+    /// The pixels that the disc may cover.
     pub(super) fn pixels(&self, view: &View) -> impl Iterator<Item = (usize, usize)> + use<> {
         let (columns, rows) = pixels(self.at, self.half, view);
         rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))

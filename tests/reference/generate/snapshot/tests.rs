@@ -115,7 +115,7 @@ fn a_way_ends_with_the_water() {
     // A lone particle is water for itself.
     let alone = fluid(&[([0.0; 3], [4.0, 0.0, 0.0])]);
     for stage in stages(&alone, &all_make(), 0) {
-        // It leaves its own support once the first step is a support long.
+        // The particle leaves its own support once the first step is a support long.
         let first = seconds(0, uniform_of(seed_of_step(&all_make(), 5), 7, 0), &all_make());
         let place = DVec3::new(-4.0 * stage.seconds, 0.0, 0.0);
         assert!(first < 0.25 / 4.0);
