@@ -23,7 +23,8 @@ fn shrink(size: usize) {
     let _ = LIVE.try_with(|live| live.set(live.get().saturating_sub(size)));
 }
 
-// SAFETY: every call goes to the system's allocator unchanged; the counters are plain cells that do not allocate.
+// SAFETY: every call goes to the system's allocator unchanged; the counters are plain cells that do
+// not allocate.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         grow(layout.size());
@@ -33,7 +34,8 @@ unsafe impl GlobalAlloc for Counting {
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         shrink(layout.size());
-        // SAFETY: the caller keeps the contract of `dealloc`, and the pointer came from the system's allocator.
+        // SAFETY: the caller keeps the contract of `dealloc`, and the pointer came from the
+        // system's allocator.
         unsafe { System.dealloc(pointer, layout) }
     }
 }

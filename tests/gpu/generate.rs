@@ -510,7 +510,8 @@ fn kinds_at_birth_are_those_of_the_next_step() {
         // In this step particles move at most a hundredth of a spacing.
         let step = step_of(&data, &fluid, &settings, 0.01 * SPACING, 0);
         let recorded = making.record_by(&step, |generator, cmd, step| {
-            // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+            // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of
+            // this.
             unsafe {
                 match snapshot {
                     true => generator.record_snapshot(cmd, step),

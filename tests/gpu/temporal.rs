@@ -373,10 +373,10 @@ fn the_pattern_goes_with_the_foam() {
 }
 
 /// For foam at rest the pattern changes only by its phases. With s its strength, h its heights and
-/// N the noise's max, its logarithm changes by at most s (sum of h) N w' dt. A weight is `a /
-/// sqrt(a^2 + (1 - a)^2)`, whose slope is at most 1.6; a goes from 0 to 1 in half a period; w' sums
-/// both phases. The correction for the finest octave is half the noise's mean square times (s h
-/// w)^2.
+/// N the noise's max, its logarithm changes by at most s (sum of h) N w' dt. A weight is
+/// `a / sqrt(a^2 + (1 - a)^2)`, whose slope is at most 1.6; a goes from 0 to 1 in half a period; w'
+/// sums both phases. The correction for the finest octave is half the noise's mean square times (s
+/// h w)^2.
 #[test]
 fn the_pattern_changes_by_its_phases_alone() {
     let gpu = Gpu::shared();

@@ -1,6 +1,6 @@
 //! Twin of the culling (thesis Sec. 4.3): bounding spheres against the frustum, spray selected by
-//! density, and the radius of thin water, `r (0.5 + 0.5 smoothstep(threshold, full, density /
-//! rest))`.
+//! density, and the radius of thin water,
+//! `r (0.5 + 0.5 smoothstep(threshold, full, density / rest))`.
 
 use super::{Sphere, View, smoothstep};
 use glam::{DVec3, DVec4};

@@ -1,6 +1,6 @@
 //! Twin of the depth splats (thesis Sec. 4.6.1): the nearest intersection of a pixel's ray with any
-//! sphere. With the ray `w = (s_x, s_y, -1)`, `t w` has the depth t, and the near root is `t = (w.c
-//! - sqrt(w^2 (r^2 - |c - w (w.c) / w^2|^2))) / w^2`.
+//! sphere. With the ray `w = (s_x, s_y, -1)`, `t w` has the depth t, and the near root is
+//! `t = (w.c - sqrt(w^2 (r^2 - |c - w (w.c) / w^2|^2))) / w^2`.
 
 use super::{EMPTY, Image, Sphere, View};
 use glam::{DVec2, DVec3};

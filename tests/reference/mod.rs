@@ -209,8 +209,8 @@ impl View {
     }
 
     /// The eye ray (s_x, s_y, -1) through a position in pixels. Multiplied by a depth d it is the
-    /// point seen there: `ndc = (P00 x + P20 z) / -z = P00 s_x - P20`, hence `s_x = (ndc + P20) /
-    /// P00`.
+    /// point seen there: `ndc = (P00 x + P20 z) / -z = P00 s_x - P20`, hence
+    /// `s_x = (ndc + P20) / P00`.
     pub fn ray_at(&self, position: DVec2) -> DVec3 {
         let ndc = 2.0 * position / self.extent() - 1.0;
         ((ndc + self.shift()) / self.focal()).extend(-1.0)
@@ -265,9 +265,9 @@ impl View {
     }
 
     /// The view of an image whose pixels are blocks of `2^level` pixels of this one. For an odd
-    /// extent the last blocks extend beyond it, and the projection is wider by `k = ceil(w /
-    /// 2^level) 2^level / w`. So its rays pass through the blocks' centres, `ndc = 2 (i + 0.5)
-    /// 2^level / w - 1 = k ndc' + k - 1`, and its C is `2 2^level / (w |P00|)`.
+    /// extent the last blocks extend beyond it, and the projection is wider by
+    /// `k = ceil(w / 2^level) 2^level / w`. So its rays pass through the blocks' centres,
+    /// `ndc = 2 (i + 0.5) 2^level / w - 1 = k ndc' + k - 1`, and its C is `2 2^level / (w |P00|)`.
     pub fn reduced(&self, level: u32) -> Self {
         let block = 1_usize << level;
         let (width, height) = (self.width.div_ceil(block), self.height.div_ceil(block));

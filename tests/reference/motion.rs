@@ -4,10 +4,11 @@
 //! A point P in the present eye space that has moved by m was at `V' V^-1 (P - m)` in the previous
 //! eye space, and is projected there by the previous lens. The scene does not move, so its m is 0.
 //! Points at infinity are directions, which are rotated and not translated. For water and foam, m
-//! is the mean displacement of particles near the frontmost surface, weighted by `share sqrt(1 -
-//! rho^2) exp(-2 rho^2) near`. rho is defined as for the thickness, with half-axes of at least 1.5
-//! texels; `near = 1 - smoothstep(r, 3 r, |k - F|)`, with k the sprite's depth and F that of the
-//! texel's surface: the nearest of its pixels, and the farthest if that is 3 r behind.
+//! is the mean displacement of particles near the frontmost surface, weighted by
+//! `share sqrt(1 - rho^2) exp(-2 rho^2) near`. rho is defined as for the thickness, with half-axes
+//! of at least 1.5 texels; `near = 1 - smoothstep(r, 3 r, |k - F|)`, with k the sprite's depth and
+//! F that of the texel's surface: the nearest of its pixels, and the farthest if that is 3 r
+//! behind.
 //!
 //! Every number has a bound of its error in single precision.
 

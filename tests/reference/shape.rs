@@ -1,9 +1,10 @@
 //! Twin of pass `shape` (Yu and Turk 2013, Sec. 4). For each particle i and its neighbours j within
-//! the reach r, including i itself: `w_ij = 1 - (|x_i - x_j| / r)^3` (Eq. 10), `x_i^w = sum w x /
-//! sum w`, `C = sum w (x - x^w)(x - x^w)^T / sum w` (Eq. 9), and from its eigenvalues `max(sigma_k,
-//! sigma_1 / k_r)` (Eq. 15). With `m_i = x_i^w - x_i` the source's centre is `x + lambda m` (Eq.
-//! 6). Here it is `x + lambda (m - b)`, with `b_i = sum w |m_j| m_j / sum w |m_j|`, so that a body
-//! does not shrink (after Vollmer et al. 1999).
+//! the reach r, including i itself: `w_ij = 1 - (|x_i - x_j| / r)^3` (Eq. 10),
+//! `x_i^w = sum w x / sum w`, `C = sum w (x - x^w)(x - x^w)^T / sum w` (Eq. 9), and from its
+//! eigenvalues `max(sigma_k, sigma_1 / k_r)` (Eq. 15). With `m_i = x_i^w - x_i` the source's centre
+//! is `x + lambda m` (Eq. 6). Here it is `x + lambda (m - b)`, with
+//! `b_i = sum w |m_j| m_j / sum w |m_j|`, so that a body does not shrink (after Vollmer et al.
+//! 1999).
 //!
 //! Also different from the source: lambda is multiplied by the fraction to which a particle is an
 //! ellipsoid. The axes are divided by their geometric mean, so that the volume is the sphere's, and

@@ -1,5 +1,6 @@
-//! Comparisons. A failing comparison writes the actual and expected image and their difference as EXR files, and
-//! statistics, to `test-output/`. Then it reports how many pixels fail, by how much, and where.
+//! Comparisons. A failing comparison writes the actual and expected image and their difference as
+//! EXR files, and statistics, to `test-output/`. Then it reports how many pixels fail, by how much,
+//! and where.
 
 use std::path::PathBuf;
 
@@ -48,8 +49,8 @@ fn grey(image: &Image<f32>) -> Image<[f32; 4]> {
     image.map(|v| [*v, *v, *v, 1.0])
 }
 
-/// Asserts that no pixel differs from the twin's by more than its tolerance, and that at most `coverage` pixels are
-/// empty in only one of the images.
+/// Asserts that no pixel differs from the twin's by more than its tolerance, and that at most
+/// `coverage` pixels are empty in only one of the images.
 pub fn close(
     name: &str,
     actual: &Image<f32>,

@@ -1,6 +1,7 @@
-//! The devices under test. Only one test uses a device at a time, so that a validation message belongs to the running
-//! test; each test ends with the assertion that there was none. There are several devices, so that tests run in
-//! parallel: compiling shaders is most of the work, on the test's thread.
+//! The devices under test. Only one test uses a device at a time, so that a validation message
+//! belongs to the running test; each test ends with the assertion that there was none. There are
+//! several devices, so that tests run in parallel: compiling shaders is most of the work, on the
+//! test's thread.
 
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
@@ -16,8 +17,9 @@ use crate::reference::shore::texture::filters_in_halves;
 
 const MOST_SHARED: usize = 4;
 
-/// Number of tests that share a context. With the pipelines of all tests alive, Mesa 22.3 jumped to freed code in one
-/// of three runs: it keeps a limited number of compiled variants and frees the oldest.
+/// Number of tests that share a context. With the pipelines of all tests alive, Mesa 22.3 jumped to
+/// freed code in one of three runs: it keeps a limited number of compiled variants and frees the
+/// oldest.
 const TESTS_OF_A_CONTEXT: u32 = 8;
 static SHARED: [Shared; MOST_SHARED] = [const { Shared::new() }; MOST_SHARED];
 
@@ -210,7 +212,8 @@ impl Gpu {
         })
     }
 
-    /// A host's context. Tests on a shared device share one; a test with its own device gets a new one.
+    /// A host's context. Tests on a shared device share one; a test with its own device gets a new
+    /// one.
     pub fn context(&self, frames_in_flight: u32) -> Context {
         // SAFETY: tests keep their device until everything made from it has been destroyed.
         let new = || unsafe { Context::new(&self.host(frames_in_flight)) }.expect("a context");
@@ -336,7 +339,8 @@ impl Drop for Gpu {
                         *allocator.lock().unwrap_or_else(PoisonError::into_inner) = empty;
                     }
                 }
-                // SAFETY: the test is over and its renderers are gone; the layer reports anything left as a leak.
+                // SAFETY: the test is over and its renderers are gone; the layer reports anything
+                // left as a leak.
                 unsafe {
                     let _ = device.device.device_wait_idle();
                     device.device.destroy_device(None);

@@ -1,5 +1,5 @@
-//! The host's side of the contract: its own images, buffers, command buffers, barriers and slots. It uses nothing of
-//! the library.
+//! The host's side of the contract: its own images, buffers, command buffers, barriers and slots.
+//! It uses nothing of the library.
 
 use ash::vk;
 use whitewater::{Access, HostImage};
@@ -92,7 +92,8 @@ impl Data {
     /// Overwrites bytes from an offset on.
     pub fn write_at(&mut self, offset: u64, bytes: &[u8]) {
         assert!(offset + bytes.len() as u64 <= self.size);
-        // SAFETY: it stays mapped and is large enough; there is no other reference while `self` is borrowed.
+        // SAFETY: it stays mapped and is large enough; there is no other reference while `self` is
+        // borrowed.
         unsafe {
             let to = self.pointer.add(offset as usize);
             std::ptr::copy_nonoverlapping(bytes.as_ptr(), to, bytes.len());
@@ -122,7 +123,8 @@ pub struct Stub {
     utility: vk::CommandBuffer,
 }
 
-/// Bytes per texel of the formats used here; for depth-stencil formats, those of a copy of the depth.
+/// Bytes per texel of the formats used here; for depth-stencil formats, those of a copy of the
+/// depth.
 pub fn texel_size(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32G32B32A32_SFLOAT => 16,

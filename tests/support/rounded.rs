@@ -1,6 +1,6 @@
-//! Running error analysis: a number with a bound on the error of single precision, carried through a shader's
-//! operations. Each operation adds the error that Vulkan allows ("Precision of Individual Operations"). u is half an
-//! ulp.
+//! Running error analysis: a number with a bound on the error of single precision, carried through
+//! a shader's operations. Each operation adds the error that Vulkan allows ("Precision of
+//! Individual Operations"). u is half an ulp.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,5 +1,5 @@
-//! Bounds on the difference between `composite` and its twin: running error analysis of the shader's operations, pixel
-//! by pixel, from the surface and the background that the twin found.
+//! Bounds on the difference between `composite` and its twin: running error analysis of the
+//! shader's operations, pixel by pixel, from the surface and the background that the twin found.
 
 use glam::{DVec2, DVec3};
 
@@ -176,14 +176,14 @@ fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3])
     })
 }
 
-/// Error of the look-up in pixels. Limiting the offset does not increase its error; the offset and the position add 16u
-/// of the picture.
+/// Error of the look-up in pixels. Limiting the offset does not increase its error; the offset and
+/// the position add 16u of the picture.
 fn moved(offset: [Rounded; 2], view: &View) -> f64 {
     offset[0].e.hypot(offset[1].e) + 16.0 * U * view.extent().max_element()
 }
 
-/// A normal tilted by the noise. Its differences are weighted means like those of a slope, with one more product; the
-/// height of 1 takes two products.
+/// A normal tilted by the noise. Its differences are weighted means like those of a slope, with one
+/// more product; the height of 1 takes two products.
 fn turned(n: [Rounded; 3], px: [Rounded; 3], py: [Rounded; 3], ripple: &Ripple) -> [Rounded; 3] {
     let height = |i: usize| {
         let (v, rises) = (ripple.height[i], ripple.rises[i]);
@@ -196,7 +196,8 @@ fn turned(n: [Rounded; 3], px: [Rounded; 3], py: [Rounded; 3], ripple: &Ripple) 
     normalize([0, 1, 2].map(|i| area * n[i] - by(i)))
 }
 
-/// Shades a surface with a number of pixels per texel, a thickness, and a visible part of its reflection.
+/// Shades a surface with a number of pixels per texel, a thickness, and a visible part of its
+/// reflection.
 fn lit(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -300,7 +301,8 @@ fn lit(
     let facing = dot(n, half);
     // The shader cuts the base at 2^-100.
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
-    // The weights of the mean have an error of 13u, plus a product; the radiance is two products and a constant.
+    // The weights of the mean have an error of 13u, plus a product; the radiance is two products
+    // and a constant.
     let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
     Lit {
         z,
@@ -377,8 +379,9 @@ const NOTHING: (Rounded, [Rounded; 3]) =
 /// 0.53 for water.
 const WET: f64 = 1.9;
 
-/// The colour where a ray meets the scene, with the water that lies on it. Its error is the largest change of that colour
-/// within the errors of the position (pixels) and of the direction, plus the error of filtering the dry scene.
+/// The colour where a ray meets the scene, with the water that lies on it. Its error is the largest
+/// change of that colour within the errors of the position (pixels) and of the direction, plus the
+/// error of filtering the dry scene.
 #[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 fn met_water(
     inputs: &Inputs<'_>,
@@ -464,8 +467,8 @@ pub fn shaded(
     if settings.exit.is_some() && surface.thickness > 0.0 {
         // A uniform environment: its reflection is the same in all directions.
         let color = DVec3::from(behind.map(|c| c.v));
-        // Four times the error of normals. The slope of the thickness is a difference of numbers no larger than the
-        // thickness, over the width of a pixel.
+        // Four times the error of normals. The slope of the thickness is a difference of numbers no
+        // larger than the thickness, over the width of a pixel.
         let width = view.slope_step().abs().min_element() * lit.z.v;
         let around = surface.parts.full.max(surface.thickness) + settings.radius;
         let turned = 4.0 * (lit.turned + 16.0 * U * (1.0 + around / width));

@@ -1,5 +1,6 @@
-//! A spy in the device's function table. It counts calls, tracks created and destroyed objects, and lets a call fail.
-//! It also records the order in which commands use buffers, and can drop a barrier. Only one test uses it at a time.
+//! A spy in the device's function table. It counts calls, tracks created and destroyed objects, and
+//! lets a call fail. It also records the order in which commands use buffers, and can drop a
+//! barrier. Only one test uses it at a time.
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_void};
@@ -324,7 +325,8 @@ static BOUND_SETS: [AtomicU64; 2] = [AtomicU64::new(0), AtomicU64::new(0)];
 /// The buffer and the index of the barrier to drop.
 static LEFT_OUT: Mutex<Option<(vk::Buffer, usize)>> = Mutex::new(None);
 
-/// Starts to watch uses of buffers by fills, updates, dispatches and indirect draws, and all their barriers.
+/// Starts to watch uses of buffers by fills, updates, dispatches and indirect draws, and all their
+/// barriers.
 pub fn watch() {
     *held(&EVENTS) = Some(Vec::new());
 }

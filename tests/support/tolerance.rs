@@ -19,25 +19,26 @@ pub struct Between {
     pub high: Image<f64>,
 }
 
-/// Length of the largest |slope| of the image's rays in x and y, to which a slope's rounding is proportional.
+/// Length of the largest |slope| of the image's rays in x and y, to which a slope's rounding is
+/// proportional.
 pub fn reach(view: &View) -> f64 {
     let corners = [(0, 0), (view.width - 1, 0), (0, view.height - 1)];
     let all = corners.map(|(x, y)| view.ray(x, y).truncate().length());
     all.into_iter().fold(0.0, f64::max)
 }
 
-/// Error of a centre's eye-space coordinate: the product with the view matrix takes 4 products and 3 sums per axis, 7u
-/// of |p| + |t| (world and eye positions bound it).
+/// Error of a centre's eye-space coordinate: the product with the view matrix takes 4 products and
+/// 3 sums per axis, 7u of |p| + |t| (world and eye positions bound it).
 pub fn eye_space(center: DVec3, view: &View) -> f64 {
     let eye = view.view.inverse().w_axis.truncate().length();
     7.0 * U * 2.0 * (center.length() + eye)
 }
 
 /// Error bounds for a sphere's depth and for the ends of its span in pixels. The depth comes from
-/// the product with the view matrix and a few additions. The tangents have the slopes `(x z +- r
-/// sqrt(x^2 + z^2 - r^2)) / (z^2 - r^2)`: the error of the centre changes a slope by at most that
-/// error over z - r, and the operations add 16u of their terms and of the cancelled denominator.
-/// The conversion to pixels adds 4u.
+/// the product with the view matrix and a few additions. The tangents have the slopes
+/// `(x z +- r sqrt(x^2 + z^2 - r^2)) / (z^2 - r^2)`: the error of the centre changes a slope by at
+/// most that error over z - r, and the operations add 16u of their terms and of the cancelled
+/// denominator. The conversion to pixels adds 4u.
 pub fn span(sphere: &Sphere, view: &View) -> Slack {
     let (c, r) = (sphere.center, sphere.radius);
     let z = -c.z;
@@ -221,8 +222,8 @@ pub const UNITS: f64 = 16_777_216.0;
 pub enum Sum {
     /// In floating point: each addition rounds the sum.
     Float,
-    /// In fixed point: each addend is rounded to a multiple of 2^-24 of a whole particle's amplitude; the sum is
-    /// converted once.
+    /// In fixed point: each addend is rounded to a multiple of 2^-24 of a whole particle's
+    /// amplitude; the sum is converted once.
     Fixed,
     /// Difference of two fixed-point sums.
     FixedRest,

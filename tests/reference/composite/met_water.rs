@@ -1,10 +1,10 @@
-//! The scene where a mirrored or refracted ray meets it, seen through the water that lies on it
+//! Colour of the scene where a reflected or refracted ray hits it, seen through the water that lies
 //! there: a level layer over a bed.
 //! ```text
 //! wet = smoothstep(0.5, 0.7, t / room)      seen = dry + wet (F env + (1 - F) through(bed, h / cos_in) - dry)
 //! ```
-//! The layer's thickness t along the eye's ray is h vertically. F and cos_in are those of the
-//! marched ray at a level surface.
+//! The layer has the thickness t along the eye's ray and the vertical height h. F and cos_in are
+//! those of the marched ray at a level surface.
 
 use glam::{DVec2, DVec3};
 

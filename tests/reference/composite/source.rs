@@ -1,7 +1,7 @@
 //! Twin of the source's composite of one pixel (thesis Sec. 3.2.3, Listing A.20 with Eq. 3.5 to
 //! 3.7):
 //! ```text
-//! c_wb = base exp(-T_wb k)    a_wb = exp(-T_wb k_a)    the same of wf    a_f = exp(-k_f T_f)
+//! c_wb = base exp(-T_wb k)    a_wb = exp(-T_wb k_a)    likewise for wf   a_f = exp(-k_f T_f)
 //! C_wb = mix(c_wb, C_background, a_wb)    C_f = mix(c_foam, C_wb, a_f)    C_wf = mix(c_wf, C_f, a_wf)
 //! C = C_wf + (F env + highlight) sat(1 - a_wf + a_f) (1 - a_wf)
 //! ```

@@ -1,5 +1,5 @@
-//! Twin of the whitewater particles: spray, foam and bubbles emitted by a particle fluid, after "Unified spray, foam
-//! and air bubbles for particle-based fluids" (Ihmsen et al. 2012).
+//! Twin of the whitewater particles: spray, foam and bubbles emitted by a particle fluid, after
+//! "Unified spray, foam and air bubbles for particle-based fluids" (Ihmsen et al. 2012).
 //!
 //! Units are metres and seconds; ids and random numbers are those of the GPU. h = 2 s is the
 //! support of all sums, with s the fluid's spacing, and `W = 1 - d/h`. The GPU sums fixed-point

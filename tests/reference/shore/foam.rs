@@ -7,8 +7,8 @@
 //! There is foam where `over` is at least 0. k is the amplitude that remains of a wave's mean over
 //! a pixel; m and m₂ are the mean and the mean square of the foam texture, so `variance` is that of
 //! details finer than a pixel. With the change of `over` per pixel, from the slopes of waves and
-//! texture, `over` is treated as uniformly distributed with the width `w = sqrt(|change|² + 12
-//! variance)`, and `over / w + 1/2` of the pixel is foam.
+//! texture, `over` is treated as uniformly distributed with the width
+//! `w = sqrt(|change|² + 12 variance)`, and `over / w + 1/2` of the pixel is foam.
 //!
 //! Pixels that share values take the noises, k, the texture's levels, and v and the texture's
 //! position with their changes, from a point between them; each pixel then moves v and the

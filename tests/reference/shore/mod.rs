@@ -3,8 +3,8 @@
 //! precision.
 //!
 //! The camera looks along -z in eye space; r = (s_x, s_y, -1) is a pixel's ray, and points on it
-//! are z r with a depth z. The water's plane is `H·P + h0 = 0`, and its coordinates are `p = (E·P +
-//! e0, N·P + n0)` in metres:
+//! are z r with a depth z. The water's plane is `H·P + h0 = 0`, and its coordinates are
+//! `p = (E·P + e0, N·P + n0)` in metres:
 //! ```text
 //! z = -h0 / H·r    d' = d - (H·d)/(H·r) r    dp = z (E·d', N·d')    width = sqrt |det(dp/dx, dp/dy)|
 //! ```

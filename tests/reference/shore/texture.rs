@@ -232,9 +232,9 @@ impl Texture<4> {
     /// Mean m at a position in repetitions, variance (mean square s minus m², at least 0), and
     /// slopes.
     ///
-    /// Both channels have the same weights. If the position errs, the variance changes like `s - 2
-    /// m t` with m fixed, by the differences of that, and at most by e² if m errs by e. Roundings
-    /// are those of s, of twice m times m, of the square and of the difference.
+    /// Both channels have the same weights. If the position errs, the variance changes like
+    /// `s - 2 m t` with m fixed, by the differences of that, and at most by e² if m errs by e.
+    /// Roundings are those of s, of twice m times m, of the square and of the difference.
     pub fn spread(&self, uv: [Bounded; 2], detail: Bounded) -> (Bounded, Bounded, [Bounded; 2]) {
         let of = |level| {
             let [mean, square, across, down] = self.sample(uv, level);

@@ -1,10 +1,10 @@
 //! Twin of the foam sprites: each foam particle is an ellipse in its own plane through its centre,
 //! elongated along its velocity.
 //!
-//! With `w = (s_x, s_y, -1)` the pixel's ray, n the plane's normal and c the centre, `k w` with `k
-//! = n.c / n.w` is the visible point of the plane at the depth k, and (x, y) is its position in the
-//! ellipse, in half-axes. [`depth`] contains the smallest k of all foam, [`thickness`] the sum of
-//! `A sqrt(1 - rho^2) exp(-2 rho^2)`, modulated by each particle's own noise.
+//! With `w = (s_x, s_y, -1)` the pixel's ray, n the plane's normal and c the centre, `k w` with
+//! `k = n.c / n.w` is the visible point of the plane at the depth k, and (x, y) is its position in
+//! the ellipse, in half-axes. [`depth`] contains the smallest k of all foam, [`thickness`] the sum
+//! of `A sqrt(1 - rho^2) exp(-2 rho^2)`, modulated by each particle's own noise.
 //!
 //! [`depth_bounds`] and [`thickness_bounds`] are the bounds for single precision. u is half an ulp,
 //! and an operation errs as much as Vulkan permits. A number is [`Rounded`], a vector has the

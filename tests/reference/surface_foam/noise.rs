@@ -58,8 +58,8 @@ pub(super) fn gradient(at: [u32; 3], offset: DVec3) -> f64 {
 }
 
 /// Max of [`noise`], by Jensen's inequality: a gradient's length is the root of 2, and the mean
-/// square of an offset's component, weighted by the fades, is at most a quarter: `(1 - F) f^2 + F
-/// (1 - f)^2 <= f (1 - f)`, as `F <= f` up to the middle.
+/// square of an offset's component, weighted by the fades, is at most a quarter:
+/// `(1 - F) f^2 + F (1 - f)^2 <= f (1 - f)`, as `F <= f` up to the middle.
 pub fn noise_reach() -> f64 {
     1.5_f64.sqrt()
 }

@@ -14,8 +14,8 @@ pub struct Off {
 }
 
 impl Off {
-    /// A point transformed by the view matrix: a product and three sums per axis, 4u of `|R| |p| +
-    /// |t|`, with |p| <= |c| + |t|; as a vector, |R| is at most the root of 3.
+    /// A point transformed by the view matrix: a product and three sums per axis, 4u of
+    /// `|R| |p| + |t|`, with |p| <= |c| + |t|; as a vector, |R| is at most the root of 3.
     pub fn point(v: DVec3, view: &View) -> Self {
         let t = view.view.w_axis.truncate().length();
         let terms = 3.0_f64.sqrt() * (v.length() + t) + t;

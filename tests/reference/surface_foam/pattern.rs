@@ -28,8 +28,8 @@ pub const VARIANCE: f64 = 0.073;
 const MOST: f64 = 1.0;
 /// Max change of any slope of the noise per cell along any axis. Fades have a slope of at most 15/8
 /// and a curvature of at most 5.78, gradients have components of 1, and the ends differ by 1 +
-/// sqrt(3): along one axis `2 15/8 2 + 5.78 (1 + sqrt(3)) < 24`, across `15/8 2 + 15/8 (2 + 15/8 2
-/// (1 + sqrt(3))) < 27`.
+/// sqrt(3): along one axis `2 15/8 2 + 5.78 (1 + sqrt(3)) < 24`, across
+/// `15/8 2 + 15/8 (2 + 15/8 2 (1 + sqrt(3))) < 27`.
 const CURVATURE: f64 = 27.0;
 /// Error of a slope in single precision, for eight corners: components of gradients, 5u of a sum of
 /// 1; products with fades, 20u of a sum of 6.5; their sums, 16u.

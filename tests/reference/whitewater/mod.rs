@@ -3,9 +3,9 @@
 //! the picture.
 //!
 //! Lengths are in scene units, `d` is the positive eye depth, and C_x and C_y are the world size of
-//! a pixel at depth 1. A sphere of radius r at depth d_c is an ellipse with half-axes of `R = r /
-//! (d_c C)` pixels around the projected centre; the true outline of a sphere off the axis is
-//! different. Sprites that would fall between pixels are widened to R', and their thickness is
+//! a pixel at depth 1. A sphere of radius r at depth d_c is an ellipse with half-axes of
+//! `R = r / (d_c C)` pixels around the projected centre; the true outline of a sphere off the axis
+//! is different. Sprites that would fall between pixels are widened to R', and their thickness is
 //! spread over the pixels that they cover.
 //!
 //! [`foam`] is the definition, and [`foam_bounds`] gives its bounds for single precision and

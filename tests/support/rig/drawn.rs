@@ -48,8 +48,8 @@ pub struct Drawn {
     pub whitewater: Option<DrawnWhitewater>,
     /// Set with bubble foam.
     pub soap: Option<Soaped>,
-    /// Set with shoreline and contact foam: foam along shores, contact foam on the host's surface, lost fraction of
-    /// sunlight, contact foam on particle water.
+    /// Set with shoreline and contact foam: foam along shores, contact foam on the host's surface,
+    /// lost fraction of sunlight, contact foam on particle water.
     pub shore: Option<Image<[u8; 4]>>,
     /// All pages of the host's shadow map as a Fourier basis.
     pub shadow_basis: Option<Image<[f32; 4]>>,

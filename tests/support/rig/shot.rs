@@ -23,7 +23,8 @@ pub fn is_around(texel: &[f32; 4]) -> bool {
 pub struct Shot {
     /// Extent of the view.
     pub size: vk::Extent2D,
-    /// Margin around the view in all images of the host: columns left and right, rows above and below.
+    /// Margin around the view in all images of the host: columns left and right, rows above and
+    /// below.
     pub margin: [u32; 4],
     pub camera: Camera,
     /// Shadow map of the sun.
