@@ -9,7 +9,7 @@ use crate::args::{DemoArgs, Foaming, SetArg, SprayArg};
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
-use crate::looks::{foam_of_caches, impact_speed, spray_of_caches, waves_of_caches};
+use crate::looks::{LONE, foam_of_caches, impact_speed, spray_of_caches, waves_of_caches};
 use crate::output;
 use crate::progress::Progress;
 use crate::session::{self, Look, Session};
@@ -75,6 +75,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
             settings.spray.full_water_density,
             settings.spray.no_spray_density,
         ] = DENSITIES;
+        settings.water.ellipsoids.lone = LONE;
     }
     file.apply(&mut settings);
     let count = particles.positions.len();
