@@ -2,6 +2,10 @@
 // absorption; not in the thesis).
 // Needs frame.glsl, medium.glsl, and of shade.glsl a sheet and its ladder. Reads: nothing.
 
+// Thicknesses in spacings between which water darkens the bed. A film darkens less: its particles lie apart, and full
+// darkening would print each as a disc.
+const vec2 FILM = vec2(0.5, 2.5);
+
 // Colour of the scene under a sheet of water, from its dry colour. The surface lets 1 - F of the incoming light in. Of
 // the light that the bed scatters, the share q = (1 - F)/n^2 leaves the water, and the surface reflects the rest back
 // to the bed. The bed's albedo A scatters part of that again, and so on: together q/(1 - A (1 - q)) leaves, which is 1
@@ -20,5 +24,6 @@ vec3 under_water(Sheet sheet, vec3 dry) {
     vec3 albedo = clamp(dry * frame.bed_light.rgb, 0.0, 1.0);
     vec3 back = sky * sky * sky * sky * sky * (1.0 - frame.bed.x);
     vec3 wet = dry * came * frame.bed.x / (1.0 - albedo * back);
-    return mix(dry, wet, frame.target.z >= BACK_WATER ? sheet.wet : 0.0);
+    float film = smoothstep(FILM.x * frame.particle.y, FILM.y * frame.particle.y, sheet.thick);
+    return mix(dry, wet, frame.target.z >= BACK_WATER ? sheet.wet * film : 0.0);
 }

@@ -31,6 +31,7 @@ vec3 met_scene(vec2 at, vec3 along) {
     sheet.wet = 1.0;
     sheet.down = min(t, max(room, 0.0)) * max(-dot(ray, up), 0.0);
     sheet.sun = 1.0;
+    sheet.thick = min(t, room);
     vec3 c = under_water(sheet, dry);
     // Up to the level surface along the refracted ray, and out.
     float facing = abs(dot(along, up));

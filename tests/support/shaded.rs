@@ -114,6 +114,8 @@ struct Lit {
     /// metres.
     wet: Rounded,
     down: Rounded,
+    /// Fraction to which the water darkens the scene.
+    film: Rounded,
     /// Thickness of the water along z in metres.
     thick: Rounded,
 }
@@ -172,7 +174,7 @@ fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3])
         let albedo = dry[i] * off(std::f64::consts::PI / bed.irradiance[i], 4.0);
         let back = sky * sky * sky * sky * sky * (one - leaves);
         let wet = dry[i] * came * leaves / (one - albedo.clamp(0.0, 1.0) * back);
-        mix(dry[i], wet, part * lit.wet)
+        mix(dry[i], wet, part * lit.wet * lit.film)
     })
 }
 
@@ -316,6 +318,7 @@ fn lit(
         foam: grey,
         wet,
         down,
+        film: smoothstep(exact(0.5) * spacing, exact(2.5) * spacing, t),
         thick: t,
     }
 }

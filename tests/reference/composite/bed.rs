@@ -75,6 +75,13 @@ pub struct Under {
     pub down: f64,
     /// Path through that water to the eye, in metres.
     pub path: f64,
+    /// Fraction to which it darkens the scene: a film, not at all.
+    pub film: f64,
+}
+
+/// Water darkens the scene fully from 2.5 spacings on, and not at all below half a spacing.
+pub fn film(settings: &Settings, thickness: f64) -> f64 {
+    smoothstep(0.5, 2.5, thickness / (settings.radius / 0.656))
 }
 
 impl Under {
@@ -83,7 +90,7 @@ impl Under {
         let (v, up) = (-position.normalize(), view.view.transform_vector3(DVec3::Y));
         let straight = thickness * position.length() / -position.z;
         let Some(bed) = settings.bed else {
-            return Self { wet: 0.0, down: 0.0, path: straight };
+            return Self { wet: 0.0, down: 0.0, path: straight, film: 0.0 };
         };
         let filled = if room > 0.0 { thickness / room } else { 0.0 };
         let wet = smoothstep(0.5, 0.7, filled);
@@ -96,7 +103,8 @@ impl Under {
         let steep = (rise - level * facing) / bed.index + level * inward;
         let bent = (rise / steep.max(1.0e-6)).clamp(0.0, 1.0);
         let way = 1.0 + level * (bent - 1.0);
-        Self { wet, down: straight * rise.max(0.0), path: straight * (1.0 + wet * (way - 1.0)) }
+        let path = straight * (1.0 + wet * (way - 1.0));
+        Self { wet, down: straight * rise.max(0.0), path, film: film(settings, thickness) }
     }
 }
 
@@ -119,7 +127,7 @@ pub fn under_water(settings: &Settings, under: &Under, dry: DVec3) -> DVec3 {
         // Light is reflected repeatedly between bed and surface: a geometric series.
         dry[i] * came * q / (1.0 - albedo * (1.0 - q) * sky.powi(5))
     });
-    dry.lerp(DVec3::from(wet), under.wet)
+    dry.lerp(DVec3::from(wet), under.wet * under.film)
 }
 
 #[cfg(test)]
@@ -160,7 +168,7 @@ mod tests {
             let fresnel = Fresnel::Schlick { f0 };
             let bed = Some(Bed::new(fresnel, 0.7, [1.0; 3], [1.0; 3]));
             let settings = Settings { medium: clear, bed, fresnel, ..plain };
-            let under = Under { wet: 1.0, down: 3.0, path: 5.0 };
+            let under = Under { wet: 1.0, down: 3.0, path: 5.0, film: 1.0 };
             let dry = DVec3::new(1.0, 0.4, 0.0) / std::f64::consts::PI;
             let wet = under_water(&settings, &under, dry) / dry;
             assert!((wet.x - 1.0).abs() < 1e-12, "{wet}");

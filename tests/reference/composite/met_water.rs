@@ -9,7 +9,7 @@
 use glam::{DVec2, DVec3};
 
 use super::super::{EMPTY, View, smoothstep};
-use super::bed::under_water;
+use super::bed::{film, under_water};
 use super::mirror::depth;
 use super::sheets::{Behind, air};
 use super::{Inputs, Settings, Under, lit_medium, scene_at, through};
@@ -18,14 +18,14 @@ use super::{Inputs, Settings, Under, lit_medium, scene_at, through};
 pub type Meeting = (DVec2, DVec3);
 
 /// How water lies on the scene at a position: fraction to which it touches the scene, and its
-/// height. With two sheets this is the back one.
+/// height; and the fraction to which it darkens the scene. With two sheets this is the back one.
 fn lies(
     inputs: &Inputs<'_>,
     behind: Option<&Behind<'_>>,
     settings: &Settings,
     view: &View,
     at: DVec2,
-) -> (f64, f64) {
+) -> (f64, f64, f64) {
     let (x, y) = (at.x as usize, at.y as usize);
     let level = inputs.thickness_level;
     let texel = (x >> level, y >> level);
@@ -41,11 +41,11 @@ fn lies(
     }
     let room = depth(inputs, view, at) - z;
     if settings.bed.is_none() || room <= 0.0 || t <= 0.0 {
-        return (0.0, 0.0);
+        return (0.0, 0.0, 0.0);
     }
     let up = view.view.transform_vector3(DVec3::Y);
     let height = (t.min(room) * -view.ray_at(at).dot(up)).max(0.0);
-    (smoothstep(0.5, 0.7, t / room), height)
+    (smoothstep(0.5, 0.7, t / room), height, film(settings, t.min(room)))
 }
 
 /// The colour there.
@@ -58,10 +58,11 @@ pub fn met_scene(
     env: impl Fn(DVec3) -> DVec3,
 ) -> DVec3 {
     let dry = scene_at(inputs, at);
-    let (wet, height) = lies(inputs, behind, settings, view, at);
+    let (wet, height, film) = lies(inputs, behind, settings, view, at);
     let Some(bed) = settings.bed.filter(|_| wet > 0.0) else { return dry };
     let up = view.view.transform_vector3(DVec3::Y);
-    let below = under_water(settings, &Under { wet: 1.0, down: height, path: 0.0 }, dry);
+    let under = Under { wet: 1.0, down: height, path: 0.0, film };
+    let below = under_water(settings, &under, dry);
     let cosine = along.dot(up).abs();
     let inside = (1.0 - (1.0 - cosine * cosine) / bed.index.powi(2)).sqrt();
     let medium = lit_medium(settings, up, view);

@@ -195,7 +195,7 @@ pub fn shade_shown(
     let (q, _) = cut_look_up(inputs, z, pixel, displaced);
     let mut color = scene_at(inputs, q);
     color = under_water(settings, &Under::of(settings, &shown.front, view), color);
-    let mut under = Under { wet: 0.0, down: 0.0, path: 0.0 };
+    let mut under = Under { wet: 0.0, down: 0.0, path: 0.0, film: 0.0 };
     if let Some(back) = &shown.back {
         under = Under::of(settings, &back.surface, view);
         color = under_water(settings, &Under { wet: under.wet * back.part(), ..under }, color);

@@ -258,8 +258,8 @@ pub struct DrawArgs {
     /// It uses the water's velocities. Whitewater and bubbles are not blurred.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub shutter: Option<f32>,
-    /// Depth of field: lens diameter in scene units, 0 for none [default: for a single PNG 0.0035 of the focus
-    /// distance, at most 0.035, otherwise 0]
+    /// Depth of field: lens diameter in scene units, 0 for none [default: for a single PNG 0.0015 of the focus
+    /// distance, at most 0.015, otherwise 0]
     ///
     /// 50 mm at f/2 are 0.025 metres.
     #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]

@@ -12,8 +12,8 @@ use crate::failure::Outcome;
 
 /// Defaults for a photograph: exposure time in seconds; lens diameter over focus distance; max lens diameter in metres.
 const SHUTTER: f32 = 0.005;
-const LENS: f32 = 0.0035;
-const LARGEST: f32 = 0.035;
+const LENS: f32 = 0.0015;
+const LARGEST: f32 = 0.015;
 
 /// Settings of the average.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -72,9 +72,9 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
         it.exposure = 0.001;
-        it.shade = 2.5 + 30.0 * mist;
+        it.shade = 2.5 + 48.0 * mist;
         it.scattering = 0.6;
-        it.relief = 1.5;
+        it.relief = 2.5;
     });
 }
 
