@@ -172,8 +172,8 @@ fn terrace(scene: &mut Scene, place: &Place) {
         // Water near a coast is less clear than far from land: greener, and lighter.
         absorption: [0.42, 0.070, 0.045].map(|a: f32| a / m),
         scattering: [0.004, 0.014, 0.015].map(|s: f32| s / m),
-        waves: 0.15 * m,
-        length: 9.0 * m,
+        waves: 0.07 * m,
+        length: 5.0 * m,
         // The waves run obliquely to the line of sight, so that crests do not form
         // lines parallel to the horizon.
         towards: Vec2::from_angle(1.0).rotate(sight).to_array(),
