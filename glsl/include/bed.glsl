@@ -4,7 +4,7 @@
 
 // Thicknesses in spacings between which water darkens the bed. A film darkens less: its particles lie apart, and full
 // darkening would print each as a disc.
-const vec2 FILM = vec2(0.5, 2.5);
+const vec2 FILM = vec2(0.5, 2.0);
 
 // Colour of the scene under a sheet of water, from its dry colour. The surface lets 1 - F of the incoming light in. Of
 // the light that the bed scatters, the share q = (1 - F)/n^2 leaves the water, and the surface reflects the rest back

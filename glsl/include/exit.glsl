@@ -149,7 +149,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
     Met met = march(from, along, pool < 1.0 && !total ? int(EXIT) : 0);
     met.share *= 1.0 - pool;
     // A ray that leaves downwards and meets no visible scene counts as unrefracted.
-    float bent = BENT * mix(1.0, BENT_BEFORE, pool) * body(sheet.thick);
+    float bent = BENT * mix(1.0, BENT_BEFORE, pool);
     vec3 world = mat3(frame.world) * along;
     float sky = bent * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     met.share *= bent;

@@ -216,11 +216,6 @@ struct Sheet {
 
 const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0);
 
-// Less than one layer of particles is drops and films, 0; more is a body of water, 1.
-float body(float t) {
-    return smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
-}
-
 // Range of thickness / room before the scene over which the sheet goes from having air behind it to touching
 // the scene. A thickness from particles is accurate to about a quarter.
 const vec2 FILLED = vec2(0.5, 0.7);
@@ -694,8 +689,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     face = Face(surface.z, 0.0, vec3(0.0));
 
-    // A drop keeps the shape of its sphere.
-    float drop = 1.0 - body(t);
+    // Less than one layer of water is a drop: it keeps the shape of its sphere.
+    float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     // For the front sheet only: the noise belongs to the particles of its surface.
     vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);

@@ -318,7 +318,7 @@ fn lit(
         foam: grey,
         wet,
         down,
-        film: smoothstep(exact(0.5) * spacing, exact(2.5) * spacing, t),
+        film: smoothstep(exact(0.5) * spacing, exact(2.0) * spacing, t),
         thick: t,
     }
 }

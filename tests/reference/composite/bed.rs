@@ -79,9 +79,9 @@ pub struct Under {
     pub film: f64,
 }
 
-/// Water darkens the scene fully from 2.5 spacings on, and not at all below half a spacing.
+/// Water darkens the scene fully from 2 spacings on, and not at all below half a spacing.
 pub fn film(settings: &Settings, thickness: f64) -> f64 {
-    smoothstep(0.5, 2.5, thickness / (settings.radius / 0.656))
+    smoothstep(0.5, 2.0, thickness / (settings.radius / 0.656))
 }
 
 impl Under {

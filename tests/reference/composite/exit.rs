@@ -202,13 +202,11 @@ pub fn exit(
         seen.met = march_from(inputs, view, ray, STEPS);
     }
     // Half of the light comes along the ray from what it meets: the scene, or the sky above the
-    // horizon. The rest comes straight from behind; through a drop or a film all of it does.
-    let spacing = settings.radius / 0.656;
-    let bent = 0.5 * smoothstep(0.6 * spacing, 0.9 * spacing, t);
+    // horizon. The rest comes straight from behind.
     let half = |along: DVec3, met: f64, scene: DVec3| {
         let world = view.view.inverse().transform_vector3(along);
         let sky = (1.0 - met) * smoothstep(-0.3, 0.0, world.y);
-        bent * (met * scene + sky * env(world)) + (1.0 - bent * (met + sky)) * behind
+        0.5 * (met * scene + sky * env(world)) + (1.0 - 0.5 * (met + sky)) * behind
     };
     let met = seen.met.share;
     let of_scene = if met > 0.0 {

@@ -52,7 +52,7 @@ const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
 
 /// Radius of a lone particle, or of two at one place, relative to a whole one, which would be a glass ball as large as a
 /// fist.
-pub const LONE: f32 = 0.5;
+pub const LONE: f32 = 0.35;
 
 /// Replaces the library's spray settings by those for caches. A particle is as much water as some hundred drops, so
 /// there are many small droplets, scattered widely enough to hide their repeating pattern. They are stretched along
