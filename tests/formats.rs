@@ -11,6 +11,8 @@ mod allocation;
 mod arrays;
 #[path = "formats/bad.rs"]
 mod bad;
+#[path = "formats/cells.rs"]
+mod cells;
 #[path = "formats/data.rs"]
 mod data;
 #[path = "formats/dialects.rs"]

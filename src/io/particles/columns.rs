@@ -1,5 +1,7 @@
 //! Turns named columns of numbers into [`Particles`]: which names mean what, and the checks for all formats.
 
+use std::ops::Range;
+
 use half::f16;
 
 use super::asked::Asked;
@@ -323,6 +325,41 @@ impl Data {
             Self::F32(v) => Self::F32(some(v, components, first)),
             Self::F64(v) => Self::F64(some(v, components, first)),
             Self::Int(v) => Self::Int(some(v, components, first)),
+        }
+    }
+
+    /// The rows with these indices.
+    pub(super) fn picked(&self, components: usize, rows: &[u32]) -> Self {
+        fn pick<T: Copy>(v: &[T], components: usize, rows: &[u32]) -> Vec<T> {
+            let row = |row: &u32| {
+                let start = (*row as usize).saturating_mul(components);
+                v.get(start..start.saturating_add(components)).unwrap_or_default()
+            };
+            let mut picked = Vec::with_capacity(v.len());
+            rows.iter().for_each(|index| picked.extend_from_slice(row(index)));
+            picked
+        }
+        match self {
+            Self::F32(v) => Self::F32(pick(v, components, rows)),
+            Self::F64(v) => Self::F64(pick(v, components, rows)),
+            Self::Int(v) => Self::Int(pick(v, components, rows)),
+        }
+    }
+
+    /// Appends rows of values of the same type.
+    pub(super) fn extend(&mut self, from: &Self, components: usize, rows: &Range<usize>) {
+        let some = rows.start.saturating_mul(components)..rows.end.saturating_mul(components);
+        match (self, from) {
+            (Self::F32(v), Self::F32(from)) => {
+                v.extend_from_slice(from.get(some).unwrap_or_default())
+            }
+            (Self::F64(v), Self::F64(from)) => {
+                v.extend_from_slice(from.get(some).unwrap_or_default())
+            }
+            (Self::Int(v), Self::Int(from)) => {
+                v.extend_from_slice(from.get(some).unwrap_or_default())
+            }
+            _ => {}
         }
     }
 

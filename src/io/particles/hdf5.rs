@@ -26,6 +26,7 @@ use hdf5_reader::{Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfo
 
 use super::asked::Asked;
 use super::bytes::unpack_limit;
+use super::cells;
 use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
 use super::names;
@@ -492,6 +493,7 @@ fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
         let steps = block.group("Steps").or_else(|_| grid.group("Steps")).ok();
         let counts = list(block, "NumberOfPoints", limit)?;
         let steps = steps.as_ref().map(|steps| Steps::of(steps, block, limit)).transpose()?;
+        let (on_cells, told) = of_cells(block, &counts, limit)?;
         let total = steps.as_ref().map_or(1, |steps| steps.values.len()).max(1);
         if total > GROUPS {
             return Err(ReadError::malformed("some steps", total.to_string(), Place::Unknown));
@@ -513,10 +515,15 @@ fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
                 let offsets = steps.as_ref().and_then(|steps| steps.offset(&name, step));
                 arrays.push(Array::new(&name, dataset, rows(offsets.unwrap_or(first))));
             }
+            for (name, dataset) in &on_cells {
+                let offset = steps.as_ref().and_then(|steps| steps.offset_of_cells(name, step));
+                let name = cells::column_name(name);
+                arrays.push(Array::new(&name, dataset.clone(), rows(offset.unwrap_or(first))));
+            }
             let part = Part {
                 name: leaf(block.name()),
                 arrays,
-                warnings: mesh(block, limit).into_iter().collect(),
+                warnings: mesh(block, limit).into_iter().chain(told.clone()).collect(),
             };
             if frames.len() <= step {
                 let time = steps.as_ref().and_then(|steps| steps.values.get(step).copied());
@@ -533,14 +540,82 @@ fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
     Ok(frames)
 }
 
+/// The attributes of a block's cells, if these are its points in the same order, and a warning about those that are not
+/// used. `points` has the number of points of each part.
+fn of_cells(
+    block: &Group,
+    points: &[u64],
+    limit: usize,
+) -> Result<(Vec<(String, Dataset)>, Vec<String>), ReadError> {
+    let datasets = |name: &str| {
+        let data = block.group(name).ok().map(|data| data.datasets());
+        let all = data.transpose().map_err(failed)?.unwrap_or_default();
+        Ok::<Vec<_>, ReadError>(all.into_iter().map(|set| (leaf(set.name()), set)).collect())
+    };
+    let some = |(_, set): &(String, Dataset)| set.shape().first().is_some_and(|rows| *rows > 0);
+    let mut found: Vec<_> = datasets("CellData")?.into_iter().filter(some).collect();
+    let of_points = datasets("PointData")?;
+    let plain: Vec<String> = of_points.iter().map(|(name, _)| names::plain(name)).collect();
+    let (double, own) =
+        std::mem::take(&mut found).into_iter().partition(|(n, _)| plain.contains(&names::plain(n)));
+    found = own;
+    let double: Vec<(String, Dataset)> = double;
+    let double: Vec<String> =
+        double.into_iter().map(|(n, _)| n).filter(|name| !names::is_ghost(name)).collect();
+    let mut told: Vec<String> = cells::unused(&double, cells::DOUBLED).into_iter().collect();
+    if let (false, Some(why)) = (found.is_empty(), no_vertices(block, points, limit)) {
+        let names: Vec<String> = found.into_iter().map(|(name, _)| name).collect();
+        told.extend(cells::unused(&names, &cells::no_particles(&why)));
+        return Ok((Vec::new(), told));
+    }
+    Ok((found, told))
+}
+
+/// Why the cells of a block are not its points in the same order; `None` if they are.
+fn no_vertices(block: &Group, points: &[u64], limit: usize) -> Option<String> {
+    let vertices = block.group("Vertices").ok();
+    let group = vertices.as_ref().unwrap_or(block);
+    let all = |group: &Group, name: &str| {
+        list(group, name, limit).map_err(|error| format!("`{name}` cannot be read ({error})"))
+    };
+    let sum = |list: &[u64]| list.iter().fold(0_u64, |sum, n| sum.saturating_add(*n));
+    let others = ["Lines", "Polygons", "Strips"].into_iter().filter_map(|name| {
+        let group = block.group(name).ok()?;
+        Some(sum(&list(&group, "NumberOfCells", limit).ok()?))
+    });
+    let others = others.fold(0, u64::saturating_add);
+    if others > 0 {
+        return Some(format!("{others} of the cells are lines or faces"));
+    }
+    let lists = ["NumberOfCells", "Offsets", "Connectivity"].map(|name| all(group, name));
+    let [Ok(counts), Ok(offsets), Ok(connectivity)] = lists else {
+        return lists.into_iter().find_map(Result::err);
+    };
+    if counts != points {
+        let (cells, points) = (sum(&counts), sum(points));
+        return Some(format!("there are {cells} cells for {points} points"));
+    }
+    // Steps may share their cells.
+    let counted = |from: &mut std::slice::Iter<'_, u64>, count: u64| {
+        (0..count).all(|i| from.next() == Some(&i))
+    };
+    let (mut offsets, mut connectivity) = (offsets.iter(), connectivity.iter());
+    let in_order = points.iter().all(|n| {
+        (offsets.len() == 0 || counted(&mut offsets, n.saturating_add(1)))
+            && (connectivity.len() == 0 || counted(&mut connectivity, *n))
+    });
+    let read = offsets.len() == 0 && connectivity.len() == 0;
+    (!in_order || !read).then(|| "the cells are not the points in their order".to_string())
+}
+
 /// Where the particles of each step begin.
 struct Steps {
     values: Vec<f64>,
     points: Vec<u64>,
     parts: Vec<u64>,
     counts: Vec<u64>,
-    /// For arrays with their own offsets.
-    arrays: Vec<(String, Vec<u64>)>,
+    /// For arrays with their own offsets, of points and of cells.
+    arrays: [Vec<(String, Vec<u64>)>; 2],
 }
 
 impl Steps {
@@ -550,12 +625,13 @@ impl Steps {
         let values: Vec<f64> = (0..data.len()).filter_map(|i| data.f64(i)).collect();
         // In a collection each block has its own steps.
         let own = block.group("Steps").unwrap_or_else(|_| steps.clone());
-        let mut arrays = Vec::new();
-        if let Ok(group) = own.group("PointDataOffsets") {
+        let mut arrays = [const { Vec::new() }; 2];
+        for (to, name) in arrays.iter_mut().zip(["PointDataOffsets", "CellDataOffsets"]) {
+            let Ok(group) = own.group(name) else { continue };
             for dataset in group.datasets().map_err(failed)? {
                 let name = leaf(dataset.name());
                 let offsets = list(&group, &name, limit)?;
-                arrays.push((name, offsets));
+                to.push((name, offsets));
             }
         }
         let points = list(&own, "PointOffsets", limit)?;
@@ -575,7 +651,14 @@ impl Steps {
     }
 
     fn offset(&self, name: &str, step: usize) -> Option<u64> {
-        let (_, offsets) = self.arrays.iter().find(|(array, _)| array == name)?;
+        let [arrays, _] = &self.arrays;
+        let (_, offsets) = arrays.iter().find(|(array, _)| array == name)?;
+        offsets.get(step).copied()
+    }
+
+    fn offset_of_cells(&self, name: &str, step: usize) -> Option<u64> {
+        let [_, arrays] = &self.arrays;
+        let (_, offsets) = arrays.iter().find(|(array, _)| array == name)?;
         offsets.get(step).copied()
     }
 }

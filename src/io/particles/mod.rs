@@ -9,9 +9,9 @@
 //! | classic Houdini BGEO v5, plain or gzip | yes | yes |
 //! | classic Houdini GEO v5 (ASCII) | yes | |
 //! | Houdini 12+ BGEO / GEO (JSON), `.bgeo.sc` | refused, with advice | |
-//! | legacy VTK 1.0 to 5.1, ASCII and binary: POLYDATA, UNSTRUCTURED_GRID | points and point data | |
+//! | legacy VTK 1.0 to 5.1, ASCII and binary: POLYDATA, UNSTRUCTURED_GRID | points, their data, data of vertex cells | |
 //! | PVTU, PVTP, VTM: their pieces, as one frame; PVD, `.series`: see [`sequence`] | yes | |
-//! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points and point data | VTU, appended raw, zlib |
+//! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points, their data, data of vertex cells | VTU, appended raw, zlib |
 //! | PLY: ASCII, binary little and big endian | vertices | binary little endian |
 //! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders, structured, (n, 3) and (3, n) | yes | NPZ |
 //! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), Tecplot, XYZ text, extended XYZ, XYZ raw `f32` triples | yes | |
@@ -38,6 +38,7 @@ mod arrays;
 mod asked;
 mod bgeo;
 mod bytes;
+mod cells;
 mod columns;
 mod comma;
 mod encoded;

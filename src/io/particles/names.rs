@@ -72,7 +72,10 @@ pub(super) const ID: Names = &[
 pub(super) const LIFETIME: Names = &["lifetime", "life"];
 pub(super) const KIND: Names = &["type"];
 /// Names that mark copies of particles of another piece.
-pub(super) const GHOST: Names = &["vtkghosttype", "vtkghostlevels"];
+pub(super) const GHOST: Names =
+    &["vtkghosttype", "vtkghostlevels", "vtkghosttypeofcells", "vtkghostlevelsofcells"];
+/// What is added to the name of such an attribute of cells.
+pub(super) const OF_CELLS: &str = " of cells";
 /// Names of the time or step of a particle, in files with several frames.
 pub(super) const STEP: Names = &["timestep", "time", "timevalue", "step", "frame"];
 
@@ -179,6 +182,11 @@ pub(super) fn known(name: &str) -> bool {
 pub(super) fn is_vector(name: &str) -> bool {
     let plain = plain(name);
     POSITION.contains(&plain.as_str()) || VELOCITY.contains(&plain.as_str())
+}
+
+/// Whether an attribute with this name marks ghosts.
+pub(super) fn is_ghost(name: &str) -> bool {
+    GHOST.contains(&plain(name).as_str())
 }
 
 /// Whether this is the name of positions.

@@ -29,7 +29,8 @@ const START: u64 = 1 << 16;
 /// This holds for all formats except JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ arrays in Fortran order, NPZ in gzip or
 /// with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`) or CDATA. Those
 /// are read as a whole (see [`in_memory`](Self::in_memory)), except the last, whose header alone is as long as
-/// the file. Attributes of VTK have separate positions in the file: gzip content is unpacked once per
+/// the file. An attribute of VTK's cells is held as a whole if they are in another order than the points. Attributes of VTK
+/// have separate positions in the file: gzip content is unpacked once per
 /// attribute.
 pub struct Parts<'a> {
     about: Particles,

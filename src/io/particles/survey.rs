@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::columns::{Column, Data, Extra, Roles, Vector};
 use super::error::ReadError;
+use super::names::OF_CELLS;
 use super::{Format, Particles};
 
 /// Converts values to integers.
@@ -292,8 +293,12 @@ impl Survey {
         // For ghosts each bit is a reason; the older ghost levels count from 1.
         let kept: Option<Vec<bool>> = roles.ghosts.map(|column| {
             let bits = |i: usize| columns.f64(column, i) as i64;
-            let levels = columns.0.get(column).is_some_and(|c| c.name.ends_with("Levels"));
-            let copy = |bits: i64| if levels { bits > 0 } else { bits & 3 != 0 };
+            let name = columns.0.get(column).map_or("", |c| c.name.as_str());
+            let own = name.strip_suffix(OF_CELLS);
+            let levels = own.unwrap_or(name).ends_with("Levels");
+            // Duplicated or hidden: points have bits 1 and 2 for these, cells 1 and 32.
+            let mask = if own.is_some() { 33 } else { 3 };
+            let copy = |bits: i64| if levels { bits > 0 } else { bits & mask != 0 };
             (0..rows).map(|i| !copy(bits(i))).collect()
         });
         let own: Option<Vec<bool>> = self.only.zip(roles.steps).map(|(time, column)| {

@@ -1,9 +1,9 @@
 //! Reads legacy VTK, versions 1.0 to 5.1, ASCII and binary: the points of POLYDATA and UNSTRUCTURED_GRID.
 //!
 //! The file has four lines (`# vtk DataFile Version x.y`, a title, `ASCII` or `BINARY`, `DATASET type`), then
-//! sections: a line of words, followed by values as text or as big-endian bytes. Cells are skipped: up to
-//! version 4.2 one list of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`. `POINT_DATA n` begins the
-//! attributes: `SCALARS`, `VECTORS` and the like, or a `FIELD` of arrays. `METADATA` may follow any array and
+//! sections: a line of words, followed by values as text or as big-endian bytes. Cells are, up to version 4.2, one list
+//! of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`; they are only read for `CELL_DATA`, see `cells`. `POINT_DATA n`
+//! begins the attributes: `SCALARS`, `VECTORS` and the like, or a `FIELD` of arrays. `METADATA` may follow any array and
 //! ends with an empty line. The length of an unknown section cannot be determined, so reading ends there with
 //! a warning.
 //!
@@ -14,6 +14,7 @@ use super::Format;
 use super::arrays::{self, Array, Segment, Stored};
 use super::asked::Asked;
 use super::bytes::show;
+use super::cells::{self, Cells, Ends, Lists};
 use super::columns::{Attribute, AttributeType, Column, Data, PLACED};
 use super::error::{Place, ReadError};
 use super::plan::{About, Plan, Track};
@@ -28,16 +29,65 @@ pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>,
         Reader::read(content, true, asked).err().unwrap_or(error)
     })?;
     let found_cells = (found.cells, found.cell, found.vertices);
-    let Reader { binary, version, attributes, mut warnings, mut found, points, time, .. } = found;
+    let Reader {
+        binary,
+        version,
+        mut attributes,
+        mut warnings,
+        mut found,
+        points,
+        time,
+        mut on_cells,
+        list,
+        others,
+        ..
+    } = found;
     let Some(points) = points else {
         return Err(ReadError::malformed("a POINTS section", "none", Place::Unknown));
     };
     if found_cells.0 > 0 && found_cells.2 == 0 {
         warnings.push(mesh_warning(found_cells.0, found_cells.1));
     }
+    let count = points.rows;
     found.insert(0, points);
     let tracks = found.into_iter().map(|found| found.track(content, binary));
-    let tracks = tracks.collect::<Result<_, _>>()?;
+    let mut tracks = tracks.collect::<Result<Vec<_>, _>>()?;
+    let doubled = cells::doubled(&mut on_cells.attributes, &attributes);
+    warnings.extend(cells::unused(&doubled, cells::DOUBLED));
+    on_cells.found.retain(|(_, name)| on_cells.attributes.iter().any(|a| a.name == *name));
+    let names: Vec<String> = on_cells.attributes.iter().map(|a| a.name.clone()).collect();
+    if !names.is_empty() {
+        let mut all = Cells::default();
+        all.compare(list.as_ref().map_or(0, |l| l.cells).saturating_add(others), count);
+        if others > 0 {
+            all.refuse(format!("{others} of the cells are lines or faces"));
+        }
+        // The lists need not be read for attributes without a meaning.
+        if let Some(list) = list.filter(|_| !on_cells.found.is_empty() && !all.are_refused()) {
+            all.add(count, &list.open(content, binary)?);
+        }
+        match all.finish() {
+            Err(why) => warnings.extend(cells::unused(&names, &cells::no_particles(&why))),
+            Ok(order) => {
+                let uneven: Vec<String> = on_cells
+                    .found
+                    .iter()
+                    .filter(|(found, _)| found.rows != count)
+                    .map(|(_, name)| name.clone())
+                    .collect();
+                warnings.extend(cells::unused(&uneven, cells::UNEVEN));
+                on_cells.attributes.retain(|a| !uneven.contains(&a.name));
+                attributes.append(&mut on_cells.attributes);
+                for (found, _) in on_cells.found.into_iter().filter(|(f, _)| f.rows == count) {
+                    let track = found.track(content, binary)?;
+                    tracks.push(match &order {
+                        Some(order) => cells::reordered(track, order.clone()),
+                        None => track,
+                    });
+                }
+            }
+        }
+    }
     let format = Format::VtkLegacy { version, binary };
     let about = About { placed: Some(0), attributes, warnings, time, format, asked: asked.clone() };
     Plan::new(tracks, about, content.unpack_limit())
@@ -57,6 +107,11 @@ struct Found {
 }
 
 impl Found {
+    /// A list of integers.
+    fn list(name: &str, ty: AttributeType, rows: u64, start: u64) -> Self {
+        Self { name: name.into(), what: name.into(), components: 1, ty, rows, start }
+    }
+
     fn track<'a>(self, content: &Content<'a>, binary: bool) -> Result<Track<'a>, ReadError> {
         let Self { name, what, components, ty, rows, start } = self;
         let content = content.clone();
@@ -78,6 +133,45 @@ impl Found {
         };
         Ok(rows::track(rows, move |_| content.open(start, end)))
     }
+}
+
+/// Attributes of cells.
+#[derive(Default)]
+struct OnCells {
+    attributes: Vec<Attribute>,
+    /// Those that may be used, with their names in the file.
+    found: Vec<(Found, String)>,
+}
+
+/// Where the points of cells are listed.
+struct List {
+    cells: u64,
+    /// The list of points, and from version 5.0 on one of offsets before it.
+    points: Found,
+    offsets: Option<Found>,
+}
+
+impl List {
+    fn open<'a>(self, content: &Content<'a>, binary: bool) -> Result<Lists<'a>, ReadError> {
+        let length = self.points.rows;
+        Ok(Lists {
+            cells: self.cells,
+            ends: match self.offsets {
+                Some(offsets) => Ends::Sums(offsets.track(content, binary)?, 0),
+                None => Ends::Inside,
+            },
+            points: self.points.track(content, binary)?,
+            length,
+        })
+    }
+}
+
+/// What the current attributes belong to.
+#[derive(Clone, Copy, PartialEq)]
+enum Of {
+    Nothing,
+    Points,
+    Cells,
 }
 
 /// Number of cells whose types are examined.
@@ -109,8 +203,11 @@ struct Reader<'a> {
     vertices: u64,
     /// Number of rows of the current POINT_DATA or CELL_DATA.
     rows: Option<u64>,
-    /// Whether the current attributes belong to points.
-    wanted: bool,
+    of: Of,
+    on_cells: OnCells,
+    /// The first list of vertices or cells, and the number of cells in other lists.
+    list: Option<List>,
+    others: u64,
     asked: Asked,
 }
 
@@ -138,17 +235,17 @@ impl<'l> Words<'l> {
         use AttributeType as T;
         Ok(match self.text(i, "a type")?.to_ascii_lowercase().as_str() {
             "bit" => T::Other,
-            "char" | "signed_char" => T::I8,
-            "unsigned_char" => T::U8,
-            "short" => T::I16,
-            "unsigned_short" => T::U16,
+            "char" | "signed_char" | "vtktypeint8" => T::I8,
+            "unsigned_char" | "vtktypeuint8" => T::U8,
+            "short" | "vtktypeint16" => T::I16,
+            "unsigned_short" | "vtktypeuint16" => T::U16,
             // Ids are written as 32 bits, whatever their type in memory.
-            "int" | "vtkidtype" => T::I32,
-            "unsigned_int" => T::U32,
+            "int" | "vtkidtype" | "vtktypeint32" => T::I32,
+            "unsigned_int" | "vtktypeuint32" => T::U32,
             "long" | "long_long" | "vtktypeint64" => T::I64,
             "unsigned_long" | "unsigned_long_long" | "vtktypeuint64" => T::U64,
-            "float" => T::F32,
-            "double" => T::F64,
+            "float" | "vtktypefloat32" => T::F32,
+            "double" | "vtktypefloat64" => T::F64,
             "string" => T::Text,
             _ => return Err(self.bad("a VTK type such as float, double or int")),
         })
@@ -194,7 +291,10 @@ impl<'a> Reader<'a> {
             cell: "",
             vertices: 0,
             rows: None,
-            wanted: false,
+            of: Of::Nothing,
+            on_cells: OnCells::default(),
+            list: None,
+            others: 0,
             asked: asked.clone(),
         };
         while let Some(line) = reader.keyword_line()? {
@@ -262,6 +362,7 @@ impl<'a> Reader<'a> {
                     _ => {}
                 }
                 if self.version.0 >= 5 {
+                    let mut lists = Vec::new();
                     for (part, count) in [("OFFSETS", first), ("CONNECTIVITY", second)] {
                         let Some(line) = self.keyword_line()? else {
                             return Err(truncated(part, self.text.at(), 1, 0));
@@ -270,10 +371,15 @@ impl<'a> Reader<'a> {
                         if w.text(0, part)? != part {
                             return Err(w.bad(part));
                         }
+                        lists.push(Found::list(part, w.ty(1)?, count, self.text.at()));
                         self.values(w.ty(1)?, count, part, false)?;
                     }
+                    let points = lists.pop();
+                    self.listed(&keyword, cells, points, lists.pop());
                 } else {
+                    let points = Found::list(&keyword, AttributeType::I32, second, self.text.at());
                     self.values(AttributeType::I32, second, &keyword, false)?;
+                    self.listed(&keyword, cells, Some(points), None);
                 }
             }
             "CELL_TYPES" => {
@@ -286,7 +392,11 @@ impl<'a> Reader<'a> {
             }
             "POINT_DATA" | "CELL_DATA" => {
                 self.rows = Some(w.count(1, "a number of values")?);
-                self.wanted = keyword == "POINT_DATA";
+                self.of = match (keyword.as_str(), self.rows) {
+                    ("POINT_DATA", _) => Of::Points,
+                    (_, Some(0)) => Of::Nothing,
+                    _ => Of::Cells,
+                };
             }
             "METADATA" => self.skip_metadata()?,
             "SCALARS" => {
@@ -342,6 +452,16 @@ impl<'a> Reader<'a> {
         Ok(true)
     }
 
+    /// Keeps the place of a list of cells.
+    fn listed(&mut self, keyword: &str, cells: u64, points: Option<Found>, offsets: Option<Found>) {
+        match (keyword, points, &self.list) {
+            ("VERTICES" | "CELLS", Some(points), None) => {
+                self.list = Some(List { cells, points, offsets });
+            }
+            _ => self.others = self.others.saturating_add(cells),
+        }
+    }
+
     /// The first of `count` cell types, without consuming them.
     fn cell_types(&mut self, count: u64) -> Result<Vec<f64>, ReadError> {
         let most = usize::try_from(count).unwrap_or(usize::MAX).min(CELLS);
@@ -393,14 +513,25 @@ impl<'a> Reader<'a> {
     ) -> Result<(), ReadError> {
         let name = percent_decoded(name);
         let size = usize::try_from(components).unwrap_or(usize::MAX);
-        let keep = self.wanted
-            && self.asked.list(&mut self.attributes, &name, size, ty)
-            && ty.size().is_some();
+        let list = match self.of {
+            Of::Points => Some(&mut self.attributes),
+            Of::Cells => Some(&mut self.on_cells.attributes),
+            Of::Nothing => None,
+        };
+        let keep =
+            list.is_some_and(|list| self.asked.list(list, &name, size, ty)) && ty.size().is_some();
         let start = self.text.at();
         self.values(ty, rows.saturating_mul(components), &name, keep)?;
-        if keep {
-            let what = name.clone();
-            self.found.push(Found { name, what, components: size, ty, rows, start });
+        let found = |name: &str| {
+            let (name, what) = (name.to_string(), name.to_string());
+            Found { name, what, components: size, ty, rows, start }
+        };
+        match self.of {
+            Of::Points if keep => self.found.push(found(&name)),
+            Of::Cells if keep => {
+                self.on_cells.found.push((found(&cells::column_name(&name)), name));
+            }
+            _ => {}
         }
         Ok(())
     }

@@ -16,11 +16,12 @@ use roxmltree::Node;
 use super::arrays::{self, Array, Segment, Stored};
 use super::asked::Asked;
 use super::bytes::show;
+use super::cells::{self, Cells, Ends, Lists};
 use super::columns::{Attribute, AttributeType, Column, PLACED};
 use super::encoded::Encoding;
 use super::error::{Place, ReadError};
 use super::head::{Head, Words};
-use super::plan::{About, Plan};
+use super::plan::{About, Plan, Track};
 use super::source::Content;
 use super::text::Text;
 use super::{Compression, Format, Storage};
@@ -68,7 +69,60 @@ struct Grid<'a> {
     /// Number of cells of a mesh, and their type.
     cells: u64,
     cell: &'static str,
+    on_cells: OnCells<'a>,
     asked: Asked,
+}
+
+/// Attributes of cells.
+#[derive(Clone, Default)]
+struct OnCells<'a> {
+    attributes: Vec<Attribute>,
+    found: Vec<(Column, Array<'a>)>,
+    cells: Cells,
+}
+
+/// Number of values per component.
+fn length(array: &Array<'_>) -> u64 {
+    let values = array.segments.iter().fold(0_u64, |sum, s| sum.saturating_add(s.count));
+    values / (array.components.max(1) as u64)
+}
+
+/// Adds the attributes of cells to those of points, if cells are particles. Returns how they are read.
+fn join_cells<'a>(
+    on_cells: OnCells<'a>,
+    points: u64,
+    attributes: &mut Vec<Attribute>,
+    warnings: &mut Vec<String>,
+) -> Vec<Track<'a>> {
+    let OnCells { attributes: mut own, found, cells } = on_cells;
+    let doubled = cells::doubled(&mut own, attributes);
+    warnings.extend(cells::unused(&doubled, cells::DOUBLED));
+    let order = match cells.finish() {
+        Ok(order) => order,
+        Err(why) => {
+            let names: Vec<String> = own.into_iter().map(|a| a.name).collect();
+            warnings.extend(cells::unused(&names, &cells::no_particles(&why)));
+            return Vec::new();
+        }
+    };
+    let mut tracks = Vec::new();
+    for (column, array) in found {
+        if !own.iter().any(|a| a.name == array.name) {
+            continue;
+        }
+        if length(&array) != points {
+            own.retain(|a| a.name != array.name);
+            warnings.extend(cells::unused(&[array.name], cells::UNEVEN));
+            continue;
+        }
+        let track = arrays::track(column, array);
+        tracks.push(match &order {
+            Some(order) => cells::reordered(track, order.clone()),
+            None => track,
+        });
+    }
+    attributes.append(&mut own);
+    tracks
 }
 
 impl<'a> Grid<'a> {
@@ -79,13 +133,8 @@ impl<'a> Grid<'a> {
             let none = Array { name: PLACED.into(), components: 3, segments: Vec::new() };
             found.push((Column::new(PLACED, 3, AttributeType::F32), none));
         }
+        let points = found.first().map_or(0, |(_, array)| length(array));
         if several {
-            let length = |array: &Array<'_>| {
-                let values =
-                    array.segments.iter().fold(0_u64, |sum, s| sum.saturating_add(s.count));
-                values / (array.components.max(1) as u64)
-            };
-            let points = found.first().map_or(0, |(_, array)| length(array));
             found.retain(|(_, array)| {
                 let all = length(array) == points;
                 if !all {
@@ -100,9 +149,11 @@ impl<'a> Grid<'a> {
             warnings.push(mesh_warning(self.cells, self.cell));
         }
         let format = self.format.unwrap_or(Format::Vtu(Storage::Ascii, Compression::None));
-        let about = About { placed: Some(0), attributes, warnings, time, format, asked };
         let tracks = found.into_iter().map(|(column, array)| arrays::track(column, array));
-        Plan::new(tracks.collect(), about, limit)
+        let mut tracks: Vec<_> = tracks.collect();
+        tracks.append(&mut join_cells(self.on_cells, points, &mut attributes, &mut warnings));
+        let about = About { placed: Some(0), attributes, warnings, time, format, asked };
+        Plan::new(tracks, about, limit)
     }
 
     /// Adds the pieces of a file; false if the head lacks texts that cannot be read in place.
@@ -206,6 +257,9 @@ impl<'a> Grid<'a> {
             if cells > 0 {
                 self.cells = self.cells.saturating_add(cells);
                 self.cell = cell;
+            }
+            if !reader.cells(&piece, points, &mut self.on_cells, &self.asked)? {
+                return Ok(false);
             }
             let Some(point_data) = child(&piece, "PointData") else { continue };
             for array in point_data.children().filter(|n| n.has_tag_name("DataArray")) {
@@ -373,6 +427,90 @@ impl<'a> Reader<'_, 'a> {
         let types = types.unwrap_or_default();
         let more = types.iter().filter(|ty| !is_point(**ty)).count();
         if 2 * more > types.len() { (cells, "cells") } else { (0, "") }
+    }
+
+    /// Finds the attributes of a piece's cells, and whether the cells are its points; false if the head lacks a text.
+    fn cells(
+        &mut self,
+        piece: &Node<'_, '_>,
+        points: u64,
+        on_cells: &mut OnCells<'a>,
+        asked: &Asked,
+    ) -> Result<bool, ReadError> {
+        let arrays = child(piece, "CellData").into_iter().flat_map(|data| data.children());
+        let arrays: Vec<_> = arrays.filter(|n| n.has_tag_name("DataArray")).collect();
+        // Of poly data, the values of vertices come before those of other cells.
+        let number = |name: &str| self.parsed(piece, name, Some(0));
+        let counts = ["NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"];
+        let (verts, cells) = match child(piece, "Cells") {
+            Some(node) => (Some(node), number("NumberOfCells")?),
+            None => {
+                let all = counts.iter().map(|name| number(name));
+                let all = all.collect::<Result<Vec<_>, _>>()?;
+                (child(piece, "Verts"), all.into_iter().fold(0, u64::saturating_add))
+            }
+        };
+        if arrays.is_empty() || cells == 0 {
+            on_cells.cells.skip(points);
+            return Ok(true);
+        }
+        on_cells.cells.compare(cells, points);
+        let mut meant = false;
+        for array in arrays {
+            let (name, components, ty) = self.described(&array)?;
+            let known = on_cells.attributes.iter().any(|a| a.name == name);
+            let wanted = match known {
+                true => asked.wants(&name),
+                false => asked.list(&mut on_cells.attributes, &name, components, ty),
+            };
+            if !wanted || ty.size().is_none() || on_cells.cells.are_refused() {
+                continue;
+            }
+            meant = true;
+            let count = cells.saturating_mul(components as u64);
+            let Some(segment) = self.segment(&array, &name, ty, count)? else { return Ok(false) };
+            let own = cells::column_name(&name);
+            let same = on_cells.found.iter().position(|(_, found)| found.name == name);
+            let at = same.unwrap_or(on_cells.found.len());
+            if same.is_none() {
+                let array = Array { name, components, segments: Vec::new() };
+                on_cells.found.push((Column::new(&own, components, ty), array));
+            }
+            self.add(on_cells.found.get_mut(at), segment, &array)?;
+        }
+        // The lists need not be read for attributes without a meaning.
+        if !meant {
+            on_cells.cells.skip(points);
+            return Ok(true);
+        }
+        let list = |name: &str| {
+            let list = verts?.children().find(|array| array.attribute("Name") == Some(name))?;
+            let (_, components, ty) = self.described(&list).ok()?;
+            (components == 1 && ty.size().is_some()).then_some((list, ty))
+        };
+        let Some((offsets, connectivity)) = list("offsets").zip(list("connectivity")) else {
+            on_cells.cells.refuse("they do not list their points".into());
+            return Ok(true);
+        };
+        let mut tracks = Vec::new();
+        for (name, (list, ty)) in [("offsets", offsets), ("connectivity", connectivity)] {
+            let segment = match self.segment(&list, name, ty, cells) {
+                Ok(Some(segment)) => segment,
+                Ok(None) => return Ok(false),
+                Err(error) => {
+                    on_cells.cells.refuse(format!("their list cannot be read ({error})"));
+                    return Ok(true);
+                }
+            };
+            let array = Array { name: name.into(), components: 1, segments: vec![segment] };
+            tracks.push(arrays::track(Column::new(name, 1, ty), array));
+        }
+        let (points_of, sums) = (tracks.pop(), tracks.pop());
+        if let Some((points_of, sums)) = points_of.zip(sums) {
+            let ends = Ends::Sums(sums, 1);
+            on_cells.cells.add(points, &Lists { cells, ends, points: points_of, length: cells });
+        }
+        Ok(true)
     }
 
     /// The first of `count` values of an array. An error in them does not concern the particles.

@@ -3,14 +3,16 @@
 //! A `Grid` has a `Geometry` with points, and `Attribute`s at nodes. The grids of a temporal collection are
 //! frames, those of a spatial one are parts of a frame. A grid without points takes those of the first grid,
 //! because writers of time series omit them. A `DataItem` holds its values inline, in an array of an HDF5
-//! file beside it (`file.h5:/path`), or refers to another item.
+//! file beside it (`file.h5:/path`), or refers to another item. Attributes of cells are read if these are the points, see
+//! `cells`.
 
 use std::path::Path;
 
 use roxmltree::{Document, Node};
 
 use super::asked::Asked;
-use super::columns::{AttributeType, Data, Table};
+use super::cells::{self, Cells};
+use super::columns::{Attribute, AttributeType, Data, Table};
 use super::error::{Place, ReadError};
 use super::hdf5::File;
 use super::index;
@@ -127,20 +129,35 @@ fn of_document(
         false => frame.grids,
     };
     let count = grids.len();
+    let (mut cells, mut on_cells) = (Cells::default(), Vec::new());
     for (i, grid) in grids.iter().enumerate() {
         let Some(points) = child(grid, "Geometry").or(shared) else {
             return Err(ReadError::malformed("a Geometry in the Grid", "none", Place::Unknown));
         };
+        let mut rows = 0;
         for (name, components, data) in reader.points(&points)? {
+            rows = data.len() / components.max(1);
             if i == 0 {
                 table.list(&name, components, AttributeType::Number);
             }
             put(&mut all, i, &name, components, data);
         }
         for attribute in grid.children().filter(|node| is(node, "Attribute")) {
-            let node = matches!(attribute.attribute("Center"), None | Some("Node"));
             let name = attribute.attribute("Name").unwrap_or("unnamed");
-            let Some(item) = child(&attribute, "DataItem").filter(|_| node) else { continue };
+            let Some(item) = child(&attribute, "DataItem") else { continue };
+            match attribute.attribute("Center") {
+                None | Some("Node") => {}
+                Some("Cell") => {
+                    on_cells.push((i, name, item));
+                    continue;
+                }
+                Some(center) => {
+                    let why = format!("they belong to `Center=\"{center}\"`");
+                    let told = cells::unused(&[name.to_string()], &cells::no_particles(&why));
+                    table.warnings.extend(told.filter(|_| i == 0));
+                    continue;
+                }
+            }
             let shape = dimensions(&reader.referred(item)?);
             let components = components(&shape);
             let known = table.attributes.iter().any(|a| a.name == name);
@@ -153,7 +170,12 @@ fn of_document(
                 put(&mut all, i, name, self::components(&shape), data);
             }
         }
+        match on_cells.last() {
+            Some((of, ..)) if *of == i => reader.cells(grid, rows as u64, &mut cells),
+            _ => cells.skip(rows as u64),
+        }
     }
+    reader.of_cells(cells, on_cells, &mut table, &mut all)?;
     for (name, components, data, grids) in all {
         if grids == count {
             table.push(&name, components, data);
@@ -224,6 +246,70 @@ impl<'d> Reader<'d, '_, '_> {
         };
         let (_, data) = read.into_iter().next().ok_or_else(unsupported)?;
         Ok(vec![("position".into(), components, data)])
+    }
+
+    /// Finds whether the cells of a grid are its points.
+    fn cells(&mut self, grid: &Node<'d, 'd>, points: u64, cells: &mut Cells) {
+        let shared = self.document.descendants().find(|node| is(node, "Topology"));
+        let topology = child(grid, "Topology").or(shared);
+        let kind = topology.and_then(|topology| {
+            topology.attribute("TopologyType").or_else(|| topology.attribute("Type"))
+        });
+        let kind = kind.unwrap_or("no type");
+        let size = topology.and_then(|topology| topology.attribute("NodesPerElement"));
+        if !kind.eq_ignore_ascii_case("Polyvertex") || !matches!(size, None | Some("1")) {
+            cells.refuse(match size {
+                Some(size) => format!("the cells are {kind} of {size} points"),
+                None => format!("the cells are {kind}"),
+            });
+            return;
+        }
+        let list = topology.and_then(|topology| child(&topology, "DataItem"));
+        match list.map(|list| self.item(list)).transpose() {
+            Ok(list) => cells.add_list(points, list.as_ref().map(|(_, list)| list)),
+            Err(error) => cells.refuse(format!("their list cannot be read ({error})")),
+        }
+    }
+
+    /// Reads the attributes of cells, if the cells are the points.
+    fn of_cells(
+        &mut self,
+        cells: Cells,
+        on_cells: Vec<(usize, &str, Node<'d, 'd>)>,
+        table: &mut Table,
+        all: &mut Vec<(String, usize, Data, usize)>,
+    ) -> Result<(), ReadError> {
+        let mut listed: Vec<Attribute> = Vec::new();
+        for (_, name, item) in &on_cells {
+            if !listed.iter().any(|a| a.name == *name) {
+                let components = components(&dimensions(&self.referred(*item)?));
+                table.asked.list(&mut listed, name, components, AttributeType::Number);
+            }
+        }
+        let doubled = cells::doubled(&mut listed, &table.attributes);
+        table.warnings.extend(cells::unused(&doubled, cells::DOUBLED));
+        let order = match cells.finish() {
+            Ok(order) => order,
+            Err(why) => {
+                let names: Vec<String> = listed.into_iter().map(|a| a.name).collect();
+                table.warnings.extend(cells::unused(&names, &cells::no_particles(&why)));
+                return Ok(());
+            }
+        };
+        let first = all.len();
+        for (i, name, item) in on_cells {
+            if listed.iter().any(|a| a.name == name) && table.asked.wants(name) {
+                let (shape, data) = self.item(item)?;
+                put(all, i, &cells::column_name(name), components(&shape), data);
+            }
+        }
+        for (_, components, data, _) in all.iter_mut().skip(first) {
+            if let Some(order) = &order {
+                *data = data.picked(*components, order);
+            }
+        }
+        table.attributes.append(&mut listed);
+        Ok(())
     }
 
     /// The item that this one refers to, or itself.

@@ -12,7 +12,10 @@ use plain::{numpy_samples, text_samples};
 
 pub use houdini::{bgeo, geo};
 pub use plain::{npy, npz, ply};
-pub use vtk::{Xml, vtk};
+pub use vtk::{Xml, vtk, vtk_on_cells};
+
+/// Another order of the cloud.
+pub const ORDER: [u32; COUNT] = [3, 0, 2, 1, 10, 9, 5, 4, 8, 6, 7];
 
 pub const COUNT: usize = 11;
 
@@ -123,6 +126,52 @@ pub fn gzip(bytes: &[u8]) -> Vec<u8> {
     out.finish().unwrap()
 }
 
+/// The cloud with its values on cells of one point each.
+fn on_cells(list: &mut Vec<Sample>, of: &Particles) {
+    let same: Vec<u32> = (0..COUNT as u32).collect();
+    for (order, told) in [(same.as_slice(), "in order"), (&ORDER, "in another order")] {
+        for (version, number) in [("4.2", (4, 2)), ("5.1", (5, 1))] {
+            for (binary, polydata) in [(false, false), (false, true), (true, false), (true, true)] {
+                list.push(sample(
+                    &format!("vtk {version} on cells {told} binary {binary} polydata {polydata}"),
+                    Extension::Vtk,
+                    vtk_on_cells(of, version, binary, polydata, order),
+                    Has::All,
+                    Format::VtkLegacy { version: number, binary },
+                ));
+            }
+        }
+        for storage in
+            [Storage::Ascii, Storage::InlineBase64, Storage::AppendedBase64, Storage::AppendedRaw]
+        {
+            for bits in 0..8 {
+                let [vtp, pieces, packed] = [1, 2, 4].map(|bit| bits & bit != 0);
+                let compression = if packed { Compression::Zlib } else { Compression::None };
+                let xml = Xml {
+                    vtp,
+                    storage,
+                    compression,
+                    big: pieces,
+                    wide: packed,
+                    pieces,
+                    double: vtp,
+                };
+                let (hint, format) = match vtp {
+                    true => (Extension::Vtp, Format::Vtp(storage, compression)),
+                    false => (Extension::Vtu, Format::Vtu(storage, compression)),
+                };
+                list.push(sample(
+                    &format!("{format} on cells {told} pieces {pieces}"),
+                    hint,
+                    xml.on_cells(of, order),
+                    Has::All,
+                    format,
+                ));
+            }
+        }
+    }
+}
+
 /// The cloud in every format and encoding.
 pub fn all() -> Vec<Sample> {
     let of = &cloud();
@@ -179,6 +228,7 @@ pub fn all() -> Vec<Sample> {
             }
         }
     }
+    on_cells(&mut list, of);
     let lzma = include_bytes!("../lzma.vtu");
     list.push(sample(
         "vtu lzma",

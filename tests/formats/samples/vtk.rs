@@ -109,6 +109,71 @@ pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: 
     out
 }
 
+/// Legacy VTK with all but the positions on cells of one point each; cell `i` has point `order[i]`.
+pub fn vtk_on_cells(
+    of: &Particles,
+    version: &str,
+    binary: bool,
+    polydata: bool,
+    order: &[u32],
+) -> Vec<u8> {
+    let count = of.positions.len();
+    let (kind, dataset, cells) = (
+        if binary { "BINARY" } else { "ASCII" },
+        if polydata { "POLYDATA" } else { "UNSTRUCTURED_GRID" },
+        if polydata { "VERTICES" } else { "CELLS" },
+    );
+    let mut out =
+        format!("# vtk DataFile Version {version}\non cells\n{kind}\nDATASET {dataset}\n");
+    out += &format!("POINTS {count} float\n");
+    let mut out = out.into_bytes();
+    let put = |out: &mut Vec<u8>, head: &str, raw: Vec<u8>, text: String| {
+        out.extend(head.as_bytes());
+        out.extend(if binary { raw } else { text.into_bytes() });
+        out.push(b'\n');
+    };
+    let p = positions(of).as_flattened();
+    put(&mut out, "", floats(p, 4, true), words(p));
+    if version.starts_with('5') {
+        let offsets: Vec<u32> = (0..=count as u32).collect();
+        out.extend(format!("{cells} {} {count}\n", count + 1).as_bytes());
+        let head = "OFFSETS vtktypeint64\n";
+        put(&mut out, head, ints(&offsets, 8, true), words(&offsets));
+        let head = "CONNECTIVITY vtktypeint64\n";
+        put(&mut out, head, ints(order, 8, true), words(order));
+    } else {
+        let list: Vec<u32> = order.iter().flat_map(|i| [1, *i]).collect();
+        let head = format!("{cells} {count} {}\n", 2 * count);
+        put(&mut out, &head, ints(&list, 4, true), words(&list));
+    }
+    if !polydata {
+        let types = vec![1_u32; count];
+        let head = format!("CELL_TYPES {count}\n");
+        put(&mut out, &head, ints(&types, 4, true), words(types));
+    }
+    let of = in_order(of, order);
+    out.extend(format!("CELL_DATA {count}\n").as_bytes());
+    let head = "SCALARS id int 1\nLOOKUP_TABLE default\n";
+    put(&mut out, head, ints(ids(&of), 4, true), words(ids(&of)));
+    let v = velocities(&of).as_flattened();
+    put(&mut out, "VECTORS velocity float\n", floats(v, 4, true), words(v));
+    let head = format!("FIELD FieldData 1\ndensity 1 {count} float\n");
+    put(&mut out, &head, floats(densities(&of), 4, true), words(densities(&of)));
+    out
+}
+
+/// The particles in another order.
+fn in_order(of: &Particles, order: &[u32]) -> Particles {
+    fn some<T: Copy>(list: &[T], order: &[u32]) -> Vec<T> {
+        order.iter().map(|i| list[*i as usize]).collect()
+    }
+    let mut found = Particles::from_positions(some(positions(of), order));
+    found.velocities = Some(some(velocities(of), order));
+    found.densities = Some(some(densities(of), order));
+    found.ids = Some(some(ids(of), order));
+    found
+}
+
 pub struct Xml {
     pub vtp: bool,
     pub storage: Storage,
@@ -199,16 +264,7 @@ impl Xml {
     pub fn bytes(&self, of: &Particles) -> Vec<u8> {
         let count = of.positions.len();
         let kind = if self.vtp { "PolyData" } else { "UnstructuredGrid" };
-        let compressor = match self.compression {
-            Compression::Zlib => " compressor=\"vtkZLibDataCompressor\"",
-            Compression::Lz4 => " compressor=\"vtkLZ4DataCompressor\"",
-            _ => "",
-        };
-        let mut out = format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"{}\" header_type=\"{}\"{compressor}>\n<{kind}>\n",
-            if self.big { "BigEndian" } else { "LittleEndian" },
-            if self.wide { "UInt64" } else { "UInt32" },
-        );
+        let mut out = self.begun(kind);
         let (size, real, id) =
             if self.double { (8, "Float64", "UInt64") } else { (4, "Float32", "Int32") };
         let mut appended = Vec::new();
@@ -262,6 +318,72 @@ impl Xml {
             );
             out += "</Points>\n</Piece>\n";
         }
+        self.ended(out, kind, &appended)
+    }
+
+    /// The particles with all but the positions on cells of one point each; in each piece, cell `i` has point
+    /// `order[i]`.
+    pub fn on_cells(&self, of: &Particles, order: &[u32]) -> Vec<u8> {
+        let count = of.positions.len();
+        let kind = if self.vtp { "PolyData" } else { "UnstructuredGrid" };
+        let mut out = self.begun(kind);
+        let mut appended = Vec::new();
+        let (size, real) = if self.double { (8, "Float64") } else { (4, "Float32") };
+        let cuts: &[usize] = if self.pieces { &[0, 4, 4, count] } else { &[0, count] };
+        for (from, to) in cuts.iter().zip(&cuts[1..]) {
+            let points: Vec<u32> = (*from as u32..*to as u32).collect();
+            // Of each piece, its own points in the order that they have in the whole.
+            let own: Vec<u32> = order.iter().copied().filter(|i| points.contains(i)).collect();
+            let local: Vec<u32> = own.iter().map(|i| i - *from as u32).collect();
+            let ends: Vec<u32> = (1..=own.len() as u32).collect();
+            let n = own.len();
+            let (counts, cells) = match self.vtp {
+                true => (format!("NumberOfVerts=\"{n}\" NumberOfPolys=\"0\""), "Verts"),
+                false => (format!("NumberOfCells=\"{n}\""), "Cells"),
+            };
+            out += &format!("<Piece NumberOfPoints=\"{n}\" {counts}>\n<PointData/>\n<CellData>\n");
+            let of_cells = in_order(of, &own);
+            let mut put = |ty: &str, name: &str, components: usize, raw: Vec<u8>, text: String| {
+                out += &self.array(&mut appended, ty, name, components, &raw, &text);
+            };
+            let v = velocities(&of_cells).as_flattened();
+            put(real, "velocity", 3, floats(v, size, self.big), words(v));
+            let d = densities(&of_cells);
+            put(real, "density", 1, floats(d, size, self.big), words(d));
+            put("Int32", "id", 1, ints(ids(&of_cells), 4, self.big), words(ids(&of_cells)));
+            out += "</CellData>\n<Points>\n";
+            let p = in_order(of, &points);
+            let p = positions(&p).as_flattened();
+            let raw = floats(p, size, self.big);
+            out += &self.array(&mut appended, real, "Points", 3, &raw, &words(p));
+            out += &format!("</Points>\n<{cells}>\n");
+            for (name, list) in [("connectivity", &local), ("offsets", &ends)] {
+                let raw = ints(list, 8, self.big);
+                out += &self.array(&mut appended, "Int64", name, 1, &raw, &words(list));
+            }
+            if !self.vtp {
+                let types = vec![1; n];
+                out += &self.array(&mut appended, "UInt8", "types", 1, &types, &words(&types));
+            }
+            out += &format!("</{cells}>\n</Piece>\n");
+        }
+        self.ended(out, kind, &appended)
+    }
+
+    fn begun(&self, kind: &str) -> String {
+        let compressor = match self.compression {
+            Compression::Zlib => " compressor=\"vtkZLibDataCompressor\"",
+            Compression::Lz4 => " compressor=\"vtkLZ4DataCompressor\"",
+            _ => "",
+        };
+        format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"{}\" header_type=\"{}\"{compressor}>\n<{kind}>\n",
+            if self.big { "BigEndian" } else { "LittleEndian" },
+            if self.wide { "UInt64" } else { "UInt32" },
+        )
+    }
+
+    fn ended(&self, mut out: String, kind: &str, appended: &[u8]) -> Vec<u8> {
         out += &format!("</{kind}>\n");
         let encoding = match self.storage {
             Storage::AppendedRaw => "raw",

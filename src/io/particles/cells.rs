@@ -1,0 +1,294 @@
+//! Values that VTK files store per cell instead of per point.
+//!
+//! Particles are often written as cells of one point each (vertices), with their values on the cells: by meshio, by
+//! ParaView after a filter, by several SPH codes. If each point has exactly one such cell, cell `i` is a particle, and its
+//! values are those of the point that it names, which need not be point `i`. Values of any other cells belong to no
+//! particle; they are not read, and a warning says so.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::columns::{Attribute, Column, Data};
+use super::error::ReadError;
+use super::names;
+use super::plan::{Stream, Track, changed};
+
+/// Number of integers read at a time.
+const SOME: u64 = 1 << 12;
+/// Max number of names in a warning.
+const NAMED: usize = 12;
+
+/// How the numbers of points per cell are stored.
+pub(super) enum Ends<'a> {
+    /// In the list of points itself, before the points of each cell.
+    Inside,
+    /// As a list of sums that begins with this number: 1, or 0 if it has one value more than there are cells.
+    Sums(Track<'a>, u64),
+}
+
+/// The lists that say which points each cell has.
+pub(super) struct Lists<'a> {
+    pub(super) cells: u64,
+    pub(super) ends: Ends<'a>,
+    pub(super) points: Track<'a>,
+    /// Number of values in the list of points.
+    pub(super) length: u64,
+}
+
+/// The cells of a file, piece by piece, and the point of each.
+#[derive(Clone, Default)]
+pub(super) struct Cells {
+    /// Number of points of all pieces so far, which is the number of cells.
+    count: u64,
+    /// The point of each cell; `None` as long as all are in the order of the points.
+    order: Option<Vec<u32>>,
+    /// Why the cells are no particles.
+    why: Option<String>,
+}
+
+impl Cells {
+    /// Adds a piece of so many points without values on its cells.
+    pub(super) fn skip(&mut self, points: u64) {
+        let count = self.count.saturating_add(points);
+        if let (Some(order), Ok(all)) = (&mut self.order, u32::try_from(count)) {
+            order.extend(self.count as u32..all);
+        }
+        self.count = count;
+    }
+
+    /// Says that the cells are no particles. The first reason is kept.
+    pub(super) fn refuse(&mut self, why: String) {
+        self.why.get_or_insert(why);
+    }
+
+    pub(super) fn are_refused(&self) -> bool {
+        self.why.is_some()
+    }
+
+    /// Refuses the cells if their number is not that of the points.
+    pub(super) fn compare(&mut self, cells: u64, points: u64) {
+        if cells != points {
+            self.refuse(format!("there are {cells} cells for {points} points"));
+        }
+    }
+
+    /// Adds a piece of so many points. All of its lists are read.
+    pub(super) fn add(&mut self, points: u64, lists: &Lists<'_>) {
+        self.compare(lists.cells, points);
+        let found = match self.why {
+            None => self.read(points, lists),
+            Some(_) => return,
+        };
+        match found {
+            Ok(()) => self.count = self.count.saturating_add(points),
+            Err(why) => self.refuse(why),
+        }
+    }
+
+    fn read(&mut self, points: u64, lists: &Lists<'_>) -> Result<(), String> {
+        let sized = |cell: u64, size: f64| match size {
+            1.0 => Ok(()),
+            _ => Err(format!("cell {cell} has {size} points instead of one")),
+        };
+        let inside = matches!(lists.ends, Ends::Inside);
+        if let Ends::Sums(track, first) = &lists.ends {
+            let count = lists.cells.saturating_add(1 - first.min(&1));
+            let mut before = if *first == 0 { -1.0 } else { 0.0 };
+            each(track, count, |i, sum| {
+                let size = sum - before;
+                before = sum;
+                sized((i + first).saturating_sub(1), size)
+            })?;
+        }
+        let values = if inside { 2 } else { 1 };
+        let expected = points.saturating_mul(values);
+        if lists.length != expected {
+            return Err(format!("their list has {} values instead of {expected}", lists.length));
+        }
+        each(&lists.points, expected, |i, value| {
+            if inside && i.is_multiple_of(2) {
+                return sized(i / 2, value);
+            }
+            self.point(i / values, value, points)
+        })
+    }
+
+    /// Adds a piece of so many points, whose cells have one point each, in this list; `None` means all in order.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn add_list(&mut self, points: u64, list: Option<&Data>) {
+        let Some(list) = list else { return self.skip(points) };
+        self.compare(list.len() as u64, points);
+        for cell in 0..list.len() {
+            if self.why.is_some() {
+                return;
+            }
+            let value = list.f64(cell).unwrap_or(f64::NAN);
+            if let Err(why) = self.point(cell as u64, value, points) {
+                self.refuse(why);
+            }
+        }
+        self.count = self.count.saturating_add(points);
+    }
+
+    fn point(&mut self, cell: u64, value: f64, points: u64) -> Result<(), String> {
+        if value.fract() != 0.0 || !(0.0..points as f64).contains(&value) {
+            return Err(format!("cell {cell} has point {value}, of {points}"));
+        }
+        self.push(cell, value as u64)
+    }
+
+    /// Adds the next cell of a piece and its point.
+    fn push(&mut self, cell: u64, point: u64) -> Result<(), String> {
+        if self.order.is_none() && cell == point {
+            return Ok(());
+        }
+        let (cell, point) = (self.count.saturating_add(cell), self.count.saturating_add(point));
+        let many = |_| "there are more than can be put in another order".to_string();
+        let (cell, point) =
+            (u32::try_from(cell).map_err(many)?, u32::try_from(point).map_err(many)?);
+        self.order.get_or_insert_with(|| (0..cell).collect()).push(point);
+        Ok(())
+    }
+
+    /// The cell of each point, `None` if it has the same number; or why the cells are no particles.
+    pub(super) fn finish(self) -> Result<Option<Arc<[u32]>>, String> {
+        if let Some(why) = self.why {
+            return Err(why);
+        }
+        let Some(order) = self.order else { return Ok(None) };
+        let mut of_points = vec![None; order.len()];
+        for (cell, point) in order.into_iter().enumerate() {
+            match of_points.get_mut(point as usize) {
+                Some(free @ None) => *free = Some(cell as u32),
+                _ => return Err(format!("point {point} has several cells")),
+            }
+        }
+        Ok(of_points.into_iter().collect::<Option<Vec<u32>>>().map(Arc::from))
+    }
+}
+
+/// Calls `each` with the index and value of the first `count` values of a track's only column.
+fn each(
+    track: &Track<'_>,
+    count: u64,
+    mut each: impl FnMut(u64, f64) -> Result<(), String>,
+) -> Result<(), String> {
+    let unread = |error: ReadError| format!("their list cannot be read ({error})");
+    let mut stream = (track.open)(&[true]).map_err(unread)?;
+    let mut columns = track.columns.clone();
+    let (mut at, mut room) = (0, Vec::new());
+    while at < count {
+        let some = SOME.min(count - at);
+        columns.iter_mut().for_each(|column| column.data.clear());
+        stream.read(some as usize, &mut columns, &mut room).map_err(unread)?;
+        for i in 0..some {
+            let value = columns.first().and_then(|column| column.data.f64(i as usize));
+            each(at + i, value.ok_or_else(|| unread(changed()))?)?;
+        }
+        at += some;
+    }
+    Ok(())
+}
+
+/// Name of a column of cells' values. Ghosts are marked by other bits in cells than in points.
+pub(super) fn column_name(name: &str) -> String {
+    match names::is_ghost(name) {
+        true => format!("{name}{}", names::OF_CELLS),
+        false => name.to_string(),
+    }
+}
+
+/// Of the fields of cells, those whose names points have too are not used. Returns their names.
+pub(super) fn doubled(cells: &mut Vec<Attribute>, points: &[Attribute]) -> Vec<String> {
+    let plain: Vec<String> = points.iter().map(|point| names::plain(&point.name)).collect();
+    let (double, own): (Vec<_>, Vec<_>) = std::mem::take(cells)
+        .into_iter()
+        .partition(|cell| plain.contains(&names::plain(&cell.name)));
+    *cells = own;
+    // Ghosts are marked in both alike.
+    double.into_iter().map(|cell| cell.name).filter(|name| !names::is_ghost(name)).collect()
+}
+
+/// Warning about fields of cells that are not used.
+pub(super) fn unused(names: &[String], why: &str) -> Option<String> {
+    let quoted: Vec<_> = names.iter().take(NAMED).map(|name| format!("`{name}`")).collect();
+    let more = if names.len() > NAMED { ", ..." } else { "" };
+    (!names.is_empty())
+        .then(|| format!("fields of cells are not used: {}{more}; {why}", quoted.join(", ")))
+}
+
+/// Why such fields are not used, if the cells are no particles.
+pub(super) fn no_particles(why: &str) -> String {
+    format!(
+        "particles are points, or cells of one point each, but {why}; save the fields as point data (ParaView: filter Cell \
+         Data to Point Data)"
+    )
+}
+
+/// Why such fields are not used, if points have them too.
+pub(super) const DOUBLED: &str = "the points have fields of the same names, which are used";
+/// Why such fields are not used, if they have too few values or too many.
+pub(super) const UNEVEN: &str = "they do not have a value for each cell";
+
+/// The track with its rows in the order of the points instead of the cells. All of them are in memory while they are read.
+pub(super) fn reordered<'a>(track: Track<'a>, cells: Arc<[u32]>) -> Track<'a> {
+    let Track { columns, lengths, what, open: inner } = track;
+    let empty = columns.clone();
+    let open = move |used: &[bool]| {
+        let stream = Reordered {
+            inner: inner(used)?,
+            used: used.contains(&true),
+            empty: empty.clone(),
+            all: None,
+            cells: cells.clone(),
+            next: 0,
+        };
+        Ok(Box::new(stream) as Box<dyn Stream + 'a>)
+    };
+    Track { columns, lengths, what, open: Box::new(open) }
+}
+
+struct Reordered<'a> {
+    inner: Box<dyn Stream + 'a>,
+    used: bool,
+    empty: Vec<Column>,
+    /// The values of all points, once they are read.
+    all: Option<Vec<Data>>,
+    /// The cell of each point.
+    cells: Arc<[u32]>,
+    /// Index of the next point.
+    next: usize,
+}
+
+impl Stream for Reordered<'_> {
+    fn read(
+        &mut self,
+        count: usize,
+        columns: &mut [Column],
+        room: &mut Vec<u8>,
+    ) -> Result<usize, ReadError> {
+        if !self.used {
+            return Ok(count);
+        }
+        let all = match self.all.take() {
+            Some(all) => all,
+            None => {
+                let mut own = self.empty.clone();
+                self.inner.read(self.cells.len(), &mut own, room)?;
+                own.iter().map(|c| c.data.picked(c.components, &self.cells)).collect()
+            }
+        };
+        let end = self.cells.len().min(self.next.saturating_add(count));
+        let some: Range<usize> = self.next..end;
+        for (column, data) in columns.iter_mut().zip(&all) {
+            column.data.extend(data, column.components, &some);
+        }
+        self.next = end;
+        self.all = Some(all);
+        Ok(some.len())
+    }
+
+    fn finish(&mut self) -> Result<u64, ReadError> {
+        self.inner.finish()
+    }
+}
