@@ -418,14 +418,89 @@ fn dumps_of_lammps() {
     assert_eq!(scaled.positions, [[3.0, 2.5, -3.0], [20.0, 0.125, 2.0]]);
     let moved = dump(1, "zsu vx xsu vy ysu vz id rho").replace("mm\n0 2", "mm\n-1 3");
     assert_eq!(read(&moved, Extension::Unknown).positions[0], [-13.0, -0.5, 1.5]);
-    let tilted = dump(1, "xs ys zs vx vy vz id rho").replace("BOUNDS", "BOUNDS xy xz yz");
-    error(&tilted, Extension::Unknown, &["scaled", "dump x y z"]);
     let cut = dump(800, "x y z vx vy vz id rho");
     error(
         cut.trim_end().rsplit_once('\n').unwrap().0,
         Extension::Unknown,
         &["expected 2", "found 1"],
     );
+}
+
+/// Boxes with edges in any directions, and what is told where scaled positions cannot be found.
+#[test]
+fn scaled_dumps_of_lammps() {
+    let dump = |bounds: &str, atoms: &str| {
+        format!(
+            "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS {bounds}\nITEM: ATOMS {atoms}\n"
+        )
+    };
+    let positions = |text: &str| read(text, Extension::Unknown).positions;
+    // xlo 1, ylo -2, zlo 3; sides 4, 8 and 2; xy 1, xz -2, yz 0.5. The ends that are written enclose that box:
+    // x from 1 - 2 to 5 + 1, y from -2 to 6 + 0.5.
+    let tilted = "xy xz yz pp pp ff\n-1 6 1\n-2 6.5 -2\n3 5 0.5";
+    let rows = "1 0.5 0.25 0.5\n2 0 1 -1";
+    // 1 + 0.5 * 4 + 0.25 * 1 - 0.5 * 2, -2 + 0.25 * 8 + 0.5 * 0.5, 3 + 0.5 * 2; and
+    // 1 + 1 + 2, -2 + 8 - 0.5, 3 - 2.
+    let expected = [[2.25, 0.25, 4.0], [4.0, 5.5, 1.0]];
+    for names in ["id xs ys zs", "id xsu ysu zsu"] {
+        assert_eq!(positions(&dump(tilted, &format!("{names}\n{rows}"))), expected, "{names}");
+    }
+    let turned = "zs id ys xs\n0.5 1 0.25 0.5\n-1 2 1 0";
+    assert_eq!(positions(&dump(tilted, turned)), expected);
+    // Edges (2, 0, 1), (0, 3, -1) and (1, 1, 4); origin (10, 20, 30):
+    // 10 + 0.5 * 2 + 0.5 * 1, 20 + 0.25 * 3 + 0.5 * 1, 30 + 0.5 * 1 - 0.25 + 0.5 * 4; and
+    // 10 - 1, 20 + 3 - 1, 30 - 1 - 4.
+    let general = "abc origin pp pp pp\n2 0 1 10\n0 3 -1 20\n1 1 4 30";
+    let expected = [[11.5, 21.25, 32.25], [9.0, 22.0, 25.0]];
+    assert_eq!(positions(&dump(general, &format!("id xs ys zs\n{rows}"))), expected);
+    // A tilt by both: the enclosing box is larger by their sum. xlo 0, side 4, xy 1, xz 2.
+    let both = dump("xy xz yz pp pp pp\n0 7 1\n0 1 2\n0 1 0", "xs ys zs\n1 0 0\n0 1 1");
+    assert_eq!(positions(&both), [[4.0, 0.0, 0.0], [3.0, 1.0, 1.0]]);
+    // What is not scaled is as it is, in any box, and comes first.
+    for (bounds, names) in
+        [(tilted, "xu yu zu"), (general, "x y z"), ("xy xz yz pp pp pp\n0 1\nnone\n0 1", "x y z")]
+    {
+        let found =
+            positions(&dump(bounds, &format!("{names} xs ys zs\n1 2 3 0 0 0\n4 5 6 0 0 0")));
+        assert_eq!(found, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{names}");
+    }
+    // Axes may differ, as far as the edges do not reach along others.
+    let straight = "pp pp pp\n0 2\n-1 1\n0 10";
+    assert_eq!(positions(&dump(straight, "x yu zs\n1 2 0.5\n3 4 1"))[0], [1.0, 2.0, 5.0]);
+    assert_eq!(positions(&dump(straight, "xs ys\n1 0.5\n3 4"))[0], [2.0, 0.0, 0.0]);
+    let flat = "xy xz yz pp pp pp\n0 3 1\n0 1 0\n-1 1 0";
+    assert_eq!(positions(&dump(flat, "xs ys\n1 0.5\n3 4"))[0], [2.5, 0.5, 0.0]);
+    for (bounds, atoms, told) in [
+        (tilted, "xs ys z\n1 1 1\n1 1 1", ["some axes only (xs ys, and not z)", "dump x y z"]),
+        (tilted, "xs ys\n1 1\n1 1", ["some axes only (xs ys)", "in a tilted box"]),
+        (
+            "xy xz yz pp pp pp\n0 2\n0 1\n0 1",
+            "xs ys zs\n1 1 1\n1 1 1",
+            ["both ends and the tilt", "\"0 2\" in line 6"],
+        ),
+        (
+            "pp pp pp\n0 2\n0 1 4\n0 1",
+            "xs ys zs\n1 1 1\n1 1 1",
+            ["both ends of each side", "\"0 1 4\" in line 7"],
+        ),
+        (
+            "abc origin pp pp pp\n1 0 0 0\n0 1 0 0\n0 0 1",
+            "xs ys zs\n1 1 1\n1 1 1",
+            ["an edge of the box", "\"0 0 1\" in line 8"],
+        ),
+        (
+            "xy xz yz pp pp pp\n0 inf 0\n0 1 0\n0 1 0",
+            "xs ys zs\n1 1 1\n1 1 1",
+            ["both ends and the tilt", "0 inf 0"],
+        ),
+    ] {
+        error(&dump(bounds, atoms), Extension::Unknown, &told);
+    }
+    let none = dump(straight, "xs ys zs\n1 1 1\n1 1 1");
+    let (head, rest) = none.split_once("ITEM: BOX").unwrap();
+    let rest = rest.split_once("ITEM: ATOMS").unwrap().1;
+    let told = ["scaled positions without `ITEM: BOX BOUNDS`"];
+    error(&format!("{head}ITEM: ATOMS{rest}"), Extension::Unknown, &told);
 }
 
 #[test]

@@ -268,10 +268,10 @@ impl Data {
         true
     }
 
-    /// Converts the last value from a fraction of a box's side to a position.
-    pub(super) fn stretch_last(&mut self, from: f64, side: f64) {
+    /// Replaces the last value, if it is a double.
+    pub(super) fn set_last(&mut self, value: f64) {
         if let Self::F64(v) = self {
-            v.last_mut().into_iter().for_each(|x| *x = from + *x * side);
+            v.last_mut().into_iter().for_each(|x| *x = value);
         }
     }
 

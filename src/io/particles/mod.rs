@@ -16,7 +16,7 @@
 //! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders, structured, (n, 3) and (3, n) | yes | NPZ |
 //! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), Tecplot, XYZ text, extended XYZ, XYZ raw `f32` triples | yes | |
 //! | JSON: arrays, objects of arrays, arrays of objects, lines | yes | |
-//! | dumps of LAMMPS and LIGGGHTS, text | yes | |
+//! | dumps of LAMMPS and LIGGGHTS, text; positions also scaled, in a box of any shape | yes | |
 //! | HDF5 (VTKHDF, PySPH, H5Part, H5MD, arrays in a group) and XDMF | with the feature `hdf5` | |
 //!
 //! [`Parts`] reads the same particles in parts, for files that are too large for memory: all of these formats

@@ -155,11 +155,40 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
         names.extend((0..3).map(unnamed));
     }
     let text = Text::new(content.open(heading.at, content.length())?);
-    Ok(rows(text, content.lines_before() + heading.line, promised, commas, (&names, &[]), about))
+    Ok(rows(text, content.lines_before() + heading.line, promised, commas, (&names, None), about))
 }
 
-/// A column of fractions of a box's side: its name, and both ends of the side.
-pub(super) type Side<'a> = (&'a str, f64, f64);
+/// The box whose edges scale positions.
+#[derive(Clone, Copy)]
+pub(super) struct Basis {
+    /// Which axes are scaled.
+    pub(super) scaled: [bool; 3],
+    pub(super) origin: [f64; 3],
+    pub(super) edges: [[f64; 3]; 3],
+}
+
+impl Basis {
+    /// Replaces the last values of the columns of axes, where these are scaled.
+    fn apply(&self, axes: &[Option<usize>; 3], columns: &mut [Column]) {
+        let last = |axis: &Option<usize>| {
+            let data = &columns.get((*axis)?)?.data;
+            data.f64(data.len().checked_sub(1)?)
+        };
+        let [a, b, c] = axes.each_ref().map(last);
+        let values = [a, b, c].into_iter().zip(self.scaled);
+        let values: Vec<f64> =
+            values.map(|(value, scaled)| value.filter(|_| scaled).unwrap_or(0.0)).collect();
+        for (k, (axis, origin)) in axes.iter().zip(self.origin).enumerate() {
+            let edges = values.iter().zip(&self.edges);
+            let position: f64 =
+                edges.map(|(value, edge)| value * edge.get(k).copied().unwrap_or(0.0)).sum();
+            let column = axis.filter(|_| self.scaled.get(k) == Some(&true));
+            if let Some(column) = column.and_then(|i| columns.get_mut(i)) {
+                column.data.set_last(origin + position);
+            }
+        }
+    }
+}
 
 /// Reads rows with these column names, after this number of lines.
 pub(super) fn rows<'a>(
@@ -167,7 +196,7 @@ pub(super) fn rows<'a>(
     number: u64,
     promised: Option<u64>,
     commas: bool,
-    (names, sides): (&[String], &[Side<'_>]),
+    (names, basis): (&[String], Option<Basis>),
     mut about: About,
 ) -> Table<'a> {
     let mut rows = Lines {
@@ -177,7 +206,7 @@ pub(super) fn rows<'a>(
         promised,
         commas,
         columns: Vec::new(),
-        box_of: Vec::new(),
+        basis: basis.map(|basis| (basis, [None; 3])),
         zones: None,
     };
     let mut columns = Vec::new();
@@ -189,8 +218,12 @@ pub(super) fn rows<'a>(
         let keep = about.list(name, 1, ty) && ty == AttributeType::Number;
         rows.columns.push(keep.then_some(columns.len()));
         if keep {
-            let side = sides.iter().find(|(side, ..)| *side == name);
-            rows.box_of.extend(side.map(|(_, from, to)| (columns.len(), *from, to - from)));
+            let axis = ["x", "y", "z"].iter().position(|axis| *axis == name);
+            if let (Some((_, axes)), Some(axis)) = (&mut rows.basis, axis)
+                && let Some(free @ None) = axes.get_mut(axis)
+            {
+                *free = Some(columns.len());
+            }
             columns.push(Column::new(name, 1, AttributeType::Number));
         }
     }
@@ -219,16 +252,8 @@ pub(super) fn rows_of_zones<'a>(
         columns.len() - 1
     });
     let zones = Some(Zones { column: zone, index: -1.0 });
-    let rows = Lines {
-        text,
-        number,
-        rows: 0,
-        promised: None,
-        commas,
-        columns: taken,
-        box_of: Vec::new(),
-        zones,
-    };
+    let rows =
+        Lines { text, number, rows: 0, promised: None, commas, columns: taken, basis: None, zones };
     Table { columns, about, rows: Box::new(rows) }
 }
 
@@ -376,8 +401,8 @@ struct Lines<'a> {
     commas: bool,
     /// For each word of a line, the index of the column that takes it.
     columns: Vec<Option<usize>>,
-    /// Columns with fractions of a box's sides: where the side begins, and its length.
-    box_of: Vec<(usize, f64, f64)>,
+    /// The box that scales positions, and the columns of the axes.
+    basis: Option<(Basis, [Option<usize>; 3])>,
     /// The Tecplot zones of the rows.
     zones: Option<Zones>,
 }
@@ -422,11 +447,8 @@ impl RowReader for Lines<'_> {
                 return Err(several_frames(self.number));
             }
             row(line, self.number, self.commas, &self.columns, columns)?;
-            for (column, origin, side) in &self.box_of {
-                columns
-                    .get_mut(*column)
-                    .into_iter()
-                    .for_each(|c| c.data.stretch_last(*origin, *side));
+            if let Some((basis, axes)) = &self.basis {
+                basis.apply(axes, columns);
             }
             if let Some(Zones { column: Some(column), index }) = &self.zones
                 && let Some(column) = columns.get_mut(*column)

@@ -221,6 +221,21 @@ pub fn text_samples(list: &mut Vec<Sample>, of: &Particles) {
          ITEM: ATOMS vx vy vz rho id x y z\n{dump}"
     );
     list.push(sample("lammps", Extension::Unknown, dump, All, Format::Lammps));
+    // A tilted box whose sides are powers of two: xlo 0, sides 4, 8 and 2, xy 1, xz -2, yz 0.5.
+    let mut dump = format!(
+        "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS xy xz yz pp pp pp\n-2 5 1\n0 8.5 -2\n\
+         0 2 0.5\nITEM: ATOMS id xs ys zs vx vy vz density\n",
+        of.positions.len()
+    );
+    for i in 0..of.positions.len() {
+        let [x, y, z] = positions(of)[i].map(f64::from);
+        let c = z / 2.0;
+        let b = (y - 0.5 * c) / 8.0;
+        let a = (x - b + 2.0 * c) / 4.0;
+        let ([vx, vy, vz], id, density) = (velocities(of)[i], ids(of)[i], densities(of)[i]);
+        dump += &format!("{id} {a} {b} {c} {vx} {vy} {vz} {density}\n");
+    }
+    list.push(sample("lammps, scaled", Extension::Unknown, dump, All, Format::Lammps));
     let hashed = format!("# {}", csv(of, "vx vy vz rho id x y z", ",", ""));
     list.push(sample("csv with a hashed header", Extension::Csv, hashed, All, Format::Csv));
     let named_csv = csv(of, "vx vy vz rho id x y z", ",", "");
