@@ -17,7 +17,7 @@ use whitewater::water::{Rule, Splat};
 use whitewater_simulate::{FPS, FRAMES, Scene};
 
 use values::{
-    degrees, exposure, finite, foaming, no_less_than_0, positive, rule, seconds, size,
+    degrees, exposure, finite, foaming, no_less_than_0, positive, radius, rule, seconds, size,
     times_as_large, turntable, vector, was_foam,
 };
 
@@ -131,13 +131,14 @@ pub struct RenderArgs {
     /// One file is drawn repeatedly, numbered from 1. A sequence plays meanwhile.
     #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
     pub turntable: Option<Turntable>,
-    /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale) [default: from
-    /// the files, or estimated]
+    /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale), or the name of the
+    /// attribute with a radius per particle [default: from the files, or estimated]
     ///
-    /// The option sets one radius for all particles. Without it, if radii in the files differ by more than a quarter,
+    /// A number sets one radius for all particles. Attributes called radius, pscale, diameter and the like are recognised;
+    /// one called only r is taken as radii if it fits the particles' spacing and is no distance. Without a number, if radii in the files differ by more than a quarter,
     /// each larger particle is drawn as several of the smallest size, at most 8 times as many particles in all.
-    #[arg(long, value_name = "R", value_parser = positive)]
-    pub radius: Option<f32>,
+    #[arg(long, value_name = "R|NAME", value_parser = radius)]
+    pub radius: Option<Radius>,
     /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]
     ///
     /// Consecutive files are one frame apart, whatever the numbers in their names. Foam decay and the motion
@@ -629,6 +630,14 @@ pub enum NoiseArg {
     Surface,
     /// The normals, and grey foam.
     Foam,
+}
+
+/// Radius of the particles.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Radius {
+    Metres(f32),
+    /// The attribute with this name, one radius per particle.
+    Of(String),
 }
 
 /// Which water foams.

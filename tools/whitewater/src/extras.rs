@@ -10,7 +10,7 @@ use whitewater::io::particles::{self, Extra, Particles, same_name};
 use crate::arrays;
 use crate::failure::{Failure, Outcome};
 use crate::fluids::Fluids;
-use crate::radii::{DIAMETERS, RADII};
+use crate::radii::{DIAMETERS, RADII, UNSURE};
 
 /// Names of attributes that distinguish phases, or walls from water.
 const PHASES: [&str; 34] = [
@@ -138,10 +138,15 @@ impl Condition {
     }
 }
 
-/// Reads a frame with the attributes that this module needs.
-pub fn read(frame: &Frame, conditions: &[Condition], fluids: &Fluids) -> Outcome<Particles> {
-    let asked = conditions.iter().map(Condition::name).chain(fluids.names());
-    let radii = RADII.into_iter().chain(DIAMETERS);
+/// Reads a frame with the attributes that this module needs, and one of radii with this name.
+pub fn read(
+    frame: &Frame,
+    conditions: &[Condition],
+    fluids: &Fluids,
+    radius: Option<&str>,
+) -> Outcome<Particles> {
+    let asked = conditions.iter().map(Condition::name).chain(fluids.names()).chain(radius);
+    let radii = RADII.into_iter().chain(DIAMETERS).chain([UNSURE]);
     let names: Vec<&str> = PHASES.into_iter().chain(radii).chain(asked).collect();
     if let Some(step) = frame.step {
         let mut all = particles::read_step(&frame.path, step, &names)?;

@@ -515,7 +515,7 @@ mod tests {
         let mut frames = frames::expand(&[at("water_*.csv")], false).unwrap();
         let (fluids, said) = Fluids::find(&args, &mut frames).unwrap();
         assert!(said.len() == 1 && said[0].contains("1 of 2 frames"), "{said:?}");
-        let mut all = extras::read(&frames[0], &[], &fluids).unwrap();
+        let mut all = extras::read(&frames[0], &[], &fluids, None).unwrap();
         fluids.divide(&mut all, Path::new("water_1.csv")).unwrap();
         assert_eq!((fluids.drawn(), first(&all, 2), first(&all, 1)), (2, Some(0..1), None));
         assert_eq!((all.ids.clone(), ranges(&all, 2)), (Some(vec![14, 15]), vec![0..1, 1..2]));

@@ -27,8 +27,15 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     let mut failed = Vec::new();
     for frame in &frames {
         let path = frame.path.display().to_string();
-        match extras::read(frame, &[], &Fluids::default()) {
-            Ok(particles) => {
+        match extras::read(frame, &[], &Fluids::default(), None) {
+            Ok(mut particles) => {
+                let unsure = radii::unsure(&particles);
+                if let Some(Err(why)) = &unsure {
+                    particles.warnings.push(radii::unused(why));
+                }
+                if let Some(Ok(())) = unsure {
+                    radii::take(&mut particles, radii::UNSURE, &frame.path)?;
+                }
                 let value = describe(&path, frame, &particles);
                 if args.json {
                     all.push(value);
@@ -159,6 +166,13 @@ fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
 fn beside(particles: &Particles, name: &str) -> Option<String> {
     if radii::is_radius(name) {
         return radii::radii(particles).map(|_| "radius".into());
+    }
+    // One called `r` was renamed if it holds the radii.
+    let renamed = particles::same_name(name, radii::UNSURE)
+        && extras::find(particles, radii::UNSURE).is_none()
+        && !particles.attributes.iter().any(|a| radii::is_radius(&a.name));
+    if renamed && radii::radii(particles).is_some() {
+        return Some("radius".into());
     }
     let times = ["time", "timestep", "time value", "step", "frame"];
     if particles.time.is_some() && times.iter().any(|time| particles::same_name(time, name)) {

@@ -3,10 +3,13 @@
 
 use std::f32::consts::PI;
 
-use glam::{Quat, Vec3};
-use whitewater::io::particles::{Particles, same_name};
+use std::path::Path;
+
+use glam::{DVec3, Quat, Vec3};
+use whitewater::io::particles::{Particles, estimate_spacing, same_name};
 
 use crate::extras::find;
+use crate::failure::{Failure, Outcome};
 use crate::fluids::reorder;
 use crate::surface_foam::quantile;
 
@@ -14,6 +17,14 @@ use crate::surface_foam::quantile;
 pub const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];
 /// Attribute names of diameters: LAMMPS, and OpenFOAM's clouds.
 pub const DIAMETERS: [&str; 3] = ["diameter", "diam", "d"];
+
+/// A name of radii, and of distances from an axis or a point.
+pub const UNSURE: &str = "r";
+/// Range of the median radius in particle spacings in which values of that name are taken as radii. Particles that touch
+/// have 0.5; smoothing lengths and loose particles are near it, distances are not.
+const FITTING: [f64; 2] = [0.2, 1.1];
+/// Share of values that are distances, from which on all are, and the tolerance of each.
+const DISTANCES: (f64, f64) = (0.9, 1.0e-3);
 
 /// Ratio of radii below which particles are drawn alike: twice the volume.
 const ALIKE: f32 = 1.26;
@@ -35,6 +46,83 @@ fn of(particles: &Particles) -> Option<Vec<f32>> {
     let diameter = || DIAMETERS.iter().find_map(|name| Some((find(particles, name)?, 0.5)));
     let (extra, of) = radius.or_else(diameter)?;
     Some(extra.values.iter().map(|r| (of * *r) as f32).collect())
+}
+
+fn is_size(value: f64) -> bool {
+    value.is_finite() && value > 0.0
+}
+
+/// Whether an attribute that is called only `r` holds radii, or why not; `None` without one, or if another attribute has
+/// the radii.
+pub fn unsure(particles: &Particles) -> Option<Result<(), String>> {
+    let extra = find(particles, UNSURE)?;
+    if of(particles).is_some() {
+        return None;
+    }
+    let values = &extra.values;
+    if !values.iter().all(|value| is_size(*value)) {
+        return Some(Err("not all values are above 0".into()));
+    }
+    let origin = DVec3::from(particles.origin);
+    for (mask, from) in [
+        (DVec3::ONE, "the origin"),
+        (DVec3::new(1.0, 1.0, 0.0), "the z axis"),
+        (DVec3::new(1.0, 0.0, 1.0), "the y axis"),
+        (DVec3::new(0.0, 1.0, 1.0), "the x axis"),
+    ] {
+        let (share, tolerance) = DISTANCES;
+        let all = particles.positions.iter().zip(values);
+        let same = all.filter(|(position, value)| {
+            let away = (mask * (Vec3::from(**position).as_dvec3() + origin)).length();
+            (away - **value).abs() <= tolerance * away
+        });
+        if same.count() as f64 > share * values.len() as f64 {
+            return Some(Err(format!("it is the distance from {from}")));
+        }
+    }
+    let mut sorted = values.clone();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let middle = sorted.get(sorted.len() / 2).copied()?;
+    let Some(spacing) = estimate_spacing(&particles.positions).map(f64::from) else {
+        return Some(Err("there are too few particles to tell".into()));
+    };
+    let [least, most] = FITTING;
+    Some(match (least * spacing..=most * spacing).contains(&middle) {
+        true => Ok(()),
+        false => {
+            Err(format!("its median {middle:.3e} does not fit the particle spacing {spacing:.3e}"))
+        }
+    })
+}
+
+/// Warning about such an attribute that is not used.
+pub fn unused(why: &str) -> String {
+    format!(
+        "attribute `{UNSURE}` is not taken as radii: {why}; --radius {UNSURE} takes it as radii"
+    )
+}
+
+/// Takes an attribute as radii by its name. Names of diameters stay such.
+pub fn take(particles: &mut Particles, name: &str, path: &Path) -> Outcome<()> {
+    let bad = |found: String| {
+        let path = path.display();
+        Failure::input(format!(
+            "--radius {name}: {path}: expected an attribute `{name}` of one positive number for each particle, found {found}"
+        ))
+    };
+    let names =
+        || particles.attributes.iter().map(|a| a.name.as_str()).take(24).collect::<Vec<_>>();
+    let Some(extra) = find(particles, name) else { return Err(bad(names().join(", "))) };
+    if !extra.values.is_empty() && !extra.values.iter().any(|value| is_size(*value)) {
+        return Err(bad("none above 0".into()));
+    }
+    let diameter = DIAMETERS.iter().any(|diameter| same_name(diameter, name));
+    let own = |other: &str| same_name(other, name);
+    particles.extras.retain(|extra| own(&extra.name) || !is_radius(&extra.name));
+    for extra in particles.extras.iter_mut().filter(|extra| own(&extra.name) && !diameter) {
+        extra.name = RADII[0].into();
+    }
+    Ok(())
 }
 
 /// Min, median and max radius of the particles, in the unit of the file.
@@ -165,6 +253,62 @@ mod tests {
         let radii: Vec<f32> = (0..100).map(|i| 0.1 + 0.0002 * i as f32).collect();
         assert_eq!(Split::of(&particles(&radii)), None);
         assert_eq!(super::radii(&particles(&radii)).unwrap()[0], 0.1);
+    }
+
+    /// A block of 1000 particles, 0.1 apart, with values called `r`.
+    fn called_r(value: impl Fn(Vec3) -> f32) -> Particles {
+        let at = |i: usize| [i % 10, i / 10 % 10, i / 100].map(|c| 0.1 * c as f32 + 0.4);
+        let positions: Vec<_> = (0..1000).map(at).collect();
+        let values = positions.iter().map(|p| f64::from(value(Vec3::from(*p)))).collect();
+        let mut particles = Particles::from_positions(positions);
+        particles.extras = vec![Extra { name: "R [m]".into(), values }];
+        particles
+    }
+
+    #[test]
+    fn a_column_r_is_radii_or_it_is_told_why_not() {
+        let told = |value: &dyn Fn(Vec3) -> f32| unsure(&called_r(value)).unwrap();
+        assert_eq!(told(&|_| 0.05), Ok(()));
+        assert_eq!(told(&|p| if p.x < 0.6 { 0.03 } else { 0.06 }), Ok(()));
+        assert_eq!(told(&|_| 0.1), Ok(()), "a spacing");
+        for (value, why) in [
+            (&(|p: Vec3| p.length()) as &dyn Fn(Vec3) -> f32, "the distance from the origin"),
+            (&|p| p.truncate().length(), "the distance from the z axis"),
+            (&|p| Vec3::new(p.x, 0.0, p.z).length(), "the distance from the y axis"),
+            (&|p| Vec3::new(0.0, p.y, p.z).length(), "the distance from the x axis"),
+            (&|p| (p - 0.85).length(), "does not fit the particle spacing"),
+            (&|_| 0.001, "does not fit the particle spacing"),
+            (&|p| p.x - 0.4, "not all values are above 0"),
+            (&|_| f32::NAN, "not all values are above 0"),
+        ] {
+            assert!(told(value).unwrap_err().contains(why), "{why}");
+        }
+        let mut few = called_r(|_| 0.05);
+        few.positions.truncate(1);
+        few.extras[0].values.truncate(1);
+        assert!(unsure(&few).unwrap().unwrap_err().contains("too few"));
+        // A name that says what it is comes first.
+        let mut both = called_r(|_| 0.05);
+        both.extras.push(Extra { name: "radius".into(), values: vec![0.04; 1000] });
+        assert_eq!(unsure(&both), None);
+        assert_eq!(unsure(&particles(&[0.1])), None);
+    }
+
+    #[test]
+    fn an_attribute_is_named_as_radii() {
+        let path = Path::new("a.csv");
+        let mut particles = called_r(|p| p.x);
+        particles.extras.push(Extra { name: "radius".into(), values: vec![0.04; 1000] });
+        take(&mut particles, "r", path).unwrap();
+        assert_eq!(super::radii(&particles).unwrap()[0], 0.4);
+        let mut particles = called_r(|_| 0.05);
+        particles.extras.push(Extra { name: "Diameter".into(), values: vec![0.08; 1000] });
+        take(&mut particles, "diameter", path).unwrap();
+        assert_eq!(super::radii(&particles).unwrap()[0], 0.04);
+        let told = take(&mut called_r(|_| 0.05), "size", path).unwrap_err().message;
+        assert!(told.contains("--radius size: a.csv: expected an attribute `size`"), "{told}");
+        let told = take(&mut called_r(|_| 0.0), "r", path).unwrap_err().message;
+        assert!(told.contains("found none above 0"), "{told}");
     }
 
     /// A particle with twice the radius becomes eight with its volume, which stay the same from frame to frame.

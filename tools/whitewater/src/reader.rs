@@ -41,6 +41,10 @@ pub struct Reader<'a> {
     placing: Placing,
     conditions: &'a [Condition],
     fluids: &'a Fluids,
+    /// The attribute that the user named as radii.
+    radius: Option<&'a str>,
+    /// Whether an attribute `r` holds radii, or why not; determined by the first frame that was read.
+    unsure: OnceCell<Option<Result<(), String>>>,
     /// Min, median and max radius in the first frame that was read.
     pub radii: Option<[f32; 3]>,
     /// How large particles are split; determined by the first frame that was read.
@@ -68,6 +72,8 @@ impl<'a> Reader<'a> {
             placing,
             conditions,
             fluids,
+            radius: None,
+            unsure: OnceCell::new(),
             radii: None,
             split: OnceCell::new(),
             fps,
@@ -141,9 +147,21 @@ impl<'a> Reader<'a> {
         Some(self.split.get().copied()??.base * self.placing.scale)
     }
 
-    /// Disables splitting: all particles are drawn with one radius.
+    /// Disables radii of the files: all particles are drawn with one radius.
     pub fn alike(&mut self) {
         self.split = OnceCell::from(None);
+        self.unsure = OnceCell::from(None);
+    }
+
+    /// Takes an attribute with this name as radii.
+    pub fn take_radii(&mut self, name: &'a str) {
+        self.radius = Some(name);
+    }
+
+    /// The name of the radii, if it does not say so itself.
+    pub fn radii_name(&self) -> Option<&str> {
+        let unsure = matches!(self.unsure.get(), Some(Some(Ok(()))));
+        self.radius.or(unsure.then_some(radii::UNSURE))
     }
 
     /// Sets the up axis for frames that are read from now on; the caller rotates earlier ones.
@@ -159,7 +177,7 @@ impl<'a> Reader<'a> {
 
     /// Reads a frame without estimated attributes and without warnings about missing ones.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
-        let mut particles = extras::read(frame, self.conditions, self.fluids)?;
+        let mut particles = extras::read(frame, self.conditions, self.fluids, self.radius)?;
         extras::select(&mut particles, self.conditions, &frame.path)?;
         let told = extras::told(&particles, self.conditions, self.fluids);
         self.fluids.divide(&mut particles, &frame.path)?;
@@ -169,6 +187,15 @@ impl<'a> Reader<'a> {
             particles
                 .warnings
                 .push(format!("{copies} copies of particles at the same place are left out"));
+        }
+        if let Some(name) = self.radius {
+            radii::take(&mut particles, name, &frame.path)?;
+        } else if extras::find(&particles, radii::UNSURE).is_some() {
+            match self.unsure.get_or_init(|| radii::unsure(&particles)) {
+                Some(Ok(())) => radii::take(&mut particles, radii::UNSURE, &frame.path)?,
+                Some(Err(why)) => particles.warnings.push(radii::unused(why)),
+                None => {}
+            }
         }
         if let Some(split) = self.split.get_or_init(|| Split::of(&particles))
             && let Some(count) = split.apply(&mut particles)

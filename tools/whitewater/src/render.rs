@@ -4,7 +4,7 @@ use whitewater::Settings;
 use whitewater::io::particles;
 use whitewater::io::particles::sequence::{self, Frame};
 
-use crate::args::{Foaming, RenderArgs, Unit, Up, Whitewater};
+use crate::args::{Foaming, Radius, RenderArgs, Unit, Up, Whitewater};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Turn};
 use crate::failure::{Failure, Kind, Outcome};
@@ -137,8 +137,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let origin = origin.unwrap_or_default();
     let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale, origin };
     let mut reader = Reader::new(&all, placing, (&args.conditions, &fluids), fps);
-    if args.radius.is_some() {
-        reader.alike();
+    match &args.radius {
+        Some(Radius::Of(name)) => reader.take_radii(name),
+        Some(Radius::Metres(_)) => reader.alike(),
+        None => {}
     }
     let by_time = if args.fps.is_none() { reader.rate() } else { None };
     by_time.into_iter().for_each(|rate| reader.set_rate(rate));
@@ -376,10 +378,10 @@ fn spacing(
     file: &SettingsFile,
     progress: &Progress,
 ) -> f32 {
-    match (args.radius, file.water.spacing) {
-        (Some(radius), _) => 2.0 * radius,
+    match (&args.radius, file.water.spacing) {
+        (Some(Radius::Metres(radius)), _) => 2.0 * radius,
         (None, Some(spacing)) => spacing,
-        (None, None) if reader.radii.is_some() => {
+        _ if reader.radii.is_some() => {
             let [least, middle, most] = reader.radii.unwrap_or_default();
             let radius = reader.base().unwrap_or(middle);
             let differ = if most > 1.1 * least {
@@ -391,11 +393,17 @@ fn spacing(
             } else {
                 String::new()
             };
-            progress
-                .say(&format!("radius {} (of the files{differ}; --radius sets it)", round(radius)));
+            let of = match (&args.radius, reader.radii_name()) {
+                (Some(Radius::Of(name)), _) => format!("attribute `{name}` of the files"),
+                (_, Some(name)) => {
+                    format!("attribute `{name}` of the files, which fits their spacing")
+                }
+                _ => "of the files".into(),
+            };
+            progress.say(&format!("radius {} ({of}{differ}; --radius sets it)", round(radius)));
             2.0 * radius
         }
-        (None, None) => match probes.spacing() {
+        _ => match probes.spacing() {
             Some(spacing) => {
                 progress
                     .say(&format!("radius {} (estimated; --radius sets it)", round(0.5 * spacing)));

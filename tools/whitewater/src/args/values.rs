@@ -2,7 +2,7 @@
 
 use whitewater::water::Rule;
 
-use super::{Foaming, Turntable};
+use super::{Foaming, Radius, Turntable};
 
 /// Refuses a renamed flag and names the new one.
 pub(super) fn was_foam(_: &str) -> Result<Foaming, String> {
@@ -28,6 +28,17 @@ pub(super) fn turntable(text: &str) -> Result<Turntable, String> {
             Ok(frames @ 2..=100_000) => Ok(Turntable::Frames(frames)),
             _ => Err(bad()),
         },
+    }
+}
+
+/// A length, or a name that cannot be a misspelled one.
+pub(super) fn radius(text: &str) -> Result<Radius, String> {
+    let name = text.trim();
+    let is_name = name.starts_with(|c: char| c.is_alphabetic() || "_@:".contains(c));
+    match positive(text) {
+        Ok(radius) => Ok(Radius::Metres(radius)),
+        Err(_) if is_name && name.parse::<f32>().is_err() => Ok(Radius::Of(name.into())),
+        Err(_) => Err("expected a number above 0, or the name of an attribute".into()),
     }
 }
 

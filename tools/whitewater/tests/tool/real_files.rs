@@ -186,6 +186,49 @@ fn walls_are_told_and_left_out() {
     folder.run("render all.csv -o a.png --where Type~3").fails_at_once();
 }
 
+/// A column called only `r` may be radii or a distance: what it is taken for is told, and `--radius r` decides.
+#[test]
+fn a_column_r_is_radii_or_told() {
+    let folder = Folder::new();
+    let table = |name: &str, r: &dyn Fn([f32; 3]) -> f32| {
+        let mut rows = String::from("x,y,z,r\n");
+        for [p, _] in slope() {
+            rows += &format!("{},{},{},{}\n", p[0], p[1], p[2], r(p));
+        }
+        folder.text(name, &rows);
+    };
+    table("radii.csv", &|p| if p[2] > 0.3 { 0.028 } else { 0.031 });
+    table("away.csv", &|p| 0.001 + (p[0] - 0.1).hypot(p[2] + 0.2));
+    let said = |command: &str| folder.run(&format!("{command} {SMALL}")).ok().stderr();
+    let text = said("render radii.csv -o a.png");
+    let part = "radius 0.031 (attribute `r` of the files, which fits their spacing; they go from 0.028 to 0.031";
+    assert!(text.contains(part), "{text}");
+    let text = said("render away.csv -o b.png");
+    for part in [
+        "(estimated; --radius",
+        "attribute `r` is not taken as radii: its median",
+        "--radius r takes",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+    let text = said("render away.csv -o c.png --radius R");
+    assert!(text.contains("(attribute `R` of the files; they go from"), "{text}");
+    let text = said("render away.csv -o d.png --radius 0.03");
+    assert!(!text.contains("attribute `r`"), "{text}");
+    folder
+        .run(&format!("render away.csv -o e.png --radius size {SMALL}"))
+        .fails(3, &["expected an attribute `size`", "x, y, z, r"]);
+    folder.run("render away.csv -o e.png --radius 0.03m").fails_at_once();
+    let text = folder.run("info radii.csv").ok().stdout();
+    for part in ["r (number x 1): radius", "radii       0.028000 to 0.031000"] {
+        assert!(text.contains(part), "{text}");
+    }
+    let text = folder.run("info away.csv").ok().stdout();
+    for part in ["r (number x 1): not used", "warning     attribute `r` is not taken as radii"] {
+        assert!(text.contains(part), "{text}");
+    }
+}
+
 /// Radii in the files are used, and copies of particles at one place are drawn once.
 #[test]
 fn radii_and_copies_of_particles_are_understood() {
