@@ -1,14 +1,23 @@
 //! A temporary folder that is removed at the end of a test.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 pub struct Folder(PathBuf);
 
 impl Folder {
+    /// A new folder: a test that was killed may have left its own, and another process may get the same id.
     pub fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("whitewater-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
+        for attempt in 0.. {
+            let name = format!("whitewater-{name}-{}-{attempt}", std::process::id());
+            let path = std::env::temp_dir().join(name);
+            match std::fs::create_dir(&path) {
+                Ok(()) => return Self(path),
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                Err(error) => panic!("{}: {error}", path.display()),
+            }
+        }
+        unreachable!("some name is free")
     }
 
     pub fn path(&self) -> &Path {
@@ -28,4 +37,13 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let _ = std::fs::remove_dir_all(&self.0);
     }
+}
+
+#[test]
+fn what_another_test_left_is_not_there() {
+    let left = Folder::new("left");
+    left.put("a.csv", b"x");
+    let own = Folder::new("left");
+    assert_ne!(own.path(), left.path());
+    assert_eq!(std::fs::read_dir(own.path()).unwrap().count(), 0);
 }

@@ -233,3 +233,21 @@ fn ranks_are_no_frames() {
         assert!(error.contains("--join"), "{error}");
     }
 }
+
+/// A file that the system cannot look at (here a link to itself) would otherwise be a frame less.
+#[cfg(unix)]
+#[test]
+fn files_that_cannot_be_looked_at_are_told() {
+    let folder = Files::new("unseen", &["f_1.csv", "f_3.csv"]);
+    let link = folder.0.path().join("f_2.csv");
+    std::os::unix::fs::symlink(&link, &link).unwrap();
+    for pattern in ["f_*.csv", "f_%d.csv", "f_2.csv"] {
+        let error = expand(&[folder.input(pattern)], None).unwrap_err();
+        assert!(matches!(error, SequenceError::Io { .. }), "{pattern}: {error}");
+        assert!(error.to_string().contains("f_2.csv"), "{pattern}: {error}");
+    }
+    // A link to what is gone is no file.
+    std::fs::remove_file(&link).unwrap();
+    std::os::unix::fs::symlink("gone.csv", &link).unwrap();
+    assert_eq!(folder.frames(&["f_*.csv"], None).len(), 2);
+}

@@ -1,5 +1,6 @@
 //! Files that were written are read back unchanged.
 
+use super::folder::Folder;
 use super::samples;
 use whitewater::io::particles::{Particles, WriteError, WriteFormat, read, write};
 
@@ -12,15 +13,10 @@ fn cloud() -> Particles {
 
 const NAMES: [&str; 5] = ["a.bgeo", "a.bgeo.gz", "a.vtu", "a.ply", "a.npz"];
 
-fn folder(name: &str) -> std::path::PathBuf {
-    let path = std::env::temp_dir().join(format!("whitewater-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&path).unwrap();
-    path
-}
-
 #[test]
 fn written_particles_read_back() {
-    let folder = folder("write");
+    let own = Folder::new("write");
+    let folder = own.path();
     let empty = Particles::from_positions(Vec::new());
     let bare = Particles::from_positions(samples::cloud().positions);
     // More than one compressed block of VTU.
@@ -43,13 +39,13 @@ fn written_particles_read_back() {
         }
     }
     // Each file was written four times, and no temporary files are left.
-    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), NAMES.len());
-    std::fs::remove_dir_all(&folder).unwrap();
+    assert_eq!(std::fs::read_dir(folder).unwrap().count(), NAMES.len());
 }
 
 #[test]
 fn failures_leave_nothing() {
-    let folder = folder("fail");
+    let own = Folder::new("fail");
+    let folder = own.path();
     let mut p = cloud();
     p.densities = Some(vec![1.0]);
     let path = folder.join("a.ply");
@@ -67,12 +63,11 @@ fn failures_leave_nothing() {
     // A folder has the name of the file, so that the final rename fails.
     std::fs::create_dir(&path).unwrap();
     assert!(matches!(write(&path, &p, WriteFormat::Vtu), Err(WriteError::Io { .. })));
-    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
+    assert_eq!(std::fs::read_dir(folder).unwrap().count(), 1);
     assert!(matches!(
         write(&folder.join("no/a.vtu"), &p, WriteFormat::Vtu),
         Err(WriteError::Io { .. })
     ));
-    std::fs::remove_dir_all(&folder).unwrap();
     for name in ["a.vtk", "a.vtu.gz", "a", "a.csv"] {
         assert_eq!(WriteFormat::from_path(std::path::Path::new(name)), None);
     }

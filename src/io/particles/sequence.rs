@@ -106,7 +106,7 @@ pub enum SequenceError {
         index: PathBuf,
     },
     /// A folder or file could not be listed.
-    #[error("cannot list {}: {reason}; check the name and the permissions", path.display())]
+    #[error("cannot look at {}: {reason}; check the name and the permissions", path.display())]
     Io {
         /// The path.
         path: PathBuf,
@@ -252,7 +252,8 @@ fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError>
     if path.is_dir() {
         return Err(SequenceError::Directory { input: input.trim_end_matches('/').into() });
     }
-    if path.exists() {
+    let exists = path.try_exists();
+    if matches!(exists, Ok(true)) {
         return Ok(vec![(path.to_path_buf(), None)]);
     }
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
@@ -262,7 +263,20 @@ fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError>
     if input.contains(['*', '?', '[']) {
         return Ok(expand_glob(input)?.into_iter().map(|path| (path, None)).collect());
     }
-    Err(SequenceError::NotFound { input: input.into() })
+    Err(match exists {
+        Err(reason) => SequenceError::Io { path: path.to_path_buf(), reason },
+        Ok(_) => SequenceError::NotFound { input: input.into() },
+    })
+}
+
+/// Whether this is a file. A file that cannot be looked at is an error: without it a sequence would lack a frame.
+fn is_file(path: &Path) -> Result<bool, SequenceError> {
+    match std::fs::metadata(path) {
+        Ok(found) => Ok(found.is_file()),
+        // A link to a file that is gone.
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => Ok(false),
+        Err(reason) => Err(SequenceError::Io { path: path.to_path_buf(), reason }),
+    }
 }
 
 fn expand_glob(input: &str) -> Result<Vec<PathBuf>, SequenceError> {
@@ -276,7 +290,7 @@ fn expand_glob(input: &str) -> Result<Vec<PathBuf>, SequenceError> {
             path: e.path().to_path_buf(),
             reason: std::io::Error::new(e.error().kind(), e.error().to_string()),
         })?;
-        if path.is_file() {
+        if is_file(&path)? {
             paths.push(path);
         }
     }
@@ -322,7 +336,7 @@ fn expand_printf(
         let Some(digits) = digits.filter(all).map(str::to_string) else { continue };
         let wide = digits.len() > width && !digits.starts_with('0');
         let fits = digits.len() == width || wide;
-        if fits && entry.path().is_file() {
+        if fits && is_file(&entry.path())? {
             // Joined to the given path, so that messages show the user's spelling.
             paths.push((path.with_file_name(file), digits.parse().ok()));
         }
