@@ -5,7 +5,7 @@ use libfuzzer_sys::fuzz_target;
 use whitewater::io::particles::{Extension, Particles, Parts, read_bytes};
 
 /// Beginnings and hints that lead to the formats which are read in parts.
-const STARTS: [(&[u8], Extension); 16] = [
+const STARTS: [(&[u8], Extension); 19] = [
     (b"", Extension::Unknown),
     (b"", Extension::Csv),
     (b"", Extension::Xyz),
@@ -31,6 +31,23 @@ const STARTS: [(&[u8], Extension); 16] = [
         b"<VTKFile type=\"PolyData\"><Piece NumberOfPoints=\"3\"><Points><DataArray ",
         Extension::Unknown,
     ),
+    // Fields of cells, in another order than the points.
+    (
+        b"# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\nVERTICES 3 6\n\
+          1 2 1 0 1 1\nCELL_DATA 3\n",
+        Extension::Unknown,
+    ),
+    (
+        b"<VTKFile type=\"PolyData\"><Piece NumberOfPoints=\"3\" NumberOfVerts=\"3\"><Points><DataArray type=\"Float32\" \
+          NumberOfComponents=\"3\">0 0 0 1 0 0 0 1 0</DataArray></Points><Verts><DataArray type=\"Int32\" Name=\"offsets\">\
+          1 2 3</DataArray><DataArray type=\"Int32\" Name=\"connectivity\">2 0 1</DataArray></Verts><CellData><DataArray ",
+        Extension::Unknown,
+    ),
+    (
+        b"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz yz\n0 2 1\n0 1 0.5\n0 1 0\nITEM: ATOMS id xs \
+          ys zs\n",
+        Extension::Unknown,
+    ),
 ];
 
 /// Position after position, as bits: no NaN is equal to itself.
@@ -53,6 +70,15 @@ fuzz_target!(|data: &[u8]| {
                 assert_eq!(parts.total(), whole.positions.len());
                 let parts = parts.collect::<Result<Vec<_>, _>>().expect("faults are found first");
                 assert_eq!(bits(std::iter::once(&whole)), bits(parts.iter()));
+                for field in [
+                    |p: &Particles| p.densities.clone().unwrap_or_default(),
+                    |p: &Particles| p.velocities.iter().flatten().flatten().copied().collect(),
+                ] {
+                    let field = |p: &Particles| -> Vec<u32> {
+                        field(p).into_iter().map(f32::to_bits).collect()
+                    };
+                    assert_eq!(field(&whole), parts.iter().flat_map(field).collect::<Vec<_>>());
+                }
                 let ids = parts.iter().flat_map(|p| p.ids.iter().flatten()).copied();
                 assert_eq!(whole.ids.unwrap_or_default(), ids.collect::<Vec<_>>());
                 let kinds = parts.iter().flat_map(|p| p.kinds.iter().flatten()).copied();

@@ -11,4 +11,6 @@ fuzz_target!(|data: &[u8]| {
         &[&b"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS "[..], data].concat(),
         Extension::Unknown,
     );
+    let boxed = b"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS ";
+    let _ = read_bytes(&[&boxed[..], data].concat(), Extension::Unknown);
 });

@@ -540,28 +540,30 @@ fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
     Ok(frames)
 }
 
+/// A dataset and its name.
+type NamedSet = (String, Dataset);
+
 /// The attributes of a block's cells, if these are its points in the same order, and a warning about those that are not
 /// used. `points` has the number of points of each part.
 fn of_cells(
     block: &Group,
     points: &[u64],
     limit: usize,
-) -> Result<(Vec<(String, Dataset)>, Vec<String>), ReadError> {
+) -> Result<(Vec<NamedSet>, Vec<String>), ReadError> {
     let datasets = |name: &str| {
         let data = block.group(name).ok().map(|data| data.datasets());
         let all = data.transpose().map_err(failed)?.unwrap_or_default();
         Ok::<Vec<_>, ReadError>(all.into_iter().map(|set| (leaf(set.name()), set)).collect())
     };
-    let some = |(_, set): &(String, Dataset)| set.shape().first().is_some_and(|rows| *rows > 0);
-    let mut found: Vec<_> = datasets("CellData")?.into_iter().filter(some).collect();
+    let some = |(_, set): &NamedSet| set.shape().first().is_some_and(|rows| *rows > 0);
     let of_points = datasets("PointData")?;
     let plain: Vec<String> = of_points.iter().map(|(name, _)| names::plain(name)).collect();
-    let (double, own) =
-        std::mem::take(&mut found).into_iter().partition(|(n, _)| plain.contains(&names::plain(n)));
-    found = own;
-    let double: Vec<(String, Dataset)> = double;
-    let double: Vec<String> =
-        double.into_iter().map(|(n, _)| n).filter(|name| !names::is_ghost(name)).collect();
+    let (double, found): (Vec<NamedSet>, Vec<NamedSet>) = datasets("CellData")?
+        .into_iter()
+        .filter(some)
+        .partition(|(name, _)| plain.contains(&names::plain(name)));
+    let double = double.into_iter().map(|(name, _)| name);
+    let double: Vec<String> = double.filter(|name| !names::is_ghost(name)).collect();
     let mut told: Vec<String> = cells::unused(&double, cells::DOUBLED).into_iter().collect();
     if let (false, Some(why)) = (found.is_empty(), no_vertices(block, points, limit)) {
         let names: Vec<String> = found.into_iter().map(|(name, _)| name).collect();
