@@ -1,4 +1,5 @@
-//! Values that VTK files have on cells: used if the cells are the particles, and otherwise named in a warning.
+//! Values that VTK files have on cells: used if the cells are the particles, and otherwise named in
+//! a warning.
 
 use std::path::Path;
 

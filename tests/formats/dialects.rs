@@ -435,8 +435,8 @@ fn scaled_dumps_of_lammps() {
         )
     };
     let positions = |text: &str| read(text, Extension::Unknown).positions;
-    // xlo 1, ylo -2, zlo 3; sides 4, 8 and 2; xy 1, xz -2, yz 0.5. The ends that are written enclose that box:
-    // x from 1 - 2 to 5 + 1, y from -2 to 6 + 0.5.
+    // xlo 1, ylo -2, zlo 3; sides 4, 8 and 2; xy 1, xz -2, yz 0.5. The bounds in the file enclose
+    // that box: x from 1 - 2 to 5 + 1, y from -2 to 6 + 0.5.
     let tilted = "xy xz yz pp pp ff\n-1 6 1\n-2 6.5 -2\n3 5 0.5";
     let rows = "1 0.5 0.25 0.5\n2 0 1 -1";
     // 1 + 0.5 * 4 + 0.25 * 1 - 0.5 * 2, -2 + 0.25 * 8 + 0.5 * 0.5, 3 + 0.5 * 2; and

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// A new folder: a test that was killed may have left its own, and another process may get the same id.
+    /// Creates a new folder: a test that was killed leaves its folder, and a later process may get
+    /// the same id.
     pub fn new(name: &str) -> Self {
         for attempt in 0.. {
             let name = format!("whitewater-{name}-{}-{attempt}", std::process::id());

@@ -321,8 +321,8 @@ impl Xml {
         self.ended(out, kind, &appended)
     }
 
-    /// The particles with all but the positions on cells of one point each; in each piece, cell `i` has point
-    /// `order[i]`.
+    /// The particles with all but the positions on cells of one point each; in each piece, cell `i`
+    /// has point `order[i]`.
     pub fn on_cells(&self, of: &Particles, order: &[u32]) -> Vec<u8> {
         let count = of.positions.len();
         let kind = if self.vtp { "PolyData" } else { "UnstructuredGrid" };
