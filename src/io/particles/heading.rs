@@ -84,17 +84,29 @@ pub(super) fn delimiter(line: &[u8]) -> Option<u8> {
 /// The fields of a line, without empty ones at its end.
 pub(super) fn fields(line: &[u8], delimiter: Option<u8>) -> Vec<String> {
     let Some(delimiter) = delimiter else { return words(line) };
-    let mut reader = csv::ReaderBuilder::new();
-    reader.has_headers(false).delimiter(delimiter).trim(csv::Trim::All);
-    let mut record = csv::ByteRecord::new();
-    let mut fields = Vec::new();
-    if reader.from_reader(line).read_byte_record(&mut record).unwrap_or(false) {
-        fields.extend(record.iter().map(|f| String::from_utf8_lossy(f).trim().to_string()));
-    }
+    // To build a reader of CSV takes longer than to split a line.
+    let mut fields = match line.iter().any(|b| matches!(b, b'"' | b'\r' | b'\n')) {
+        true => quoted(line, delimiter),
+        false => {
+            let fields = line.split(|b| *b == delimiter);
+            fields.map(|f| String::from_utf8_lossy(f).trim().to_string()).collect()
+        }
+    };
     while fields.last().is_some_and(String::is_empty) {
         fields.pop();
     }
     fields
+}
+
+/// The fields of a line, which may be in quotes.
+fn quoted(line: &[u8], delimiter: u8) -> Vec<String> {
+    let mut reader = csv::ReaderBuilder::new();
+    reader.has_headers(false).delimiter(delimiter).trim(csv::Trim::All);
+    let mut record = csv::ByteRecord::new();
+    match reader.from_reader(line).read_byte_record(&mut record) {
+        Ok(true) => record.iter().map(|f| String::from_utf8_lossy(f).trim().to_string()).collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// Splits a line at white space; units in brackets and quoted names stay whole.
@@ -239,6 +251,37 @@ impl Heading {
             at: line.map_or_else(|| lines.last().map_or(0, |line| line.next), |line| line.start),
             line: first.unwrap_or(lines.len()) as u64,
             passed: 0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_split_as_csv() {
+        for line in [
+            "x,y,z",
+            " Pos.x [m] ,\tvx , ",
+            "1,,2,,",
+            "",
+            " , ,",
+            "#x,y",
+            "\u{a0}x\u{a0},y",
+            "'a,b',c",
+            "a;b,c|d",
+            "\"a,b\", c",
+            "a,\"b\"\"c\"",
+            "a,b\rc,d",
+        ] {
+            for delimiter in [b',', b';', b'|', b'\t'] {
+                let mut expected = quoted(line.as_bytes(), delimiter);
+                while expected.last().is_some_and(String::is_empty) {
+                    expected.pop();
+                }
+                assert_eq!(fields(line.as_bytes(), Some(delimiter)), expected, "{line}");
+            }
         }
     }
 }
