@@ -102,7 +102,7 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
 /// basin's width, because the waves tell the eye how large the basin is.
 pub fn waves_of_caches(water: &mut WaterSettings, spacing: f32, bounds: &Bounds) {
     let wide = bounds.size().x.max(bounds.size().z);
-    water.wavelets.slope = 0.1;
+    water.wavelets.slope = 0.08;
     water.wavelets.length = (6.0 * spacing).max(0.13 * wide);
 }
 
