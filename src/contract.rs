@@ -736,7 +736,7 @@ pub enum Surface {
     Depth(HostImage),
 }
 
-/// Source of the shore coordinate v: 0 at the sea's edge of the foam, 1 at the shore line, 2 inland.
+/// Source of the shore coordinate v: 0 at the foam's seaward edge, 1 at the shore line, 2 at the foam's inland edge.
 #[derive(Clone, Copy, Debug)]
 pub enum Shoreline {
     /// A mesh of the host with v per vertex.

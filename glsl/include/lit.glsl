@@ -19,7 +19,8 @@ float caustics_at(LightTexels t) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
         vec4 thick = texelFetch(light_thickness, texel, 0);
-        // Far behind the water the sun's width spreads it, and it is uniform again.
+        // The sun is a disc, so caustics blur with the distance along the light behind the texel's water. Far behind
+        // it the light is uniform.
         float far = max(t.depth - thick.z / max(thick.x, 1.0e-9) - 0.5 * thick.x, 0.0);
         float sharp = 1.0 / (1.0 + far / (8.0 * frame.particle.y));
         below += weight * sharp * before_depth(thick, t.depth).x / max(thick.x, 1.0e-9);

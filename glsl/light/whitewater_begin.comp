@@ -4,7 +4,7 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 1, std430) readonly buffer Count { uint count; };
-// For each chunk its workgroups and its number of particles.
+// For each chunk the arguments of an indirect dispatch (xyz) and the number of particles (w).
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {

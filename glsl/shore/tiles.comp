@@ -58,7 +58,8 @@ Range range_at_four(vec2 first) {
 void main() {
     vec2 first = vec2(TILE * gl_GlobalInvocationID.xy);
     bool inside = all(lessThan(first, frame.extent.xy));
-    // On a level surface, values in a tile lie between those at its corners; so do reciprocals of depths.
+    // On a level surface, the reciprocal of the eye depth, `part` and the horizontal position p of each pixel in a tile
+    // lie between their values at the tile's corners.
     float least = EMPTY, most = 0.0, part = EMPTY;
     vec2 low = vec2(EMPTY), high = vec2(-EMPTY);
     for (int i = 0; i < 4; ++i) {

@@ -12,7 +12,8 @@ layout(set = 0, binding = 1, std430) writeonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
-// For each chunk its workgroups (or vertices and instances of its quads) and its number of particles.
+// For each chunk the arguments of an indirect dispatch (xyz) and the number of particles (w). With quads they are the
+// arguments of an indirect draw.
 layout(set = 0, binding = 5, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 // Depth of the host's own fluid, in the camera's convention.
 layout(set = 0, binding = 6) uniform sampler2D fluid_depth;

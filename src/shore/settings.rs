@@ -137,7 +137,8 @@ impl Noise {
 ///
 /// `wave_weight · (sin((frequency + n₁)·v + phase) + a·v + b) + texture_weight · (web + a'·v + b') ≥ threshold + n₂`
 ///
-/// with the shore coordinate v 0 at the sea's edge of the foam, 1 at the shore line and 2 inland (the blog, Sec. IV to VIII).
+/// where the shore coordinate v is 0 at the foam's seaward edge, 1 at the shore line and 2 at the foam's inland edge (the
+/// blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShorelineSettings {

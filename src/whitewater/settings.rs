@@ -83,9 +83,10 @@ pub enum WhitewaterSplat {
 pub enum Occlusion {
     /// As printed: as many samples as the spheres have pixels, the same in every pixel.
     Reference,
-    /// Each pixel of a 4×4 block evaluates 1/16 of [`WhitewaterSettings::max_samples`] (2 to 20 samples per sphere of any
-    /// size); the blur recombines them. Samples come in opposite pairs, so that each pixel alone finds half of
-    /// a half space occluded. Default.
+    /// Each pixel of a 4×4 block evaluates a sixteenth of the samples, and the blur recombines them. A pixel takes 2 to 20
+    /// per sphere, whatever the sphere's size: 1/16 of [`WhitewaterSettings::max_samples`], of which values over 320 count
+    /// as 320. Samples come in opposite pairs, so that each pixel alone finds half of them occluded where a half
+    /// space is solid. Default.
     Fast,
 }
 

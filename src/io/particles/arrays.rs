@@ -201,7 +201,8 @@ impl<'a> ArrayStream<'a> {
         Ok(Current { numbers, left: segment.count })
     }
 
-    /// Called after the last value of a segment: checks that no more follow, and keeps the source.
+    /// Called after the last value of a segment. If an XML element holds only this segment, checks that no more values
+    /// follow. Keeps a compressed source for the next segment, which then need not be decompressed from the start.
     fn close(&mut self, segment: &Segment<'a>, current: Current<'a>) -> Result<(), ReadError> {
         match current.numbers {
             Numbers::Words(mut text) => {

@@ -19,7 +19,8 @@ pub struct Frame {
     pub path: PathBuf,
     /// Other files with particles of the same frame.
     pub also: Vec<PathBuf>,
-    /// Frame in the file, if the file holds several. [`expand`] does not look into files.
+    /// Which frame of the file this is, if the file holds several. [`expand`] leaves it `None`, because it does not read
+    /// files of particles.
     pub step: Option<Step>,
 }
 

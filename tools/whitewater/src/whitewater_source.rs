@@ -313,7 +313,7 @@ impl Reading {
         self.files.iter().map(|(parts, _)| parts.total() * copies).sum()
     }
 
-    /// Reads and uploads the particles; the device keeps them for the frames that follow.
+    /// Reads the particles and uploads them. They stay on the device until the next upload.
     pub fn upload(self, headless: &mut Headless) -> Outcome<()> {
         let mut upload = headless.whitewater_parts(self.total())?;
         let mut first = 0;

@@ -201,7 +201,8 @@ pub fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
     least.cmple(most).all().then(|| [least.to_array(), most.to_array()])
 }
 
-/// A scene by name. Sets how its foam looks and the source of its shore coordinate.
+/// Returns a built-in scene, or a user's scene whose water is at height `level`, and the source of its shore coordinate.
+/// Writes the contact foam's look in that scene to `settings`.
 pub fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(ShoreScene, By)> {
     let contact = &mut settings.shore.contact;
     Ok(match which {
