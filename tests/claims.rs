@@ -6,6 +6,8 @@
 
 #[path = "claims/bed.rs"]
 mod bed;
+#[path = "claims/links.rs"]
+mod links;
 #[path = "claims/roughness.rs"]
 mod roughness;
 #[path = "support/skipped.rs"]

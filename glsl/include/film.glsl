@@ -11,7 +11,7 @@ float film_refracted(float cosine, float n) {
     return sqrt(max(1.0 - (1.0 - cosine * cosine) / (n * n), 0.0));
 }
 
-// Amplitude that one face reflects, for polarization perpendicular and parallel to the plane of incidence.
+// Reflectance of one face, for polarization perpendicular and parallel to the plane of incidence.
 vec2 film_face(float cosine, float n, uint kind) {
     float inside = film_refracted(cosine, n);
     if (kind == FRESNEL_EXACT) {

@@ -135,7 +135,10 @@ impl Noise {
 
 /// Shoreline foam. There is foam where
 ///
-/// `wave_weight · (sin((frequency + n₁)·v + phase) + a·v + b) + texture_weight · (web + a'·v + b') ≥ threshold + n₂`
+/// ```text
+/// wave_weight · (sin((frequency + n₁)·v + phase) + a·v + b + n₃)
+///     + texture_weight · (web + a'·v + b' + n₃) ≥ threshold + n₂
+/// ```
 ///
 /// where the shore coordinate v is 0 at the foam's seaward edge, 1 at the shore line and 2 at the foam's inland edge (the
 /// blog, Sec. IV to VIII).

@@ -107,7 +107,7 @@ pub struct RenderArgs {
     /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of lava. A scene
     /// of your own (.glb, .gltf, .obj, .json) stands in a sea without particles. Frames start at 1 and repeat after ten
     /// seconds. A mesh named 'strip', or the file that [shore] strip names, is a strip of foam along the shore: its
-    /// second texture coordinate is 0 at the sea's edge, 1 at the shore line, 2 on the land. Tables [shore],
+    /// second texture coordinate is 0 at the foam's seaward edge, 1 at the shore line, 2 at its inland edge. Tables [shore],
     /// [shoreline] and [contact] of --settings set the appearance. [contact] particle_opacity = 1 puts contact foam on
     /// the particles' water.
     #[arg(long, value_name = "archipelago|pool|lava|FILE", value_parser = crate::shore::named, conflicts_with_all = ["inputs", "bubbles", "whitewater", "scene"])]
