@@ -445,19 +445,19 @@ fn memory_is_as_documented() {
             );
         }
         // With two sheets, a texel of 16 pixels has 16 more bytes of thickness, 16 of sums and a
-        // boundary, and a cell of 64 pixels four numbers. The smoothing has two numbers and a plan
+        // boundary, and a cell of 64 pixels 17 numbers. The smoothing has two numbers and a plan
         // for a quarter of the pixels, 3 bytes; coarser levels add half as much, and the back sheet
         // three quarters. With foam, a texel has 4 bytes of depth, 16 of thickness, 4 of the water
         // before it with a sum of 8, and three sums and two depths that share memory with others.
         for (sheets, coarsening, foam, spray, smoothing, more) in [
             (1, 3, false, false, 4.5, 0.0),
             (1, 0, false, false, 3.0, 0.0),
-            (2, 3, false, false, 5.25, 2.5),
-            (2, 0, false, false, 4.5, 2.5),
+            (2, 3, false, false, 5.25, 3.3125),
+            (2, 0, false, false, 4.5, 3.3125),
             (1, 3, true, false, 4.5, 3.25),
-            (2, 3, true, false, 5.25, 5.75),
+            (2, 3, true, false, 5.25, 6.5625),
             (1, 3, false, true, 4.5, 8.0),
-            (2, 3, true, true, 5.25, 13.75),
+            (2, 3, true, true, 5.25, 14.5625),
         ]
         .into_iter()
         .step_by(if whole { step } else { 7 })
