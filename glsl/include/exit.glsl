@@ -34,7 +34,8 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
-// The same for the front sheet alone, without what lies behind the air. Texels of a surface before it count as their mean.
+// The same for the front sheet alone, without what lies behind the air. Texels that show another surface get the mean
+// of the others.
 vec2 sheet_slope(vec2 pixel, float front) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 middle = ivec2(floor(h + 0.5));

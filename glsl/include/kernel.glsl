@@ -1,9 +1,9 @@
 // The thickness kernel: N_z exp(-2 rho^2), N_z = sqrt(1 - rho^2) (thesis Listing A.15; Eq. 3.4
 // lacks the square). Its integral over the unit disc is pi J, J = 0.3400030. Needs frame.glsl.
 
-// Fixed-point steps in the compute path for the amplitude (frame.particle.w) of a particle of full size that is all
-// water: 2^24, as many as a float's significand resolves. A sprite whose half-axis is a hundredth of a texel is widened to
-// one texel, which divides its amplitude by 10000 and leaves 1700 steps.
+// Fixed-point steps per amplitude (frame.particle.w) of a whole particle of water, in the compute path: 2^24, the
+// resolution of a float. A sprite with a half-axis of 0.01 texels is drawn one texel wide, with an amplitude divided by
+// 10000, which is still 1700 steps.
 const float UNITS = 16777216.0;
 
 float thickness_kernel(float rho2) {

@@ -35,7 +35,7 @@ void visit(uint cell, uint all, float z) {
     float behind = z - uintBitsToFloat(cells[cell]);
     vec2 reach = vec2(behind - REACH * spacing, behind + REACH * spacing) / (SLICE * spacing);
     ivec2 slices = ivec2(clamp(floor(reach), 0.0, float(SLICES - 1)));
-    // At most five slices, in one word or in two.
+    // The slices lie in one word, or in two neighbouring ones.
     for (int word = slices.x >> 5; word <= slices.y >> 5; ++word) {
         ivec2 own = clamp(slices - 32 * word, 0, 31);
         uint bits = bitfieldInsert(0u, ~0u, own.x, own.y - own.x + 1);

@@ -3,8 +3,8 @@
 //! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its
 //! limitation, Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool. Each
 //! cell of 8×8 pixels has 256 depth slices of half a spacing, from its nearest sphere on. Every sphere marks the
-//! slices that it fills. Air is what is left between. Slices instead of sorting: atomics on nine words per cell,
-//! for any number of particles. Cells without air borrow that of one beside them. A texel of the thickness takes
+//! slices that it fills; a run of unmarked slices between marked ones is air. Marks need no sorting: a cell is nine
+//! words, written with atomics, for any number of particles. Cells without air borrow that of one beside them. A texel of the thickness takes
 //! the first wide air behind the surface that it shows and before a body of water; its cells vote, with bilinear
 //! weights. So a drop before a crown before a pool has the crown behind it, and the crown beside the drop the
 //! pool. Where the layers touch, the water that `thickness` finds at the boundary merges them smoothly and
@@ -213,7 +213,7 @@ impl Gaps {
             gpu.barriers(cmd, &[], &[buffer(to.handle, COMPUTE_WRITE, READ)]);
         }
         // `reduce` writes the depth.
-        let read = access::image(depth, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE);
+        let read = access::image(depth, COMPUTE_READ, COMPUTE_READ_WRITE);
         gpu.barriers(cmd, &[read], &[]);
         dispatch_blocks(r, &self.farthest, &self.boundaries, &self.blocks)?;
         r.end(scope);

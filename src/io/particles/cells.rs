@@ -40,7 +40,7 @@ pub(super) struct Lists<'a> {
 pub(super) struct Cells {
     /// Number of points of all pieces so far, which is the number of cells.
     count: u64,
-    /// The point of each cell; `None` as long as all are in the order of the points.
+    /// Index of the point of each cell; `None` while cell i has had point i so far.
     order: Option<Vec<u32>>,
     /// Why the cells are no particles.
     why: Option<String>,

@@ -191,7 +191,7 @@ impl Bounds {
         Self { kind, left: 3, lines: Vec::new() }
     }
 
-    /// The numbers in the lines, as many as the box needs.
+    /// The N numbers of each of the box's three lines.
     fn numbers<const N: usize>(&self, expected: &str) -> Result<[[f64; N]; 3], ReadError> {
         let mut all = [[0.0; N]; 3];
         for (i, row) in all.iter_mut().enumerate() {

@@ -74,7 +74,7 @@ pub(super) const KIND: Names = &["type"];
 /// Names that mark copies of particles of another piece.
 pub(super) const GHOST: Names =
     &["vtkghosttype", "vtkghostlevels", "vtkghosttypeofcells", "vtkghostlevelsofcells"];
-/// What is added to the name of such an attribute of cells.
+/// Suffix for the name of a ghost attribute that belongs to cells instead of points.
 pub(super) const OF_CELLS: &str = " of cells";
 /// Names of the time or step of a particle, in files with several frames.
 pub(super) const STEP: Names = &["timestep", "time", "timevalue", "step", "frame"];
