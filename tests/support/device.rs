@@ -4,6 +4,7 @@
 //! test's thread.
 
 use std::ops::Deref;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::thread::available_parallelism;
 
@@ -13,7 +14,6 @@ use whitewater::headless::{Device, DeviceOptions};
 use whitewater::{Allocate, Context, Error, Host};
 
 use super::watchdog::Watch;
-use crate::reference::shore::texture::filters_in_halves;
 
 const MOST_SHARED: usize = 4;
 
@@ -150,6 +150,14 @@ fn messages_of(device: &Device) -> Vec<String> {
     device.take_messages()
 }
 
+static HALVES: AtomicBool = AtomicBool::new(false);
+
+/// Whether the tests' device may filter 16-bit floats in half precision, which Vulkan leaves open:
+/// an H200 does; CPU implementations filter in single precision. False before the first device.
+pub fn filters_in_halves() -> bool {
+    HALVES.load(Ordering::Relaxed)
+}
+
 impl Gpu {
     fn new(lock: Option<MutexGuard<'static, ()>>, device: Held) -> Self {
         let (functions, allocator) = match &device {
@@ -168,7 +176,7 @@ impl Gpu {
         };
         // SAFETY: the physical device belongs to the instance.
         let properties = unsafe { gpu.instance.get_physical_device_properties(gpu.physical) };
-        filters_in_halves(properties.device_type != vk::PhysicalDeviceType::CPU);
+        HALVES.store(properties.device_type != vk::PhysicalDeviceType::CPU, Ordering::Relaxed);
         gpu
     }
 

@@ -12,7 +12,7 @@ use crate::reference::Image;
 use crate::reference::shore::exact;
 use crate::reference::shore::foam::{Pixel, Shoreline as Look, covered, shoreline};
 use crate::reference::shore::texture::Texture as Levels;
-use crate::support::device::Gpu;
+use crate::support::device::{Gpu, filters_in_halves};
 use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Rig, Shot, config, extent, stream};
 use crate::support::scenes::Lens;
@@ -144,7 +144,7 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     rig.collect(Slot(0));
     let found = rig.draw(&shot).shore.expect("foam");
     assert_ne!(found.data, first.data);
-    let web = Levels::web(n, &texels);
+    let web = Levels::web(n, &texels).filtered_in_halves(filters_in_halves());
     let [noise, _] = super::textures();
     let water = water(&shot, glam::DVec3::Y, 0.0);
     let look: Look = super::look_of(&shot.settings.shore);

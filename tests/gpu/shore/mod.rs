@@ -31,7 +31,7 @@ use crate::reference::shore as twin;
 use crate::reference::shore::foam;
 use crate::reference::shore::texture::Texture as Levels;
 use crate::reference::shore::{Bounded, Clock, U, Water, exact};
-use crate::support::device::Gpu;
+use crate::support::device::{Gpu, filters_in_halves};
 use crate::support::host::{HOST_WRITE, Stub, Texture};
 use crate::support::rig::{Shot, config, extent};
 
@@ -152,7 +152,8 @@ fn textures() -> &'static [Levels<4>; 2] {
     static TEXTURES: OnceLock<[Levels<4>; 2]> = OnceLock::new();
     TEXTURES.get_or_init(|| {
         let noise = Levels::new(256, &texture::noise(256, SEED));
-        [noise, Levels::web(WEB as usize, &texture::web(WEB, SEED))]
+        let all = [noise, Levels::web(WEB as usize, &texture::web(WEB, SEED))];
+        all.map(|texture| texture.filtered_in_halves(filters_in_halves()))
     })
 }
 

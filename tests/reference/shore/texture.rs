@@ -6,24 +6,7 @@
 //! neighbours that it may pass, and the result stays in the level's range. If two levels are
 //! equally near, the bounds include both.
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use super::bounded::{Bounded, U, exact};
-
-/// Whether the device filters 16-bit floats in half precision, which Vulkan leaves open: an H200
-/// does; CPU implementations filter in single precision.
-static HALVES: AtomicBool = AtomicBool::new(false);
-
-/// Sets this for the tests' device, which is the same for all tests of a run.
-pub fn filters_in_halves(yes: bool) {
-    HALVES.store(yes, Ordering::Relaxed);
-}
-
-/// Relative error of filtered values from that, in units of the largest texel: one ulp of half
-/// precision in either direction.
-fn filter_rounds() -> f64 {
-    if HALVES.load(Ordering::Relaxed) { 1.0 / 2048.0 } else { 0.0 }
-}
 
 /// Half a step of the filter's weights.
 pub const STEP: f64 = 1.0 / 512.0;
@@ -56,6 +39,9 @@ pub struct Texture<const C: usize> {
     ranges: Vec<[f64; C]>,
     /// Largest absolute value of all levels.
     most: [f64; C],
+    /// Relative error of filtered values from the filter's precision, in units of the largest
+    /// texel.
+    rounding: f64,
 }
 
 impl<const C: usize> Texture<C> {
@@ -93,7 +79,13 @@ impl<const C: usize> Texture<C> {
         let ranges = levels.iter().map(range).collect();
         let sizes = |c: usize| levels.iter().flatten().map(move |t| t[c].abs());
         let most = std::array::from_fn(|c| sizes(c).fold(0.0, f64::max));
-        Self { size, levels, ranges, most }
+        Self { size, levels, ranges, most, rounding: 0.0 }
+    }
+
+    /// Whether the filter works in half precision, which Vulkan leaves open for 16-bit floats: it
+    /// is then off by one ulp in either direction. Otherwise it works in single precision.
+    pub fn filtered_in_halves(self, yes: bool) -> Self {
+        Self { rounding: if yes { 1.0 / 2048.0 } else { 0.0 }, ..self }
     }
 
     /// Size of level 0 in texels.
@@ -146,7 +138,7 @@ impl<const C: usize> Texture<C> {
     /// The texture at a position in repetitions.
     pub fn sample(&self, uv: [Bounded; 2], level: usize) -> [Bounded; C] {
         let moved = self.filtered(level, uv, &|t| *t, &|range| *range);
-        std::array::from_fn(|c| moved[c].wider((ROUNDINGS * U + filter_rounds()) * self.most[c]))
+        std::array::from_fn(|c| moved[c].wider((ROUNDINGS * U + self.rounding) * self.most[c]))
     }
 
     /// Bounds of a filter's result for numbers computed from texels, with an uncertain position and
@@ -246,7 +238,7 @@ impl Texture<4> {
                 + m * m
                 + (square.value - m * m).abs();
             // Both the mean square and the mean are rounded before the subtraction.
-            let rounded = filter_rounds() * (square.value + 2.0 * m * m);
+            let rounded = self.rounding * (square.value + 2.0 * m * m);
             let moved = held.error + mean.error * mean.error + rounded;
             let variance = exact(square.value - m * m).wider(moved + 2.0 * U * sizes);
             [mean, variance.max(0.0), across, down]
