@@ -152,8 +152,8 @@ pub struct RenderArgs {
     /// several times. Size and opacity follow from the number of particles; table [whitewater] overrides them (radius,
     /// or radii = [foam, spray, bubbles], and half_intensity_thickness). 'generate' emits whitewater where the water
     /// traps air, where waves break and where it is fast (table [generate]). With [bubbles] crossfade = [NEAR, FAR]
-    /// foam turns into soap-bubble blobs between FAR and NEAR metres. The water's own foam and spray are then drawn
-    /// only if --surface-foam and --spray ask for them.
+    /// foam turns into soap-bubble blobs between FAR and NEAR metres. The water's own foam and spray are drawn too,
+    /// unless --surface-foam none and --spray none say otherwise.
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::whitewater_source::named)]
     pub whitewater: Vec<Whitewater>,
     /// Write the emitted whitewater to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
@@ -336,7 +336,7 @@ pub struct DrawArgs {
     /// of a pool: 1 or 2 [default: 2; 1 with --look thesis]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: Option<u32>,
-    /// Surface foam: auto, none, or a Weber number as threshold [default: auto; none with --whitewater]
+    /// Surface foam: auto, none, or a Weber number as threshold [default: auto]
     ///
     /// 'auto' needs velocities. A single frame foams where the water traps air, that is where neighbours collide: at
     /// most the top 5 %, and no water that rests, flows or falls as a whole. In a sequence the top 5 % by Weber number
@@ -347,12 +347,11 @@ pub struct DrawArgs {
     /// The former name of --surface-foam
     #[arg(long = "foam", hide = true, value_name = "WHEN", value_parser = was_foam)]
     pub foam: Option<Foaming>,
-    /// Spray of particles with few or no neighbours: auto or none [default: auto; none with --whitewater]
+    /// Spray of particles with few or no neighbours: auto or none [default: auto]
     ///
     /// It uses densities from the files, or estimated ones. all_spray_density, full_water_density and
-    /// no_spray_density in table [spray] set the limits as fractions of the rest density [default: 0.42, 0.66,
-    /// 0.7]. With 'none' these particles are drawn as drops of water; with --whitewater and without this option they
-    /// are left out.
+    /// no_spray_density in table [spray] set the limits as fractions of the rest density [default: 0.44, 0.66,
+    /// 0.7]. With 'none' these particles are drawn as drops of water.
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or

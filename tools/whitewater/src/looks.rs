@@ -2,6 +2,7 @@
 //! particles.
 
 use glam::{Quat, Vec3};
+use whitewater::WhitewaterSettings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::Particles;
 use whitewater::water::Medium;
@@ -98,6 +99,12 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
     });
 }
 
+/// Replaces the library's whitewater settings by those for caches: as bright as the spray beside it, and of more sizes.
+pub fn whitewater_of_caches(whitewater: &mut WhitewaterSettings) {
+    whitewater.scale = 1.3;
+    whitewater.sizes = whitewater_source::VARIETY;
+}
+
 /// Sets small waves on level water. Particles resolve waves of four spacings and more. Wavelength also grows with the
 /// basin's width, because the waves tell the eye how large the basin is.
 pub fn waves_of_caches(water: &mut WaterSettings, spacing: f32, bounds: &Bounds) {
@@ -141,11 +148,6 @@ pub struct Sequence {
     pub said: Option<f32>,
     /// Step from one frame number to the next.
     pub step: f32,
-}
-
-/// Default of `--surface-foam`: whitewater particles replace the water's own foam.
-pub fn foaming(args: &RenderArgs) -> Foaming {
-    if args.whitewater.is_empty() { Foaming::Auto } else { Foaming::None }
 }
 
 /// The particles rotated to eight sides, and their bounding box. A camera that sees all of these sees the water during
@@ -202,6 +204,7 @@ pub fn look(
         } else {
             settings.water.ellipsoids.lone = LONE;
         }
+        whitewater_of_caches(&mut settings.whitewater);
         waves_of_caches(&mut settings.water, spacing, &bounds);
         let wide = bounds.size().x.max(bounds.size().z);
         if wide < SMALL {
@@ -333,13 +336,7 @@ pub fn look(
         file.light.put(&mut settings.light);
     }
     environment.light_scene(&mut scene);
-    // Whitewater particles replace the water's own foam and spray.
-    let has_whitewater = !args.whitewater.is_empty();
-    let spray = args.draw.spray.unwrap_or(if has_whitewater || lone {
-        SprayArg::None
-    } else {
-        SprayArg::Auto
-    });
+    let spray = args.draw.spray.unwrap_or(if lone { SprayArg::None } else { SprayArg::Auto });
     let spray = spray == SprayArg::Auto;
     // The same as in `Session::frame`.
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
@@ -352,7 +349,7 @@ pub fn look(
     };
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
-    let wanted = args.draw.surface_foam.unwrap_or(foaming(args));
+    let wanted = args.draw.surface_foam.unwrap_or(Foaming::Auto);
     // A sequence uses the Weber number of speed: the trapped air changes from frame to frame three times as much as
     // foam by speed does.
     let steady = sequence.is.then_some(FoamBy::Speed);

@@ -10,7 +10,7 @@ use crate::camera::{CameraFile, Turn};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::fluids::Fluids;
 use crate::frames;
-use crate::looks::{Found, Sequence, foaming, look, round};
+use crate::looks::{Found, Sequence, look, round};
 use crate::output;
 use crate::placing::Placing;
 use crate::probes::Probes;
@@ -121,7 +121,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         step: step_of(&all),
     };
     let made = args.whitewater == [Whitewater::Generate];
-    let foams = args.draw.surface_foam.unwrap_or(foaming(args)) != Foaming::None;
+    let foams = args.draw.surface_foam.unwrap_or(Foaming::Auto) != Foaming::None;
     let moving = made || foams || sequence.motion;
     // Frame numbers may be step numbers; the rate is in numbers per second.
     let step = step_of(&all);

@@ -78,10 +78,22 @@ fn kind_of(number: u32) -> usize {
     usize::try_from(number).ok().filter(|kind| *kind < KINDS).unwrap_or(0)
 }
 
+/// A radius is divided by 1 to this number, chosen per particle (Akinci et al. 2013, Sec. 2.1: 5). Splashes of five
+/// sizes look like beads.
+pub const VARIETY: u32 = 8;
 /// Mean thickness that one foam particle adds to a column, if its radius is the column's width: its disc, with the mean
-/// squared size (a radius is divided by 1 to 5; Akinci et al. 2013, Sec. 2.1) and the mean shape (1 - x^2.25).
-const SHARE: f32 =
-    PI * (1.0 + 1.0 / 4.0 + 1.0 / 9.0 + 1.0 / 16.0 + 1.0 / 25.0) / 5.0 * (1.0 - 2.0 / 4.25);
+/// squared size and the mean shape (1 - x^2.25).
+const SHARE: f32 = PI
+    * (1.0
+        + 1.0 / 4.0
+        + 1.0 / 9.0
+        + 1.0 / 16.0
+        + 1.0 / 25.0
+        + 1.0 / 36.0
+        + 1.0 / 49.0
+        + 1.0 / 64.0)
+    / 8.0
+    * (1.0 - 2.0 / 4.25);
 /// Opacity of a column with the mean number of particles, if they are spread evenly and the radius is within its
 /// limits. A few randomly placed particles leave gaps and hide less on average.
 const HIDDEN: f32 = 0.8;
@@ -89,12 +101,12 @@ const HIDDEN: f32 = 0.8;
 const FEW: f32 = 0.12;
 /// Copies are drawn if a column that holds any foam or spray has fewer particles than the first number. The second is
 /// the max number of copies of a particle, the third the max number of all drawn particles.
-const COPIES: (f32, u32, usize) = (60.0, 24, 3_000_000);
+const COPIES: (f32, u32, usize) = (100.0, 24, 3_000_000);
 /// Max distance of copies from their particle in spacings, for foam, spray and bubbles; for foam a third of that
 /// vertically.
 const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
 /// Min and max radius in spacings: the shadow search does not resolve smaller spheres, and larger ones look like balls.
-const RADII: [f32; 2] = [0.1, 0.25];
+const RADII: [f32; 2] = [0.1, 0.14];
 
 /// Size and opacity of whitewater particles. Files hold ten thousand or ten million particles for the same splash;
 /// Akinci's constants are for millions, and would turn a few into a haze.
@@ -254,6 +266,11 @@ impl Files {
     /// Radii of foam, spray and bubbles, if they differ.
     pub fn radii(&self) -> Option<[f32; 3]> {
         self.drawn.map(|drawn| drawn.radii)
+    }
+
+    /// Number of drawn particles of the fullest probed frame.
+    pub fn fullest(&self) -> usize {
+        self.most * self.copies() as usize
     }
 
     /// Number of drawn particles for each particle of a file.
@@ -469,7 +486,10 @@ mod tests {
             let Sizes { radii, half } = Sizes::of_columns([Some(n), None, None], spacing);
             (hidden(n, radii[0] / spacing, half), radii[0] / spacing, half)
         };
-        let of_count = |count: f32| of(count / 1600.0, 0.02);
+        let of_count = |count: f32| {
+            let n = count / 1600.0;
+            of(n * copies([Some(n), None, None], count as usize) as f32, 0.02)
+        };
         let all = [1.0e3, 1.0e4, 1.0e5, 1.0e6, 3.0e6, 1.0e7].map(of_count);
         assert!(
             all.windows(2).all(|two| two[0].0 < two[1].0 + 1.0e-5),
@@ -478,8 +498,8 @@ mod tests {
         let [thousand, ten, hundred, million, _, most] = all;
         // With less than one particle per column the radius is at its max.
         assert!(thousand.1 == RADII[1] && thousand.2 == FEW, "{thousand:?}");
-        assert!((0.45..0.8).contains(&ten.0) && ten.1 == RADII[1] && ten.2 == FEW, "{ten:?}");
-        assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 < 0.2, "{hundred:?}");
+        assert!((ten.0 / HIDDEN - 1.0).abs() < 1.0e-4 && ten.1 < RADII[1], "{ten:?}");
+        assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 < ten.1, "{hundred:?}");
         assert!((million.0 / HIDDEN - 1.0).abs() < 1.0e-4 && million.2 > FEW, "{million:?}");
         assert!(most.0 > HIDDEN && most.2 == 3.0, "{most:?}");
         assert!([million, most].iter().all(|of| (of.1 - RADII[0]).abs() < 1.0e-6));
@@ -493,8 +513,12 @@ mod tests {
 
     #[test]
     fn few_are_drawn_as_several_where_each_lies() {
-        assert_eq!(copies([Some(120.0), Some(60.0), Some(1.0)], 1_000_000), 1, "bubbles need none");
-        assert_eq!(copies([Some(120.0), Some(10.0), None], 10_000), 6);
+        assert_eq!(
+            copies([Some(120.0), Some(100.0), Some(1.0)], 1_000_000),
+            1,
+            "bubbles need none"
+        );
+        assert_eq!(copies([Some(120.0), Some(10.0), None], 10_000), 10);
         assert_eq!(copies([Some(0.5), None, None], 10_000), COPIES.1);
         assert_eq!(copies([Some(0.5), None, None], 1_000_000), 3, "no more of all");
         assert_eq!(copies([None; 3], 0), 1);

@@ -46,7 +46,12 @@ impl Session<'_> {
         let supersample = self.supersample();
         let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
-        let whitewater = whitewater_source::counted(whitewater)?;
+        // As with the water's particles, there is room for the fullest probed frame: new room forgets earlier frames.
+        let files = match &self.look.whitewater {
+            Some(WhitewaterSource::Files(files)) => files.fullest(),
+            _ => 0,
+        };
+        let whitewater = whitewater_source::counted(whitewater.max(files))?;
         let made = match &self.look.whitewater {
             Some(WhitewaterSource::Made(made)) => Some(made),
             _ => None,
@@ -154,6 +159,12 @@ impl Session<'_> {
         }
         self.staged = self.look.scene.frame;
         self.headless = Some(headless);
+        if self.memory.stepped.or(self.memory.made).is_some() {
+            times.say(&format!(
+                "frame {number}: foam and emitted whitewater begin anew, because this frame has many more particles than the \
+                 frames probed before"
+            ));
+        }
         self.memory = Memory::default();
         Ok(())
     }

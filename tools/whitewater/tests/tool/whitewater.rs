@@ -6,7 +6,7 @@ use super::support::{FRONT, Folder, GROUND, SMALL, block};
 
 /// Foam in front of the block's middle, a bubble in it, and one particle whose life has ended.
 const FOAM: &str =
-    "x,y,z,type,lifetime,id\n0,0.35,0.5,0,2,7\n0.2,0.35,0.2,2,1,8\n-0.2,0.35,0.5,1,-1,9\n";
+    "x,y,z,type,lifetime,id\n0,0.35,0.5,0,2,2\n0.2,0.35,0.2,2,1,3\n-0.2,0.35,0.5,1,-1,9\n";
 /// Particles a few pixels wide.
 const LOOK: &str = "[whitewater]\nradius = 0.1\nhalf_intensity_thickness = 0.3\n";
 
@@ -51,10 +51,10 @@ fn whitewater_particles_are_drawn_before_and_in_the_water() {
     ] {
         assert!(with.channel(name).is_some(), "{name}");
     }
-    // Whitewater particles replace the water's own spray.
-    assert!(without.channel("water.spray").is_some() && with.channel("water.spray").is_none());
+    // The water's own spray is drawn beside them.
+    assert!(without.channel("water.spray").is_some() && with.channel("water.spray").is_some());
     let at = |name: &str, x: usize| with.channel(name).unwrap()[32 * 96 + x];
-    // An id of 7 divides the radius by three.
+    // An id of 2 divides the radius by three.
     assert!((1.81..1.82).contains(&at("whitewater.Z", 48)), "{}", at("whitewater.Z", 48));
     assert!(at("whitewater.thickness", 48) > 0.5 && at("whitewater.submerged", 48) == 0.0);
     let row = |name: &str| -> Vec<f32> { (0..96).map(|x| at(name, x)).collect() };
@@ -118,8 +118,8 @@ fn few_particles_and_many_read_as_foam() {
         let table = text.parse::<toml::Table>().unwrap();
         table["whitewater"].as_table().unwrap().get(key).cloned()
     };
-    // Ten discs per column with the longest radius, and a mean square of 0.293 for radii of 1 to 1/5, cover 1 -
-    // exp(-0.57) = 0.44; their rims hide less. Many small ones form a continuous field, as `Sizes` describes.
+    // A hundred discs per column with a radius of 0.13 columns, and a mean square of 0.191 for radii of 1 to 1/8, cover 1 -
+    // exp(-1.0) = 0.65; their rims hide less. Many small ones form a continuous field, as `Sizes` describes.
     for (name, hides) in [("few", 0.33), ("many", 0.7)] {
         let run =
             folder.run(&format!("{common} -o {name}.exr --whitewater {name}.ply --validate")).ok();
@@ -129,9 +129,9 @@ fn few_particles_and_many_read_as_foam() {
         assert!(intensity > hides, "{name}: {intensity}");
         // The mean over the drawn discs, seen from 1.85 to 2.85 away; a few lie at the borders.
         let radius = setting(&exr, "radii").unwrap()[0].as_float().unwrap() as f32;
-        // With few particles each is drawn as six, which makes sixty per column.
-        let n = if name == "few" { 60.0 } else { 1000.0 };
-        let expected = 0.486_7 * n * (radius / 0.1).powi(2);
+        // With few particles each is drawn as ten, which makes a hundred per column.
+        let n = if name == "few" { 100.0 } else { 1000.0 };
+        let expected = 0.317_6 * n * (radius / 0.1).powi(2);
         let thickness = middle(&exr, "whitewater.thickness") + middle(&exr, "whitewater.submerged");
         assert!((thickness / expected - 1.0).abs() < 0.1, "{name}: {thickness} {expected}");
         let attributes = folder.picture(&exr).attributes;
