@@ -1164,6 +1164,17 @@ pub const WATER_SHAPE_COUNT_COMP: Shader = Shader {
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), ],
     members: &[("Push", "position_word", 0), ("Push", "position_stride", 4), ("Push", "chunk_first", 8), ("Push", "chunk", 12), ("Push", "count", 16), ("Push", "from_gpu", 20), ("Push", "buckets", 24), ("Push", "cells", 28), ("HostCount", "host_count", 0), ("Positions", "positions", 0), ("Buckets", "buckets", 0), ("Shaped", "shaped", 0), ],
 };
+/// `water/shape_crowd.comp`
+pub const WATER_SHAPE_CROWD_COMP: Shader = Shader {
+    name: "water/shape_crowd.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.shape_crowd.comp.spv"))); &CODE.0 },
+    push_size: 52,
+    local_size: [64, 1, 1],
+    shared: 0,
+    outputs: 0,
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "amount_word", 0), ("Push", "amount_stride", 4), ("Push", "density_word", 8), ("Push", "density_stride", 12), ("Push", "chunk_first", 16), ("Push", "chunk", 20), ("Push", "count", 24), ("Push", "from_gpu", 28), ("Push", "foam_few", 32), ("Push", "foam_many", 36), ("Push", "spray_few", 40), ("Push", "spray_many", 44), ("Push", "alone", 48), ("Shaped", "shaped", 0), ("Foam", "foam", 0), ("Amounts", "amounts", 0), ("Densities", "densities", 0), ("Torn", "torn", 0), ("HostCount", "host_count", 0), ],
+};
 /// `water/shape_fill.comp`
 pub const WATER_SHAPE_FILL_COMP: Shader = Shader {
     name: "water/shape_fill.comp",
@@ -1701,6 +1712,7 @@ pub const ALL: &[Shader] = &[
     WATER_SHAPE_COMP,
     WATER_SHAPE_CENTRE_COMP,
     WATER_SHAPE_COUNT_COMP,
+    WATER_SHAPE_CROWD_COMP,
     WATER_SHAPE_FILL_COMP,
     WATER_SMOOTH_COMP,
     WATER_SMOOTH_FRAG,

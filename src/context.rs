@@ -39,8 +39,9 @@ impl Context {
     /// outside 1 to 8; [`Error::Missing`] for a function that the instance or the device lacks; Vulkan errors.
     ///
     /// # Safety
-    /// The host's handles are alive, belong together, and outlive the context and everything created from it. All
-    /// features that [`EnabledFeatures`] lists and [`requirements`](crate::requirements) demands are enabled.
+    /// The host's handles are alive, belong together, and outlive the context and everything created from it. The
+    /// device has the version and the enabled features that [`requirements`](crate::requirements) demands, and every
+    /// feature that is set in [`Host::enabled`] is enabled.
     pub unsafe fn new(host: &Host<'_>) -> Result<Self, Error> {
         check_slots(host.frames_in_flight)?;
         let shared = Arc::new(Shared::new(host)?);

@@ -108,7 +108,8 @@
 //!
 //! # Memory
 //!
-//! [`Renderer::memory`] returns exact values. With the defaults, for w × h pixels and n particles:
+//! [`Renderer::memory`] returns the exact number of bytes in use. With default values, each part takes, for w × h pixels
+//! and n particles:
 //!
 //! | what | bytes | 1280×720 | 1920×1080 |
 //! |---|---|---|---|

@@ -25,7 +25,7 @@ use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
 use crate::light::{Convolving, Light, Output, convolution, whitewater_sets};
 use crate::shore::{Given, Shore, ShoreUniforms};
-use crate::water::{Beside, Recording, STREAM_USE, Water, buffers_of, shape_sets};
+use crate::water::{Beside, Crowd, Recording, STREAM_USE, Water, buffers_of, shape_sets};
 use crate::whitewater::Whitewater;
 use crate::whitewater::streams::{self, Chunks};
 
@@ -318,6 +318,14 @@ impl Renderer {
             whitewater,
             bubbles,
             strand_ratio: frame.settings.spray.strand_ratio,
+            crowd: Crowd {
+                foam: frame.settings.surface_foam.crowd,
+                spray: frame.settings.spray.crowd,
+                // Below the density of pure spray.
+                alone: 0.9
+                    * frame.settings.spray.all_spray_density
+                    * frame.settings.water.rest_density,
+            },
         };
         self.water.record(&mut r, &frame.particles, &frame.settings.water, &beside)?;
         let given = Given::new(frame.shore.as_ref(), gpu);
@@ -419,9 +427,9 @@ impl Renderer {
     /// Reports that the slot's GPU work has finished. Frees objects that `resize` and `reconfigure` replaced, if no
     /// frame in flight uses them any more. Call it after waiting for the slot at the beginning of a frame.
     ///
-    /// This is a promise and takes no fence or timeline value: the library sees no submission, so it could not
-    /// associate a fence or a value with one, and engines that count frames have neither at hand. A slot that never
-    /// finishes only costs memory. Work in flight with other slots is not affected.
+    /// The caller promises this; there is no parameter for a fence or a timeline value. The library sees no submission,
+    /// so it could not associate a fence or a value with one, and an engine that counts frames may have neither. A slot
+    /// that never finishes only costs memory. Work in flight with other slots is not affected.
     ///
     /// # Safety
     /// All GPU work that was recorded with the slot is complete, or will never be submitted.

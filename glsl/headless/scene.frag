@@ -380,15 +380,15 @@ Surface island(vec3 p, vec3 n, float width, float height) {
     return s;
 }
 
-// Of sunlight through thin clouds the part that comes from round the disc, and the angular radius of that glow (Buie,
-// Monger and Dey 2003: circumsolar ratios reach 0.5 and more, of a glow of 43.6 mrad).
+// Fraction of the sunlight through thin clouds that comes from around the sun's disc, and the angular radius of that
+// glow (Buie, Monger and Dey 2003: circumsolar ratios reach 0.5 and more; the glow's radius is 43.6 mrad).
 const float GLOWING = 0.5;
 const float GLOW = 0.0436;
-// Texels of the shadow map, at most, and places that are looked at.
+// Maximum radius of the glow's filter, in texels of the shadow map, and its number of samples.
 const float WIDEST = 12.0;
 const int TAPS = 16;
 
-// Places evenly over a unit disc (Vogel 1979).
+// Sample positions, evenly distributed over a unit disc (Vogel 1979).
 vec2 tap(int i) {
     float turn = 2.3999632 * float(i);
     return sqrt((float(i) + 0.5) / float(TAPS)) * vec2(cos(turn), sin(turn));
@@ -396,8 +396,8 @@ vec2 tap(int i) {
 
 // Visibility of the sun: a 5×5 tent filter with nine bilinear comparisons (Castaño 2013, as in The Witness),
 // about as wide as the sun's penumbra a metre behind an edge. It is smooth and needs no noise.
-// Behind thin clouds a part of the sun's light comes from a glow round the disc, whose penumbra is several times as wide:
-// its width from the mean distance of what hides the sun there (Fernando 2005).
+// Behind thin clouds a part of the sun's light comes from a glow around the disc, whose penumbra is several times as
+// wide. The penumbra's width follows from the mean distance of the blockers (Fernando 2005).
 float sunlight(vec3 at, vec3 facing) {
     float slope = 1.0 - max(dot(facing, scene.sun_direction.xyz), 0.0);
     vec3 lifted = at + facing * scene.shadow_texel.z * (1.0 + 2.5 * slope);
@@ -426,14 +426,15 @@ float sunlight(vec3 at, vec3 facing) {
               + w2.x * w2.y * texture(shadow_map, vec3(base + o2, depth));
     float lit = sum / 144.0;
 
-    // Depth in the map along the surface, so that it does not shadow itself.
+    // Gradient of the surface's depth in the shadow map. Each sample is compared with the depth of the surface's plane
+    // at that sample, so that the surface does not shadow itself.
     vec3 along_x = cross(facing, abs(facing.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
     vec3 a = mat3(scene.shadow) * along_x;
     vec3 b = mat3(scene.shadow) * cross(facing, along_x);
     float determinant = a.x * b.y - a.y * b.x;
     vec2 rise = vec2(a.z * b.y - b.z * a.y, a.x * b.z - b.x * a.z) / (abs(determinant) > 1.0e-12 ? determinant : 1.0e-12);
     float deep = 1.0 / length(vec3(scene.shadow[0].z, scene.shadow[1].z, scene.shadow[2].z));
-    // Of a slope along the sun's rays there is no such.
+    // A surface nearly parallel to the sun's rays has no usable gradient.
     int glows = scene.air.z > 0.0 && slope < 0.95 && all(greaterThan(middle, vec2(0.0))) && all(lessThan(middle, vec2(1.0))) ? 1 : 0;
     ivec2 last = textureSize(shadow_depth, 0) - 1;
     for (int k = 0; k < glows; ++k) {

@@ -1,9 +1,9 @@
 // The thickness kernel: N_z exp(-2 rho^2), N_z = sqrt(1 - rho^2) (thesis Listing A.15; Eq. 3.4
 // lacks the square). Its integral over the unit disc is pi J, J = 0.3400030. Needs frame.glsl.
 
-// Fixed-point steps per amplitude (frame.particle.w) of a whole particle of water, in the compute path: 2^24, the
-// resolution of a float. A sprite with a half-axis of 0.01 texels is drawn one texel wide, with an amplitude divided by
-// 10000, which is still 1700 steps.
+// Fixed-point steps per amplitude (frame.particle.w) of a particle that is all water, in the compute path: 2^24, the
+// resolution of a float. If a half-axis of 0.01 texels is enlarged to 1 texel, the amplitude is divided by 10000, which
+// leaves 1700 steps.
 const float UNITS = 16777216.0;
 
 float thickness_kernel(float rho2) {
@@ -17,7 +17,7 @@ float thickness_rho2(vec2 slope, vec3 centre, float inverse_axis) {
 }
 
 // Half-axis with which a sprite at a depth is drawn, and the factor by which its amplitude is divided. A sprite
-// narrower than a pixel is widened to a pixel and keeps its volume, so that far water neither sparkles nor
+// with a half-axis below one pixel gets one of a pixel and keeps its volume, so that far water neither sparkles nor
 // vanishes between pixel centres.
 float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
     float least = depth * max(abs(slope.x), abs(slope.y));

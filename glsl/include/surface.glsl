@@ -4,11 +4,11 @@
 // differences differ by at most the falloff. (The thesis' program tests the second difference as well.) So a surface
 // seen at a grazing angle has no border.
 // - The slope of a texel along an axis is the mean of the differences to its two neighbours on its surface. A
-//   texel that lacks one of its four neighbours is on the rim.
+//   texel that lacks one of its four neighbours is on the rim; the others are complete.
 // - A pixel uses those of the four texels around it that belong to the surface of its own depth, with
 //   bilinear weights. Texels beyond the image's edge repeat it.
 // - Depth and slope of the pixel are the weighted means. In the slope, rim texels have the weight RIM. If
-//   whole texels have at most 1/63 of the weight, the slope is limited to RIM_SLOPE.
+//   complete texels have at most 1/63 of the weight, the slope is limited to RIM_SLOPE.
 // - If none of the four texels belongs to its surface, the pixel takes slope and thickness of a texel beside the four
 //   (within one and a half of the pixel), the one nearest in depth, and keeps its own depth. If that is not on its
 //   surface either, or at full resolution, the pixel faces the eye and takes the thickness of the texel, among the
@@ -49,8 +49,8 @@ float smoothed_at(Level level, ivec2 texel) {
     return inside ? texelFetch(smoothed, level.rect.xy + texel, 0).x : EMPTY;
 }
 
-// Weight of a rim texel in the slope, relative to complete ones. The last particle of a body of water curves away
-// within a pixel or two; with full weight it would reflect the horizon and bead every outline with white.
+// Weight of a rim texel in the slope, relative to a complete texel. The last particle of a body of water curves away
+// within a pixel or two; with full weight it would reflect the horizon, as a row of white dots along every outline.
 const float RIM = 1.0 / 64.0;
 // Largest slope (depth per width) of a drop, which is a place where complete texels have at most 1/63 of the weight.
 const float RIM_SLOPE = 1.5;
@@ -137,7 +137,7 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     // The texel size is a power of two, so this does not round.
     s.dz = lost ? vec2(0.0) : vec2(dot(slopes, dx), dot(slopes, dy)) / (trusted * level.texel.z);
     vec2 steepest = frame.texel.xy * s.z * RIM_SLOPE;
-    // The condition means that whole texels weigh more than 1/63.
+    // The condition means that complete texels have more than 1/63 of the weight.
     s.dz = trusted > 2.0 * RIM ? s.dz : clamp(s.dz, -steepest, steepest);
 
     vec4 miss = mix(abs(beside - front), vec4(2.0 * EMPTY), outside);

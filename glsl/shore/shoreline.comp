@@ -2,7 +2,7 @@
 // Pass `shoreline`: foam on the host's water surface: along shores by the distance map or the ground's slope (blog),
 // and around objects (Lettier, Foam). Differs from both: no mesh; fractional coverage of a pixel instead of clipping.
 // Reads: lists of tiles, scene depth, surface depth, noise, foam texture, map, mask, inputs of sunlight.glsl. Writes:
-// shoreline foam, contact foam, missing sunlight.
+// shoreline foam, contact foam, blocked share of sunlight.
 
 #extension GL_EXT_control_flow_attributes : require
 #include "frame.glsl"

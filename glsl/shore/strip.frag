@@ -1,6 +1,6 @@
 #version 460
-// Pass `shoreline`: foam of the host's strip, by its own v (blog, Sec. IV to VIII).
-// Reads: scene depth, noise, foam texture, inputs of sunlight.glsl. Writes: shoreline foam, missing sunlight.
+// Pass `shoreline`: foam on the host's strip, a mesh that gives the shore coordinate v (blog, Sec. IV to VIII).
+// Reads: scene depth, noise, foam texture, inputs of sunlight.glsl. Writes: shoreline foam, blocked share of sunlight.
 
 #include "frame.glsl"
 #include "shore.glsl"

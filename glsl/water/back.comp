@@ -51,7 +51,7 @@ ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     ivec2 most = ivec2(frame.extent.xy) - 1;
     ivec4 touched = ivec4(min(box.xy * edge + (edge >> 1), most), min(box.zw * edge + (edge >> 1), most)) >> BLOCK_BITS;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two loops, because lavapipe 22.3 loses the result of the only iteration of a single loop with its condition last.
+    // Two nested loops, because lavapipe 22.3 loses the result of a `do`-`while` loop that has only one iteration.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-body.sphere.z >= blocks[y * columns + x]) {
@@ -81,7 +81,7 @@ void main() {
         if (box.x > box.z || box.y > box.w) {
             return;
         }
-        // One loop, its condition last: see thickness.comp.
+        // One `do`-`while` loop: see thickness.comp.
         ivec2 p = box.xy;
         do {
             splat(p, body, level);

@@ -72,7 +72,7 @@ void main() {
         if (box.z < box.x) {
             return;
         }
-        // One loop, its condition last: see thickness.comp.
+        // One `do`-`while` loop: see thickness.comp.
         ivec2 p = box.xy;
         do {
             visit(uint(p.y * columns + p.x), all, -sphere.z);

@@ -41,6 +41,13 @@ const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
 // line of them 2.9.
 const vec2 ALONE = vec2(1.5, 2.5);
 
+// Films, water one layer thick on a floor or a wall: ratios of the smallest to the middle variance and of the middle to
+// the largest one, and sums of the neighbours' weights, between which a particle becomes one. No flying sheet is so flat;
+// of few particles any are.
+const vec2 FLAT = vec2(0.02, 0.06);
+const vec2 BROAD = vec2(0.15, 0.3);
+const vec2 SOME = vec2(2.5, 4.5);
+
 // Variance that counts as 0: Jacobi rotations leave rounding errors. In squares of the reach.
 const float NO_VARIANCE = 1.0e-6;
 
@@ -52,6 +59,15 @@ vec3 axes_of(vec3 variances, float ratio) {
     }
     vec3 axes = max(variances / most, vec3(1.0 / ratio));
     return axes * pow(axes.x * axes.y * axes.z, -1.0 / 3.0);
+}
+
+// 1 in a film, 0 elsewhere.
+float film_of(vec3 variances, float beside) {
+    float most = max(variances.x, max(variances.y, variances.z));
+    float least = min(variances.x, min(variances.y, variances.z));
+    float middle = max(variances.x + variances.y + variances.z - most - least, NO_VARIANCE);
+    return (1.0 - smoothstep(FLAT.x, FLAT.y, least / middle)) * smoothstep(BROAD.x, BROAD.y, middle / max(most, NO_VARIANCE))
+        * smoothstep(SOME.x, SOME.y, beside);
 }
 
 // V diag(axes) V^T, packed.
@@ -103,7 +119,7 @@ void visit(uint i) {
         shaped[at + 3u + k] = water[k];
         shaped[at + 6u + k] = spray[k];
     }
-    shaped[at + 9u] = floatBitsToUint(push.strand > 1.0 ? beside : CROWDED);
+    shaped[at + 9u] = floatBitsToUint(mix(beside, CROWDED, film_of(variances, beside)));
     shifts[i] = vec4(middle, share);
 }
 

@@ -111,8 +111,8 @@ void main() {
     vec3 level = normalize(cross(side, normal));
     vec3 e1 = speed > still_below ? motion / speed : level;
     vec3 e2 = cross(e1, normal);
-    // A streak covers more than the droplet, but each point for a shorter time. It is at least 1.5 pixels wide, to
-    // avoid flicker, and thinner in proportion.
+    // A streak covers a larger area than the droplet, but each point for a shorter time: its optical depth is lower in
+    // proportion. A narrower sprite is widened to 1.4 pixels, to avoid flicker; the same holds for its optical depth.
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;

@@ -1,6 +1,8 @@
 #version 460
-// Pass `spray`, first part: lists the particles that are fully or partly spray, in eye space (thesis Sec. 4.9.5).
-// Reads: Counts (particles), positions, densities, velocities, ids, shapes, members. Writes: Counts (droplets), sprites.
+// Pass `spray`, first part: lists the particles in view that are fully or partly spray, in eye space (thesis Sec.
+// 4.9.5).
+// Reads: Counts (particles), positions, densities, velocities, ids, shapes, members of packets. Writes: Counts
+// (droplets), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -58,8 +60,8 @@ void visit(uint index) {
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
     velocity = mat3(frame.view) * velocity;
-    // Droplets surround the centre and reach half of their streak. Nothing nearer than that is drawn, because it
-    // would fill the picture.
+    // Droplets lie within the scatter radius of the centre, and their streaks and sizes reach further. A particle
+    // nearer to the eye than that radius is not drawn, because it would fill the picture.
     uvec4 shape = uvec4(pack_axes(mat3(1.0)), floatBitsToUint(CROWDED));
     if (push.shape_stride > 0u) {
         at = push.shape_word + index * push.shape_stride;

@@ -140,7 +140,7 @@ ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of a block's texels
     ivec4 touched = box >> bits;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two loops, because lavapipe 22.3 loses the result of the only iteration of a single loop with its condition last.
+    // Two nested loops, because lavapipe 22.3 loses the result of a `do`-`while` loop that has only one iteration.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-sprite.centre.z < blocks[y * columns + x] + frame.particle.y) {
@@ -173,8 +173,8 @@ void main() {
                 return;
             }
         }
-        // One loop with its condition last instead of two loops: where invocations are SIMD lanes, all wait for
-        // the one with the most pixels once instead of once per row, and none runs an empty iteration.
+        // One `do`-`while` loop instead of two nested loops: where invocations are SIMD lanes, all wait for the one
+        // with the most pixels once instead of once per row, and none runs an empty iteration.
         ivec2 p = box.xy;
         do {
             splat(p, sprite);

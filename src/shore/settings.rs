@@ -145,8 +145,8 @@ impl Noise {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShorelineSettings {
-    /// Width of the foam seawards of the shore line, scene units, (0, 1e6], default 12, where v comes from a
-    /// distance. A strip has its own v.
+    /// Width of the foam seawards of the shore line, scene units, (0, 1e6], default 12. It applies where v is computed
+    /// from a distance; the vertices of a strip give v themselves.
     pub sea_reach: f32,
     /// Width of the foam inland of the shore line, scene units, (0, 1e6], default 3.
     pub land_reach: f32,

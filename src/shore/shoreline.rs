@@ -5,8 +5,8 @@
 //! strip, if there is one, is drawn first. Then the tiles that may contain foam (`shore-tiles`) are processed, 2×2
 //! pixels at a time. `composite` gets the foam as runs of tiles.
 //! Reads: tiles, scene depth, depth of the host's water surface, map of shore distances, strip, foam texture, noise,
-//! mask. Writes: foam, RGBA8 (shoreline foam, contact foam, missing sunlight, 0 for pass `contact`); the runs and the
-//! arguments of their draw.
+//! mask. Writes: foam, RGBA8 (shoreline foam, contact foam, blocked share of sunlight, 0 for pass `contact`); the runs
+//! and the arguments of their draw.
 
 use ash::vk;
 use bytemuck::NoUninit;

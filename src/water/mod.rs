@@ -54,7 +54,7 @@ pub use settings::{
     Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium, Shading, ShadowFilter, Shadows,
     SpraySettings, SurfaceFoamSettings, WaterSettings, Wavelets, WeberSettings,
 };
-pub(crate) use shape::{bytes_bound as shape_bytes, sets as shape_sets};
+pub(crate) use shape::{Crowd, bytes_bound as shape_bytes, sets as shape_sets};
 pub(crate) use surface_foam::word_bytes as foam_bytes;
 pub(crate) use thickness::sum_bytes as thickness_bytes;
 
@@ -133,6 +133,7 @@ pub(crate) struct Beside<'a> {
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
     /// [`SpraySettings::strand_ratio`].
     pub strand_ratio: f32,
+    pub crowd: Crowd,
 }
 
 /// The images that `composite` reads, and the tiles that it draws.
@@ -253,7 +254,7 @@ impl Water {
         settings: &WaterSettings,
         beside: &Beside<'_>,
     ) -> Result<(), Error> {
-        let Beside { light, whitewater, bubbles, strand_ratio } = *beside;
+        let Beside { light, whitewater, bubbles, strand_ratio, crowd } = *beside;
         let mut whitewater = whitewater.map(|(foam, particles)| (foam, particles.copied()));
         if let Some((bubbles, blobs)) = bubbles {
             if let Some((_, particles)) = &mut whitewater {
@@ -264,10 +265,17 @@ impl Water {
             }
             bubbles.record_lists(r, blobs)?;
         }
-        let (ratios, spacing) = ((&settings.ellipsoids, strand_ratio), settings.spacing);
-        let shaped = self.shape.as_ref().map(|own| own.record(r, particles, ratios, spacing));
-        let shaped = shaped.transpose()?;
+        let look = shape::Look {
+            ellipsoids: &settings.ellipsoids,
+            strand: strand_ratio,
+            crowd,
+            spacing: settings.spacing,
+        };
+        let shaped = self.shape.as_ref().map(|own| own.record(r, particles, &look)).transpose()?;
         let drawn = shaped.as_ref().unwrap_or(particles);
+        // The host's particles with what follows from their neighbours.
+        let Particles { surface_foam, densities, .. } = *drawn;
+        let particles = &Particles { surface_foam, densities, ..*particles };
         self.cull.record(r, drawn, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
             let whitewater = whitewater.as_ref().and_then(|(_, particles)| particles.as_ref());
@@ -279,7 +287,8 @@ impl Water {
             foam.record(r, particles, &self.cull.list)?;
         }
         if let Some(spray) = &self.spray {
-            let shapes = shaped.as_ref().map(shape::Shape::of_spray);
+            let strands = shaped.as_ref().filter(|_| strand_ratio > 1.0);
+            let shapes = strands.map(shape::Shape::of_spray);
             spray.record(r, particles, &shapes, &self.cull.list, &self.depth.image)?;
         }
         if let Some((foam, mut particles)) = whitewater {

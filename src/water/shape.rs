@@ -8,8 +8,9 @@
 //! ellipsoid gradually with the weights of its neighbours; the paper keeps a sphere up to a number of neighbours.
 //!
 //! The pass runs once per frame before `cull`, which reads the result instead of the host's positions. The result does
-//! not depend on the view.
-//! Reads: positions. Writes: the grid, shaped.
+//! not depend on the view. An optional last part makes particles with few neighbours spray without surface
+//! foam.
+//! Reads: positions, surface foam, densities. Writes: the grid, shaped, foam, densities.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -36,6 +37,8 @@ const MOST_GROUPS: u32 = 4096;
 pub const SHAPED: u32 = 40;
 /// Byte offset of the spray's shape in such a particle.
 const SPRAY_SHAPE: u64 = 24;
+/// Bytes of a particle's surface foam: amount and age.
+const FOAM: u32 = 8;
 /// State of the result until the next frame.
 const AFTER: Access = COMPUTE_READ.and(COPY_READ);
 
@@ -95,6 +98,63 @@ shader::assert_layout!(
     CentrePush { cells, buckets, centred }
 );
 
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct CrowdPush {
+    amount_word: u32,
+    amount_stride: u32,
+    density_word: u32,
+    density_stride: u32,
+    chunk_first: u32,
+    chunk: u32,
+    count: u32,
+    from_gpu: u32,
+    foam_few: f32,
+    foam_many: f32,
+    spray_few: f32,
+    spray_many: f32,
+    alone: f32,
+}
+shader::assert_layout!(
+    shader::WATER_SHAPE_CROWD_COMP,
+    "Push",
+    CrowdPush {
+        amount_word,
+        amount_stride,
+        density_word,
+        density_stride,
+        chunk_first,
+        chunk,
+        count,
+        from_gpu,
+        foam_few,
+        foam_many,
+        spray_few,
+        spray_many,
+        alone,
+    }
+);
+
+/// Settings of a frame.
+pub struct Look<'a> {
+    pub ellipsoids: &'a Ellipsoids,
+    /// [`SpraySettings::strand_ratio`](super::SpraySettings::strand_ratio).
+    pub strand: f32,
+    pub crowd: Crowd,
+    pub spacing: f32,
+}
+
+/// What particles with few neighbours are.
+#[derive(Clone, Copy)]
+pub struct Crowd {
+    /// [`SurfaceFoamSettings::crowd`](super::SurfaceFoamSettings::crowd).
+    pub foam: [f32; 2],
+    /// [`SpraySettings::crowd`](super::SpraySettings::crowd).
+    pub spray: [f32; 2],
+    /// Highest density of a particle without neighbours.
+    pub alone: f32,
+}
+
 /// Specialization constant that selects whether a shader reads lists of spheres (0) or of ellipsoids (1); see
 /// glsl/include/ellipsoid.glsl.
 pub fn constant(config: &Config) -> (u32, u32) {
@@ -117,9 +177,10 @@ pub fn bytes_bound(config: &Config) -> u64 {
     }
 }
 
-/// Descriptor sets of the pass: its own, those of the scan, two per chunk.
+/// Descriptor sets of the pass: its own, those of the scan, two per chunk, with foam or spray three.
 pub fn sets(config: &Config, chunks: u32) -> u32 {
-    if is_on(config) { 2 + scan::SETS + 2 * chunks } else { 0 }
+    let each = 2 + u32::from(config.surface_foam || config.spray);
+    if is_on(config) { 2 + scan::SETS + each * chunks } else { 0 }
 }
 
 /// Number of buckets: a power of two that fits in every device's binding.
@@ -143,6 +204,10 @@ pub struct Shape {
     shifts: Buffer,
     /// Position and shape of each particle, in the host's order.
     pub shaped: Buffer,
+    crowd: Pipeline,
+    /// Surface foam that the particles keep, and their densities, if the renderer draws foam and spray.
+    foam: Option<Buffer>,
+    densities: Option<Buffer>,
     many: u32,
     chunk_size: u32,
     max_particles: u32,
@@ -156,6 +221,8 @@ impl Shape {
             Buffer::new(gpu, name, each * u64::from(count), usage, MemoryLocation::GpuOnly)
         };
         let (many, particles) = (buckets(config), config.max_particles);
+        let foam = || make("water/shape/foam", u64::from(FOAM), particles, Usage::empty());
+        let densities = || make("water/shape/densities", 4, particles, Usage::empty());
         Ok(Self {
             count: Pipeline::compute(gpu, shader::WATER_SHAPE_COUNT_COMP, &[])?,
             fill: Pipeline::compute(gpu, shader::WATER_SHAPE_FILL_COMP, &[])?,
@@ -167,20 +234,23 @@ impl Shape {
             shifts: make("water/shape/shifts", 16, particles, Usage::empty())?,
             counts: make("water/shape/counts", 4, 1, Usage::empty())?,
             shaped: make("water/shape/shaped", u64::from(SHAPED), particles, Usage::TRANSFER_SRC)?,
+            crowd: Pipeline::compute(gpu, shader::WATER_SHAPE_CROWD_COMP, &[])?,
+            foam: config.surface_foam.then(foam).transpose()?,
+            densities: config.spray.then(densities).transpose()?,
             many,
             chunk_size: chunks(&gpu.limits, config).0,
             max_particles: config.max_particles,
         })
     }
 
-    /// Returns the particles with `shaped`, which holds positions and shapes, in place of the host's positions.
-    /// The other streams are the host's. All their buffers are in the compute-read state.
+    /// Returns the particles with `shaped`, which holds positions and shapes, in place of the host's positions, and
+    /// with the surface foam and densities that follow from their neighbours. The other streams are the host's. All buffers
+    /// are in the compute-read state.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
-        (settings, strand): (&Ellipsoids, f32),
-        spacing: f32,
+        look: &Look<'_>,
     ) -> Result<Particles, Error> {
         let scope = r.begin(c"shape");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -201,6 +271,7 @@ impl Shape {
         unsafe { gpu.device.cmd_fill_buffer(cmd, buckets.handle, 0, vk::WHOLE_SIZE, 0) };
         gpu.barriers(cmd, &[], &[buffer(buckets.handle, CLEAR, both)]);
 
+        let Look { ellipsoids: settings, strand, crowd, spacing } = *look;
         let most = most(particles, self.max_particles);
         let cells = 1.0 / (settings.reach * spacing);
         self.record_chunks(r, &self.count, particles, &self.shaped, (most, cells))?;
@@ -246,10 +317,90 @@ impl Shape {
             self.dispatch(r, &self.centre, most);
         }
         gpu.barriers(cmd, &[], &[buffer(self.shaped.handle, COMPUTE_WRITE, AFTER)]);
+        let found = self.record_crowd(r, particles, most, crowd)?;
         r.end(scope);
         let size = u64::from(SHAPED) * u64::from(most);
         let positions = Stream { buffer: self.shaped.handle, size, offset: 0, stride: SHAPED };
-        Ok(Particles { positions, before: COMPUTE_READ, ..*particles })
+        Ok(Particles { positions, before: COMPUTE_READ, ..found })
+    }
+
+    /// Returns the particles with the surface foam and the densities that follow from their neighbours, in place of
+    /// the host's where the settings ask for it.
+    fn record_crowd(
+        &self,
+        r: &Recording<'_>,
+        particles: &Particles,
+        most: u32,
+        crowd: Crowd,
+    ) -> Result<Particles, Error> {
+        let amounts = particles.surface_foam.as_ref().filter(|_| crowd.foam[1] > 0.0);
+        let densities = particles.densities.as_ref().filter(|_| crowd.spray[1] > 0.0);
+        let foam = self.foam.as_ref().zip(amounts);
+        let torn = self.densities.as_ref().zip(densities);
+        let written: Vec<&Buffer> = foam.iter().chain(&torn).map(|(own, _)| *own).collect();
+        let Some(any) = written.first() else { return Ok(*particles) };
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let barriers = |from, to| {
+            let all: Vec<_> = written.iter().map(|own| buffer(own.handle, from, to)).collect();
+            gpu.barriers(cmd, &[], &all);
+        };
+        barriers(STREAM_USE, COMPUTE_WRITE);
+        let (count, from_gpu, host_count) = self.count_of(particles, most);
+        let streams = [&foam.map(|(_, stream)| *stream), &torn.map(|(_, stream)| *stream)];
+        let mut first = 0;
+        while first < count {
+            // An absent stream is bound as the positions, and not read.
+            let Some((_, [amounts, densities])) =
+                Window::all(gpu, &particles.positions, streams, first)
+            else {
+                break;
+            };
+            let chunk = self.chunk_size.min(count - first);
+            let bound = [
+                (1, host_count),
+                (2, amounts.resource),
+                (3, densities.resource),
+                (4, Resource::buffer(&self.shaped)),
+                (5, Resource::buffer(foam.map_or(any, |(own, _)| own))),
+                (6, Resource::buffer(torn.map_or(any, |(own, _)| own))),
+            ];
+            r.descriptors.bind(gpu, cmd, &self.crowd, &bound)?;
+            let push = CrowdPush {
+                amount_word: amounts.word,
+                amount_stride: amounts.stride,
+                density_word: densities.word,
+                density_stride: densities.stride,
+                chunk_first: first,
+                chunk,
+                count,
+                from_gpu,
+                foam_few: crowd.foam[0],
+                foam_many: crowd.foam[1],
+                spray_few: crowd.spray[0],
+                spray_many: crowd.spray[1],
+                alone: crowd.alone,
+            };
+            self.crowd.push(gpu, cmd, &push);
+            self.dispatch(r, &self.crowd, chunk);
+            first += chunk;
+        }
+        barriers(COMPUTE_WRITE, STREAM_USE);
+        let stream = |own: &Buffer, stride: u32| {
+            let size = u64::from(stride) * u64::from(most);
+            Stream { buffer: own.handle, size, offset: 0, stride }
+        };
+        let surface_foam = foam.map(|(own, _)| stream(own, FOAM)).or(particles.surface_foam);
+        let densities = torn.map(|(own, _)| stream(own, 4)).or(particles.densities);
+        Ok(Particles { surface_foam, densities, ..*particles })
+    }
+
+    /// Number of particles, or their maximum; 1 if the number is in the returned buffer. If the host knows the number,
+    /// any buffer can be bound.
+    fn count_of(&self, particles: &Particles, most: u32) -> (u32, u32, Resource) {
+        match particles.count {
+            Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),
+            Count::Gpu { buffer, offset } => (most, 1, Resource::Buffer(buffer, offset, 4)),
+        }
     }
 
     /// Stream of the spray's shapes in `shaped`, the particles that [`record`](Self::record) returned.
@@ -267,11 +418,7 @@ impl Shape {
         (most, cells): (u32, f32),
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        // If the host knows the count, any buffer can be bound.
-        let (count, from_gpu, host_count) = match particles.count {
-            Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),
-            Count::Gpu { buffer, offset } => (most, 1, Resource::Buffer(buffer, offset, 4)),
-        };
+        let (count, from_gpu, host_count) = self.count_of(particles, most);
         let mut first = 0;
         while first < count {
             let Some(positions) = Window::new(gpu, &particles.positions, first) else { break };
@@ -315,6 +462,7 @@ impl Shape {
 
     pub fn memory(&self) -> u64 {
         let own = [&self.buckets, &self.places, &self.counts, &self.shifts, &self.shaped];
-        own.iter().map(|buffer| buffer.size).sum::<u64>() + self.scan.memory()
+        let crowd = self.foam.iter().chain(&self.densities);
+        own.into_iter().chain(crowd).map(|buffer| buffer.size).sum::<u64>() + self.scan.memory()
     }
 }

@@ -92,7 +92,8 @@ impl Sprayed {
 
     /// The particles as the twin takes them, with the shapes that pass `shape` found in this frame.
     fn particles(&self, drawn: &Drawn) -> Vec<Particle> {
-        let shapes = drawn.shapes.as_ref().map(|_| of_spray(drawn, &self.shot));
+        let strands = drawn.shapes.as_ref().filter(|_| self.shot.settings.spray.strand_ratio > 1.0);
+        let shapes = strands.map(|_| of_spray(drawn, &self.shot));
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
         let densities = self.shot.densities.as_ref().expect("densities");
         (0..densities.len())

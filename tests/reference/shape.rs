@@ -38,6 +38,15 @@ pub struct Settings {
 /// Sums of the neighbours' weights between which spray takes on its shape.
 const BESIDE_SPRAY: [f64; 2] = [0.1, 0.6];
 
+/// In a film, water one layer thick, the smallest variance is at most 0.02 of the middle one, and
+/// the middle one at least 0.3 of the largest; from 0.06 on and below 0.15 it is none. The sum of
+/// weights is at least 2.5, and 4.5 in a whole film.
+const FLAT: [f64; 2] = [0.02, 0.06];
+const BROAD: [f64; 2] = [0.15, 0.3];
+const SOME: [f64; 2] = [2.5, 4.5];
+/// What a film has instead of the sum of its neighbours' weights.
+const CROWDED: f64 = 64.0;
+
 /// A particle's ellipsoid: its centre, and the matrix that transforms a ball of its radius to it.
 #[derive(Clone, Copy, Debug)]
 pub struct Shape {
@@ -45,7 +54,7 @@ pub struct Shape {
     pub axes: DMat3,
     /// The matrix for its spray.
     pub spray: DMat3,
-    /// Sum of its neighbours' weights.
+    /// Sum of its neighbours' weights, up to 64 in a film.
     pub crowd: f64,
     /// Error bounds on the GPU: of the centre in metres, of both matrices as norms, and of the sum.
     pub off: [f64; 4],
@@ -65,14 +74,8 @@ pub fn shapes(positions: &[DVec3], settings: &Settings) -> Vec<Shape> {
     let all: Vec<_> = positions.iter().map(|own| shape(*own, positions, settings)).collect();
     let centered = |(own, of): (&DVec3, &Formed)| {
         let (center, off) = center((*own, of), (positions, &all), settings);
-        let off = [off, of.axes_off, of.spray_off, of.beside_off];
-        Shape {
-            center,
-            axes: of.axes,
-            spray: of.spray,
-            crowd: if settings.strand > 1.0 { of.beside } else { 64.0 },
-            off,
-        }
+        let off = [off, of.axes_off, of.spray_off, of.crowd_off];
+        Shape { center, axes: of.axes, spray: of.spray, crowd: of.crowd, off }
     };
     positions.iter().zip(&all).map(centered).collect()
 }
@@ -83,8 +86,9 @@ struct Formed {
     axes_off: f64,
     spray: DMat3,
     spray_off: f64,
-    beside: f64,
-    beside_off: f64,
+    /// Sum of its neighbours' weights, more in a film.
+    crowd: f64,
+    crowd_off: f64,
     /// m, in units of the reach.
     middle: DVec3,
     middle_off: f64,
@@ -185,6 +189,9 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
     let scale = lone + (1.0 - lone) * full;
     let (drawn, off) = drawn(&decomposed, covariance_off, ratio, (share, share_off));
     let axes_off = scale * off + (1.0 - lone) * full_off * norm(&drawn) + PACKED;
+    let (film, film_off) = film((decomposed.0, covariance_off), shared(SOME[0], SOME[1]));
+    let crowd = beside + (CROWDED - beside) * film;
+    let crowd_off = (1.0 - film) * beside_off + CROWDED * film_off;
     let strands = shared(BESIDE_SPRAY[0], BESIDE_SPRAY[1]);
     let (spray, spray_off) = self::drawn(&decomposed, covariance_off, strand, strands);
     let spray_off = spray_off + PACKED;
@@ -193,8 +200,8 @@ fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
         axes_off,
         spray,
         spray_off,
-        beside,
-        beside_off,
+        crowd,
+        crowd_off,
         middle,
         middle_off,
         share,
@@ -234,6 +241,25 @@ fn drawn(
         if most > 1.0e-6 { s_off * share * axes.min_element().powf(share - 1.0) } else { 0.0 };
     let matrix = *vectors * DMat3::from_diagonal(drawn) * vectors.transpose();
     (matrix, flat + drawn.length() * logarithm * share_off)
+}
+
+/// How much a particle belongs to a film, from its variances and their error, and from how many
+/// neighbours it has; and the error.
+fn film((values, off): (DVec3, f64), (some, some_off): (f64, f64)) -> (f64, f64) {
+    let mut sorted = values.to_array();
+    sorted.sort_by(f64::total_cmp);
+    let [least, middle, most] = sorted.map(|v| v.max(0.0));
+    let ratio = |a: f64, b: f64, [from, to]: [f64; 2]| {
+        let b = b.max(1.0e-6);
+        let (share, error) = (a / b, (off * (1.0 + a / b) / b).min(1.0e3));
+        let changes = share + error > from && share - error < to;
+        let error = if changes { (1.5 * error / (to - from)).min(1.0) } else { 0.0 };
+        (smoothstep(from, to, share), error)
+    };
+    let ((thick, thick_off), (broad, broad_off)) =
+        (ratio(least, middle, FLAT), ratio(middle, most, BROAD));
+    let film = (1.0 - thick) * broad * some;
+    (film, thick_off + broad_off + some_off)
 }
 
 /// The Frobenius norm.

@@ -269,7 +269,8 @@ impl Reader<'_> {
         Ok((bytes, view.byte_stride))
     }
 
-    /// Reads the elements of an accessor with `N` components, each converted from its type.
+    /// Reads the elements of an accessor, which have `N` components each. `convert` gets the component type, whether it
+    /// is normalized, and the bytes of one component; it returns `None` if the type is not allowed.
     fn read<T: Copy + Default, const N: usize>(
         &self,
         index: usize,

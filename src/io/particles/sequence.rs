@@ -592,7 +592,8 @@ fn compare(a: &[Part], b: &[Part]) -> Ordering {
     a.len().cmp(&b.len())
 }
 
-/// The number of each file that distinguishes it from others; `None` if a file has none.
+/// The number in each file's name that distinguishes it from the others. `None` if a name has no number, or if it is
+/// unclear which of its numbers counts the frames.
 fn telling(named: &[Named]) -> Option<Vec<Number>> {
     let depth = named.iter().map(|named| named.levels.len()).min().unwrap_or(0);
     for level in 0..depth {

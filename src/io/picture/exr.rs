@@ -1,4 +1,4 @@
-//! Reads and writes OpenEXR: all channels are in one layer, with dots in their names, as is the convention for layers.
+//! Reads and writes OpenEXR files of one part. A channel of a layer has a name such as `layer.channel`, by convention.
 
 use std::io::{self, Cursor, Seek, Write};
 

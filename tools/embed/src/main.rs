@@ -28,7 +28,7 @@ const FRAMES_IN_FLIGHT: u32 = 2;
 const MAX_PARTICLES: usize = 32_768;
 const SPACING: f32 = 0.03; // between particles at rest, in metres
 
-/// A particle as this host stores it. Its size is the stride of both streams, positions and velocities.
+/// A particle as this host stores it. Its size is the stride of both streams, positions and densities.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Particle {

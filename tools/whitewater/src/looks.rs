@@ -72,6 +72,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.mist_size = 2.0;
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
+        it.crowd = [3.0, 7.5];
         it.exposure = 0.001;
         it.shade = 2.5 + 48.0 * mist;
         it.scattering = 0.6;
@@ -94,6 +95,7 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.pattern_period = (5.0 * (spacing / 9.81).sqrt()).min(1.0);
         it.aeration = 0.6;
         it.shape = 0.8;
+        it.crowd = [7.0, 12.0];
         it.back_color = [0.62, 0.68, 0.73];
         it.front_color = [0.97; 3];
     });

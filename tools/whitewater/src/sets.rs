@@ -56,7 +56,8 @@ pub fn furnish(scene: &mut Scene, set: SetArg, ground: Material, place: &Place) 
     }
 }
 
-/// Builds meshes in units of the water's width around the centre of its floor; x and z point away from the camera.
+/// Builds meshes from coordinates relative to the water: the origin is the centre of its floor, the unit is its longer
+/// side, and x and z increase away from the camera.
 struct Builder {
     meshes: Vec<Mesh>,
     middle: Vec3,

@@ -34,7 +34,7 @@ const LAYERS: &str = "shore.amount,contact.amount,scene";
 /// Scenes with a shore.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Scenery {
-    /// Round islands, whose foam covers --cover of the picture
+    /// Round islands, whose foam band covers --cover of the picture
     Isles,
     /// The scene of `render --shore archipelago`
     Archipelago,
