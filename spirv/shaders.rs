@@ -1173,7 +1173,7 @@ pub const WATER_SHAPE_CROWD_COMP: Shader = Shader {
     shared: 0,
     outputs: 0,
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "amount_word", 0), ("Push", "amount_stride", 4), ("Push", "density_word", 8), ("Push", "density_stride", 12), ("Push", "chunk_first", 16), ("Push", "chunk", 20), ("Push", "count", 24), ("Push", "from_gpu", 28), ("Push", "foam_few", 32), ("Push", "foam_many", 36), ("Push", "spray_few", 40), ("Push", "spray_many", 44), ("Push", "alone", 48), ("Shaped", "shaped", 0), ("Foam", "foam", 0), ("Amounts", "amounts", 0), ("Densities", "densities", 0), ("Torn", "torn", 0), ("HostCount", "host_count", 0), ],
+    members: &[("Push", "amount_word", 0), ("Push", "amount_stride", 4), ("Push", "density_word", 8), ("Push", "density_stride", 12), ("Push", "chunk_first", 16), ("Push", "chunk", 20), ("Push", "count", 24), ("Push", "from_gpu", 28), ("Push", "foam_few", 32), ("Push", "foam_many", 36), ("Push", "spray_few", 40), ("Push", "spray_many", 44), ("Push", "alone", 48), ("Shaped", "shaped", 0), ("Foam", "foam", 0), ("Amounts", "amounts", 0), ("Densities", "densities", 0), ("DensitiesOut", "densities_out", 0), ("HostCount", "host_count", 0), ],
 };
 /// `water/shape_fill.comp`
 pub const WATER_SHAPE_FILL_COMP: Shader = Shader {

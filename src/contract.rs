@@ -213,8 +213,8 @@ pub struct Config {
     /// [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in a pool).
     pub exit: Exit,
     /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`] merge thin water
-    /// into one body, by the pass `shape`. It takes 108 to 112 more bytes per particle (8 more with `surface_foam`, 4 more
-    /// with `spray`), 40 of which have to fit in one binding for all particles. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
+    /// into one body, by the pass `shape`. It takes 108 to 112 more bytes per particle, 8 more with `surface_foam` and 4 more
+    /// with `spray`; 40 of them have to fit in one binding for all particles. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
     /// 140 000 (lavapipe), or 1.0 and 1.2 times with an [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2 and
     /// `centred` of 0.
     pub kernels: Kernels,

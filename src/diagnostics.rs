@@ -32,7 +32,7 @@ pub struct Diagnostics {
     /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. The position where it
     /// is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to its ellipsoid, six signed
     /// 16-bit fractions of 4: xx, yy, zz, yz, xz, xy; the same of the ellipsoid of its spray; the sum of its
-    /// neighbours' weights (f32; 64 in films one layer thick).
+    /// neighbours' weights (f32; up to 64 in films one layer thick, 64 for particles outside of the grid).
     /// Transfer source; last written and read by compute shaders.
     pub shapes: Option<vk::Buffer>,
     /// With [`Config::bubbles`]: a buffer of this many `u32` per pixel of the frame, row by row. For each

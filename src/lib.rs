@@ -142,7 +142,7 @@
 //! | filtered host shadow map (`Shadows::Convolution`), N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, instead of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | which particles are in a packet (`surface_foam`, `spray`, `motion`, `noise` or `light_map_size`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
-//! | ellipsoids: grid, shapes, lists (`kernels`) | 108 to 112 n | 7.0 MiB for 65 536 | 1.1 GB for 10 million |
+//! | ellipsoids: grid, shapes, lists (`kernels`); with `surface_foam` 8 n more, with `spray` 4 n | 108 to 124 n | 7.0 to 7.8 MiB for 65 536 | 1.1 to 1.2 GB for 10 million |
 //! | spheres: all, and the visible ones | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
 //! A [`SurfaceFoamState`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per

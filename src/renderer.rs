@@ -319,12 +319,13 @@ impl Renderer {
             bubbles,
             strand_ratio: frame.settings.spray.strand_ratio,
             crowd: Crowd {
-                foam: frame.settings.surface_foam.crowd,
-                spray: frame.settings.spray.crowd,
-                // Below the density of pure spray.
-                alone: 0.9
+                foam: frame.settings.surface_foam.few_neighbours,
+                spray: frame.settings.spray.few_neighbours,
+                // Below the density of pure spray; 0 would mark a particle that was just emitted.
+                alone: (0.9
                     * frame.settings.spray.all_spray_density
-                    * frame.settings.water.rest_density,
+                    * frame.settings.water.rest_density)
+                    .max(f32::MIN_POSITIVE),
             },
         };
         self.water.record(&mut r, &frame.particles, &frame.settings.water, &beside)?;

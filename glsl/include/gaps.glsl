@@ -1,7 +1,7 @@
 // Depth slices of pass `gaps`, in spacings. Neighbours in water are one spacing apart, in thin parts one and a half;
 // two and a half are air.
 
-// Fine, so that a boundary moves little when an air gains or loses one.
+// Thin slices, so that a boundary moves little if an air becomes one slice wider or narrower.
 const float SLICE = 0.125;
 // Slices of a cell, 32 in a word.
 const int WORDS = 8;

@@ -41,9 +41,9 @@ const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
 // line of them 2.9.
 const vec2 ALONE = vec2(1.5, 2.5);
 
-// Films, water one layer thick on a floor or a wall: ratios of the smallest to the middle variance and of the middle to
-// the largest one, and sums of the neighbours' weights, between which a particle becomes one. No flying sheet is so flat;
-// of few particles any are.
+// Films: water one layer thick on a floor or a wall. Limits between which a particle gradually counts as part of one: the
+// ratio of the smallest to the middle variance, the ratio of the middle to the largest, and the sum of the neighbours'
+// weights (three particles always lie in a plane).
 const vec2 FLAT = vec2(0.02, 0.06);
 const vec2 BROAD = vec2(0.15, 0.3);
 const vec2 SOME = vec2(2.5, 4.5);

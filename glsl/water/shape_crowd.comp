@@ -1,7 +1,7 @@
 #version 460
-// Pass `shape`, optional last part: surface foam and densities of particles by the number of their neighbours. A few
-// particles that fly together hold no air, so they are no foam, which would be a rosette of lace; and they are spray, though
-// many solvers write the rest density for them. Not in the thesis.
+// Pass `shape`, optional last part: surface foam and densities of particles by the sum of their neighbours' weights. A few
+// particles that fly together hold no air, so they have no foam. They are spray, although many solvers write the rest
+// density for them. Not in the thesis.
 // Reads: the host's count, foam amounts and ages, densities, shaped. Writes: foam (amount, age), densities.
 
 #include "shaped.glsl"
@@ -13,7 +13,7 @@ layout(set = 0, binding = 2, std430) readonly buffer Amounts { float amounts[]; 
 layout(set = 0, binding = 3, std430) readonly buffer Densities { float densities[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Shaped { uint shaped[]; };
 layout(set = 0, binding = 5, std430) writeonly buffer Foam { vec2 foam[]; };
-layout(set = 0, binding = 6, std430) writeonly buffer Torn { float torn[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer DensitiesOut { float densities_out[]; };
 
 layout(push_constant, std430) uniform Push {
     uint amount_word;    // of the chunk's first particle
@@ -45,7 +45,7 @@ void visit(uint i) {
     }
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + i * push.density_stride];
-        torn[at] = mix(min(density, push.alone), density, share_of(push.spray_few, push.spray_many, beside));
+        densities_out[at] = mix(min(density, push.alone), density, share_of(push.spray_few, push.spray_many, beside));
     }
 }
 

@@ -29,8 +29,10 @@ void main() {
     float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(p) + 0.5) * frame.thick_extent.z), 0).x);
     // With fixed point, one sheet's part is exactly the whole or zero.
     bool two = boundaries[at] < EMPTY && (front > 0.0 && front < all || scene > 0.0 && scene < boundaries[at]);
-    // `precise`: a fused multiply-add would keep what the product above rounds off, so equal sums would differ.
+    // Both sums are rounded sprite by sprite, so the front layer's may exceed the whole by some steps. `precise`: a fused
+    // multiply-add would keep what the products above round off, so equal sums would differ.
     precise float back = all - front;
+    back = max(back, 0.0);
     imageStore(sheets, p, two ? vec4(front, back, window, 0.0) : vec4(all, 0.0, ONE_SHEET * all, 0.0));
     if (!two) {
         boundaries[at] = EMPTY;

@@ -265,7 +265,7 @@ impl Water {
             }
             bubbles.record_lists(r, blobs)?;
         }
-        let look = shape::Look {
+        let look = shape::ShapeSettings {
             ellipsoids: &settings.ellipsoids,
             strand: strand_ratio,
             crowd,

@@ -637,11 +637,12 @@ pub struct SurfaceFoamSettings {
     /// Extinction of sunlight that foam casts as a shadow, per scene unit, [0, ∞), default 0.25 / spacing: less than
     /// [`extinction`](Self::extinction), because most scattered light continues.
     pub shadow: f32,
-    /// Particles with few neighbours have no foam: sums of the neighbours' weights (see [`Ellipsoids`]) up to which a
-    /// particle has none, and from which on it has all, [0, 64], the second at least the first, default [0, 0] = off. A few
-    /// particles that fly together would be a rosette of lace; a flat surface has sums of about 21, a single sheet 11.
-    /// Only with [`Kernels::Ellipsoids`]. Not in the thesis.
-    pub crowd: [f32; 2],
+    /// Sums of the neighbours' weights (see [`Ellipsoids`]) up to which a particle has no foam, and from which on it has
+    /// all of it. [0, 64], the second at least the first, default [0, 0] = off. The lace of a few particles that fly
+    /// together would show as a small star. With an [`Ellipsoids::reach`] of 2.5 a flat surface has a sum of about 21;
+    /// the sums grow about with the cube of the reach. Flat films one layer thick are exempt. No effect without
+    /// [`Kernels::Ellipsoids`]. Not in the thesis.
+    pub few_neighbours: [f32; 2],
     /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis' screen colour is 0.25.)
     pub back_color: [f32; 3],
     /// Albedo of thick foam, linear RGB, 0 to 1, default white 0.9. (The thesis' screen colour is 1.)
@@ -671,7 +672,7 @@ impl SurfaceFoamSettings {
             normal_strength: 0.35,
             shape: 0.0,
             shadow: 0.25 / spacing,
-            crowd: [0.0; 2],
+            few_neighbours: [0.0; 2],
             back_color: [0.65; 3],
             front_color: [0.9; 3],
         }
@@ -730,9 +731,9 @@ impl SurfaceFoamSettings {
         range("Settings.surface_foam.normal_strength", self.normal_strength, 0.0, 2.0)?;
         range("Settings.surface_foam.shape", self.shape, 0.0, 1.0)?;
         range("Settings.surface_foam.noise_rate", self.noise_rate, 0.0, 1.0e3)?;
-        let [few, many] = self.crowd;
-        range("Settings.surface_foam.crowd", few, 0.0, 64.0)?;
-        range("Settings.surface_foam.crowd", many, few, 64.0)?;
+        let [few, many] = self.few_neighbours;
+        range("Settings.surface_foam.few_neighbours", few, 0.0, 64.0)?;
+        range("Settings.surface_foam.few_neighbours", many, few, 64.0)?;
         for (back, front) in self.back_color.into_iter().zip(self.front_color) {
             range("Settings.surface_foam.back_color", back, 0.0, 1.0)?;
             range("Settings.surface_foam.front_color", front, 0.0, 1.0)?;
@@ -790,11 +791,12 @@ pub struct SpraySettings {
     /// strands and sheets of droplets, and two or three particles alone have no mist. No effect without
     /// [`Kernels::Ellipsoids`].
     pub strand_ratio: f32,
-    /// Particles with few neighbours are spray whatever their density, because many solvers write the rest density for a
-    /// lone drop too: sums of the neighbours' weights (see [`Ellipsoids`]) up to which a particle is all spray, and from
-    /// which on its density alone decides, [0, 64], the second at least the first, default [0, 0] = off. Eight particles
-    /// close together have about 6, a single sheet has 11. Only with [`Kernels::Ellipsoids`].
-    pub crowd: [f32; 2],
+    /// Sums of the neighbours' weights (see [`Ellipsoids`]) up to which a particle is all spray, and from which on its
+    /// density alone decides. [0, 64], the second at least the first, default [0, 0] = off. Many solvers write the rest
+    /// density for a lone drop too. With an [`Ellipsoids::reach`] of 2.5 eight particles close together have about 6, an
+    /// uneven sheet 11; the sums grow about with the cube of the reach. Flat films one layer thick are exempt, and so are
+    /// particles with a density of 0. No effect without [`Kernels::Ellipsoids`] and `Particles::densities`.
+    pub few_neighbours: [f32; 2],
     /// Exposure time of a droplet's streak, seconds, [0, 1], default 1/250. A longer streak is more
     /// transparent. (The water itself is drawn at one instant.)
     pub exposure: f32,
@@ -834,7 +836,7 @@ impl Default for SpraySettings {
             mist_size: 0.5,
             mist_contrast: 0.0,
             strand_ratio: 1.0,
-            crowd: [0.0; 2],
+            few_neighbours: [0.0; 2],
             exposure: 1.0 / 250.0,
             color: [0.95; 3],
             shade: 0.5,
@@ -860,7 +862,7 @@ impl SpraySettings {
         mist_size: 0.5,
         mist_contrast: 0.0,
         strand_ratio: 1.0,
-        crowd: [0.0; 2],
+        few_neighbours: [0.0; 2],
         exposure: 1.0 / 60.0,
         color: [1.0; 3],
         shade: 0.5,
@@ -884,9 +886,9 @@ impl SpraySettings {
         range("Settings.spray.mist_size", self.mist_size, 1.0e-6, 8.0)?;
         range("Settings.spray.mist_contrast", self.mist_contrast, 0.0, 2.0)?;
         range("Settings.spray.strand_ratio", self.strand_ratio, 1.0, 8.0)?;
-        let [few, many] = self.crowd;
-        range("Settings.spray.crowd", few, 0.0, 64.0)?;
-        range("Settings.spray.crowd", many, few, 64.0)?;
+        let [few, many] = self.few_neighbours;
+        range("Settings.spray.few_neighbours", few, 0.0, 64.0)?;
+        range("Settings.spray.few_neighbours", many, few, 64.0)?;
         range("Settings.spray.shade", self.shade, 0.0, 64.0)?;
         range("Settings.spray.scattering", self.scattering, 0.0, 1.0)?;
         range("Settings.spray.relief", self.relief, 0.0, 4.0)?;

@@ -135,8 +135,8 @@ shader::assert_layout!(
     }
 );
 
-/// Settings of a frame.
-pub struct Look<'a> {
+/// What the pass needs of a frame's settings.
+pub struct ShapeSettings<'a> {
     pub ellipsoids: &'a Ellipsoids,
     /// [`SpraySettings::strand_ratio`](super::SpraySettings::strand_ratio).
     pub strand: f32,
@@ -147,9 +147,9 @@ pub struct Look<'a> {
 /// What particles with few neighbours are.
 #[derive(Clone, Copy)]
 pub struct Crowd {
-    /// [`SurfaceFoamSettings::crowd`](super::SurfaceFoamSettings::crowd).
+    /// [`SurfaceFoamSettings::few_neighbours`](super::SurfaceFoamSettings::few_neighbours).
     pub foam: [f32; 2],
-    /// [`SpraySettings::crowd`](super::SpraySettings::crowd).
+    /// [`SpraySettings::few_neighbours`](super::SpraySettings::few_neighbours).
     pub spray: [f32; 2],
     /// Highest density of a particle without neighbours.
     pub alone: f32,
@@ -244,13 +244,13 @@ impl Shape {
     }
 
     /// Returns the particles with `shaped`, which holds positions and shapes, in place of the host's positions, and
-    /// with the surface foam and densities that follow from their neighbours. The other streams are the host's. All buffers
-    /// are in the compute-read state.
+    /// with the surface foam and densities that follow from their neighbours. The other streams are the host's. All streams can be read
+    /// by compute shaders; those except the positions by vertex shaders too.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
-        look: &Look<'_>,
+        look: &ShapeSettings<'_>,
     ) -> Result<Particles, Error> {
         let scope = r.begin(c"shape");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -266,12 +266,14 @@ impl Shape {
             buffer(self.shifts.handle, COMPUTE_READ, COMPUTE_WRITE),
             buffer(self.shaped.handle, AFTER, COMPUTE_WRITE),
         ]);
+        let crowd_buffers = self.foam.iter().chain(&self.densities);
+        before.extend(crowd_buffers.map(|own| buffer(own.handle, STREAM_USE, COMPUTE_WRITE)));
         gpu.barriers(cmd, &[], &before);
         // SAFETY: cmd is recording outside a render pass; the frame before has read the buffer (barrier above).
         unsafe { gpu.device.cmd_fill_buffer(cmd, buckets.handle, 0, vk::WHOLE_SIZE, 0) };
         gpu.barriers(cmd, &[], &[buffer(buckets.handle, CLEAR, both)]);
 
-        let Look { ellipsoids: settings, strand, crowd, spacing } = *look;
+        let ShapeSettings { ellipsoids: settings, strand, crowd, spacing } = *look;
         let most = most(particles, self.max_particles);
         let cells = 1.0 / (settings.reach * spacing);
         self.record_chunks(r, &self.count, particles, &self.shaped, (most, cells))?;
@@ -340,11 +342,6 @@ impl Shape {
         let written: Vec<&Buffer> = foam.iter().chain(&torn).map(|(own, _)| *own).collect();
         let Some(any) = written.first() else { return Ok(*particles) };
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let barriers = |from, to| {
-            let all: Vec<_> = written.iter().map(|own| buffer(own.handle, from, to)).collect();
-            gpu.barriers(cmd, &[], &all);
-        };
-        barriers(STREAM_USE, COMPUTE_WRITE);
         let (count, from_gpu, host_count) = self.count_of(particles, most);
         let streams = [&foam.map(|(_, stream)| *stream), &torn.map(|(_, stream)| *stream)];
         let mut first = 0;
@@ -384,7 +381,9 @@ impl Shape {
             self.dispatch(r, &self.crowd, chunk);
             first += chunk;
         }
-        barriers(COMPUTE_WRITE, STREAM_USE);
+        let read: Vec<_> =
+            written.iter().map(|own| buffer(own.handle, COMPUTE_WRITE, STREAM_USE)).collect();
+        gpu.barriers(cmd, &[], &read);
         let stream = |own: &Buffer, stride: u32| {
             let size = u64::from(stride) * u64::from(most);
             Stream { buffer: own.handle, size, offset: 0, stride }

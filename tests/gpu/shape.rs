@@ -558,14 +558,17 @@ fn counts_packets_and_chunks_do_not_show() {
 }
 
 /// Particles with few neighbours are drawn as if the host had set their foam to 0 and their density
-/// to that of spray, in all passes that read either, and all other particles as if it were off.
+/// to that of spray, in the passes `cull`, `light`, `surface_foam`, `spray` and `motion`; all other
+/// particles as if it were off. With foam alone and with spray alone too.
 #[test]
 fn few_neighbours_make_spray_without_foam() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     // With the larger stride the device binds few particles at a time. (Blended sums depend on the
     // order of the particles.)
-    for stride in [32, 1 << 19] {
+    for (stride, foam, spray) in
+        [(32, true, true), (1 << 19, true, true), (32, true, false), (32, false, true)]
+    {
         let config = ellipsoids(size, Splat::Compute).with(|it| {
             it.sheets = 2;
             it.light_map_size = Some(64);
@@ -606,25 +609,26 @@ fn few_neighbours_make_spray_without_foam() {
             velocities: expected.velocities.clone(),
             ids: expected.ids.clone(),
         };
-        case.shot.settings.surface_foam.crowd = [foam_few, foam_many];
-        case.shot.settings.spray.crowd = [spray_few, spray_many];
+        let of = |on: bool, limits: [f32; 2]| if on { limits } else { [0.0; 2] };
+        case.shot.settings.surface_foam.few_neighbours = of(foam, [foam_few, foam_many]);
+        case.shot.settings.spray.few_neighbours = of(spray, [spray_few, spray_many]);
         let mut kinds = [0; 3];
         for (i, sum) in sums.into_iter().enumerate() {
             let between =
                 |[few, many]: [f32; 2]| sum > f64::from(few) - 0.01 && sum < f64::from(many) + 0.01;
             assert!(!between([foam_few, foam_many]) && !between([spray_few, spray_many]), "{sum}");
-            let (foams, spray) = (sum > f64::from(foam_many), sum < f64::from(spray_few));
-            kinds[usize::from(foams) + 2 * usize::from(spray)] += 1;
-            if !foams {
+            let (foams, alone) = (sum > f64::from(foam_many), sum < f64::from(spray_few));
+            kinds[usize::from(foams) + 2 * usize::from(alone)] += 1;
+            if foam && !foams {
                 expected.amounts[i][0] = 0.0;
             }
-            if spray {
+            if spray && alone {
                 // Any density of pure spray.
                 expected.shot.densities.as_mut().expect("densities")[i] = 1.0;
             }
         }
         assert_eq!(kinds, [15, 343, 4], "clusters, block, pairs");
-        let name = format!("shape-crowd-{stride}");
+        let name = format!("shape-crowd-{stride}-{foam}-{spray}");
         let (found, expected) = (case.draw(&mut rig), expected.draw(&mut rig));
         same_drawn(&name, &found, &expected);
         let all = |drawn: &Drawn| {
@@ -643,9 +647,9 @@ fn few_neighbours_make_spray_without_foam() {
         compare::same_color(&format!("{name}-motion"), &a.3, &b.3);
         // Without it there is no spray, and more foam.
         let (before, sum) = (all(&plain), |image: &Image<f32>| image.data.iter().sum::<f32>());
-        assert!(sum(&before.1) == 0.0 && sum(&a.1) > 0.0);
+        assert!(sum(&before.1) == 0.0 && (sum(&a.1) > 0.0) == spray);
         let [more, less] = [before.0, a.0].map(|foam| sum(&foam.map(|t| t[0])));
-        assert!(more > 1.02 * less && less > 0.0, "{more} {less}");
+        assert!(less > 0.0 && more >= less && (more > 1.02 * less) == foam, "{more} {less}");
     }
 }
 

@@ -170,10 +170,14 @@ fn spoils() -> Vec<Spoil> {
         }),
         ("spread", "Settings.spray.scatter_radius", |g| g.settings.spray.scatter_radius = f32::NAN),
         ("strand", "Settings.spray.strand_ratio", |g| g.settings.spray.strand_ratio = 8.5),
-        ("crowd", "Settings.spray.crowd", |g| g.settings.spray.crowd = [0.0, 65.0]),
-        ("crowd, reversed", "Settings.spray.crowd", |g| g.settings.spray.crowd = [3.0, 2.0]),
-        ("foam's crowd", "Settings.surface_foam.crowd", |g| {
-            g.settings.surface_foam.crowd = [-1.0, 2.0]
+        ("few neighbours", "Settings.spray.few_neighbours", |g| {
+            g.settings.spray.few_neighbours = [0.0, 65.0]
+        }),
+        ("few neighbours, reversed", "Settings.spray.few_neighbours", |g| {
+            g.settings.spray.few_neighbours = [3.0, 2.0]
+        }),
+        ("few neighbours of foam", "Settings.surface_foam.few_neighbours", |g| {
+            g.settings.surface_foam.few_neighbours = [-1.0, 2.0]
         }),
         ("no strand", "Settings.spray.strand_ratio", |g| g.settings.spray.strand_ratio = 0.9),
         ("scattering", "Settings.spray.scattering", |g| g.settings.spray.scattering = 1.1),

@@ -115,6 +115,8 @@ fn the_air_behind_the_surface_decides() {
     // A gap of 1.125 before a body counts 1.125 / 2.5 and is not chosen; a gap of 1.625 is chosen.
     assert_eq!(one(&[5.0, 7.0, 7.5, 20.0, 20.5], 4.7), 8.9375);
     assert_eq!(one(&[5.0, 7.5, 8.0, 20.0, 20.5], 4.7), 5.4375 + 0.8125);
+    // Two layers mark slices 41 to 58: 18 slices are half-way from a drop to a body.
+    assert_eq!(airs(&row(&[5.0, 8.0, 8.25])).airs, [air(5.4375, 7.5625, 0.5)]);
     // Five gaps are kept.
     let many: Vec<f64> = (0..8).map(|k| 5.0 + 2.0 * f64::from(k)).collect();
     assert_eq!(airs(&row(&many)).airs.len(), 5);

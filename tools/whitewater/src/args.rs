@@ -152,8 +152,8 @@ pub struct RenderArgs {
     /// several times. Size and opacity follow from the number of particles; table [whitewater] overrides them (radius,
     /// or radii = [foam, spray, bubbles], and half_intensity_thickness). 'generate' emits whitewater where the water
     /// traps air, where waves break and where it is fast (table [generate]). With [bubbles] crossfade = [NEAR, FAR]
-    /// foam turns into soap-bubble blobs between FAR and NEAR metres. The water's own foam and spray are drawn too,
-    /// unless --surface-foam none and --spray none say otherwise.
+    /// foam turns into soap-bubble blobs between FAR and NEAR metres. The water's own foam and spray are drawn too;
+    /// --surface-foam none and --spray none leave them out.
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::whitewater_source::named)]
     pub whitewater: Vec<Whitewater>,
     /// Write the emitted whitewater to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
@@ -347,9 +347,11 @@ pub struct DrawArgs {
     /// The former name of --surface-foam
     #[arg(long = "foam", hide = true, value_name = "WHEN", value_parser = was_foam)]
     pub foam: Option<Foaming>,
-    /// Spray of particles with few or no neighbours: auto or none [default: auto]
+    /// Spray of particles with few or no neighbours: auto or none [default: auto; none if there are very few particles]
     ///
-    /// It uses densities from the files, or estimated ones. all_spray_density, full_water_density and
+    /// It uses densities from the files, or estimated ones, and the neighbours: few_neighbours = [FEW, MANY] in table
+    /// [spray] sets the sums of the neighbours' weights up to which a particle is spray, and from which on its density
+    /// alone decides [default: 3, 7.5]. all_spray_density, full_water_density and
     /// no_spray_density in table [spray] set the limits as fractions of the rest density [default: 0.44, 0.66,
     /// 0.7]. With 'none' these particles are drawn as drops of water.
     #[arg(long, value_enum)]

@@ -6,7 +6,7 @@ use whitewater::WhitewaterSettings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::Particles;
 use whitewater::water::Medium;
-use whitewater::water::{SpraySettings, SurfaceFoamSettings, WaterSettings};
+use whitewater::water::{Ellipsoids, SpraySettings, SurfaceFoamSettings, WaterSettings};
 
 use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Whitewater};
 use crate::bounds::Bounds;
@@ -72,7 +72,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.mist_size = 2.0;
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
-        it.crowd = [3.0, 7.5];
+        it.few_neighbours = [3.0, 7.5];
         it.exposure = 0.001;
         it.shade = 2.5 + 48.0 * mist;
         it.scattering = 0.6;
@@ -95,7 +95,7 @@ pub fn foam_of_caches(foam: &mut SurfaceFoamSettings, spacing: f32) {
         it.pattern_period = (5.0 * (spacing / 9.81).sqrt()).min(1.0);
         it.aeration = 0.6;
         it.shape = 0.8;
-        it.crowd = [7.0, 12.0];
+        it.few_neighbours = [7.0, 12.0];
         it.back_color = [0.62, 0.68, 0.73];
         it.front_color = [0.97; 3];
     });
@@ -225,6 +225,15 @@ pub fn look(
     }
     file.apply(&mut settings);
     settings.water.spacing = spacing;
+    // The sums of the neighbours' weights grow with the volume that they are searched in.
+    let volume = (settings.water.ellipsoids.reach / Ellipsoids::default().reach).powi(3);
+    let scaled = |sums: [f32; 2]| sums.map(|sum| (sum * volume).min(64.0));
+    if file.spray.few_neighbours.is_none() {
+        settings.spray.few_neighbours = scaled(settings.spray.few_neighbours);
+    }
+    if file.surface_foam.few_neighbours.is_none() {
+        settings.surface_foam.few_neighbours = scaled(settings.surface_foam.few_neighbours);
+    }
     if let Some(files) = &mut files {
         files.choose(&file, &mut settings);
         if let Some([foam, spray, bubbles]) =

@@ -78,22 +78,19 @@ fn kind_of(number: u32) -> usize {
     usize::try_from(number).ok().filter(|kind| *kind < KINDS).unwrap_or(0)
 }
 
-/// A radius is divided by 1 to this number, chosen per particle (Akinci et al. 2013, Sec. 2.1: 5). Splashes of five
-/// sizes look like beads.
+/// A radius is divided by 1 to this number, chosen per particle (Akinci et al. 2013, Sec. 2.1: 5). With five
+/// sizes, single particles stand out.
 pub const VARIETY: u32 = 8;
 /// Mean thickness that one foam particle adds to a column, if its radius is the column's width: its disc, with the mean
 /// squared size and the mean shape (1 - x^2.25).
-const SHARE: f32 = PI
-    * (1.0
-        + 1.0 / 4.0
-        + 1.0 / 9.0
-        + 1.0 / 16.0
-        + 1.0 / 25.0
-        + 1.0 / 36.0
-        + 1.0 / 49.0
-        + 1.0 / 64.0)
-    / 8.0
-    * (1.0 - 2.0 / 4.25);
+const SHARE: f32 = {
+    let (mut squares, mut i) = (0.0, 1);
+    while i <= VARIETY {
+        squares += 1.0 / (i * i) as f32;
+        i += 1;
+    }
+    PI * squares / VARIETY as f32 * (1.0 - 2.0 / 4.25)
+};
 /// Opacity of a column with the mean number of particles, if they are spread evenly and the radius is within its
 /// limits. A few randomly placed particles leave gaps and hide less on average.
 const HIDDEN: f32 = 0.8;
@@ -496,8 +493,9 @@ mod tests {
             "more hides no less: {all:?}"
         );
         let [thousand, ten, hundred, million, _, most] = all;
-        // With less than one particle per column the radius is at its max.
+        // Even 24 copies make only 15 per column: the radius is at its max.
         assert!(thousand.1 == RADII[1] && thousand.2 == FEW, "{thousand:?}");
+        assert!((0.25..0.35).contains(&thousand.0), "{thousand:?}");
         assert!((ten.0 / HIDDEN - 1.0).abs() < 1.0e-4 && ten.1 < RADII[1], "{ten:?}");
         assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 < ten.1, "{hundred:?}");
         assert!((million.0 / HIDDEN - 1.0).abs() < 1.0e-4 && million.2 > FEW, "{million:?}");

@@ -46,7 +46,7 @@ impl Session<'_> {
         let supersample = self.supersample();
         let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
-        // As with the water's particles, there is room for the fullest probed frame: new room forgets earlier frames.
+        // Room for the fullest probed frame, as for the water's particles: a new renderer loses the foam of earlier frames.
         let files = match &self.look.whitewater {
             Some(WhitewaterSource::Files(files)) => files.fullest(),
             _ => 0,
@@ -159,10 +159,10 @@ impl Session<'_> {
         }
         self.staged = self.look.scene.frame;
         self.headless = Some(headless);
-        if self.memory.stepped.or(self.memory.made).is_some() {
+        if self.look.fps.is_some() && self.memory.stepped.or(self.memory.made).is_some() {
             times.say(&format!(
-                "frame {number}: foam and emitted whitewater begin anew, because this frame has many more particles than the \
-                 frames probed before"
+                "frame {number}: foam and emitted whitewater start again, because this frame has many more particles than the \
+                 probed frames"
             ));
         }
         self.memory = Memory::default();
