@@ -8,7 +8,7 @@
 // - A pixel uses those of the four texels around it that belong to the surface of its own depth, with
 //   bilinear weights. Texels beyond the image's edge repeat it.
 // - Depth and slope of the pixel are the weighted means. In the slope, rim texels have the weight RIM. If
-//   complete texels have at most 1/63 of the weight, the slope is limited to RIM_SLOPE.
+//   complete texels have at most 1/63 of the weight, RIM_SLOPE limits the slope.
 // - If none of the four texels belongs to its surface, the pixel takes slope and thickness of a texel beside the four
 //   (within one and a half of the pixel), the one nearest in depth, and keeps its own depth. If that is not on its
 //   surface either, or at full resolution, the pixel faces the eye and takes the thickness of the texel, among the

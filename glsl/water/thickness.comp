@@ -173,8 +173,8 @@ void main() {
                 return;
             }
         }
-        // One `do`-`while` loop instead of two nested loops: where invocations are SIMD lanes, all wait for the one
-        // with the most pixels once instead of once per row, and none runs an empty iteration.
+        // One `do`-`while` loop instead of two nested loops. SIMD lanes wait for the lane with the most pixels: once
+        // here, in nested loops once per row. No lane runs an empty iteration.
         ivec2 p = box.xy;
         do {
             splat(p, sprite);

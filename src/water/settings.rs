@@ -637,9 +637,9 @@ pub struct SurfaceFoamSettings {
     /// Extinction of sunlight that foam casts as a shadow, per scene unit, [0, ∞), default 0.25 / spacing: less than
     /// [`extinction`](Self::extinction), because most scattered light continues.
     pub shadow: f32,
-    /// Sums of the neighbours' weights (see [`Ellipsoids`]) up to which a particle has no foam, and from which on it has
-    /// all of it. [0, 64], the second at least the first, default [0, 0] = off. The lace of a few particles that fly
-    /// together would show as a small star. With an [`Ellipsoids::reach`] of 2.5 a flat surface has a sum of about 21;
+    /// Two sums of the neighbours' weights (see [`Ellipsoids`]): a particle has no foam up to the first, and all of its
+    /// foam from the second on. Each is in [0, 64], the second at least the first. Default [0, 0]: off. Foam on a few
+    /// flying particles looks like a small star. With an [`Ellipsoids::reach`] of 2.5 a flat surface has a sum of about 21;
     /// the sums grow about with the cube of the reach. Flat films one layer thick are exempt. No effect without
     /// [`Kernels::Ellipsoids`]. Not in the thesis.
     pub few_neighbours: [f32; 2],
@@ -791,9 +791,9 @@ pub struct SpraySettings {
     /// strands and sheets of droplets, and two or three particles alone have no mist. No effect without
     /// [`Kernels::Ellipsoids`].
     pub strand_ratio: f32,
-    /// Sums of the neighbours' weights (see [`Ellipsoids`]) up to which a particle is all spray, and from which on its
-    /// density alone decides. [0, 64], the second at least the first, default [0, 0] = off. Many solvers write the rest
-    /// density for a lone drop too. With an [`Ellipsoids::reach`] of 2.5 eight particles close together have about 6, an
+    /// Two sums of the neighbours' weights (see [`Ellipsoids`]): a particle is all spray up to the first, and its density
+    /// alone decides from the second on. Each is in [0, 64], the second at least the first. Default [0, 0]: off. Many
+    /// solvers write the rest density for a lone drop too. With an [`Ellipsoids::reach`] of 2.5 eight particles close together have about 6, an
     /// uneven sheet 11; the sums grow about with the cube of the reach. Flat films one layer thick are exempt, and so are
     /// particles with a density of 0. No effect without [`Kernels::Ellipsoids`] and `Particles::densities`.
     pub few_neighbours: [f32; 2],

@@ -244,8 +244,8 @@ impl Shape {
     }
 
     /// Returns the particles with `shaped`, which holds positions and shapes, in place of the host's positions, and
-    /// with the surface foam and densities that follow from their neighbours. The other streams are the host's. All streams can be read
-    /// by compute shaders; those except the positions by vertex shaders too.
+    /// with the surface foam and densities that follow from their neighbours. The other streams are the host's. Compute
+    /// shaders can read all streams, vertex shaders all but the positions.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
