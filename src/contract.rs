@@ -1337,7 +1337,7 @@ pub struct Layer {
     /// Name as in the tool's EXR files: `water.depth` for `water.depth.Z`, `motion` for `motion.X` and
     /// `motion.Y`. With [`Config::surface_foam`] `water.thickness` has a second channel: the water in front of the
     /// frontmost foam. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: front layer, back layer,
-    /// and the window between them. A texel of `water.iterations` has 32 bits: the low nine are the planned
+    /// the window between them, and the eye depth of the boundary as it was found. A texel of `water.iterations` has 32 bits: the low nine are the planned
     /// iterations, the other 23 the step size relative to the largest one.
     pub name: &'static str,
     /// The image; transfer source usage.

@@ -34,6 +34,12 @@ float metres(uvec2 sum) {
 // Value of the window without a boundary: more than enough water for one sheet.
 const float ONE_SHEET = 1.0e6;
 
+// Whether a texel keeps its boundary: where there is water on both sides, and where the scene hides the boundary at the
+// texel's centre, because the water may be visible beside that.
+bool keeps_boundary(float boundary, float front, float back, float scene) {
+    return boundary < EMPTY && (front > 0.0 && back > 0.0 || scene > 0.0 && scene < boundary);
+}
+
 // Shares with which a sprite at a depth adds to the front sheet, the back sheet and the window between them.
 // Water in the window means that both are one sheet.
 vec3 sheet_shares(float z, float boundary) {

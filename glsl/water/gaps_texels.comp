@@ -21,6 +21,8 @@ layout(push_constant, std430) uniform Push {
 
 // A boundary lies in the middle of its air, but not farther than this behind the water before it, in spacings.
 const float BEYOND = 2.0;
+// A boundary keeps this distance to the water at either side of all chosen airs, in spacings, if there is room.
+const float CLEAR = 0.5;
 // What air before a drop counts for, relative to air before a body.
 const float LEAST = 0.05;
 
@@ -95,7 +97,7 @@ float boundary_of(ivec2 p) {
     // An air of half this width is chosen before those behind it: its surfaces are farther apart than the falloff, so that
     // `composite` does not mix their texels. A narrower one hardly shows.
     float spacing = frame.particle.y;
-    float wide = 2.0 * max(frame.surface.w - spacing, SLICE * spacing);
+    float wide = 2.0 * max(frame.surface.w - spacing, CLEAR * spacing);
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool there = any(greaterThan(cells.words[0], uvec4(255u)));
     float z = 0.0;
@@ -127,7 +129,7 @@ float boundary_of(ivec2 p) {
         }
         bool better = weight > 0.0 && open > most;
         float rest = 0.5 * (all.y - all.x);
-        float edge = min(rest, SLICE * spacing);
+        float edge = min(rest, CLEAR * spacing);
         float at = rest > 0.0 ? clamp(sum / weight, all.x + edge, all.y - edge) : sum / weight;
         boundary = better ? at : boundary;
         most = better ? open : most;

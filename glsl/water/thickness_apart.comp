@@ -1,8 +1,7 @@
 #version 460
-// Pass `thickness`, compute path, with two layers: converts their sums to metres. Where all water belongs to one layer
-// the boundary is removed, except if the scene hides the water at the texel's centre, because it may be visible beside
-// that. Not in the thesis.
-// Reads: sums, boundaries, scene depth. Writes: sheets (RGBA32F: front, back, window), boundaries.
+// Pass `thickness`, compute path, with two layers: converts their sums to metres, and removes the boundary where all
+// water belongs to one layer. Not in the thesis.
+// Reads: sums, boundaries, scene depth. Writes: sheets (RGBA32F: front, back, window, boundary as found), boundaries.
 
 #include "frame.glsl"
 #include "kernel.glsl"
@@ -27,13 +26,14 @@ void main() {
     float front = metres(sums[at + (1u + FOAM) * texels]);
     float window = metres(sums[at + (2u + FOAM) * texels]);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(p) + 0.5) * frame.thick_extent.z), 0).x);
-    // With fixed point, one sheet's part is exactly the whole or zero.
-    bool two = boundaries[at] < EMPTY && (front > 0.0 && front < all || scene > 0.0 && scene < boundaries[at]);
-    // Both sums are rounded sprite by sprite, so the front layer's may exceed the whole by some steps. `precise`: a fused
-    // multiply-add would keep what the products above round off, so equal sums would differ.
+    // Both sums are rounded sprite by sprite, so the front layer's may exceed the whole by some steps. With fixed point
+    // the front layer's is exactly the whole if nothing is behind it. `precise`: a fused multiply-add would keep what
+    // the products above round off, so equal sums would differ.
     precise float back = all - front;
     back = max(back, 0.0);
-    imageStore(sheets, p, two ? vec4(front, back, window, 0.0) : vec4(all, 0.0, ONE_SHEET * all, 0.0));
+    float found = boundaries[at];
+    bool two = keeps_boundary(found, front, back, scene);
+    imageStore(sheets, p, vec4(two ? vec3(front, back, window) : vec3(all, 0.0, ONE_SHEET * all), found));
     if (!two) {
         boundaries[at] = EMPTY;
     }

@@ -2,7 +2,7 @@
 // Pass `thickness`, raster path with two sheets: additive, tested against the scene by the centre's depth.
 // Two sheets are not in the thesis.
 // Reads: scene depth, boundaries, foam depth. Writes: thickness (as thickness.frag), sheets
-// (RGBA32F: front, back, window).
+// (RGBA32F: front, back, window; thickness_prune.comp completes them).
 
 #include "frame.glsl"
 #include "sphere.glsl"

@@ -2,7 +2,8 @@
 //!
 //! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its
 //! limitation, Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool. Each
-//! cell of 8×8 pixels has 256 depth slices of half a spacing, from its nearest sphere on. Every sphere marks the
+//! cell of 8×8 pixels has 256 depth slices of an eighth of a spacing, from its nearest sphere on: 32 spacings. The last slice holds all water farther away, so air in
+//! it is not found. Every sphere marks the
 //! slices that it fills; a run of unmarked slices between marked ones is air. Marks need no sorting: a cell is nine
 //! words, written with atomics, for any number of particles. Cells without air borrow that of one beside them. A texel of the thickness takes
 //! the first wide air behind the surface that it shows and before a body of water; its cells vote, with bilinear

@@ -7,12 +7,13 @@
 //! additive sprites, and fixed-point atomic sums, which are independent of the order.
 //!
 //! Where `gaps` has found two layers, a second image holds the thickness of each, and that of a window of one spacing
-//! around the boundary: water in the window means that the layers are connected.
+//! around the boundary: water in the window means that the layers are connected. Where all water belongs to one layer,
+//! the boundary is removed.
 //!
 //! With foam there is a second channel, the water in front of the frontmost foam (the thesis decides this per
 //! particle, Listing A.14; here it is per fragment).
 //! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `surface_foam`. Writes: thickness,
-//! R32F or RG32F; sheets, RGBA32F (front, back, window).
+//! R32F or RG32F; sheets, RGBA32F (front, back, window, boundary as found); boundaries.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -27,8 +28,8 @@ use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE,
-    COPY_READ, FRAGMENT_SAMPLED, buffer,
+    self, Access, CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
+    COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -48,6 +49,7 @@ enum Path {
         quads: Pipeline,
         pass: vk::RenderPass,
         framebuffer: Owned<vk::Framebuffer>,
+        prune: Option<Pipeline>,
     },
     Compute {
         small: Pipeline,
@@ -116,7 +118,9 @@ impl Thickness {
                     config,
                 )?;
                 let framebuffer = Self::framebuffer(gpu, pass, &image, sheets.as_ref())?;
-                Path::Raster { points, quads, pass, framebuffer }
+                let prune = shader::WATER_THICKNESS_PRUNE_COMP;
+                let prune = sheets.as_ref().map(|_| Pipeline::compute(gpu, prune, &[]));
+                Path::Raster { points, quads, pass, framebuffer, prune: prune.transpose()? }
             }
             Splat::Compute => Path::Compute {
                 small: compute(shader::WATER_THICKNESS_COMP, 0, 0)?,
@@ -250,13 +254,46 @@ impl Thickness {
             Resource::Sampled(foam.depth().view, gpu.samplers.nearest)
         });
         match &self.path {
-            Path::Raster { points, quads, pass, framebuffer } => {
+            Path::Raster { points, quads, pass, framebuffer, prune } => {
                 gpu.barriers(cmd, &hand(BEFORE.discarded(), COLOR_ATTACHMENT), &[]);
                 let area = reduced(r.extent, self.level).into();
                 gpu.begin_pass(cmd, *pass, framebuffer.handle, area, [0.0; 4]);
                 draw_sprites(r, list, points, quads, &[(7, foam), (11, boundaries)])?;
                 gpu.end_pass(cmd);
-                gpu.barriers(cmd, &hand(COLOR_ATTACHMENT, FRAGMENT_SAMPLED), &[]);
+                if let (Some(prune), Some(sheets), Some(gaps)) = (prune, &self.sheets, gaps) {
+                    let kept = gaps.boundaries.handle;
+                    gpu.barriers(
+                        cmd,
+                        &[
+                            access::image(&self.image, COLOR_ATTACHMENT, COMPUTE_SAMPLED),
+                            access::image(sheets, COLOR_ATTACHMENT, COMPUTE_READ_WRITE),
+                        ],
+                        &[buffer(kept, gaps::READ, COMPUTE_READ_WRITE)],
+                    );
+                    r.descriptors.bind(
+                        gpu,
+                        cmd,
+                        prune,
+                        &[
+                            (0, r.uniforms),
+                            (2, Resource::storage(sheets)),
+                            (3, r.scene_depth),
+                            (4, Resource::Sampled(self.image.view, gpu.samplers.nearest)),
+                            (11, boundaries),
+                        ],
+                    )?;
+                    r.dispatch_over(reduced(r.extent, self.level), prune.local_size);
+                    gpu.barriers(
+                        cmd,
+                        &[
+                            access::image(&self.image, COMPUTE_SAMPLED, FRAGMENT_SAMPLED),
+                            access::image(sheets, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED),
+                        ],
+                        &[buffer(kept, COMPUTE_READ_WRITE, gaps::READ)],
+                    );
+                } else {
+                    gpu.barriers(cmd, &hand(COLOR_ATTACHMENT, FRAGMENT_SAMPLED), &[]);
+                }
             }
             Path::Compute { small, large, apart, resolve, sums } => {
                 gpu.barriers(

@@ -257,6 +257,18 @@ pub struct Splats<'a> {
     pub sum: Sum,
 }
 
+/// Amplitude of a sprite that holds a volume.
+fn amplitude(volume: f64, half: f64) -> f64 {
+    volume / (std::f64::consts::PI * J * half * half)
+}
+
+impl Splats<'_> {
+    /// A step of the fixed-point sums.
+    pub fn unit(&self) -> f64 {
+        amplitude(self.volume, 2.0 * self.radius) / UNITS
+    }
+}
+
 /// Bounds of the thickness splats. The position of a sprite's centre has the same error as its
 /// distance from the ray. Kernel and amplitude add 40u: exp 3 + 2·2 ulp, square root and quotients
 /// 2.5 ulp each. Rounding of the sum depends on its [`Sum`].
@@ -270,15 +282,14 @@ pub fn thickness_where(
     splats: &Splats<'_>,
     share: impl Fn(usize, usize, &Sphere) -> (f64, f64),
 ) -> Between {
-    let &Splats { spheres, ref full, level, ref scene, volume, radius, sum } = splats;
+    let &Splats { spheres, ref full, level, ref scene, volume, sum, .. } = splats;
     let view = &full.reduced(level);
     let planes = frustum(full);
     let near = view.near();
     let mut low = Image::new(view.width, view.height, 0.0);
     let mut high = low.clone();
     let mut count = Image::new(view.width, view.height, 0_u32);
-    let amplitude_of = |half: f64| volume / (std::f64::consts::PI * J * half * half);
-    let unit = amplitude_of(2.0 * radius) / UNITS;
+    let unit = splats.unit();
     for sphere in spheres {
         let (center, d) = (sphere.center.truncate(), -sphere.center.z);
         let whole = 2.0 * sphere.radius;
@@ -293,7 +304,7 @@ pub fn thickness_where(
         if inside < -uncertain {
             continue;
         }
-        let amplitude = amplitude_of(half);
+        let amplitude = amplitude(volume, half);
         let reach = glam::DVec2::splat(half + uncertain);
         let (columns, rows) = view.footprint(center, reach, d, d);
         for y in rows {

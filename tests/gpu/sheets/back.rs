@@ -196,6 +196,7 @@ pub fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> D
     let reduced = reduce::reduce(&wide(&depth), smoothing_level, shot.falloff());
     let sheets = Sheets {
         boundaries: narrow(&texels),
+        found: narrow(&texels),
         thickness: thickness.map(|texel| texel.map(|t| t as f32)),
         surface: smoothed(&back, back_level),
         plan: Image::new(0, 0, 0),

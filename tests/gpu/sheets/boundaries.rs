@@ -1,6 +1,7 @@
 //! The boundaries between two sheets against the twin, which tells where rounding may change them.
 
 use glam::Vec3;
+use whitewater::water::Splat;
 
 use crate::harness::fails;
 use crate::reduce::wide;
@@ -11,7 +12,7 @@ use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::{self, U};
 
-use super::{of, rule, shot, spacing, unpruned, visible};
+use super::{of, rule, shot, spacing, splatted, visible};
 
 /// Number of texels that spheres touch, that have a boundary, and that rounding leaves undecided.
 #[derive(Clone, Copy, Debug, Default)]
@@ -123,10 +124,10 @@ fn single_precision(shot: &Shot) -> Image<Cell> {
     }
     let airs = |depths: &Vec<f32>| {
         let nearest = depths.iter().copied().fold(f32::INFINITY, f32::min);
-        let slice = |z: f32| ((z - nearest) / (0.5 * s)).floor().clamp(0.0, 255.0) as usize;
+        let slice = |z: f32| ((z - nearest) / (0.125 * s)).floor().clamp(0.0, 255.0) as usize;
         let mut marks = [false; 256];
         for z in depths {
-            marks[slice(z - 0.75 * s)..=slice(z + 0.75 * s)].fill(true);
+            marks[slice(z - 0.8 * s)..=slice(z + 0.8 * s)].fill(true);
         }
         let airs = sheets::airs_of(&marks);
         let spacing = f64::from(s);
@@ -204,12 +205,12 @@ fn the_boundaries_are_the_twins() {
     for (width, height) in [(96, 64), (97, 61), (160, 110), (33, 17)] {
         let size = extent(width, height);
         for level in 0..4 {
-            let mut rig = Rig::new(&gpu, &unpruned(size, level));
+            let mut rig = Rig::new(&gpu, &splatted(size, Splat::Raster, level));
             for lens in LENSES.into_iter().skip(level as usize).step_by(2) {
                 let shot = shot(size, lens);
                 let name = format!("boundaries-{lens:?}-{width}-{level}");
                 let drawn = rig.draw(&shot);
-                let found = &of(&drawn).boundaries;
+                let found = &of(&drawn).found;
                 count += check_boundaries(&name, found, &drawn.depth, &shot, level);
             }
         }
@@ -222,14 +223,13 @@ fn the_boundaries_are_the_twins() {
 fn the_boundaries_are_of_the_drawn_spheres() {
     let gpu = Gpu::shared();
     let (size, mut count) = (extent(160, 110), Texels::default());
-    let mut rig = Rig::new(&gpu, &unpruned(size, 1));
+    let mut rig = Rig::new(&gpu, &splatted(size, Splat::Compute, 1));
     for (seed, lens) in (4..).zip(LENSES) {
         let (mut shot, mut random) = (shot(size, lens), Random(seed));
         let densities = shot.positions.iter().map(|_| random.between(250.0, 600.0));
         shot.densities = Some(densities.collect());
         let drawn = rig.draw(&shot);
-        count +=
-            check_boundaries("boundaries-thin", &of(&drawn).boundaries, &drawn.depth, &shot, 1);
+        count += check_boundaries("boundaries-thin", &of(&drawn).found, &drawn.depth, &shot, 1);
     }
     count.suffice("boundaries-thin");
 }
@@ -250,9 +250,8 @@ fn spheres_at_the_eye_take_no_part() {
     let gpu = Gpu::shared();
     let mut count = Texels::default();
     for shot in near_shots() {
-        let drawn = Rig::new(&gpu, &unpruned(shot.size, 0)).draw(&shot);
-        count +=
-            check_boundaries("boundaries-near", &of(&drawn).boundaries, &drawn.depth, &shot, 0);
+        let drawn = Rig::new(&gpu, &splatted(shot.size, Splat::Raster, 0)).draw(&shot);
+        count += check_boundaries("boundaries-near", &of(&drawn).found, &drawn.depth, &shot, 0);
     }
     count.suffice("boundaries-near");
 }

@@ -90,10 +90,10 @@ fn two(size: vk::Extent2D) -> Config {
     config(size).with(|it| it.sheets = 2)
 }
 
-/// A configuration that keeps the boundaries as they were found.
-fn unpruned(size: vk::Extent2D, thickness_level: u32) -> Config {
+/// A configuration with two sheets whose thickness is splatted at a level.
+fn splatted(size: vk::Extent2D, splat: Splat, thickness_level: u32) -> Config {
     two(size).with(|it| {
-        it.thickness_splat = Some(Splat::Raster);
+        it.thickness_splat = Some(splat);
         it.thickness_level = thickness_level;
     })
 }

@@ -449,9 +449,9 @@ fn the_back_sheets_levels_pass_without_a_step() {
     let mut rig = even(&gpu, config);
     let (mut crossing, mut others) = ([0.0; 2], [0.0; 2]);
     let mut before: Option<(Drawn, Vec<usize>)> = None;
-    for step in 0..24 {
+    for step in 0..54 {
         let mut shot = look(slabs(size), true);
-        shot.settings.water.smoothing_width = 1.2 * 1.01_f32.powi(step);
+        shot.settings.water.smoothing_width = 1.01_f32.powi(step);
         let drawn = rig.draw(&shot);
         let params = params(&shot, config.max_iterations);
         let levels = Levels { view: shot.view(size), first: 0, coarser: 3, params };

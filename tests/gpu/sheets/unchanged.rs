@@ -18,7 +18,7 @@ use super::back::{back_level, check_back};
 use super::boundaries::check_boundaries;
 use super::thickness::check_thickness;
 use super::{
-    SPACING, drop_at, gaps, of, pool, same_where, shot, shot_of, some, two, unpruned, unsmoothed,
+    SPACING, drop_at, gaps, of, pool, same_where, shot, shot_of, some, splatted, two, unsmoothed,
 };
 
 #[test]
@@ -268,8 +268,8 @@ fn small_images_have_sheets_too() {
         let size = extent(width, height);
         let levels = [(1, 2), (0, 0), (2, 3)];
         for (smoothing_level, thickness_level) in levels.into_iter().take(some(1)) {
-            let config =
-                unpruned(size, thickness_level).with(|it| it.smoothing_level = smoothing_level);
+            let config = splatted(size, Splat::Raster, thickness_level)
+                .with(|it| it.smoothing_level = smoothing_level);
             let mut rig = Rig::lit(&gpu, &config, 1);
             // A drop before a wall.
             let mut points = scenes::block(5, SPACING, [24, 16, 2], [-3.0, -2.0, 5.0]);
@@ -277,7 +277,7 @@ fn small_images_have_sheets_too() {
             let shot = unsmoothed(&shot_of(size, Lens::Reversed, &points));
             let drawn = rig.draw(&shot);
             let name = format!("tiny-{width}x{height}-{smoothing_level}{thickness_level}");
-            check_boundaries(&name, &of(&drawn).boundaries, &drawn.depth, &shot, thickness_level);
+            check_boundaries(&name, &of(&drawn).found, &drawn.depth, &shot, thickness_level);
             assert!(gaps(&drawn) > 0, "{name}: no gap");
             let (all, level) = (&drawn.thickness, back_level(&name, &drawn, &shot));
             check_thickness(&name, all, of(&drawn), &shot, thickness_level, Sum::Float);

@@ -7,8 +7,8 @@ use std::ops::Range;
 use super::super::{EMPTY, Image, Sphere, View};
 
 use super::{
-    AIRS, BESIDE, BEYOND, BODY, CELL, CHOSEN, DROP, GROWN, LEAST, Part, REACH, SLICE, SLICES,
-    UNBOUNDED,
+    AIRS, BESIDE, BEYOND, BODY, CELL, CHOSEN, CLEAR, DROP, GROWN, LEAST, Part, REACH, SLICE,
+    SLICES, UNBOUNDED,
 };
 
 /// Pixels whose centres lie in the bounding box of a sphere's projection, grown by `grown` pixels;
@@ -178,7 +178,7 @@ pub struct Rule {
 impl Rule {
     /// Width from which on an air gap counts fully.
     pub fn full(&self) -> f64 {
-        2.0 * (self.falloff - self.spacing).max(SLICE * self.spacing)
+        2.0 * (self.falloff - self.spacing).max(CLEAR * self.spacing)
     }
 }
 
@@ -239,7 +239,7 @@ pub fn between(cells: &[(Cell, f64)], z: f64, rule: Rule) -> (f64, [f64; 2]) {
             let (mut at, rest) = (sum / weights, 0.5 * (end - start));
             near[0] = near[0].min(rest.abs());
             if rest > 0.0 {
-                let edge = rest.min(SLICE * spacing);
+                let edge = rest.min(CLEAR * spacing);
                 at = at.clamp(start + edge, end - edge);
             }
             near[1] = near[1].min((open - CHOSEN).abs());

@@ -70,15 +70,16 @@ fn a_drop_before_a_plane_is_a_sheet_of_its_own() {
     spheres.push(drop);
     let found = cells(&spheres, &view, SPACING);
     for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
-        // The drop marks slices 0 and 1, the plane slices 4, which is (1.5 - 0.375) / 0.25, to 7.
-        // Four slices are a third of the way from a drop to a body.
-        let expected = if (x, y) == (5, 2) { vec![air(9.0, 9.5, 1.0 / 3.0)] } else { Vec::new() };
+        // The drop marks slices 0 to 6, the plane slices 17, which is (1.5 - 0.4) / 0.0625, to 30.
+        // 14 slices are a drop.
+        let expected = if (x, y) == (5, 2) { vec![air(8.9375, 9.5625, 0.0)] } else { Vec::new() };
         assert_eq!(found.at(x, y).airs, expected, "({x}, {y})");
     }
     // The nearer the drop is to the plane, the narrower is the gap. Less than a slice is no gap.
     assert_eq!(one(&[8.0, 10.0], 7.7), 9.0);
     assert_eq!(one(&[8.75, 10.0], 8.4), 9.375);
-    assert_eq!(one(&[9.0, 10.0], 8.7), EMPTY);
+    assert_eq!(one(&[9.0, 10.0], 8.7), 9.5);
+    assert_eq!(one(&[9.125, 10.0], 8.8), EMPTY);
 }
 
 #[test]
@@ -97,10 +98,10 @@ fn contiguous_water_is_one_sheet_and_no_water_none() {
 
 #[test]
 fn the_air_behind_the_surface_decides() {
-    // The spheres mark slices 0 and 1, 6 to 9, 14 to 17. No gap counts half, and of equal ones the
+    // The spheres mark slices 0 to 6, 25 to 38, 57 to 70. No gap counts half, and of equal ones the
     // first is chosen.
     let three = airs(&row(&[9.0, 5.0, 7.0]));
-    assert_eq!(three.airs, [air(5.5, 6.5, 1.0 / 3.0), air(7.5, 8.5, 1.0 / 3.0)]);
+    assert_eq!(three.airs, [air(5.4375, 6.5625, 0.0), air(7.4375, 8.5625, 0.0)]);
     assert_eq!(one(&[9.0, 5.0, 7.0], 4.7), 6.0);
     // The surface of the second sphere, which may lie before the slices that the sphere marks. Then
     // the surface of the last sphere, behind which there is no gap.
@@ -109,11 +110,13 @@ fn the_air_behind_the_surface_decides() {
     assert_eq!(one(&[9.0, 5.0, 7.0], EMPTY), 8.0);
     // A gap before a body is chosen, a gap before a drop is not. The boundary lies close to the
     // water before the gap.
-    assert_eq!(one(&[5.0, 8.0, 8.5, 20.0], 4.7), 6.5);
-    assert_eq!(one(&[5.0, 8.0, 20.0, 20.5], 4.7), 9.5);
-    // A gap of 1.0 before a body counts 1.0 / 2.5 and is not chosen; a gap of 1.5 is chosen.
-    assert_eq!(one(&[5.0, 7.0, 7.5, 20.0, 20.5], 4.7), 9.0);
-    assert_eq!(one(&[5.0, 7.5, 8.0, 20.0, 20.5], 4.7), 5.5 + 0.75);
+    assert_eq!(one(&[5.0, 8.0, 8.5, 20.0], 4.7), 6.4375);
+    assert_eq!(one(&[5.0, 8.0, 20.0, 20.5], 4.7), 9.4375);
+    // A gap of 1.125 before a body counts 1.125 / 2.5 and is not chosen; a gap of 1.625 is chosen.
+    assert_eq!(one(&[5.0, 7.0, 7.5, 20.0, 20.5], 4.7), 8.9375);
+    assert_eq!(one(&[5.0, 7.5, 8.0, 20.0, 20.5], 4.7), 5.4375 + 0.8125);
+    // Two layers mark slices 41 to 58: 18 slices are half-way from a drop to a body.
+    assert_eq!(airs(&row(&[5.0, 8.0, 8.25])).airs, [air(5.4375, 7.5625, 0.5)]);
     // Five gaps are kept.
     let many: Vec<f64> = (0..8).map(|k| 5.0 + 2.0 * f64::from(k)).collect();
     assert_eq!(airs(&row(&many)).airs.len(), 5);
@@ -189,23 +192,23 @@ fn what_more_cells_see_is_chosen() {
 
 #[test]
 fn the_last_slice_holds_all_that_is_farther() {
-    assert_eq!(airs(&row(&[5.0, 100.0])).airs, [air(5.5, 5.0 + 255.0 * 0.25, 1.0)]);
-    assert_eq!(airs(&row(&[5.0, 1e12])).airs, [air(5.5, 5.0 + 255.0 * 0.25, 1.0)]);
+    assert_eq!(airs(&row(&[5.0, 100.0])).airs, [air(5.4375, 5.0 + 255.0 / 16.0, 1.0)]);
+    assert_eq!(airs(&row(&[5.0, 1e12])).airs, [air(5.4375, 5.0 + 255.0 / 16.0, 1.0)]);
     let until = |z: f64| -> Vec<f64> {
         (0..).map(|i| 5.0 + 0.25 * f64::from(i)).take_while(|d| *d <= z).collect()
     };
-    // The layer at 68 marks up to slice 253 (63.375 / 0.25), the layer at 68.25 up to 254, the
-    // layer at 68.5 up to 255.
+    // The layer at 20.25 marks up to slice 250 (15.65 / 0.0625), the layer at 20.5 up to 254, the
+    // layer at 20.75 up to 255.
     for (last, far, air_from) in [
-        (68.0, Some(100.0), Some(254.0)),
-        (68.0, None, None),
-        (68.25, Some(100.0), None),
-        (68.5, Some(100.0), None),
+        (20.25, Some(100.0), Some(251.0)),
+        (20.25, None, None),
+        (20.5, Some(100.0), None),
+        (20.75, Some(100.0), None),
     ] {
         let mut depths = until(last);
         depths.extend(far);
         let expected: Vec<_> =
-            air_from.map(|k| air(5.0 + 0.25 * k, 5.0 + 0.25 * 255.0, 1.0)).into_iter().collect();
+            air_from.map(|k| air(5.0 + k / 16.0, 5.0 + 255.0 / 16.0, 1.0)).into_iter().collect();
         assert_eq!(airs(&row(&depths)).airs, expected, "{last} {far:?}");
     }
 }
@@ -214,7 +217,7 @@ fn the_last_slice_holds_all_that_is_farther() {
 fn a_sphere_at_the_eye_takes_no_part() {
     for (radii, seen) in [(1.005, false), (0.5, false), (-3.0, false), (1.02, true)] {
         let z = radii * RADIUS;
-        let expected = if seen { z + 0.5 + 1.0 } else { EMPTY };
+        let expected = if seen { z + 0.4375 + 1.0 } else { EMPTY };
         assert_eq!(one(&[z, 10.0], z - RADIUS), expected, "{radii} radii");
     }
 }
@@ -263,19 +266,19 @@ fn a_cell_is_certain_unless_rounding_decides() {
     let view = wide(8, 8);
     let judge = |depths: &[f64]| judged(&row(depths), &view, SPACING, rounded).at(0, 0);
     let apart = judge(&[8.5, 10.0]);
-    assert!(apart.is_certain() && apart.cell.airs == [air(9.0, 9.5, 1.0 / 3.0)], "{apart:?}");
+    assert!(apart.is_certain() && apart.cell.airs == [air(8.9375, 9.5625, 0.0)], "{apart:?}");
     assert!(apart.rounding > 0.0 && apart.rounding < 2e-4);
-    assert!(apart.low < 8.5 && apart.high > 8.5 + 256.0 * 0.25);
+    assert!(apart.low < 8.5 && apart.high > 8.5 + 256.0 / 16.0);
     let none = |known: &Known| known.is_certain() && known.cell.airs.is_empty();
-    assert!(none(&judge(&[8.5])) && none(&judge(&[8.5, 9.5])));
-    // The second sphere marks from slice 3 or from slice 2 on, so there is a gap or none.
-    let edge = 8.5 + 3.0 * 0.25 + 0.375;
+    assert!(none(&judge(&[8.5])) && none(&judge(&[8.5, 9.375])));
+    // The second sphere marks from slice 8 or from slice 7 on, so there is a gap or none.
+    let edge = 8.5 + 8.0 / 16.0 + 0.4;
     let either = judge(&[8.5, edge]);
     assert!(!either.is_certain(), "{either:?}");
     assert!(judge(&[8.5, edge + 1e-3]).is_certain());
-    // The second sphere marks from slice 4 or from slice 3 on, or the first sheet ends one slice
+    // The second sphere marks from slice 9 or from slice 8 on, or the first sheet ends one slice
     // later: the gap has one width or another.
-    for depths in [&[8.5, edge + 0.25][..], &[8.5, 8.875, 12.0]] {
+    for depths in [&[8.5, edge + 0.0625][..], &[8.5, 8.6, 12.0]] {
         assert!(!judge(depths).is_certain(), "{depths:?}");
     }
     // If a cell is uncertain, so are the texels around it.
@@ -288,8 +291,8 @@ fn a_cell_is_certain_unless_rounding_decides() {
     assert!(high - low < 4e-4);
     // This texel may have the boundary of the first cell or its own; it always has one.
     let KnownTexel { low, high, certain, maybe_none, maybe_one, .. } = texels(3).at(1, 0);
-    assert!(!certain && maybe_one && !maybe_none && low <= 9.126 && high >= 9.2499);
-    assert!(low > 9.0 && high < 9.26, "{low} {high}");
+    assert!(!certain && maybe_one && !maybe_none && low <= 8.97 && high >= 9.2499);
+    assert!(low > 8.9 && high < 9.26, "{low} {high}");
     assert!(!texels(2).at(1, 0).certain);
     // If the surface lies in the middle of the gap, rounding decides whether the gap is behind the
     // surface.

@@ -149,6 +149,8 @@ pub struct DrawnWhitewater {
 pub struct Sheets {
     /// Depth between the sheets, for each texel of the thickness.
     pub boundaries: Image<f32>,
+    /// The same before those were removed where all water is of one sheet.
+    pub found: Image<f32>,
     /// Thicknesses of the front sheet, of the back sheet and of the window between them.
     pub thickness: Image<[f32; 3]>,
     /// Surface and plan of the back sheet, at its first level and the coarser ones.
@@ -205,6 +207,7 @@ impl Rig<'_> {
         drawn.coarser = of(1..4).map(none).collect();
         let mut sheets = own.sheets.map(|buffer| Sheets {
             boundaries: self.boundaries(buffer, output.rect.extent),
+            found: Image::new(0, 0, 0.0),
             thickness: Image::new(0, 0, [0.0; 3]),
             surface: empty(),
             plan: Image::new(0, 0, 0),
@@ -275,7 +278,12 @@ impl Rig<'_> {
                 }
                 "water.thickness.sheets" => {
                     let sheets = sheets.as_mut().expect("boundaries of two sheets");
-                    sheets.thickness = self.threes(layer, whole);
+                    assert_eq!(layer.format, vk::Format::R32G32B32A32_SFLOAT);
+                    let texels: Image<[f32; 4]> =
+                        picture(layer.format, whole.extent, &self.bytes(layer, whole));
+                    sheets.thickness =
+                        texels.map(|[front, back, window, _]| [*front, *back, *window]);
+                    sheets.found = texels.map(|texel| texel[3]);
                 }
                 "water.surface" => {
                     let read = |level| self.floats(layer, area(level));
@@ -341,12 +349,6 @@ impl Rig<'_> {
     fn texels(&self, layer: &Layer, area: vk::Rect2D) -> Image<u32> {
         let (width, height) = (area.extent.width as usize, area.extent.height as usize);
         Image { width, height, data: words(&self.bytes(layer, area)).collect() }
-    }
-
-    fn threes(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 3]> {
-        assert_eq!(layer.format, vk::Format::R32G32B32A32_SFLOAT);
-        picture(layer.format, area.extent, &self.bytes(layer, area))
-            .map(|[x, y, z, _]| [*x, *y, *z])
     }
 
     fn fours(&self, layer: &Layer) -> Image<[f32; 4]> {
