@@ -89,27 +89,30 @@ pub struct RenderArgs {
     /// Particle files: a folder that holds one sequence, file names, a pattern such as 'fluid_*.bgeo' or
     /// 'fluid_%04d.bgeo', or one file that holds all frames
     ///
-    /// Use %d for numbers without leading zeros. One file holds all frames if it is a table with a column of times, XYZ, a
-    /// LAMMPS dump, VTKHDF, XDMF, zones of Tecplot, a NumPy array of shape (frames, particles, 3) or a JSON list of frames; its
-    /// frames are counted from 0. 'whitewater info' lists what the files hold.
+    /// Use %d for numbers without leading zeros. These files can hold all frames: a table with a column of times,
+    /// XYZ, a LAMMPS dump, VTKHDF, XDMF, Tecplot with several zones, a NumPy array of shape (frames, particles, 3)
+    /// and a JSON list of frames. The frames in such a file are counted from 0. 'whitewater info' lists what the
+    /// files hold.
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Draw bubble foam: one, slope, box, or a .json file of blobs, alone or with particles
     ///
-    /// 'one' is a blob close up, 'slope' a thousand that slide down a slope (frames from 0 on, 60 per second),
-    /// 'box' five thousand; slope:N and box:N set the number. A file holds
-    /// {"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...]}. With "moves":true its blobs fall
-    /// and collide with --scene. Table [bubbles] of --settings sets the appearance.
+    /// A blob is a ball of soap bubbles. 'one' is a single blob close up, 'slope' a thousand blobs that start to
+    /// slide down a slope in frame 0 (60 frames per second), 'box' five thousand at rest; slope:N and box:N set the
+    /// number. A file holds {"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...]}; turn is a
+    /// quaternion. If the file also has "moves":true, its blobs fall and collide with --scene. Table [bubbles] of
+    /// --settings sets the appearance.
     #[arg(long, value_name = "one|slope|box|FILE", value_parser = crate::bubbles::named)]
     pub bubbles: Option<Bubbles>,
     /// Draw shoreline and contact foam on a sea: archipelago, pool, lava, or a scene file
     ///
-    /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of lava. A scene
-    /// of your own (.glb, .gltf, .obj, .json) stands in a sea without particles. Frames start at 1 and repeat after ten
-    /// seconds. A mesh named 'strip', or the file that [shore] strip names, is a strip of foam along the shore: its
-    /// second texture coordinate is 0 at the foam's seaward edge, 1 at the shore line, 2 at its inland edge. Tables [shore],
-    /// [shoreline] and [contact] of --settings set the appearance. [contact] particle_opacity = 1 puts contact foam on
-    /// the particles' water.
+    /// 'archipelago' has islands, one of which drifts; 'pool' has objects in water; 'lava' is a river of lava. A
+    /// scene of your own (.glb, .gltf, .obj, .json) is set in a sea. There are no water particles. Frames start at 1;
+    /// the built-in scenes repeat, 'pool' after 6 seconds, the others after 10. A mesh named 'strip', or the file
+    /// that the key strip in table [shore] names, is a strip of foam along the shore: its second texture coordinate
+    /// is 0 at the strip's seaward edge, 1 at the shore line, 2 at its inland edge. Tables [shore], [shoreline] and
+    /// [contact] of --settings set the appearance. Without --shore, particle_opacity = 1 in table [contact] draws
+    /// contact foam on the water of the particles.
     #[arg(long, value_name = "archipelago|pool|lava|FILE", value_parser = crate::shore::named, conflicts_with_all = ["inputs", "bubbles", "whitewater", "scene"])]
     pub shore: Option<Shore>,
     /// Height of the sea in a scene of your own, scene units
@@ -122,43 +125,47 @@ pub struct RenderArgs {
     pub frames: Option<String>,
     /// Draw every Nth of the selected frames
     ///
-    /// Foam is still simulated on all frames.
+    /// The foam simulation still steps through all frames.
     #[arg(long, value_name = "N", default_value = "1")]
     pub every: NonZeroUsize,
     /// Orbit the camera once around its target, in this many frames or seconds of the film (4s) [default: 96
     /// frames for one file; the drawn frames for a sequence]
     ///
-    /// One file is drawn repeatedly, numbered from 1. A sequence plays meanwhile.
+    /// A single file is drawn once for each frame of the orbit, numbered from 1. A sequence plays during the orbit.
     #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
     pub turntable: Option<Turntable>,
     /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale), or the name of the
     /// attribute with a radius per particle [default: from the files, or estimated]
     ///
-    /// A number sets one radius for all particles. Attributes called radius, pscale, diameter and the like are recognised;
-    /// one called only r is taken as radii if it fits the particles' spacing and is no distance. Without a number, if radii in the files differ by more than a quarter,
-    /// each larger particle is drawn as several of the smallest size, at most 8 times as many particles in all.
+    /// A number sets one radius for all particles. Attributes called radius, pscale, diameter and the like are
+    /// recognised. An attribute called only r is taken as radii if its values fit the particles' spacing and are not
+    /// distances from the origin or an axis. If no number is given and radii in the files differ by more than a
+    /// quarter, each large particle is drawn as several small ones of equal size, which makes at most 8 times as many
+    /// particles in all.
     #[arg(long, value_name = "R|NAME", value_parser = radius)]
     pub radius: Option<Radius>,
     /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]
     ///
-    /// Consecutive files are one frame apart, whatever the numbers in their names. Foam decay and the motion
-    /// layer depend on this value, and so do velocities that are estimated from the sequence.
+    /// Consecutive files are one frame apart, whatever the numbers in their names. Three things depend on the rate:
+    /// how fast foam decays, the motion layer, and velocities that are estimated from the sequence.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
     /// Draw whitewater particles (spray, foam and bubbles) from files, or 'generate' them
     ///
-    /// FILES belong to the same frames and are named like the inputs; they hold types and lifetimes as FoamGenerator
-    /// writes them. KIND=FILES says that the files hold one kind: foam, spray or bubble. The option may be given
-    /// several times. Size and opacity follow from the number of particles; table [whitewater] overrides them (radius,
-    /// or radii = [foam, spray, bubbles], and half_intensity_thickness). 'generate' emits whitewater where the water
-    /// traps air, where waves break and where it is fast (table [generate]). With [bubbles] crossfade = [NEAR, FAR]
-    /// foam turns into soap-bubble blobs between FAR and NEAR metres. The water's own foam and spray are drawn too;
-    /// --surface-foam none and --spray none leave them out.
+    /// FILES are one file per frame, numbered like the inputs' frames, and named in the same way as the inputs. They
+    /// hold types and lifetimes as SPlisHSPlasH's FoamGenerator writes them. KIND=FILES says that all particles in
+    /// the files are of one kind: foam, spray or bubble. The option may be given several times. Size and opacity of
+    /// the particles follow from their number; keys of table [whitewater] set them instead (radius, or radii = [foam,
+    /// spray, bubbles], and half_intensity_thickness). 'generate' emits whitewater where the water traps air, where
+    /// waves break and where the water is fast (table [generate]). With crossfade = [NEAR, FAR] in table [bubbles],
+    /// foam is cross-faded to blobs of soap bubbles as its distance from the camera falls from FAR to NEAR metres.
+    /// Surface foam and spray of the water particles are drawn as well; --surface-foam none and --spray none leave
+    /// them out.
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::whitewater_source::named)]
     pub whitewater: Vec<Whitewater>,
     /// Write the emitted whitewater to one file per frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz
     ///
-    /// --whitewater reads these files again.
+    /// A later run can read these files with --whitewater.
     #[arg(long, value_name = "FILE")]
     pub write_whitewater: Option<PathBuf>,
     /// Join files with the same frame number into one frame
@@ -169,24 +176,26 @@ pub struct RenderArgs {
     /// Up axis of the files; particles are rotated so that it becomes y [default: y, z, -y or -z, from how the water
     /// lies and falls; y if that is ambiguous]
     ///
-    /// -y: y points down, as in images. If the detected axis is not y, it is reported. Scene and camera are always
-    /// y-up.
+    /// -y means that y points down in the files, as in images. If the detected axis is not y, the program says which
+    /// one it is. Scene and camera are always y-up.
     #[arg(long, value_enum, allow_hyphen_values = true)]
     pub up_axis: Option<Up>,
     /// Draw only particles whose attribute satisfies a comparison, such as Type=3 (= != < > <= >=)
     ///
-    /// If there are several conditions, all have to hold. Case and units in names are ignored. Use it to leave out wall
-    /// particles in the same files.
+    /// If the option is given several times, all comparisons have to hold. Upper or lower case and units in names are
+    /// ignored. Use it, for example, to leave out wall particles that are in the same files.
     #[arg(long = "where", value_name = "NAME=VALUE", value_parser = crate::extras::condition)]
     pub conditions: Vec<Condition>,
-    /// Draw some particles as another liquid, such as 'Type=2:honey' or 'oil_*.vtk:beer:0.1'; several times for several fluids
+    /// Draw some particles as another liquid, such as 'Type=2:honey' or 'oil_*.vtk:beer:0.1'; several times for
+    /// several fluids
     ///
-    /// WHICH is a comparison as in --where, or more files of the same frames, which are drawn beside the inputs. LIQUID
-    /// is a name of --medium, 'water' for the look without --fluid, or a settings file (.toml) applied over --settings.
-    /// If any WHICH is a comparison, particles that match no comparison are not drawn. Each fluid is drawn over the
-    /// picture of the others; a pixel shows the nearest fluid with the others behind it, and a surface behind another
-    /// liquid reflects nothing. Two fluids take 5 renders, three 10. No fluid casts shadows on another. EXR layers and
-    /// --whitewater generate use only the first fluid: the inputs, or the first comparison.
+    /// WHICH is a comparison as in --where, or further files with the same frame numbers, which are drawn in addition
+    /// to the inputs. LIQUID is a name of --medium, 'water' for the look that the inputs have, or a settings file
+    /// (.toml) applied over --settings. If any WHICH is a comparison, particles of the inputs that match no
+    /// comparison are not drawn. Each pixel shows the nearest fluid with the others seen through it; a surface behind
+    /// another liquid reflects nothing. A frame of two fluids takes 5 renders, of three 10. No fluid casts shadows on
+    /// another. EXR layers and --whitewater generate use only one fluid: the inputs, or the first --fluid if any
+    /// WHICH is a comparison.
     #[arg(long = "fluid", value_name = "WHICH:LIQUID", value_parser = crate::fluids::fluid, conflicts_with_all = ["bubbles", "shore"])]
     pub fluids: Vec<FluidArg>,
     /// Unit of lengths in the particle files, velocities included [default: m]
@@ -197,20 +206,21 @@ pub struct RenderArgs {
     /// Metres per unit of length in the particle files: 0.001 equals --unit mm
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     pub scale: Option<f32>,
-    /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin if the water stands against two
-    /// sides of a box, otherwise the ground]
+    /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin if the water stands against
+    /// two sides of a box, otherwise the ground]
     ///
-    /// JSON has boxes, cylinders, tubes and spheres; parts may move, with a pose per frame, as 'whitewater
-    /// simulate' writes them.
+    /// A .json scene is made of boxes, cylinders, tubes and spheres. A part that moves has one pose per frame.
+    /// 'whitewater simulate' writes such files.
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
     /// Surroundings: pool, studio, beach, lab or none [default: pool; with --scene those of the scene]
     ///
-    /// If --scene is given as well, the scene stands on level ground in these surroundings and their light. 'pool' is a
-    /// terrace over the sea, 'studio' a plain floor under a soft box, 'beach' sand in front of a sea, 'lab' a tiled
-    /// hall with lamps. Studio and lab bring their own light unless you set one. With 'none' only water, foam and spray
-    /// are drawn, premultiplied by alpha; A is the fraction of the background that they hide (mean of the three
-    /// channels), in EXR and PNG.
+    /// If --scene is given as well, the scene stands on level ground in these surroundings, lit by their light.
+    /// 'pool' is a terrace over the sea, 'studio' a plain floor under a soft box, 'beach' sand in front of a sea,
+    /// 'lab' a tiled hall with lamps. Studio and lab have their own light unless --environment or --sun sets one.
+    /// With 'none' only water, foam and spray are drawn. The colours are then premultiplied by alpha. Channel A of
+    /// the EXR and the PNG is the fraction of the background that water, foam and spray hide, as the mean of red,
+    /// green and blue.
     #[arg(long, value_enum)]
     pub set: Option<SetArg>,
     #[command(flatten)]
@@ -224,7 +234,8 @@ pub struct RenderArgs {
 pub enum Whitewater {
     /// They are emitted from the water's particles.
     Generate,
-    /// They are read from files. `kind` is the kind of all particles; with `None` the files store it.
+    /// They are read from files. `kind` is the kind of all particles; if it is `None`, the files store each
+    /// particle's kind.
     Files { kind: Option<u32>, files: String },
 }
 
@@ -250,7 +261,8 @@ pub struct DrawArgs {
     pub size: (u32, u32),
     /// Render at N times the width and height and average: 1, 2 or 4 [default: 2, or 1 if --samples applies]
     ///
-    /// It smooths outlines, drops and the refraction of fine ripples. --timings measures the large frame.
+    /// It smooths outlines, drops and the refraction of fine ripples. --timings measures the frame at the larger
+    /// size.
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
     /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
@@ -274,31 +286,33 @@ pub struct DrawArgs {
     pub samples: u32,
     /// Settings file in TOML
     ///
-    /// Tables: [water], [surface_foam], [spray], [whitewater], [bubbles], [generate], [shore], [shoreline], [contact],
-    /// [ellipsoids], [wavelets], [shadow], [noise] and [light]. An EXR's attribute 'settings' holds all settings that it was drawn with.
-    /// [water] medium takes the names of --medium, or numbers per metre: {absorption = [r, g, b],
-    /// reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple scattering, {absorption = [r, g, b],
-    /// scattering = [r, g, b]} for single scattering. [surface_foam] also sets which water foams: by = 'air' (the speed
-    /// at which neighbours approach) or 'speed' (its own; default for sequences and if threshold or air is
-    /// given); weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold (as --surface-foam); lifetime =
-    /// 1.0 (mean seconds of decay); air = [0, 0, 0] (wind, scene units per second, y up); seed = 0.
+    /// Tables: [water], [surface_foam], [spray], [whitewater], [bubbles], [generate], [shore], [shoreline],
+    /// [contact], [ellipsoids], [wavelets], [shadow], [noise] and [light]. The attribute 'settings' of each EXR file
+    /// holds all settings that it was drawn with. The key medium of [water] takes the names of --medium, or numbers
+    /// per metre: {absorption = [r, g, b], reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple
+    /// scattering, {absorption = [r, g, b], scattering = [r, g, b]} for single scattering. Keys of [surface_foam]
+    /// also set which water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach
+    /// a particle, or 'speed', the particle's own; 'speed' is the default for sequences, and if threshold, air or a
+    /// number for --surface-foam is given. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
+    /// (as --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units
+    /// per second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// Liquid: clear, pool, lake, ocean, river, glacier, milk, beer, honey, blood, lava or source (the thesis')
     /// [default: clear for water under 2 metres across, otherwise pool, diluted above 10 metres]
     ///
-    /// It sets absorption, scattering, index of refraction and foam colours. 'clear' is pure water, 'lake' is
-    /// green, 'ocean' clear and blue, 'river' tan with silt, 'glacier' turquoise with rock flour, and 'lava'
-    /// glows. Absorption and scattering are measured values per metre, so beer, honey and blood are nearly
-    /// black or opaque metres deep. NAME:SHARE multiplies both: beer:0.05 is a glass of beer drawn at twenty
-    /// times its size, milk:0.01 a cup of milk in a hundred cups of water.
+    /// It sets absorption, scattering, index of refraction and foam colours. 'clear' is pure water, 'lake' is green,
+    /// 'ocean' clear and blue, 'river' tan with silt, 'glacier' turquoise with rock flour, and 'lava' glows.
+    /// Absorption and scattering are measured values per metre, so a body of beer, honey or blood that is metres deep
+    /// looks nearly black or opaque. NAME:SHARE multiplies absorption and scattering by SHARE: beer:0.05 is a glass
+    /// of beer drawn at twenty times its size, milk:0.01 a cup of milk in a hundred cups of water.
     #[arg(long, value_name = "NAME[:SHARE]")]
     pub medium: Option<MediumName>,
     /// Preset for everything that is not set explicitly: 'default', or 'thesis' (Bagar 2010)
     ///
-    /// 'thesis' uses that work's composite, colours, foam, spray and iterations (--rule source), one layer of water,
-    /// and filtered shadows of the scene but none of water and foam. It equals look = 'thesis' at the top of
-    /// --settings.
+    /// 'thesis' uses the composite, colours, foam, spray and smoothing iterations (--rule source) of Bagar's thesis.
+    /// It draws one layer of water, and filtered shadows that the scene casts; water and foam cast none. The line
+    /// look = 'thesis' at the top of the --settings file has the same effect.
     #[arg(long, value_enum)]
     pub look: Option<LookWord>,
     /// Environment that the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
@@ -310,14 +324,15 @@ pub struct DrawArgs {
     pub sun: Option<[f32; 3]>,
     /// EXR layers besides R G B A: all, none, or names such as water.depth,scene
     ///
-    /// 'ladder' adds cumulative composites: the picture up to and including background, back_water, surface_foam and
-    /// front_water. motion.X and motion.Y are motion vectors since the previous frame in pixels, x to the right, y
-    /// down. They are 0 in the first frame of a sequence. For the scene they hold only the camera's motion.
+    /// 'ladder' adds one picture for each step of the composite: up to and including background, back_water,
+    /// surface_foam and front_water. motion.X and motion.Y are the motion vectors since the previous frame, in
+    /// pixels, x to the right, y down. They are 0 in the first frame of a sequence. Where the scene is visible, they
+    /// hold only the camera's motion.
     #[arg(long, value_name = "NAMES", default_value = "all")]
     pub layers: String,
     /// PNG exposure: 'auto', or stops relative to it
     ///
-    /// 'auto' meters the environment's light, so it is the same in all frames of a sequence.
+    /// 'auto' depends on the environment's light alone, so it is the same in all frames of a sequence.
     #[arg(long, value_name = "auto|STOPS", default_value = "auto", value_parser = exposure, allow_hyphen_values = true)]
     pub exposure: f32,
     /// PNG tone map: aces, agx, neutral or linear
@@ -338,22 +353,24 @@ pub struct DrawArgs {
     pub sheets: Option<u32>,
     /// Surface foam: auto, none, or a Weber number as threshold [default: auto]
     ///
-    /// 'auto' needs velocities. A single frame foams where the water traps air, that is where neighbours collide: at
-    /// most the top 5 %, and no water that rests, flows or falls as a whole. In a sequence the top 5 % by Weber number
-    /// foam, at most 30 % of the particles at a time. A number is a Weber number of the water's own speed. If particles
-    /// have ids, foam forms and decays over time; earlier frames are read for that.
+    /// 'auto' needs velocities. In a single frame foam lies where the water traps air, that is, where neighbouring
+    /// particles move towards each other: on at most 5 % of the particles, and on none in water that rests, flows or
+    /// falls as a whole. In a sequence the 5 % of the particles with the largest Weber numbers foam, and at most 30 %
+    /// carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed
+    /// gives. If particles have ids, foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,
     /// The former name of --surface-foam
     #[arg(long = "foam", hide = true, value_name = "WHEN", value_parser = was_foam)]
     pub foam: Option<Foaming>,
-    /// Spray of particles with few or no neighbours: auto or none [default: auto; none if there are very few particles]
+    /// Spray of particles with few or no neighbours: auto or none [default: auto; none if there are very few
+    /// particles]
     ///
-    /// It uses densities from the files, or estimated ones, and the neighbours: few_neighbours = [FEW, MANY] in table
-    /// [spray] sets the sums of the neighbours' weights up to which a particle is spray, and from which on its density
-    /// alone decides [default: 3, 7.5]. all_spray_density, full_water_density and
-    /// no_spray_density in table [spray] set the limits as fractions of the rest density [default: 0.44, 0.66,
-    /// 0.7]. With 'none' these particles are drawn as drops of water.
+    /// Whether a particle is spray depends on its density (from the files, or estimated) and on its neighbours. Keys
+    /// of table [spray] set the limits. few_neighbours = [FEW, MANY] [default: 3, 7.5]: if the sum of the neighbours'
+    /// weights is at most FEW, the particle is spray; from MANY on its density alone decides. all_spray_density,
+    /// full_water_density and no_spray_density are the limits of density, as fractions of the rest density [default:
+    /// 0.44, 0.66, 0.7]. With 'none' these particles are drawn as drops of water.
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or
@@ -375,9 +392,9 @@ pub struct DrawArgs {
     pub rule: Option<Rule>,
     /// Write the time of each pass to a .csv or .json
     ///
-    /// Passes that run once per simulation step (classify, which finds the foaming water; emission of whitewater; blob
-    /// dynamics) are listed once, before the frame's passes, with the times of the last step. After Ctrl-C the file
-    /// holds the frames so far.
+    /// Some passes run once per simulation step: classify, which finds the foaming water; emission of whitewater;
+    /// blob dynamics. They are listed once per frame, before its other passes, with the times of the last step. After
+    /// Ctrl-C the file holds the frames so far.
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
     /// Draw each frame this many times; --timings has all of them
@@ -405,14 +422,14 @@ pub struct CameraArgs {
     ///
     /// {"eye":[x,y,z],"target":[..],"up":[..],"fov_y_degrees":40,"near":0.1,"far":1000}, or
     /// {"view":[16],"projection":[16]}, column-major, for Vulkan's clip space. A moving camera has keys:
-    /// {"keys":[{"frame":1,"eye":[..],"target":[..]},...]}, each with optional up and fov_y_degrees. It follows
-    /// a Catmull-Rom spline over the frame numbers, at rest at the first and last key.
+    /// {"keys":[{"frame":1,"eye":[..],"target":[..]},...]}, each with optional up and fov_y_degrees. The camera
+    /// follows a Catmull-Rom spline over the frame numbers, and is at rest at the first and the last key.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub file: Option<PathBuf>,
     /// Position of the camera [default: found from the particles]
     ///
-    /// Particles that lie far from the origin, as in map coordinates, are moved near it; --eye and --target may be given as
-    /// in the files or as moved.
+    /// Particles that lie far from the origin, as in map coordinates, are moved near it. --eye and --target may be
+    /// given in the files' coordinates or in those of the moved particles.
     #[arg(long, value_name = "X,Y,Z", requires = "target", value_parser = vector, allow_hyphen_values = true)]
     pub eye: Option<[f32; 3]>,
     /// Point the camera looks at
@@ -482,12 +499,14 @@ pub struct CompareArgs {
 pub struct PatternArgs {
     /// Picture whose white areas are foam: .png, .exr or .hdr; or web:SEED or noise:SEED for a built-in texture
     ///
-    /// The luminance counts; transparent pixels are no foam. The result is seamless.
+    /// Its luminance decides what is white; transparent pixels are no foam. The texture can be repeated without
+    /// seams.
     #[arg(value_name = "IN|web:SEED|noise:SEED", value_parser = crate::pattern::named)]
     pub input: Source,
     /// Texture to write: .png (16-bit grey, linear) or .exr (32-bit float, channel Y)
     ///
-    /// 1 on the lines, 0 far from them. Noise has R G B A from -1 to 1, in a .png from 0 to 1.
+    /// A pattern or web is 1 on the lines of foam and 0 far from them. Noise has channels R G B A, from -1 to 1 in an
+    /// .exr and from 0 to 1 in a .png.
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
     /// Distance from the lines at which the value reaches 0, texels [default: the largest distance in the
