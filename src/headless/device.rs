@@ -15,10 +15,11 @@ use crate::gpu::requirements::DeviceSupport;
 pub struct DeviceOptions {
     /// A part of the adapter's name; case is ignored. `None` selects a GPU if there is one.
     pub name: Option<String>,
-    /// Whether core and synchronization validation are on. It is an error if the layer is not installed.
-    /// Default false.
+    /// Whether core and synchronization validation are on. [`Device::new`] fails if they are and the validation
+    /// layer is not installed. Default false.
     pub validation: bool,
-    /// Whether to enable no optional feature, as on a device without any. Default false.
+    /// Whether to leave out every optional feature that selects a code path of its own, as on a device without
+    /// these features. Default false.
     pub bare: bool,
     /// Whether to create instance and device for Vulkan 1.2 and without synchronization2, as with old drivers.
     pub vulkan_1_2: bool,
@@ -251,7 +252,8 @@ fn make_instance(
     Ok((instance, debug_utils))
 }
 
-/// The device with that name, otherwise one of the preferred type, with a graphics and compute family.
+/// A Vulkan 1.2 device with a queue family for graphics and compute, whose name contains `options.name` if that
+/// is given. A discrete GPU is preferred to an integrated one, that to a virtual one, and that to others.
 fn choose(
     instance: &ash::Instance,
     options: &DeviceOptions,

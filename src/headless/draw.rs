@@ -34,14 +34,15 @@ pub enum Background<'a> {
 }
 
 impl Headless {
-    /// Sets the sphere in which water and foam cast shadows and caustics, with
-    /// [`Config::light_map_size`](crate::Config::light_map_size). With [`Shadows::Map`] or [`Shadows::Convolution`] the scene's
-    /// shadows on them come from the scene's own map.
+    /// Sets the sphere in which water and foam cast shadows and caustics, if
+    /// [`Config::light_map_size`](crate::Config::light_map_size) is set. With [`Shadows::Map`] or
+    /// [`Shadows::Convolution`], the scene's shadows on water and foam come from the scene's own shadow map.
     pub fn region(&mut self, region: LightVolume) {
         self.region = Some(region);
     }
 
-    /// Sets the previous frame of the next one, with [`Config::motion`](crate::Config::motion).
+    /// Sets what the next frame takes as its previous frame, for motion vectors
+    /// ([`Config::motion`](crate::Config::motion)).
     pub fn previous(&mut self, previous: Option<Previous>) {
         self.previous = previous;
     }
@@ -59,9 +60,9 @@ impl Headless {
         self.render_frame(camera, settings, background, false)
     }
 
-    /// Like [`render`](Self::render), but the host ends the smoothing: it submits iterations block by block and reads
-    /// each occlusion query back, as in the thesis. For comparison only; needs
-    /// [`Smoothing::Query`](crate::water::Smoothing::Query).
+    /// Like [`render`](Self::render), but the CPU decides when the smoothing of the water's depth ends: it submits
+    /// iterations block by block and reads each occlusion query back, as in the thesis of F. Bagar (2010). For
+    /// comparison only; needs [`Smoothing::Query`](crate::water::Smoothing::Query).
     ///
     /// # Errors
     /// Those of [`Renderer::record`](crate::Renderer::record).
@@ -117,8 +118,8 @@ impl Headless {
         Ok(Some([color, staging(&self.gpu, bytemuck::cast_slice(depth))?]))
     }
 
-    /// Records the water over the contents of the images. Returns the command buffer that it ended with; data for the
-    /// read-back of the frame is kept.
+    /// Records the water over the background in the colour and depth images. Returns the command buffer in which the
+    /// recording ended. What is needed to read the frame's layers and counts back is kept in `self`.
     fn record_water(
         &mut self,
         cmd: vk::CommandBuffer,

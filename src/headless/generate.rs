@@ -35,9 +35,10 @@ pub struct Generated {
 
 impl Headless {
     /// Emits whitewater from the particles uploaded last and their [`motion`](Self::motion): one step of a
-    /// [`Generator`]. The next frame shows it if [`Config::whitewater`](crate::Config::whitewater) has the same number
-    /// of particles and strides of 16. `dt` is the time since the previous step in seconds, `number` the step's number
-    /// in the sequence, `max_particles` the max number alive (a different value restarts the generator).
+    /// [`Generator`]. The next frame shows the whitewater if [`Config::whitewater`](crate::Config::whitewater) has
+    /// the same maximum number of particles and strides of 16 bytes. `dt` is the time since the previous step in
+    /// seconds, `number` the step's number in the sequence, `max_particles` the max number alive (a different value
+    /// restarts the generator).
     ///
     /// # Errors
     /// No motion, no memory, and those of [`Generator::record_step`].
@@ -85,7 +86,8 @@ impl Headless {
             // SAFETY: every run waits for its end.
             unsafe { old.generator.destroy() };
         }
-        // The last operation that can fail before the generator is stored again; if it were dropped, it would leak.
+        // Creating the generator is the last operation that can return early before it is stored again: if it were
+        // dropped, its objects would leak.
         let mut generating = match self.generating.take() {
             Some(old) => old,
             None => {
@@ -130,8 +132,8 @@ impl Headless {
         }
     }
 
-    /// Potentials of each fluid particle in the last [`generate`](Self::generate): trapped air, wave crest and energy,
-    /// in the units of [`GeneratorSettings`], then the number of neighbours. Particles with a
+    /// Four values for each fluid particle in the last [`generate`](Self::generate): the potentials of trapped air,
+    /// wave crest and energy, in the units of [`GeneratorSettings`], and the number of neighbours. Particles with a
     /// non-finite or huge position or velocity have zeros.
     ///
     /// # Errors

@@ -76,8 +76,8 @@ impl Headless {
         heap.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
     }
 
-    /// The simulated blobs after the last step, in the order of [`heap`](Self::heap), followed by the slots of split
-    /// ones. Unused slots are zeros. Empty without a simulation.
+    /// The simulated blobs after the last step, in the order of [`heap`](Self::heap), followed by the slots for
+    /// blobs that splitting adds. Unused slots are zeros. The list is empty without a simulation.
     ///
     /// # Errors
     /// No memory; Vulkan errors.

@@ -117,8 +117,8 @@ impl WhitewaterBuffers {
     }
 }
 
-/// Number of particles per packet: a few work groups, and at least so many that the number of packets stays within its
-/// limit.
+/// Number of particles per packet (a run of particles with a common bounding box): a multiple of 64, at least 256,
+/// and so many that there are at most 65,535 packets.
 fn packet_size(count: u32) -> u32 {
     count.div_ceil(65_535).next_multiple_of(64).max(256)
 }
@@ -363,7 +363,7 @@ impl Headless {
     /// that identify particles from frame to frame, so that noise in foam and droplets stay attached to their particle.
     ///
     /// # Errors
-    /// Numbers that differ from that of positions, no memory.
+    /// A number of velocities or ids that differs from that of positions, no memory.
     pub fn motion(&mut self, velocities: &[[f32; 3]], ids: Option<&[u32]>) -> Result<(), Error> {
         let all = |length: usize| length == self.count as usize;
         if !all(velocities.len()) || ids.is_some_and(|ids| !all(ids.len())) {
@@ -416,8 +416,8 @@ impl Headless {
     }
 
     /// Uploads the whitewater particles of a frame in parts, so that only one part is in the host's memory at a time,
-    /// for example from a file that is being read. `count` is the total number. There are none until
-    /// [`WhitewaterParts::finish`].
+    /// for example from a file that is being read. `count` is the total number. No whitewater particles are drawn
+    /// until [`WhitewaterParts::finish`].
     ///
     /// # Errors
     /// More than [`WhitewaterConfig::max_particles`](crate::whitewater::WhitewaterConfig::max_particles).
@@ -454,7 +454,7 @@ impl Headless {
             let size = bytes.len() as u64;
             let region = vk::BufferCopy { src_offset: 0, dst_offset: at, size };
             self.run(|this, cmd| {
-                // SAFETY: cmd is recording; both ranges lie in their buffers; no run before is still at work.
+                // SAFETY: cmd is recording; both ranges lie in their buffers; every earlier run has ended.
                 unsafe {
                     let device = &this.gpu.device;
                     device.cmd_copy_buffer(cmd, staging.handle, to.handle, &[region]);
@@ -468,7 +468,7 @@ impl Headless {
 
     /// Advances surface foam, with [`Config::surface_foam`](crate::Config::surface_foam): one step of a
     /// [`SurfaceFoamState`] from the particles' [`motion`](Self::motion). `dt` is the time since the previous step in
-    /// seconds. Without it, or without ids, each frame is independent.
+    /// seconds. Without `dt` or ids, the foam of each frame is independent of earlier frames.
     ///
     /// # Errors
     /// No motion, no memory, and those of [`SurfaceFoamState::record_step`].
@@ -477,7 +477,8 @@ impl Headless {
             return Err(Error::bad("velocities", "none uploaded"));
         };
         let velocities = stream(velocities, 12);
-        // The last operation that can fail before the state is stored again; if it were dropped, it would leak.
+        // Creating the state is the last operation that can return early before it is stored again: if it were
+        // dropped, its objects would leak.
         let mut state = match self.foam.take() {
             Some(old) => old.state,
             None => {
@@ -505,8 +506,8 @@ impl Headless {
         result
     }
 
-    /// Draws only a range of the uploaded particles, by index; `None` draws all. Only those emit whitewater; steps of
-    /// foam use all particles.
+    /// Draws only a range of the uploaded particles, by index; `None` draws all. Only the drawn particles emit
+    /// whitewater, whereas steps of surface foam use all particles.
     pub fn show(&mut self, some: Option<Range<u32>>) {
         self.shown = some;
     }

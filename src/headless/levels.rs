@@ -1,4 +1,5 @@
-//! The smoothing levels merged as the picture shows them, at the resolution of a layer's first level.
+//! Merges the smoothing levels (resolutions at which the water's depth is smoothed) as the picture shows them,
+//! at the resolution of a layer's first and finest level.
 
 use super::Picture;
 use crate::diagnostics::{SmoothingLevel, SmoothingLevels};
@@ -24,8 +25,9 @@ impl Sheet {
     }
 }
 
-/// Calls `of` for each texel of a layer's first level: with the texel, its depth, the level that is visible
-/// there, and how far the next one has faded in. Texels without water get `none`.
+/// Makes a picture of a layer's first level. Each texel with water gets the value of `of`, which is called with
+/// the texel, its depth, the level that is visible there, and the fraction to which the next coarser level has
+/// faded in. Texels without water get `none`.
 fn each(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,
@@ -64,8 +66,8 @@ pub fn surface(levels: &SmoothingLevels, image: &Picture<f32>, sheet: Sheet) -> 
     })
 }
 
-/// Depth of a level's surface at a texel of the layer's first level, interpolated between texels on the same
-/// surface.
+/// Depth of a level's surface at a texel of the layer's first level, interpolated between the four texels
+/// around it; those whose depth is far from `z` lie on another surface and do not count.
 fn smoothed(
     levels: &SmoothingLevels,
     image: &Picture<f32>,
@@ -89,7 +91,8 @@ fn smoothed(
     if weights > 0.0 { z + sum / weights } else { z }
 }
 
-/// Iteration counts of the level that dominates each texel. `plan` holds all levels.
+/// The number of smoothing iterations at each texel, from the level that dominates there. `plan` holds the
+/// numbers of all levels.
 pub fn iterations(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,

@@ -1,5 +1,5 @@
-//! The library without a host: a device of its own, a stand-in scene, submission and read-back. It serves the tool,
-//! tests and examples; an engine that embeds the library does not compile it.
+//! Everything that a host engine would provide to the library: a Vulkan device, a scene, submission and read-back.
+//! This module serves the tool, tests and examples; an engine that embeds the library does not compile it.
 //!
 //! It draws one frame at a time. After [`Headless::new`], the inputs of a frame are set with [`Headless::particles`]
 //! and [`Headless::motion`], [`Headless::whitewater`] or in parts [`Headless::whitewater_parts`], [`Headless::sky`] or
@@ -54,7 +54,7 @@ use crate::water::settings::Shading;
 
 /// Output format: linear, scene-referred.
 pub const COLOR_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
-/// Depth of the stand-in scene.
+/// Depth format of the scene.
 pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 
 /// The scene's colour image between its own passes.
@@ -67,7 +67,7 @@ const DEPTH_REST: Access = access::DEPTH_ATTACHMENT;
 pub struct Counts {
     /// Particles in the view.
     pub visible: u32,
-    /// Particles of these that may be visible.
+    /// Those of the particles in the view that may be visible.
     pub front: u32,
     /// Particles dropped for NaN, infinite or huge positions.
     pub dropped: u32,
@@ -75,7 +75,7 @@ pub struct Counts {
     pub spray: u32,
 }
 
-/// Simulations with one step before the frames that show it.
+/// Simulations that are stepped once before the frames that show the result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
     /// Surface foam ([`Headless::step`]).
@@ -88,14 +88,14 @@ pub enum Stepped {
     ShoreMap,
 }
 
-/// A renderer with everything that a host provides, one frame at a time.
+/// A renderer together with everything that a host engine would provide. It draws one frame at a time.
 pub struct Headless {
     gpu: Arc<Gpu>,
     renderer: Renderer,
     color: Image,
     depth: Image,
     commands: Commands,
-    /// Command buffers for the parts of a frame between which the host reads data back.
+    /// Command buffers for the parts of a frame between which the CPU reads data back.
     parts: Vec<vk::CommandBuffer>,
     positions: Option<Buffer>,
     densities: Option<Buffer>,
@@ -120,14 +120,15 @@ pub struct Headless {
     active_samples: Option<(vk::Buffer, u32)>,
     bubble_words: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
-    /// The environment without the sun, which lights the scene, if the picture contains the sun.
+    /// If the environment's picture contains the sun: the environment without the sun, which lights the scene.
     without_sun: Option<Environment>,
     context: Context,
     device: Device,
 }
 
 impl Headless {
-    /// Creates the renderer. It replaces the output format and `in_place` of the configuration.
+    /// Creates the renderer, with `config` except for its output format ([`COLOR_FORMAT`]), `in_place` and
+    /// `keep_layers` (both true).
     ///
     /// # Errors
     /// Those of [`Renderer::new`].
@@ -211,7 +212,7 @@ impl Headless {
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
         let mut color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        // Only if needed, because some devices do not compress storage images.
+        // Storage usage only if needed, because some devices do not compress storage images.
         if way(config) == Shading::Compute {
             color |= vk::ImageUsageFlags::STORAGE;
         }
@@ -233,7 +234,8 @@ impl Headless {
         &self.renderer
     }
 
-    /// Fills a command buffer, submits it and waits. `record` returns the command buffer that it ended with.
+    /// Fills a command buffer, submits it and waits. `record` returns the command buffer in which its recording
+    /// ended.
     fn run_parts(
         &mut self,
         record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<vk::CommandBuffer, Error>,
@@ -251,7 +253,7 @@ impl Headless {
         submit(&self.gpu, self.device.queue, last, self.commands.fence.handle)
     }
 
-    /// The same for one command buffer.
+    /// Like [`run_parts`](Self::run_parts), for a recording that stays in one command buffer.
     fn run(
         &mut self,
         record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<(), Error>,

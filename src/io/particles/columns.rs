@@ -1,4 +1,5 @@
-//! Turns named columns of numbers into [`Particles`]: which names mean what, and the checks for all formats.
+//! Turns named columns of numbers into [`Particles`]: finds the meaning of each name, and makes the checks that
+//! all formats share.
 
 use std::ops::Range;
 
@@ -113,7 +114,8 @@ impl std::fmt::Display for Attribute {
 pub(super) enum Data {
     F32(Vec<f32>),
     F64(Vec<f64>),
-    /// Unsigned 64-bit values beyond the range are clamped to its end; ids of that size are not kept anyway.
+    /// Unsigned 64-bit values above `i64::MAX` are clamped to it. [`to_ids`](Self::to_ids) refuses ids of that
+    /// size.
     Int(Vec<i64>),
 }
 
@@ -147,8 +149,8 @@ impl Data {
         }
     }
 
-    /// Reserves memory for `more` values of the `all` that are expected. It grows with the values that exist,
-    /// up to `all`, so that a false count cannot allocate much.
+    /// Reserves memory for `more` further values. If it has to grow, it doubles, but not beyond the expected
+    /// total `all` (unless `more` needs it): a false total in a header cannot allocate much.
     pub(super) fn room(&mut self, more: usize, all: usize) {
         let (length, capacity) = match self {
             Self::F32(v) => (v.len(), v.capacity()),
@@ -199,11 +201,11 @@ impl Data {
         }
     }
 
-    /// All values as ids, those beyond 32 bits modulo 2^32; or the index of the first that is not a non-negative
-    /// integer.
+    /// All values as ids, modulo 2^32. The error is the index of the first value that is negative, fractional or
+    /// too large to be exact.
     pub(super) fn to_ids(&self) -> Result<Vec<u32>, usize> {
         let id = |i: usize| match self {
-            // The end of the range stands for all values beyond it.
+            // `i64::MAX` stands for all larger values, see `Data::Int`.
             Self::Int(v) => v.get(i).filter(|x| (0..i64::MAX).contains(*x)).map(|x| *x as u32),
             _ => {
                 // Doubles hold integers exactly up to 2^53.
@@ -216,7 +218,7 @@ impl Data {
         if values.len() < self.len() { Err(values.len()) } else { Ok(values) }
     }
 
-    /// All values, or the index of the first that is not an integer or does not fit.
+    /// All values, or the index of the first that is not an integer in the range of `u32`.
     pub(super) fn to_u32(&self) -> Result<Vec<u32>, usize> {
         let mut values = Vec::with_capacity(self.len());
         values.extend((0..self.len()).map_while(|i| self.u32(i)));
@@ -316,7 +318,7 @@ impl Data {
         true
     }
 
-    /// The first components of each row.
+    /// The first `first` of the `components` values of each row.
     pub(super) fn some(&self, components: usize, first: usize) -> Self {
         fn some<T: Copy>(v: &[T], components: usize, first: usize) -> Vec<T> {
             v.chunks(components.max(1)).flat_map(|row| row.iter().take(first).copied()).collect()
@@ -363,7 +365,8 @@ impl Data {
         }
     }
 
-    /// Transposes values that are stored component after component, for rows from `from` on.
+    /// Transposes values that are stored component after component to rows, and keeps `count` components of
+    /// each row, from component `from` on.
     pub(super) fn turned(&self, components: usize, from: usize, count: usize) -> Self {
         fn turn<T: Copy>(v: &[T], components: usize, from: usize, count: usize) -> Vec<T> {
             let rows = v.len() / components.max(1);
@@ -390,7 +393,8 @@ pub(super) struct Column {
 /// The result of a reader.
 #[derive(Debug, Default)]
 pub(super) struct Table {
-    /// Positions, if the format stores them apart; otherwise they are searched among the columns.
+    /// Number of components and values of the positions, if the format stores them apart from the named
+    /// columns; otherwise they are searched among the columns.
     pub(super) positions: Option<(usize, Data)>,
     pub(super) columns: Vec<Column>,
     pub(super) attributes: Vec<Attribute>,
@@ -458,7 +462,8 @@ impl Column {
     }
 }
 
-/// What determines the meaning of a column. The header of a file has it, before any values are read.
+/// What determines the meaning of a column. It is known from the header of the file, before any values are
+/// read.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape<'a> {
     pub(super) name: &'a str,
@@ -481,8 +486,9 @@ impl Shape<'_> {
     }
 }
 
-/// Where the components of a vector are stored: in one column of two or three components (its index and the
-/// number of components), or in one column each (their indices). Missing components are 0.
+/// Where the components of a vector are stored: in one column of two or three components (`Whole`: its index
+/// and the number of components), or in one column per component (`Split`: their indices). Missing components
+/// are 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Vector {
     Whole(usize, usize),
@@ -506,7 +512,7 @@ impl Vector {
     }
 }
 
-/// The role of columns, by index. Of two columns with the same name, the first counts.
+/// The index of the column that has each role. Of two columns with the same name, the first counts.
 #[derive(Debug)]
 pub(super) struct Roles {
     pub(super) positions: Vector,
@@ -552,7 +558,8 @@ impl<'a> Search<'a> {
         names.iter().find_map(|name| self.one(name, 1))
     }
 
-    /// Finds a vector: one column of three components, three scalar columns, or the same in two dimensions.
+    /// Finds a vector: one column of three components, else three scalar columns, else one column of two
+    /// components, else two scalar columns.
     fn vector(&self, names: Names) -> Option<Vector> {
         let whole = |components| {
             let column = names.iter().find_map(|name| self.one(name, components))?;
@@ -570,7 +577,7 @@ impl<'a> Search<'a> {
 }
 
 impl Roles {
-    /// `placed`: the positions, if the format stores them apart.
+    /// `placed` is the index of the column of positions, if the format stores them apart.
     pub(super) fn find(
         shapes: &[Shape<'_>],
         placed: Option<usize>,
@@ -613,7 +620,8 @@ impl Roles {
                 },
             });
         };
-        // A column with another length is no attribute, for example a list of times.
+        // A column whose number of values differs from the number of particles is no attribute; it may be a
+        // list of times.
         let values = |i: usize| shapes.get(i).map(|shape| shape.values);
         let of_one = |vector: Vector| {
             vector.columns().next().and_then(|i| {

@@ -17,21 +17,23 @@ const START: u64 = 1 << 16;
 
 /// The particles of a file in parts. Together they are the particles that [`read`](super::read) returns.
 ///
-/// The file is read twice. The first pass finds every fault, so that nothing has to be revoked later, and
-/// everything that only all particles show: their number, attributes that have to be dropped, warnings. The
-/// second pass returns the parts. If all particles fit in one part, it is kept from the first pass.
+/// The file is read twice. The first pass finds every error, so that no returned part has to be withdrawn
+/// later. It also finds what only all particles together show: their number, attributes that have to be
+/// dropped, warnings. The second pass returns the parts. If all particles fit in one part, the first pass keeps
+/// that part, and there is no second pass.
 ///
-/// Memory use is at most 160 bytes per particle of a part, including one previous part; 2 MiB (4 MiB for VTK in
-/// gzip), or one particle's size in the file if that is larger; and the header. The header of VTK XML consists
-/// of its elements without texts longer than 64 characters. A block packed with LZ4 or LZMA is unpacked as a
-/// whole, LZMA with a dictionary of at most 64 MiB.
+/// Memory use is at most the sum of three amounts: 160 bytes per particle of a part, which includes one
+/// previous part that is still in use; 2 MiB (4 MiB for VTK in gzip), or one particle's size in the file if
+/// that is larger; and the file's header. For VTK XML, the header is all XML elements, without texts longer
+/// than 64 characters. In addition, a block compressed with LZ4 or LZMA is decompressed as a whole, LZMA with a
+/// dictionary of at most 64 MiB.
 ///
-/// This holds for all formats except JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ arrays in Fortran order, NPZ in gzip or
-/// with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`) or CDATA. Those
-/// are read as a whole (see [`in_memory`](Self::in_memory)), except the last, whose header alone is as long as
-/// the file. An attribute of VTK's cells is held as a whole if they are in another order than the points. Attributes of VTK
-/// have separate positions in the file: gzip content is unpacked once per
-/// attribute.
+/// This limit holds for all formats except JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ arrays in Fortran order, NPZ
+/// in gzip or with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`) or CDATA.
+/// Files of these kinds are read as a whole (see [`in_memory`](Self::in_memory)). Only such VTK XML is read in parts,
+/// but its header is as long as the file. In VTK files, an attribute of cells is held as a whole if the cells are in
+/// another order than the points. Because each attribute of a VTK file has a place of its own in the file, gzip
+/// content is decompressed once per attribute.
 pub struct Parts<'a> {
     about: Particles,
     total: usize,
@@ -62,12 +64,13 @@ impl Parts<'static> {
         Self::open_with(path, most, |_| {})
     }
 
-    /// Opens a file as [`open`](Self::open) does, and shows each part as soon as it is first read, so that a
-    /// scan over all particles needs no extra pass. A shown part may still have `ids` and `kinds` that are
-    /// dropped in the end. A file that cannot be read in parts is shown as one part.
+    /// Opens a file as [`open`](Self::open) does, and calls `show` with each part as soon as the first pass has
+    /// read it, so that a scan over all particles needs no extra pass. A part that is shown may have `ids` and
+    /// `kinds` that are dropped later, and that the returned parts lack. A file that cannot be read in parts is
+    /// shown as one part.
     ///
     /// # Errors
-    /// Those of [`read`](super::read), after some parts were shown.
+    /// Those of [`read`](super::read). Some parts may have been shown before the error.
     pub fn open_with(
         path: &Path,
         most: usize,
@@ -99,8 +102,8 @@ impl Parts<'static> {
     }
 }
 
-/// The [`origin`](Particles::origin) of a file, from its first particles alone if it can be read in parts. That
-/// of the first frame suits a whole sequence, see [`Particles::move_to`].
+/// The [`origin`](Particles::origin) of a file. If the file can be read in parts, only its first particles are
+/// read. The origin of the first frame suits a whole sequence, see [`Particles::move_to`].
 ///
 /// # Errors
 /// Those of [`read`](super::read) that come before the particles.
@@ -207,13 +210,13 @@ impl<'a> Parts<'a> {
         self.total
     }
 
-    /// Properties of all particles: a vector is present, but empty, if each part has it. Format, attributes and
-    /// warnings are those of the file; parts have none of their own.
+    /// What holds for all particles. An optional vector is `Some`, but empty, if every part has it. Attributes
+    /// and warnings are those of the whole file; the parts list none.
     pub fn about(&self) -> &Particles {
         &self.about
     }
 
-    /// Whether all particles are in memory: a small file, or a format that cannot be read in parts.
+    /// Whether all particles are in memory, because the file is small or cannot be read in parts.
     pub fn in_memory(&self) -> bool {
         matches!(self.rest, Rest::Memory(..))
     }
@@ -250,7 +253,8 @@ impl<'a> Parts<'a> {
 impl Iterator for Parts<'_> {
     type Item = Result<Particles, ReadError>;
 
-    /// The next part. An error occurs only if the file has changed since it was opened; no part follows it.
+    /// The next part. An error occurs only if the file has changed since it was opened; after an error no part
+    /// follows.
     fn next(&mut self) -> Option<Self::Item> {
         let part = self.part().map_err(|error| {
             self.rest = Rest::Failed;
@@ -358,7 +362,7 @@ pub(super) fn plan<'a>(
     }))
 }
 
-/// Rows of equal length, or arrays of a zip that are read in parallel.
+/// A plan for rows of equal length, or for several arrays of a zip file that are read side by side.
 fn of_rows<'a>(
     input: &Input<'a>,
     rows: Vec<(Piece, Rows)>,

@@ -10,10 +10,11 @@ use super::steps::Step;
 /// One file of a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// Number in its name; if names have none, or a time, its index in the order, from 0.
+    /// Number in the file's name. If the names have no number, or a time instead, the file's index in the
+    /// sequence, from 0.
     pub number: u64,
-    /// Time in its name or in that of its folder, in its author's unit, if the numbers have a point or an
-    /// exponent (`t0.32`, `0.32/cloud`, `4.0e-04`).
+    /// Time in the file's or its folder's name, in the author's unit, if the numbers there have a decimal point
+    /// or an exponent (`t0.32`, `0.32/cloud`, `4.0e-04`).
     pub time: Option<f64>,
     /// The file.
     pub path: PathBuf,
@@ -98,7 +99,8 @@ pub enum SequenceError {
         /// What to do.
         advice: String,
     },
-    /// A piece of a frame among several files, which would be mistaken for a frame.
+    /// One of several given files is only a piece of a frame, as an index file shows; it would be mistaken for
+    /// a whole frame.
     #[error("{} is a piece of the frame {}: give that one, or a pattern of its kind", file.display(), index.display())]
     Piece {
         /// The piece.
@@ -144,12 +146,12 @@ pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
 /// together are one sequence, so a pattern that the shell has expanded gives the same result. A frame's number
 /// is the last run of digits in its name that differs between files, so `run2_frame_10` is frame 10; for a
 /// pattern with `%d` it is the number there. If all file names are alike, the number is in their folders
-/// (`10/cloud.vtp`). A number with a point or an exponent is a time, and a minus after another sign belongs to
-/// it (`step--1`). Times order the frames, which are then counted from 0. A number behind `rank`, `proc` and
-/// the like is that of a process, whose file is a part of a frame.
+/// (`10/cloud.vtp`). A number with a decimal point or an exponent is a time. A minus belongs to a number if it
+/// follows a separator (`step--1` is -1). Times order the frames, which are then counted from 0. A number after
+/// `rank`, `proc` and the like is that of a process, whose file is a part of a frame.
 ///
 /// # Errors
-/// Says which input gave nothing, and what is there instead. Every input must give a file.
+/// Every input must give at least one file. The error says which input gave none, and what exists instead.
 pub fn expand<S: AsRef<str>>(
     inputs: &[S],
     frames: Option<RangeInclusive<u64>>,
@@ -157,10 +159,11 @@ pub fn expand<S: AsRef<str>>(
     within(expand_all(inputs, false)?, frames)
 }
 
-/// Like [`expand`], but files with the same number are parts of one frame: [`Frame::also`].
+/// Like [`expand`], but files with the same number are parts of one frame: all but the first are in
+/// [`Frame::also`].
 ///
 /// # Errors
-/// Those of [`expand`], except for two files with the same number.
+/// Those of [`expand`], except [`SequenceError::Twice`].
 pub fn expand_joined<S: AsRef<str>>(
     inputs: &[S],
     frames: Option<RangeInclusive<u64>>,
@@ -270,7 +273,8 @@ fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError>
     })
 }
 
-/// Whether this is a file. A file that cannot be looked at is an error: without it a sequence would lack a frame.
+/// Whether this is a file. If its metadata cannot be read, the result is an error, because the sequence would
+/// silently lack a frame.
 fn is_file(path: &Path) -> Result<bool, SequenceError> {
     match std::fs::metadata(path) {
         Ok(found) => Ok(found.is_file()),
@@ -396,7 +400,8 @@ struct Number {
     whole: Option<u64>,
     /// Number of characters.
     width: usize,
-    /// The digits before and after the point, if the number has no other parts, and the number of digits after it.
+    /// The integers before and after the decimal point, and the number of digits after it; `None` if the number
+    /// has no point, or has a sign or an exponent.
     pair: Option<(u64, u64, usize)>,
     /// Whether it has a point or an exponent.
     decimal: bool,
@@ -409,10 +414,11 @@ enum Part {
     Number(Number),
 }
 
-/// A file, and the parts of its name without extension, of its folder, of the folder above, and so on.
+/// A file. `levels` holds the name of the file without extension, the name of its folder, of the folder above,
+/// and so on, each split into numbers and text.
 struct Named {
     levels: Vec<Vec<Part>>,
-    /// Number and time, if they come from something other than the name.
+    /// Number and time, if a list of files or a `%d` in the input determines them, and not the name alone.
     said: Option<(u64, Option<f64>)>,
     /// Whether they come from a list of files.
     listed: bool,
@@ -459,7 +465,8 @@ impl Named {
         }
     }
 
-    /// The numbers of a level without process ranks, and whether it has such ranks.
+    /// The numbers in the name at a level (0 for the file, 1 for its folder) except process ranks, and whether
+    /// the name has such ranks.
     fn numbers(&self, level: usize) -> (Vec<&Number>, bool) {
         let (mut numbers, mut ranked, mut before) = (Vec::new(), false, "");
         for part in self.levels.get(level).into_iter().flatten() {
@@ -603,7 +610,8 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
         let same = numbers.iter().all(|n| n.len() == runs);
         let first = |run: usize| numbers.first().and_then(|first| first.get(run).copied());
         let differs = |run: &usize| numbers.iter().any(|n| n.get(*run).copied() != first(*run));
-        // The last number that differs. If names are built differently, the last number.
+        // The last number that differs between files. `None` if the names do not have equally many numbers;
+        // then the last number of each name counts.
         let run = (0..runs).rev().find(differs).filter(|_| same);
         // A hash or the seconds of an hour may follow the number: then the last number gives another order than
         // all numbers together.
@@ -662,7 +670,8 @@ fn number(mut named: Vec<Named>) -> Vec<Frame> {
         let frame = |(named, number): (Named, u64)| Frame::new(number, None, named.path);
         return named.into_iter().zip(whole).map(frame).collect();
     }
-    // Programs write times with the same number of decimals, or without zeros at the end.
+    // Programs write times either with a fixed number of decimals or without zeros at the end. In names that do
+    // neither, `1.10` is therefore the pair of integers 1 and 10, which follows `1.9`.
     let pairs: Option<Vec<_>> = numbers.iter().map(|number| number.pair).collect();
     let widths = |pairs: &[(u64, u64, usize)]| {
         let first = pairs.first().map_or(0, |pair| pair.2);

@@ -5,13 +5,14 @@ use super::survey::{DOUBLED, Repeats};
 /// Number of particles for which the nearest neighbours are searched.
 const QUERIES: usize = 16_384;
 
-/// Estimates the rest spacing (twice the solver's particle radius) from positions, in their unit; `None`
-/// without two finite, distinct, nearby positions.
+/// Estimates the rest spacing (twice the solver's particle radius) from positions, in their unit. `None` if no
+/// two finite, distinct positions lie near each other.
 ///
-/// It is the median distance to the third nearest neighbour of a uniform subset: exact on an initial cubic
-/// grid, and within 5 % for most frames of moving fluid (10 % if most of it is spray). The nearest neighbour
-/// alone would be 12 to 28 % too low. It is meaningful for fluids only, not for spray and foam. It is the same
-/// in every run, and a few outliers, duplicates, NaN or infinities do not affect it.
+/// The estimate is the median, over a subset of every n-th particle, of the distance to the third nearest
+/// neighbour. It is exact on an initial cubic grid, and within 5 % for most frames of moving fluid (10 % if
+/// most of it is spray). The distance to the nearest neighbour would be 12 to 28 % too low. The estimate is
+/// meaningful for fluids only, not for spray and foam. It is the same in every run, and a few outliers,
+/// duplicates, NaN or infinities do not affect it.
 pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
     let mut points: Vec<[f32; 3]> =
         positions.iter().copied().filter(|p| p.iter().all(|c| c.is_finite())).collect();
@@ -38,9 +39,10 @@ pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
     Some(*median)
 }
 
-/// Estimates densities as fractions of the rest density, for a particle spacing: sums of the cubic spline with
-/// a support of two spacings. An isolated particle has 0.318, a line 0.48, a single sheet 0.70, a body of water
-/// about 1. Non-finite positions give 0.
+/// Estimates densities as fractions of the rest density: for each particle, the sum of the cubic spline kernel,
+/// whose support radius is twice `spacing`, over the particle itself and its neighbours. An isolated particle
+/// gets 0.318, a particle in a straight row 0.48, in a plane one particle thick 0.70, inside a body of water
+/// about 1. A non-finite position gets 0.
 pub fn estimate_densities(positions: &[[f32; 3]], spacing: f32) -> Vec<f32> {
     let finite = |p: &[f32; 3]| p.iter().all(|c| c.is_finite());
     let points: Vec<[f32; 3]> = positions.iter().copied().filter(finite).collect();
@@ -80,7 +82,8 @@ impl Grid {
         if longest <= 0.0 {
             return None;
         }
-        // A sheet or a line has no volume: each side counts as at least 1 % of the longest.
+        // The box of points in a plane or on a line has no volume, so each side counts as at least 1 % of the
+        // longest.
         let volume: f64 = extent.iter().map(|e| e.max(1e-2 * longest)).product();
         let mut cell = (volume / points.len() as f64).cbrt();
         let mut grid = Self { cell, origin: low, points: Vec::new() };
@@ -104,7 +107,8 @@ impl Grid {
         let mut filled = std::mem::take(&mut self.points);
         filled.clear();
         filled.extend(points.iter().map(|p| (self.key(self.cell_of(*p)), *p)));
-        // Stable: a sum over a cell must not depend on particles elsewhere.
+        // A stable sort, so that the order of a sum over a cell, and with it the rounding, does not depend on
+        // particles elsewhere.
         filled.sort_by_key(|(key, _)| *key);
         self.points = filled;
     }
@@ -145,7 +149,8 @@ impl Grid {
         sum
     }
 
-    /// Distance to the nearest (rank 1), second or third neighbour; `None` if fewer lie within two cells.
+    /// Distance to the nearest (`rank` 1), second or third neighbour; `None` if fewer than `rank` lie within
+    /// two cells.
     fn neighbour(&self, p: [f32; 3], rank: usize) -> Option<f32> {
         let [x, y, z] = self.cell_of(p);
         let mut best = [f32::INFINITY; 3];
@@ -168,7 +173,7 @@ impl Grid {
                     }
                 }
             }
-            // All points nearer than this lie in the cells searched so far.
+            // All points within `reach` cell widths lie in the cells searched so far.
             let distance = best.get(rank - 1)?.sqrt();
             if f64::from(distance) <= reach as f64 * self.cell {
                 return Some(distance);
@@ -188,7 +193,7 @@ fn squared(p: [f32; 3], q: [f32; 3]) -> f32 {
     p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-/// Keeps the three smallest distances. Distance 0 (the point itself and its duplicates) does not count.
+/// Keeps the three smallest squared distances. Distance 0 (the point itself and its duplicates) does not count.
 fn insert(best: &mut [f32; 3], new: f32) {
     let [a, b, c] = *best;
     if new <= 0.0 || new >= c {

@@ -23,8 +23,9 @@ pub struct Step {
 }
 
 impl Step {
-    /// A frame by its index, from 0, and by its time in a table that selects by time. [`steps`] also knows the position
-    /// of a frame in a JSON file; for a step that is made with this function the whole file is read.
+    /// Names a frame by its index, from 0. A table with a column of times also needs `time`, which selects the rows.
+    /// For a JSON file, the steps that [`steps`] returns also hold the frame's position in the file; for a step made
+    /// with this function, the whole file is read.
     pub fn new(index: usize, time: Option<f64>) -> Self {
         Self { index, time, part: None }
     }
@@ -38,11 +39,11 @@ pub(super) struct Start {
     pub(super) time: Option<f64>,
 }
 
-/// The frames of a file, in the file's order or, in a table with a column of times, in the order of time.
-/// Empty for a file with one frame. Recognized are counted XYZ and LAMMPS dumps with several frames,
-/// zones of Tecplot, NumPy arrays of shape (t, n, 3), JSON lists of frames, tables of any format with a column of
-/// times or steps, and HDF5 and XDMF with steps. If necessary, the whole file
-/// is read for this.
+/// The frames of a file, in the file's order or, in a table with a column of times, in the order of time. Empty
+/// for a file with one frame. Recognized are XYZ text (each frame begins with a count of particles) and LAMMPS
+/// dumps with several frames, zones of Tecplot, NumPy arrays of shape (t, n, 3), JSON lists of frames, tables of
+/// any format with a column of times or steps, and HDF5 and XDMF with steps. If necessary, the whole file is read
+/// for this.
 ///
 /// # Errors
 /// Those of [`read`](super::read), for the part that is read.

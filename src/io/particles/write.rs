@@ -9,13 +9,14 @@ use super::{Particles, WriteFormat};
 
 /// Writes one file.
 ///
-/// Writes positions and the other present attributes as `velocity`, `density`, `id`, `lifetime` and `type`, so
-/// that [`read`](super::read) returns the same particles. The file is written under a temporary name beside it
-/// and renamed, so an incomplete file never has the final name.
+/// Writes positions and the other present attributes under the names `velocity` (in PLY `vx`, `vy`, `vz`),
+/// `density`, `id`, `lifetime` and `type`, so that [`read`](super::read) returns the same particles. The file
+/// is written under a temporary name in the same folder and then renamed, so an incomplete file never has the
+/// final name.
 ///
 /// # Errors
-/// Vectors of different lengths, ids above the limit of BGEO (2^31 - 1), more particles than a format can count, and
-/// errors of the system.
+/// Vectors of different lengths; for BGEO, an id, a kind or a number of particles above 2^31 - 1; and errors of the
+/// system.
 pub fn write(path: &Path, particles: &Particles, format: WriteFormat) -> Result<(), WriteError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
     // Checked before a file is created.
@@ -42,8 +43,8 @@ fn create(path: &Path, particles: &Particles, format: WriteFormat) -> io::Result
 /// Writes to an open file or buffer.
 ///
 /// # Errors
-/// Those of [`write()`]; if the particles cannot be written, the error is [`io::ErrorKind::InvalidInput`] and nothing
-/// is written.
+/// Those of [`write()`]. If the particles are invalid or exceed the format's limits, the error is
+/// [`io::ErrorKind::InvalidInput`] and nothing is written.
 pub fn write_to(
     out: &mut (impl Write + io::Seek),
     particles: &Particles,

@@ -25,8 +25,8 @@ pub fn write(layers: &Layers, to: impl Write + Seek) -> io::Result<()> {
     let mut attributes =
         LayerAttributes { software_name: text("whitewater"), ..Default::default() };
     if !layers.attributes.is_empty() {
-        // One attribute, because the crate writes several in a random order. JSON in ASCII, because EXR text is
-        // Latin-1.
+        // All attributes are stored as one, because the crate writes several in a random order. The JSON is
+        // ASCII, because EXR text is Latin-1.
         let map: serde_json::Map<String, Value> =
             layers.attributes.iter().map(|(k, v)| (k.clone(), Value::String(v.clone()))).collect();
         let json: String = Value::Object(map)

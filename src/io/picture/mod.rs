@@ -1,7 +1,8 @@
 //! Pictures: writes multi-layer OpenEXR and tone-mapped PNG, reads EXR, PNG and Radiance HDR.
 //!
-//! A picture is a set of named channels of one size, see [`Layers`]. Channels of the beauty are `R G B A`, linear,
-//! scene-referred, Rec. 709 primaries; the others are named after their pass (`water.depth.Z`).
+//! A picture is a set of named channels of one size, see [`Layers`]. The rendered picture itself is in the
+//! channels `R G B A`: linear, scene-referred, Rec. 709 primaries. The other channels are named after their pass
+//! (`water.depth.Z`).
 #![forbid(unsafe_code)]
 
 mod exr;
@@ -112,7 +113,8 @@ impl Layers {
         Some(r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]).collect())
     }
 
-    /// The displayed colour, sRGB 0 to 1: linear light through the tone map of [`write_png`].
+    /// The displayed colour, sRGB from 0 to 1. Linear light is multiplied by 2^`exposure` and tone mapped as in
+    /// [`write_png`]; a picture that is in sRGB already is returned unchanged.
     pub fn display(&self, exposure: f32) -> Option<Vec<[f32; 3]>> {
         self.shown(&Display { exposure, ..Display::default() })
     }
@@ -140,8 +142,8 @@ pub struct Display {
     pub exposure: f32,
     /// Tone map, default [`Tone::Neutral`].
     pub tone: Tone,
-    /// Whether channel `A` is the opacity of premultiplied colours. A PNG then stores it, with colours that are divided
-    /// by it. Default false: the picture is opaque.
+    /// Whether channel `A` is the opacity by which the colours are premultiplied. If so, a PNG stores the opacity,
+    /// and colours divided by it. Default false: the picture is opaque.
     pub alpha: bool,
 }
 
@@ -215,8 +217,9 @@ pub fn write_exr(layers: &Layers, to: impl Write + Seek) -> std::io::Result<()> 
     exr::write(layers, to)
 }
 
-/// Writes the colour as an 8-bit sRGB PNG: exposure in stops, the tone map [`neutral`], and a dither of half a
-/// step against banding (the same in every run). A picture without colour is an error.
+/// Writes the colour as an 8-bit sRGB PNG, with `exposure` in stops, the tone map [`neutral`], and a dither of
+/// up to half a step in either direction against banding (the same in every run). A picture without colour is
+/// an error.
 ///
 /// # Errors
 /// Errors of the writer.
@@ -232,8 +235,8 @@ pub fn write_png_as(layers: &Layers, display: &Display, to: impl Write) -> std::
     png::write(layers, display, to)
 }
 
-/// Writes values from 0 to 1 that are not colours, such as a texture of distances, as a 16-bit PNG: `Y` grey,
-/// or `R G B A`. Values are linear, undithered and clamped.
+/// Writes values from 0 to 1 that are not colours, such as a texture of distances, as a 16-bit PNG: channel `Y`
+/// as a grey PNG, otherwise channels `R G B A`. Values are linear, undithered and clamped.
 ///
 /// # Errors
 /// Errors of the writer, and a picture without those channels.
@@ -304,7 +307,7 @@ mod tests {
         }
     }
 
-    /// A pixel half covered by grey keeps that colour and an opacity of a half.
+    /// A pixel that is half covered by a colour keeps that colour and has an opacity of a half.
     #[test]
     fn a_png_keeps_the_share_that_is_covered() {
         let mut layers = Layers::new(2, 1);

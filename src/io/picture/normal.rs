@@ -4,9 +4,9 @@ use super::EMPTY;
 
 /// Eye-space normals of a depth picture (x, y and z per texel, towards the camera, which looks down -z).
 ///
-/// `slope` is scale x, scale y, offset x, offset y from texel centres to x / depth and y / depth. The neighbour
-/// with the closer depth is used on each axis, so that normals do not bend at silhouettes. Zero where there is
-/// no surface.
+/// `slope` = [sx, sy, ox, oy] maps a texel centre (u, v), in texels, to x / depth = sx u + ox and y / depth =
+/// sy v + oy. On each axis the difference is taken to the neighbour whose depth is closer to the texel's own,
+/// so that normals do not bend at silhouettes. Normals are zero where there is no surface.
 pub fn normals(depth: &[f32], width: usize, height: usize, slope: [f32; 4]) -> [Vec<f32>; 3] {
     let [sx, sy, ox, oy] = slope;
     let at = |x: usize, y: usize| depth.get(y * width + x).copied().unwrap_or(EMPTY);
@@ -22,7 +22,7 @@ pub fn normals(depth: &[f32], width: usize, height: usize, slope: [f32; 4]) -> [
                 continue;
             }
             let here = point(x, y);
-            // Difference along an axis, from the side at the nearer depth.
+            // Difference along an axis, on the side whose depth is closer to the texel's own.
             let along = |before: Option<(usize, usize)>, after: Option<(usize, usize)>| {
                 let step = |side: Option<(usize, usize)>| {
                     let (x, y) = side?;

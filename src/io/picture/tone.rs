@@ -3,10 +3,10 @@
 /// Value at which the shoulder begins.
 const START: f32 = 0.72;
 
-/// The shoulder of Khronos' PBR Neutral tone map: colours below 0.72 are unchanged, brighter ones are
-/// compressed towards white with their hue kept. Its toe, which removes the 4 % that dielectrics reflect from
-/// dark colours, is omitted: it makes shadows under a blue sky nearly black. Negative and NaN input gives 0,
-/// infinite input white.
+/// The shoulder of Khronos' PBR Neutral tone map: colours whose channels are all below 0.72 are unchanged,
+/// brighter ones are compressed towards white with their hue kept. The toe of that tone map, which subtracts
+/// the 4 % that dielectrics reflect, is omitted, because it makes shadows under a blue sky nearly black.
+/// Negative and NaN input gives 0, infinite input white.
 pub fn neutral(c: [f32; 3]) -> [f32; 3] {
     const DESATURATION: f32 = 0.15;
     // NaN goes to 0.
@@ -85,8 +85,8 @@ pub fn aces(c: [f32; 3]) -> [f32; 3] {
 
 /// Troy Sobotka's AgX, with Benjamin Wrensch's polynomial for its curve: a film curve that turns bright colours
 /// pale on the way to white, where [`aces`] and clipping keep them saturated. Its range is sixteen and a half
-/// stops, four of them above white. Light is multiplied by 2, and the result is raised to the power 1.35 (his
-/// "punchy" look), so that lit white is nearly white on the screen.
+/// stops, four of them above white. Light is multiplied by 2 before the curve, and the curve's value is raised
+/// to the power 1.35 (as in AgX's "punchy" look), so that lit white is nearly white on the screen.
 pub fn agx(c: [f32; 3]) -> [f32; 3] {
     const IN: [[f32; 3]; 3] = [
         [0.842_479_06, 0.078_433_6, 0.079_223_745],
