@@ -17,7 +17,8 @@ pub const MOST_FILM: f32 = 2000.0;
 pub struct BubbleConfig {
     /// Maximum number of blobs per frame, 1 to 2^20. Each takes 64 bytes.
     pub max_blobs: u32,
-    /// Number of precomputed blob variants, 1 to 32, default 8. Each blob uses one, chosen by its id.
+    /// Number of precomputed variants of a blob (a cluster of soap bubbles), 1 to 32, default 8. Each blob uses one,
+    /// chosen by its id.
     pub variants: u32,
     /// Bubbles per variant, 8 to 256, default 227 (the paper's 22 700 in a hundred blobs).
     pub bubbles: u32,
@@ -28,19 +29,20 @@ pub struct BubbleConfig {
     pub impostor: Impostor,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) impostor: Impostor,
-    /// Side length of a face of the impostor's cube map in texels, a multiple of 4 from 8 to 512. Default: that of the
-    /// impostor.
+    /// Side length in texels of a face of the impostor's cube map, a multiple of 4 from 8 to 512. Default 128, as
+    /// [`Impostor::map_size`] gives for the default impostor.
     #[cfg(feature = "diagnostics")]
     pub map_size: u32,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) map_size: u32,
-    /// Maximum steps of the search along a ray, 1 to 64. Default: that of the impostor.
+    /// Maximum number of steps of the search along a ray, 1 to 64. Default 10, as [`Impostor::steps`] gives for the
+    /// default impostor.
     #[cfg(feature = "diagnostics")]
     pub steps: u32,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) steps: u32,
-    /// Number of blobs per pixel that are composited, 1 to 8, default 3. Blobs behind these only contribute
-    /// opacity to the holes between them.
+    /// Number of layers: the nearest blobs of a pixel that are shaded and composited, 1 to 8, default 3. Blobs
+    /// farther behind only add opacity where these leave a hole.
     pub layers: u32,
     /// How the blobs of a pixel are sorted.
     #[cfg(feature = "diagnostics")]
@@ -52,8 +54,8 @@ pub struct BubbleConfig {
     pub film: Film,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) film: Film,
-    /// Draws whitewater foam near the camera as blobs, at most `max_blobs` of them ([`BubbleSettings::crossfade`] sets
-    /// the distances). A frame then has no other blobs. Default false. Needs
+    /// Draws the particles of whitewater foam near the camera as blobs, at most `max_blobs` of them
+    /// ([`BubbleSettings::crossfade`] sets the distances). A frame then has no other blobs. Default false. Needs
     /// [`Config::whitewater`](crate::Config::whitewater). It takes 36 more bytes per blob and adds the pass `near`.
     pub crossfade: bool,
 }
@@ -101,11 +103,12 @@ impl BubbleConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Impostor {
-    /// Distance from the centre to the surface in each direction: 64 texels per side, at most 20 steps. No
-    /// walls.
+    /// A cube map of the distance from the blob's centre to its surface: in the paper 64 texels per side, with at
+    /// most 20 steps along a ray. The walls between bubbles are not drawn.
     Distance,
-    /// Id of the outermost bubble in each direction: 128 texels per side, 10 steps. The bubble's sphere is
-    /// intersected exactly, and walls are drawn. Default.
+    /// A cube map of the id of the outermost bubble in each direction: in the paper 128 texels per side, with 10
+    /// steps along a ray. The ray is intersected exactly with the bubble's sphere, and the walls between bubbles are
+    /// drawn. Default.
     Ids,
 }
 
@@ -131,12 +134,13 @@ impl Impostor {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum BubbleSort {
-    /// Each pixel walks the blobs of its tile once, front to back, and keeps the nearest. Default. The lists
-    /// have room for 128 blobs per 16×16 tile on average, plus four tiles per blob; when full, they drop the
-    /// farthest blobs.
+    /// Each pixel walks the list of blobs that touch its 16×16 tile once, front to back, and keeps the nearest.
+    /// Default. All lists together have `128 · tiles + 4 · max_blobs` entries, one for each tile that a blob touches;
+    /// if they do not suffice, the farthest blobs are dropped.
     Tiles,
-    /// Depth peeling, as in the paper (Sec. 5; Everitt 2001): all blobs are drawn once per layer, keeping only
-    /// fragments behind the previous layer, and once more for the combined opacity. Takes 22 more bytes per pixel.
+    /// Depth peeling, as in the paper (Sec. 5; Everitt 2001): all blobs are drawn once per layer, where only
+    /// fragments behind the previous layer are kept, and once more for the maximum opacity. Takes 22 bytes per pixel
+    /// more than `Tiles`.
     Peel,
 }
 
@@ -162,12 +166,14 @@ impl Default for Film {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum FilmFresnel {
-    /// Fresnel's equations for both polarisations, with Airy's sum for each. Default.
+    /// Fresnel's equations for both polarisations, with Airy's sum over the reflections in the film for each.
+    /// Default.
     Exact,
-    /// Schlick's approximation, with Airy's sum.
+    /// Schlick's approximation of Fresnel's equations, with Airy's sum over the reflections in the film.
     Schlick,
-    /// As printed in the paper: 1 − cosine, and four times that times the squared sine, clamped to 1. The phase is half
-    /// the printed one, and that of the refracted ray.
+    /// As in the paper: a face reflects `R = 1 − cos θ`, and the film `min(4 R sin²(φ / 2), 1)`, with φ the phase
+    /// difference of the light from both faces. Unlike in print, where it is `sin² φ` with the angle outside the
+    /// film, φ is that of the refracted ray.
     Source,
 }
 
@@ -177,7 +183,8 @@ pub enum FilmFresnel {
 pub enum Spectrum {
     /// One wavelength each for red, green and blue, as in the paper.
     Three,
-    /// 81 wavelengths from 380 to 780 nm. Default. The cost is the same: one table look-up.
+    /// 81 wavelengths from 380 to 780 nm. Default. A pixel costs as much as with `Three`, because both are look-ups
+    /// in a precomputed table.
     Whole,
 }
 
@@ -192,20 +199,22 @@ pub struct BubbleSettings {
     pub variation: f32,
     /// Drainage: how much thinner films are at the top and thicker at the bottom, 0 to 1, default 0.35.
     pub drainage: f32,
-    /// Distance from a blob's centre, in its radius, within which the core is opaque, [0, core_outer_radius),
-    /// default 0.65 (Sec. 4.4).
+    /// Distance from a blob's centre, in radii of the blob, within which its core (the foam behind the outer bubbles)
+    /// is opaque, [0, core_outer_radius), default 0.65 (Sec. 4.4).
     pub core_opaque_radius: f32,
-    /// Distance beyond which the core is absent, (core_opaque_radius, 2], default 0.98.
+    /// Distance from a blob's centre, in radii of the blob, at which its core's opacity has fallen to 0,
+    /// (core_opaque_radius, 2], default 0.98.
     pub core_outer_radius: f32,
     /// Albedo of the core, linear RGB, 0 to 1, default 0.92 of each.
     pub albedo: [f32; 3],
-    /// Visibility of the texture of small bubbles on the core, 0 to 1, default 0.7.
+    /// Strength of the texture of small bubbles on the blob's core, 0 (none) to 1, default 0.7.
     pub pattern: f32,
-    /// Weight of the inverse normal in the texture look-up, relative to the position behind the bubble, 0 to 1,
-    /// default 0.1 (v₂ and v₁ of Sec. 4.4). Large values turn the cells into rings around each bubble's centre.
+    /// Weight w in the direction `(1 − w) v₁ + w v₂` in which the core's texture is looked up, 0 to 1, default 0.1
+    /// (Sec. 4.4): v₁ points from the blob's centre to where the ray leaves the bubble, v₂ is the bubble's negated
+    /// normal. Large values turn the texture's cells into rings around each bubble's centre.
     pub distortion: f32,
-    /// Weight of the blob's normal against the bubble's in the lighting of the core, 0 to 1, default 0.5 (Sec.
-    /// 4.4).
+    /// Weight w of the normals in the lighting of the core, 0 to 1, default 0.5 (Sec. 4.4): its normal is
+    /// `(1 − w) · bubble's + w · blob's`, normalized.
     pub roundness: f32,
     /// Factor on the environment reflection of films, [0, 8], default 1.
     pub reflection: f32,
@@ -213,25 +222,28 @@ pub struct BubbleSettings {
     pub shininess: f32,
     /// Whether the walls between bubbles are drawn. Default true.
     pub walls: bool,
-    /// Whether blobs behind the last layer fill the holes (Sec. 5). Default true.
+    /// Whether blobs behind the last of the [`layers`](BubbleConfig::layers) fill the holes that the layers leave
+    /// (Sec. 5). Default true.
     pub fill_holes: bool,
-    /// Stochastic level of detail: blobs whose screen radius is below this many pixels are thinned out, and the
-    /// rest enlarged so that they cover as much and reach this size (Cook, Halstead, Planck, Ryu 2007,
-    /// Stochastic Simplification of Aggregate Detail). 0 to 64, default 1, 0 = off. Ids decide which blobs go
-    /// first; each shrinks before it disappears.
+    /// Radius on the screen, in pixels, below which a random part of the blobs is left out and the rest is enlarged
+    /// to about this radius, so that the covered area stays the same (Cook, Halstead, Planck, Ryu 2007, Stochastic
+    /// Simplification of Aggregate Detail). 0 to 64, default 1, 0 = off. With growing distance more blobs vanish, in
+    /// an order that their ids determine; each one shrinks before it vanishes.
     pub min_pixels: f32,
-    /// Cross-fade from whitewater foam sprites to blobs, with [`BubbleConfig::crossfade`].
+    /// Distances and size of the cross-fade from whitewater foam sprites to blobs, if [`BubbleConfig::crossfade`] is
+    /// set.
     pub crossfade: Crossfade,
 }
 
-/// Cross-fade of whitewater foam near the camera to blobs, where Akinci et al. 2013 draw none. Spray and
-/// particles under water stay sprites.
+/// Cross-fade of whitewater foam particles from sprites (flat discs) to blobs of bubbles near the camera, where
+/// Akinci et al. 2013 draw no foam. Spray and particles under water stay sprites.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossfade {
     /// Distance from the camera up to which foam consists of blobs only, scene units, [0, ∞), default 2.
     pub near: f32,
-    /// Distance from which foam consists of sprites only, more than `near`, default 4. In between, blobs grow as
-    /// sprites shrink. If more particles are near than `max_blobs` allows, both distances shrink.
+    /// Distance from the camera from which foam consists of sprites only, scene units, more than `near`, default 4.
+    /// From here to `near`, blobs grow as sprites shrink. If more particles are nearer than `far` than `max_blobs`
+    /// allows, both distances shrink by the same factor.
     pub far: f32,
     /// Radius of a blob relative to its particle, (0, 100], default 1.
     pub size: f32,

@@ -11,23 +11,24 @@ crate::contract::with!(WhitewaterConfig, WhitewaterSettings);
 pub struct WhitewaterConfig {
     /// Maximum number of whitewater particles per frame, at least 1.
     pub max_particles: u32,
-    /// Maximum stride of their streams in bytes, a multiple of 4, default 12.
+    /// Maximum stride in bytes of the buffers with the particles' attributes, a multiple of 4, default 12.
     pub max_stride: u32,
-    /// Whether frames may have [`WhitewaterParticles::packets`](crate::WhitewaterParticles::packets). Default false.
+    /// Whether frames may give the particles in groups that are culled as a whole
+    /// ([`WhitewaterParticles::packets`](crate::WhitewaterParticles::packets)). Default false.
     pub packets: bool,
-    /// How they are rasterized. `None` selects the path that was the fastest on lavapipe:
+    /// How whitewater is rasterized. `None` selects the path that was the fastest on lavapipe, a CPU driver:
     /// [`WhitewaterSplat::Compute64`] if its feature is enabled, otherwise [`WhitewaterSplat::Compute`]. Not yet
     /// measured on GPUs.
     #[cfg(feature = "diagnostics")]
     pub splat: Option<WhitewaterSplat>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) splat: Option<WhitewaterSplat>,
-    /// How the environment lights them.
+    /// How the environment lights whitewater.
     #[cfg(feature = "diagnostics")]
     pub irradiance: Irradiance,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) irradiance: Irradiance,
-    /// How their ambient occlusion is sampled.
+    /// How the ambient occlusion of whitewater is sampled.
     #[cfg(feature = "diagnostics")]
     pub occlusion: Occlusion,
     #[cfg(not(feature = "diagnostics"))]
@@ -62,17 +63,17 @@ impl WhitewaterConfig {
     }
 }
 
-/// How whitewater particles are rasterized. All paths give the same picture, the two compute paths to the last
-/// bit.
+/// How whitewater particles are rasterized. All paths give the same picture. Those of the two compute paths are equal
+/// to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum WhitewaterSplat {
-    /// One quad per particle with depth test and blending. Takes 12 more bytes per pixel.
+    /// One quad per particle with depth test and blending. Takes 12 bytes per pixel more than the compute paths.
     Raster,
-    /// One invocation per particle with 32-bit atomics, in two passes; the second writes the attributes of the
-    /// frontmost particle.
+    /// One compute invocation per particle with 32-bit atomics, in two passes: the first finds depth and thickness,
+    /// the second writes the attributes of each pixel's frontmost particle.
     Compute,
-    /// One invocation per particle with 64-bit atomics, in one pass. Needs
+    /// One compute invocation per particle with 64-bit atomics, in one pass. Needs
     /// [`buffer_int64_atomics`](crate::EnabledFeatures::buffer_int64_atomics).
     Compute64,
 }
@@ -81,12 +82,14 @@ pub enum WhitewaterSplat {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Occlusion {
-    /// As printed: as many samples as the spheres have pixels, the same in every pixel.
+    /// As printed: the number of samples of a sphere is proportional to its volume on the screen, in cubic pixels
+    /// ([`WhitewaterSettings::sample_density`]). All pixels use the same sample positions.
     Reference,
-    /// Each pixel of a 4×4 block evaluates a sixteenth of the samples, and the blur recombines them. A pixel takes 2 to 20
-    /// per sphere, whatever the sphere's size: 1/16 of [`WhitewaterSettings::max_samples`], of which values over 320 count
-    /// as 320. Samples come in opposite pairs, so that each pixel alone finds half of them occluded where a half
-    /// space is solid. Default.
+    /// Each pixel of a 4×4 block evaluates a sixteenth of the samples, and the blur recombines them. A pixel takes
+    /// `min(max_samples, 320) / 16` samples per sphere, rounded down to an even number from 2 to 20, whatever the
+    /// sphere's size ([`WhitewaterSettings::max_samples`]). Samples come in opposite pairs: where everything behind a
+    /// plane through the sphere's centre is solid, each pixel by itself finds exactly half of its samples occluded.
+    /// Default.
     Fast,
 }
 
@@ -97,19 +100,21 @@ pub enum Irradiance {
     /// One look-up per pixel in an irradiance map that is filtered once per environment; the paper calls this the
     /// faster way. Default.
     Prefiltered,
-    /// Look-ups in the directions of the first occlusion pass' samples (Sec. 2.4.2), also if `passes` is 0.
+    /// One look-up in the environment for each sample of the first occlusion sphere, in the sample's direction
+    /// (Sec. 2.4.2). This needs no occlusion passes: [`WhitewaterSettings::passes`] may be 0.
     Sampled,
 }
 
 /// How particles behind the water's surface are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Submerged {
-    /// The water in front of them attenuates them, like everything in it. Default.
+    /// The water in front of the particles attenuates their light, as it attenuates everything behind it. Default.
     Water,
-    /// The paper's falloff, `f(distance behind, depth, n, m)` (Eq. 1 and Sec. 2.2), which reaches zero at `depth`. The
-    /// particles are then composited in front of the water.
+    /// The paper's falloff (Eq. 1 and Sec. 2.2): the thickness of a particle at a distance d behind the surface is
+    /// multiplied by `(1 − (d / depth)^n)^m`, which reaches 0 at `depth`. The particles are then composited in front
+    /// of the water, which does not attenuate them.
     Falloff {
-        /// Metres, (0, ∞), recommended 6 spacings.
+        /// Scene units, (0, ∞), recommended 6 spacings.
         depth: f32,
         /// Exponent, [0.1, 16], recommended 2.
         n: f32,
@@ -122,7 +127,7 @@ pub enum Submerged {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum OcclusionReach {
-    /// In search radii, (0, ∞), default 1.
+    /// In radii of the sphere in which occluders are searched, (0, ∞), default 1.
     Radii(f32),
     /// In scene units, (0, ∞); the paper: 5 metres.
     Metres(f32),
@@ -132,9 +137,9 @@ pub enum OcclusionReach {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum ShadowMixing {
-    /// light × (1 − shadow): never negative, and independent of exposure. Default.
+    /// `light · (1 − shadow)`: never negative, and proportional to the light, whatever the exposure. Default.
     Scaled,
-    /// The paper's light − shadow, clamped to 1 before (Sec. 2.5).
+    /// `max(min(light, 1) − shadow, 0)`, the paper's difference (Sec. 2.5).
     Source,
 }
 
@@ -142,25 +147,28 @@ pub enum ShadowMixing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WhitewaterSettings {
-    /// Radius of particles without a radius stream, scene units, (0, ∞), default 0.15 spacings (0.0075 for a spacing of
-    /// 0.05). It is divided by 1 to [`sizes`](Self::sizes), chosen per particle; a bubble's is scaled by
-    /// [`bubble_size`](Self::bubble_size).
+    /// Radius of particles that have none of their own, scene units, (0, ∞), default 0.15 spacings (0.0075 for a
+    /// spacing of 0.05). Every particle's radius is divided by an integer from 1 to [`sizes`](Self::sizes); a
+    /// bubble's is also multiplied by [`bubble_size`](Self::bubble_size).
     pub radius: f32,
     /// How particles behind the water's surface are drawn.
     pub submerged: Submerged,
-    /// Thickness ρ_mod at which the intensity `ρ^e / (ρ_mod + ρ^e)` is one half (for e = 1), (0, 1e6], default
-    /// 3 (Sec. 2.3).
+    /// Constant ρ_mod of the intensity `ρ^e / (ρ_mod + ρ^e)`, the opacity of foam of a thickness ρ (Sec. 2.3),
+    /// (0, 1e6], default 3. The intensity is one half where `ρ^e = ρ_mod`; thickness has no unit.
     pub half_intensity_thickness: f32,
-    /// Exponent e of the intensity, [0.1, 16], default 1.25.
+    /// Exponent e of the intensity `ρ^e / (ρ_mod + ρ^e)`, [0.1, 16], default 1.25.
     pub exponent: f32,
-    /// Number of occlusion passes, each with a larger sphere, 0 to 8, default 3 (AO_#Passes, Sec. 2.4.1).
+    /// Number of ambient-occlusion passes, 0 to 8, default 3 (AO_#Passes, Sec. 2.4.1). Each pass samples a larger
+    /// sphere around the particle.
     pub passes: u32,
-    /// Radius of the first of those spheres in particle radii, [0, 100], default 1 (AO_InitSRFac).
+    /// Constant part of the occlusion spheres' radii, [0, 100], default 1 (AO_InitSRFac): the sphere of occlusion
+    /// pass k = 1, 2, … has a radius of `search_radius + k · search_radius_step` particle radii.
     pub search_radius: f32,
-    /// Increase of the sphere's radius from pass to pass, in particle radii, [0, 100], default 7 (AO_SRIncFac).
+    /// Increase of the occlusion sphere's radius from pass to pass, in particle radii, [0, 100], default 7
+    /// (AO_SRIncFac). See [`search_radius`](Self::search_radius).
     pub search_radius_step: f32,
-    /// Samples per cubic pixel, [0, 16], default 0.5 (AO_SDens). Used by `Occlusion::Reference`; the default mode uses
-    /// a fixed share of the samples at any size.
+    /// Occlusion samples per cubic pixel of the sphere's volume, [0, 16], default 0.5 (AO_SDens). Used by
+    /// `Occlusion::Reference` only: the number of samples of the default `Occlusion::Fast` is the same at any size.
     pub sample_density: f32,
     /// Minimum number of samples per sphere, 1 to `max_samples`, default 16. Used by `Occlusion::Reference` only.
     pub min_samples: u32,
@@ -175,38 +183,39 @@ pub struct WhitewaterSettings {
     pub fluid_opacity: f32,
     /// Opacity of the scene as an occluder, 0 to 1, default 1.
     pub scene_opacity: f32,
-    /// Factor s of the shadow `s · occlusion^e + o`, [0, 16], default 1.
+    /// Factor s of the shadow `(s · occlusion)^e + o`, [0, 16], default 1.
     pub shadow_scale: f32,
-    /// Exponent e of the shadow, [0.1, 16], default 1.5.
+    /// Exponent e of the shadow `(s · occlusion)^e + o`, [0.1, 16], default 1.5.
     pub shadow_exponent: f32,
-    /// Offset o of the shadow, [-1, 1], default -0.05.
+    /// Offset o of the shadow `(s · occlusion)^e + o`, [-1, 1], default -0.05.
     pub shadow_offset: f32,
-    /// Colour that remains in shadow, linear RGB, 0 to 1, default a deep blue (0, 0, 0.2).
+    /// Share of the light that remains in full shadow, linear RGB, 0 to 1, default a deep blue (0, 0, 0.2).
     pub shadow_color: [f32; 3],
     /// Albedo, linear RGB, 0 to 1, default 0.9.
     pub albedo: [f32; 3],
-    /// Brightness relative to what the albedo reflects, [0, 64], default 1. Twice this value is the paper's
-    /// C_IrrScale (Sec. 2.5), which exceeds 2 for values above 1.
+    /// Factor on the light that foam reflects, [0, 64], default 1: exactly what its albedo reflects. The paper's
+    /// C_IrrScale (Sec. 2.5) is twice this value.
     pub scale: f32,
-    /// Exponents n and m of the shape `(1 − x^n)^m` of a foam particle, with x the distance from its centre in
-    /// radii (Eq. 1, Sec. 2.2). [0.1, 16], default 2.25 and 1. Shapes, lives and sizes other than the defaults
-    /// cost a few powers per pixel.
+    /// Exponents n and m of the thickness `(1 − x^n)^m` of a foam particle, with x the distance from its centre in
+    /// radii (Eq. 1, Sec. 2.2). [0.1, 16], default 2.25 and 1. If any shape, `life`, `sizes` or `bubble_size` differs
+    /// from its default, shaders evaluate a few powers more per pixel.
     pub foam_shape: [f32; 2],
-    /// The same exponents for spray, default 1.5 and 1.
+    /// Exponents n and m of the thickness `(1 − x^n)^m` of a spray particle, default 1.5 and 1.
     pub spray_shape: [f32; 2],
-    /// The same exponents for a bubble, whose thickness is 1 minus the shape. Default 2 and 1.
+    /// Exponents n and m of the thickness `1 − (1 − x^n)^m` of a bubble, which is greatest at the rim. Default 2 and
+    /// 1.
     pub bubble_shape: [f32; 2],
-    /// Exponents n and m of the fade `(1 − a^n)^m` at the relative age a (Sec. 2.2). [0.1, 16], default 2 and
-    /// 0.4.
+    /// Exponents n and m of the factor `(1 − a^n)^m` on a particle's thickness at the relative age a, 0 (new) to 1
+    /// (gone) (Sec. 2.2). [0.1, 16], default 2 and 0.4.
     pub life: [f32; 2],
-    /// A radius is divided by an integer from 1 to this, chosen by the particle's id, for variation. 1 to 64,
-    /// default 5 (Sec. 2.1).
+    /// Number of sizes of particles, 1 to 64, default 5 (Sec. 2.1): for variation, each radius is divided by an
+    /// integer from 1 to this number, chosen by the particle's id.
     pub sizes: u32,
     /// Radius of a bubble relative to the other particles, (0, 1], default 0.5 (Sec. 2.1).
     pub bubble_size: f32,
     /// Radius of the blur of light and shadow, in radii of the first occlusion sphere, [0, 16], default 1.5
-    /// (Sec. 2.5). Up to 32 pixels every texel contributes; beyond that an evenly spaced subset, at least 11 on
-    /// each side.
+    /// (Sec. 2.5). A blur radius of up to 32 pixels uses every texel; a larger one uses evenly spaced texels, at
+    /// least 11 on each side.
     pub blur: f32,
     /// How light and shadow combine.
     #[cfg(feature = "diagnostics")]
@@ -249,8 +258,8 @@ impl WhitewaterSettings {
         }
     }
 
-    /// Whether particles have shapes other than the paper's, or fade behind the water's surface as in the paper.
-    /// Shaders have a variant for either.
+    /// Whether shapes, life or sizes of particles differ from the paper's, or particles fade behind the water's
+    /// surface as in the paper. Shaders have one variant for this and a faster one for all other cases.
     pub(crate) fn shaped(&self) -> bool {
         let sources = Self::default();
         let numbers = |look: &Self| {

@@ -20,42 +20,48 @@ pub struct BlobSimulationSettings {
     pub gravity: [f32; 3],
     /// Linear air drag, 1/s, [0, 100], default 0.8.
     pub drag: f32,
-    /// Rest distance between neighbours, relative to the sum of their radii, (0, 1), default 0.75: they
-    /// overlap.
+    /// Distance between the centres of two blobs at which they neither attract nor repel each other, relative to the
+    /// sum of their radii, (0, 1), default 0.75: blobs at rest overlap.
     pub rest: f32,
-    /// Distance within which neighbours attract each other, relative to the sum of their radii, from `rest` to
-    /// 1.2, default 0.95.
+    /// Distance between the centres of two blobs below which they attract each other, relative to the sum of their
+    /// radii, from `rest` to 1.2, default 0.95. Below `rest` they repel each other.
     pub reach: f32,
-    /// Repulsion, m/s² per metre, (0, 100 000], default 4000.
+    /// Repulsion of two blobs, m/s² per metre of distance that is missing to `rest`, (0, 100 000], default 4000.
     pub stiffness: f32,
     /// Maximum attraction, m/s², [0, 1000], default 12.
     pub cohesion: f32,
-    /// Damping of the relative velocity of two touching blobs along their axis, 1/s, [0, 100], default 12.
+    /// Damping of the relative velocity of two touching blobs along the line through their centres, 1/s, [0, 100],
+    /// default 12.
     pub normal_damping: f32,
-    /// Damping of their relative velocity across that axis, 1/s, [0, 100], default 6.
+    /// Damping of the relative velocity of two touching blobs perpendicular to the line through their centres, 1/s,
+    /// [0, 100], default 6.
     pub tangential_damping: f32,
-    /// Distance at which solids begin to repel, in radii, (0, 1], default 0.85: foam adheres to what it lies
-    /// on.
+    /// Distance of a blob's centre from a solid below which the solid repels the blob, in radii of the blob, (0, 1],
+    /// default 0.85: a blob at rest overlaps the solid, like foam that adheres to it.
     pub contact: f32,
-    /// Repulsion of solids, m/s² per metre, (0, 100 000], default 20 000.
+    /// Repulsion of a blob by a solid, m/s² per metre of distance that is missing to `contact`, (0, 100 000],
+    /// default 20 000.
     pub solidity: f32,
     /// Damping of the velocity along a solid's normal, 1/s, [0, 200], default 60.
     pub solid_damping: f32,
     /// Coefficient of friction on solids, [0, 10], default 0.35.
     pub friction: f32,
-    /// Level of the water that blobs float on, scene units along y. Default `None`: no water.
+    /// Height of the level water surface that blobs float on, scene units along y. Default `None`: no water.
     pub water: Option<f32>,
     /// Density of the foam relative to water, [0.01, 10], default 0.2.
     pub density: f32,
-    /// A blob splits in two if the blobs that it touches have less than this many times its volume, [0, 100], default
-    /// 2.5. A blob that was torn off thus becomes a clump of four or more. Needs [`BlobSimulationConfig::max_splits`]
-    /// above 0.
+    /// A blob splits in two halves if the total volume of the blobs that it touches is less than this factor times
+    /// its own volume, [0, 100], default 2.5. By repeated splits, a blob that was torn off thus becomes a clump of
+    /// four or more. Needs [`BlobSimulationConfig::max_splits`] above 0.
     pub split_support: f32,
-    /// Time that a blob must be isolated before it splits, seconds, [0, 10], default 0.1.
+    /// Time that a blob must have touched too few others (`split_support`) before it splits, seconds, [0, 10],
+    /// default 0.1.
     pub split_delay: f32,
-    /// Duration of a split, seconds, [0.01, 10], default 0.5: one half shrinks as the other grows out of it.
+    /// Duration of a split, seconds, [0.01, 10], default 0.5. In this time the blob shrinks to one half, and the
+    /// other half grows beside it.
     pub split_duration: f32,
-    /// Substeps per step, 1 to 64, default 4. Forces are stable for substeps of up to 1/200 s.
+    /// Number of substeps into which a step is divided, 1 to 64, default 4. Forces are stable in substeps no longer
+    /// than 1/200 s.
     pub substeps: u32,
 }
 
@@ -85,7 +91,8 @@ impl Default for BlobSimulationSettings {
 }
 
 impl BlobSimulationSettings {
-    /// Replaces gravity by the earth's, for a number of scene units per metre and an up direction of unit length.
+    /// These settings with the earth's gravity, for a number of scene units per metre and an up direction of unit
+    /// length.
     #[must_use]
     pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
         Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
@@ -188,8 +195,9 @@ pub struct BlobSimulationConfig {
     pub max_blobs: u32,
     /// Maximum number of solids per step, default 64.
     pub max_solids: u32,
-    /// Maximum number of successive splits of a blob ([`BlobSimulationSettings::split_support`]), 0 to 6, default 0.
-    /// The simulation allocates `max_blobs` × 2^`max_splits` blobs, which must be at most 2^20.
+    /// Maximum number of times that a blob and its halves split one after the other
+    /// ([`BlobSimulationSettings::split_support`]), 0 to 6, default 0. The simulation allocates
+    /// `max_blobs` × 2^`max_splits` blobs, which must be at most 2^20.
     pub max_splits: u32,
 }
 

@@ -11,10 +11,10 @@ crate::contract::with!(GeneratorConfig, GeneratorSettings);
 pub struct GeneratorConfig {
     /// Maximum number of fluid particles per step, at least 1.
     pub max_fluid: u32,
-    /// Maximum stride of their streams in bytes, a multiple of 4, default 16.
+    /// Maximum stride in bytes of the buffers with the fluid particles' attributes, a multiple of 4, default 16.
     pub max_stride: u32,
-    /// Maximum number of whitewater particles alive at a time, at least 1. Excess ones are not emitted, and are
-    /// counted.
+    /// Maximum number of whitewater particles alive at a time, at least 1. Particles beyond it are not emitted, but
+    /// counted ([`Generator::counts`](super::Generator::counts)).
     pub max_particles: u32,
 }
 
@@ -41,10 +41,10 @@ impl GeneratorConfig {
     }
 }
 
-/// Range of a potential over which emission rises from none to the full rate (`τmin`, `τmax` of Eq. 1). Limits
-/// do not transfer between simulations. The paper's are an artist's choice. Good values are the 99.9th
-/// percentile of a sequence's potentials ([`Generator::potentials`](super::Generator::potentials)) for the
-/// maximum, and a tenth of it for the minimum.
+/// Range of a potential over which emission rises linearly from none to the full rate (`τmin`, `τmax` of Eq. 1). The
+/// paper's limits are an artist's choice, and limits that suit one simulation do not suit another. A good maximum is
+/// the 99.9th percentile of the potentials of a sequence ([`Generator::potentials`](super::Generator::potentials)); a
+/// good minimum is a tenth of that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PotentialRange {
     /// Potential up to which nothing is emitted, [0, max).
@@ -60,16 +60,17 @@ pub struct GeneratorSettings {
     /// Spacing of the fluid's particles, scene units, (0, ∞). Particles nearer than two spacings are
     /// neighbours.
     pub spacing: f32,
-    /// Limits of the trapped-air potential (Ihmsen et al. 2012, Sec. 3.1.1): the kernel-weighted sum of the speeds at
-    /// which neighbours approach, scene units per second.
+    /// Limits of the trapped-air potential (Ihmsen et al. 2012, Sec. 3.1.1), scene units per second: the sum of the
+    /// speeds at which neighbours approach a particle, weighted by a kernel of their distance.
     pub trapped_air: PotentialRange,
-    /// Limits of the wave-crest potential (Sec. 3.1.2): the curvature of a surface that moves outwards, without a unit.
+    /// Limits of the wave-crest potential (Sec. 3.1.2): a measure of convex curvature, without a unit, which counts
+    /// only where the surface moves outwards.
     pub wave_crest: PotentialRange,
-    /// Limits of the energy potential (Sec. 3.1.3): kinetic energy per mass, half the squared speed, in squared scene
-    /// units per second.
+    /// Limits of the energy potential (Sec. 3.1.3): half the squared speed, which is the kinetic energy per mass, in
+    /// (scene units per second)². It scales the emission from both other potentials.
     pub energy: PotentialRange,
-    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. The total of a
-    /// fluid particle is limited to 64 per step.
+    /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. From all causes
+    /// together, a fluid particle emits at most 64 particles per step.
     pub trapped_air_rate: f32,
     /// Maximum emission of one fluid particle from wave crests, particles per second, [0, 1e18].
     pub wave_crest_rate: f32,
@@ -81,23 +82,26 @@ pub struct GeneratorSettings {
     pub gravity: [f32; 3],
     /// Buoyancy of a bubble relative to gravity, [0, 64], default 2 (k_b of Eq. 7).
     pub buoyancy: f32,
-    /// Share of the water's velocity that a bubble takes on in a step, [0, 1], default 0.8 (k_d of Eq. 7).
+    /// Share of the difference between the water's velocity and its own that a bubble takes on in each step, [0, 1],
+    /// default 0.8 (k_d of Eq. 7).
     pub drag: f32,
-    /// Box (minimum and maximum corner) outside which particles die. Default `None`: spray, which does not age,
-    /// then falls forever and keeps its slot.
+    /// Box (minimum and maximum corner) outside which whitewater particles are removed. With `None` (default), spray,
+    /// which does not age, falls forever, and each particle of it occupies one of `max_particles`.
     pub bounds: Option<[[f32; 3]; 2]>,
     /// Seed of the random numbers, any value, default 0.
     pub seed: u32,
 }
 
 impl GeneratorSettings {
-    /// Sets gravity to the earth's, for a number of scene units per metre and an up direction of unit length.
+    /// These settings with the earth's gravity, for a number of scene units per metre and an up direction of unit
+    /// length.
     #[must_use]
     pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
         Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
     }
 
-    /// The defaults, with limits of trapped air, wave crests and energy (in this order), and one rate for both sources.
+    /// The defaults, with limits of trapped air, wave crests and energy (in this order), and one rate for trapped air
+    /// and wave crests.
     pub fn new(spacing: f32, limits: [PotentialRange; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;
         Self {
