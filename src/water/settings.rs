@@ -10,7 +10,7 @@ pub const RADIUS_PER_SPACING: f32 = 0.656;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Splat {
-    /// Point sprites with fixed-function blending, and quads where a point sprite does not fit.
+    /// Point sprites with fixed-function blending, and quads for sprites larger than the device's largest point.
     Raster,
     /// A compute shader with atomics.
     Compute,
@@ -32,8 +32,8 @@ pub enum Shadows {
     Mask,
     /// A shadow map of the scene, with percentage-closer filtering.
     Map,
-    /// The same map as a convolution shadow map, which the thesis uses: it is filtered before the depth
-    /// comparison, so a shadow of any softness costs the same. Adds the pass `convolution`.
+    /// The host's shadow map, converted by the pass `convolution` to a convolution shadow map as in the thesis. Such
+    /// a map is filtered before the depth comparison, so a shadow of any softness costs the same.
     Convolution(Convolution),
 }
 
@@ -54,17 +54,18 @@ crate::contract::with!(SurfaceNoiseSettings);
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShadowFilter {
-    /// Width of the box filter in texels of the map, [0, 256], default 3, which is the footprint of
-    /// [`Shadows::Map`]. It is never narrower than a texel of the library's own filtered image.
+    /// Width of the box filter in texels of the host's map, [0, 256], default 3, which is the footprint of the filter
+    /// of [`Shadows::Map`]. It is never narrower than a texel of the library's own filtered image.
     pub width: f32,
-    /// Damping α of the Fourier terms, [0, 2], default 1. With 0, lit and shadowed areas ring by a twentieth.
-    /// Larger values move the start of a shadow away from its caster.
+    /// Damping α of the Fourier terms, [0, 2], default 1. Without damping (0) the visibility of the sun oscillates by
+    /// a twentieth (ringing) in lit and in shadowed areas. With more damping a shadow starts farther from its caster.
     pub damping: f32,
-    /// Shadow bias as a fraction of the reconstruction ramp, [0, 1]. With 1, the default, a point that touches
-    /// its occluder is lit. With 0 it is half in shadow, and shadows begin closer to their caster.
+    /// Depth bias of the shadow, as a fraction of the depth over which the reconstructed visibility rises from one
+    /// half to 1; [0, 1]. With 1, the default, a point that touches its occluder is lit. With 0 it is half in shadow,
+    /// and shadows begin closer to their caster.
     pub offset: f32,
-    /// Contrast of the reconstructed comparison around one half, [1, 4], default 1.25. It narrows the soft edge
-    /// by the same factor. Values above 1.04 clip the remaining ringing.
+    /// Factor by which the reconstructed visibility is steepened around one half, [1, 4], default 1.25. The soft edge
+    /// of a shadow becomes narrower by the same factor. Values above 1.04 clip the remaining ringing.
     pub scale: f32,
 }
 
@@ -83,7 +84,8 @@ impl ShadowFilter {
     }
 }
 
-/// How many layers the composite contains, as in the thesis' debug views. Each value includes those before it.
+/// Which parts of the picture the composite contains, as in the thesis' debug views. Each value includes the parts of
+/// the values before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum DebugView {
@@ -104,11 +106,12 @@ pub enum DebugView {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Rule {
-    /// The thesis' rule: r_w / (C d) iterations of curvature-proportional steps (Sec. 3.1).
+    /// The thesis' rule (Sec. 3.1): `r_w / (C d)` iterations, where r_w is a radius in the world and C d the width of
+    /// a pixel at depth d. Each iteration moves a pixel in proportion to the curvature of the surface.
     Source,
-    /// Mean curvature flow to a constant width along the surface, at any distance and slant.
+    /// Mean curvature flow that smooths over the same width along the surface at any distance and slant.
     ConstantWidth,
-    /// The baseline: a fixed iteration count for all pixels, with the thesis' step (van der Laan et al. 2009).
+    /// The baseline: the same iteration count for all pixels, with the thesis' step (van der Laan et al. 2009).
     Fixed(u32),
 }
 
@@ -124,8 +127,8 @@ pub enum Smoothing {
     Fused,
 }
 
-/// How the GPU skips the remaining iterations once the query has found no active pixel. None waits for the
-/// host.
+/// How the GPU skips the remaining iterations of [`Smoothing::Query`] once an occlusion query has found no active
+/// pixel. No variant waits for the host.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Gate {
@@ -150,15 +153,15 @@ pub struct WaterSettings {
     /// default 0.35 (an isolated particle has 0.318 with the usual cubic spline). With
     /// [`Config::spray`](crate::Config), [`SpraySettings::all_spray_density`] replaces it.
     pub density_threshold: f32,
-    /// Fraction of the rest density from which a particle has its full radius, at least
-    /// `density_threshold`, default 0.45.
+    /// Fraction of the rest density at and above which a particle has its full radius. Down to `density_threshold`
+    /// the radius falls to half. At least `density_threshold`, default 0.45.
     pub density_full: f32,
-    /// Width of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. At 0.7 the particle
-    /// lattice shows; 2.5 looks like silk. (The thesis' rule has its own
-    /// width of 4.8.)
+    /// Width (standard deviation) of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. With 0.7
+    /// the particle lattice remains visible; with 2.5 water looks like silk. (The thesis' rule ignores this setting
+    /// and has a width of 4.8.)
     pub smoothing_width: f32,
-    /// Depth steps larger than this are silhouettes and are not smoothed across. Drawn radii, [0, ∞), default
-    /// 5.3.
+    /// Where the depths of neighbouring pixels differ by more than this, there is a silhouette, and neither side is
+    /// smoothed with the other. In drawn radii, [0, ∞), default 5.3.
     pub depth_falloff: f32,
     /// Shape of the particles with [`Kernels::Ellipsoids`].
     pub ellipsoids: Ellipsoids,
@@ -171,7 +174,8 @@ pub struct WaterSettings {
     pub medium: Medium,
     /// Fresnel reflectance.
     pub fresnel: Fresnel,
-    /// How reflection and highlight combine with the light from behind. Default [`Compositing::Mixed`].
+    /// How reflection and highlight combine with the light that comes through the water. Default
+    /// [`Compositing::Mixed`].
     #[cfg(feature = "diagnostics")]
     pub compositing: Compositing,
     #[cfg(not(feature = "diagnostics"))]
@@ -181,8 +185,8 @@ pub struct WaterSettings {
     pub bed: Bed,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) bed: Bed,
-    /// Strength of the refraction's displacement, [0, ∞), default 0.25. The displacement approaches a sixteenth
-    /// of the picture's height at most.
+    /// Factor on the displacement of what is seen through the water by refraction, [0, ∞), default 0.25. Whatever the
+    /// factor, the displacement stays below a sixteenth of the picture's height.
     pub refraction: f32,
     /// Strength of the sun's highlight, [0, ∞), default 1.
     pub specular: f32,
@@ -241,52 +245,57 @@ impl WaterSettings {
     }
 }
 
-/// Number of particle volumes that a thickness sprite of [`Amplitude::Source`] holds: `0.8·2a·π·J·a²` over spacing³,
-/// with a half-axis a of twice the drawn radius and the kernel's integral J = 0.34.
+/// Number of particle volumes that a thickness sprite of [`Amplitude::Source`] holds: `(0.8·2a·π·J·a²) / spacing³`,
+/// where the sprite's half-axis a is twice the drawn radius, and J = 0.34 is the mean of the kernel over its disc.
 const SOURCE_VOLUMES: f32 = 3.86;
 
-/// How reflection and the sun's highlight combine with the light from behind.
+/// How reflection and the sun's highlight combine with the light that comes through the water from behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Compositing {
-    /// Reflection replaces its share of the light from behind; the highlight is added. Both fade where water is
-    /// thinner than a quarter of the drawn radius. The shaded surface is that of the water in front of the
-    /// frontmost foam, or of the water behind it if there is none in front. Foam is placed at its mean depth.
+    /// With the reflectance F the result is `F·reflection + (1 − F)·light from behind + highlight`. Reflection and
+    /// highlight fade out where water is thinner than a quarter of the drawn radius. The reflecting surface is that
+    /// of the water in front of the frontmost foam, or of the water behind this foam if there is none in front. Foam
+    /// is placed at its mean depth.
     Mixed,
-    /// The thesis' composite (Listing A.20): both are added to the full light from behind, with the weight
-    /// `sat(1 − a_wf + a_f)·(1 − a_wf)`. `a_wf` is the transmittance of the water in front of the frontmost
-    /// foam (by the last falloff of [`Medium::Source`]; for a physical medium the mean of the channels), `a_f`
-    /// that of the foam. All foam is placed at the frontmost depth, and rays reflected downwards see the
-    /// environment's ground.
+    /// The thesis' composite (Listing A.20): reflection and highlight, times `sat(1 − a_wf + a_f)·(1 − a_wf)`, are
+    /// added to the full light from behind. `a_wf` is the transmittance of the water in front of the frontmost foam
+    /// (with [`Medium::Source`] by the last component of its falloff, with other media the mean of the channels), and
+    /// `a_f` is the transmittance of the foam. All foam is placed at the depth of the frontmost foam, and rays that
+    /// are reflected downwards see the environment's ground.
     Source,
 }
 
-/// Appearance of the scene where it lies under water: where water fills seven tenths or more of the space in
-/// front of it, fading out to a half.
+/// Appearance of the scene where it lies under water. It counts as fully under water where the thickness of the water
+/// is at least 0.7 of the distance from the water's surface to the scene, as dry below 0.5, and as partly under water
+/// in between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Bed {
-    /// Darkened as a wet surface is (Lekner and Dorf 1988). Light enters through the surface's Fresnel
-    /// transmittance, leaves with its radiance divided by n², and is reflected back inside in between. The
-    /// scene's reflectance is estimated from its colour and [`Light::irradiance`](crate::Light::irradiance).
-    /// Grey of 0.4 keeps 0.65, white keeps everything. In addition the medium absorbs sun and sky light on the
-    /// way down and the view ray on its refracted way to the camera. The index of refraction n is that of the
-    /// f0 of [`Fresnel::Schlick`], otherwise 1.333.
+    /// The scene is darkened as a wet surface is (Lekner and Dorf 1988). With the surface's mean Fresnel reflectance
+    /// F, the share `(1 − F)/n²` of the light that the scene scatters leaves the water; the rest is reflected at the
+    /// water's surface and lights the scene again. The scene's albedo is estimated from its colour and
+    /// [`Light::irradiance`](crate::Light::irradiance): a grey of albedo 0.4 keeps 0.65 of its brightness, white all
+    /// of it. In addition the medium absorbs sunlight and skylight on their way down, and the scene's light on its
+    /// refracted way to the camera. The index of refraction n belongs to the f0 of [`Fresnel::Schlick`]; it is 1.333
+    /// with another variant.
     Submerged,
-    /// As if it were dry, straight behind the water (the thesis).
+    /// The scene is as bright as if it were dry, and lies straight behind the water (the thesis).
     Source,
 }
 
 /// What is visible through water with air behind it: jets, crowns, drops, sheets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Exit {
-    /// Light refracts at both surfaces, or is totally reflected at the second, by the slopes of both and the
-    /// index of refraction of [`WaterSettings::fresnel`] (1.333 if that has none). The exit ray is intersected
-    /// with the scene on the screen in 4 steps; rays that miss see the environment (Wyman 2005). In front of water
-    /// that touches the scene ([`Config::sheets`](crate::Config)) they see that water, displaced as by a weak prism.
+    /// The view ray refracts at the front surface of the water; at its far surface it refracts again or is totally
+    /// reflected. Its directions follow from the slopes of both surfaces and the index of refraction of
+    /// [`WaterSettings::fresnel`] (1.333 if that has none). A screen-space march of 4 steps finds the scene on the
+    /// ray that leaves; a ray that meets no scene sees the environment (Wyman 2005). If a second layer of water,
+    /// which touches the scene, lies behind the air ([`Config::sheets`](crate::Config)), the ray sees this layer,
+    /// displaced as by a weak prism. A scene under the water is shown where the ray refracted at the front surface
+    /// meets it.
     TwoInterfaces,
-    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis). Where the scene is
-    /// under the water, both variants show it so.
+    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis).
     Straight,
 }
 
@@ -296,9 +305,10 @@ pub enum Kernels {
     /// A sphere, as in the thesis.
     Spheres,
     /// An ellipsoid of the same volume, fitted to the neighbours (Yu and Turk 2013) as
-    /// [`WaterSettings::ellipsoids`] says: flat in a sheet, elongated in a stream, round inside the water. All
-    /// particles count as neighbours, also those in no packet. Light maps, foam, motion vectors and the separation
-    /// of two layers still use spheres; spray has an ellipsoid of its own ([`SpraySettings::strand_ratio`]).
+    /// [`WaterSettings::ellipsoids`] says: flat in a thin sheet, elongated in a stream, round inside the water. All
+    /// particles count as neighbours, also those that are in none of the host's packets for culling. Light maps,
+    /// foam, motion vectors and the separation of two layers of water still use spheres; spray has an ellipsoid of
+    /// its own ([`SpraySettings::strand_ratio`]).
     Ellipsoids,
 }
 
@@ -306,21 +316,23 @@ pub enum Kernels {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoids {
     /// Radius within which particles are neighbours, in spacings, [1, 4], default 2.5. A neighbour at distance
-    /// d has the weight `1 − (d/reach)³`. The time of the pass grows with the cube of this radius.
+    /// d has the weight `1 − (d/reach)³`. The time of the pass `shape`, which fits them, grows with the cube of this
+    /// radius.
     pub reach: f32,
     /// Maximum ratio of the longest to the shortest half-axis, [1, 8], default 2.5 (the paper: 4). 1 gives
     /// spheres.
     pub ratio: f32,
-    /// Sum of neighbour weights from which a particle is an ellipsoid, [0, 64], default 8. The sum is 2.9 in a
-    /// line of particles, 11 in a single sheet, 32 inside. Up to half of the setting a particle is a sphere, as
-    /// small drops are (the paper: up to 25 neighbours).
+    /// Sum of the neighbours' weights at which a particle becomes a complete ellipsoid, [0, 64], default 8. Below
+    /// half of this sum it is a sphere, as small drops are (in the paper it is one up to 25 neighbours); in between
+    /// it changes gradually. The sum is 2.9 in a line of particles, 11 in a single sheet of them, 32 inside water.
     pub fewest: f32,
-    /// Radius of a particle with at most one neighbour, as a factor, [0.25, 1], default 1. It is whole from a sum of
-    /// weights of 2.5 on. (The paper: 0.5, up to 25 neighbours.)
+    /// Factor on the radius of a particle with at most one neighbour, [0.25, 1], default 1. The factor rises to 1
+    /// while the sum of the neighbours' weights goes from 1.5 to 2.5. (The paper: 0.5 for up to 25 neighbours.)
     pub lone: f32,
-    /// How far a particle moves towards the weighted centre of its neighbourhood, [0, 1], default 0.9 as in the paper;
-    /// sheets and rims become smooth. The neighbours' average displacement is subtracted, because otherwise water would
-    /// shrink away from its walls, as in the paper. 0 saves half the time of the pass.
+    /// Fraction of the way to the weighted centre of its neighbourhood by which a particle is moved, [0, 1], default
+    /// 0.9 as in the paper. It smooths sheets and rims. The mean displacement of the neighbours is subtracted:
+    /// without that, as in the paper, water would shrink away from its walls. With 0 the pass `shape` takes half the
+    /// time.
     pub centred: f32,
 }
 
@@ -347,15 +359,16 @@ pub(crate) const EXIT_STEPS: u32 = 4;
 /// Index of refraction of water.
 pub(crate) const WATER_INDEX: f32 = 1.333;
 
-/// Height of a particle's thickness sprite `√(1 − ρ²)·exp(−2ρ²)` at its centre.
+/// Height at its centre of the sprite that a particle adds to the thickness: `height·√(1 − ρ²)·exp(−2ρ²)`, where ρ is
+/// the distance from the centre in half-axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Amplitude {
     /// The sprite's integral is the particle's volume, spacing³. Thickness is then metres of water, independent
     /// of the number of particles. Default.
     Volume,
-    /// The thesis' 0.8 times the sprite's width (Listing A.15). A sprite then holds about four particle
-    /// volumes, and finer particles make more water.
+    /// The thesis' 0.8 times the sprite's width (Listing A.15). A sprite then holds about four particle volumes, so
+    /// water is about four times as thick as its volume.
     Source,
 }
 
@@ -370,15 +383,15 @@ pub enum Medium {
         scattering: [f32; 3],
     },
     /// Beer's law per channel, with multiple scattering. An infinitely deep body shows its diffuse reflectance under
-    /// [`Light::irradiance`](crate::Light::irradiance). A thinner one shows it in proportion to the light from behind that
-    /// it blocks.
+    /// [`Light::irradiance`](crate::Light::irradiance). A thinner body shows the fraction of this reflectance that
+    /// equals the fraction of the light from behind that it blocks.
     ///
-    /// Scattering is isotropic (similarity relation), so a measured coefficient has to be reduced: for dense media such as
-    /// milk multiply it by `1 - g` with the mean cosine g; for natural waters, whose reflectance depends on backscattering,
-    /// use twice the backscattering coefficient. The reflectance of a half space is van de Hulst's
-    /// `(1 - s)(1 - 0.139 s)/(1 + 1.17 s)`, `s = √(absorption/(absorption + scattering))` (Multiple Light Scattering, 1980),
-    /// plus the reflection back inside at its surface. The surface is shaded as a matte one by the sun, the
-    /// scene's shadows and [`Light::shade`](crate::Light::shade). The fluid does not shadow itself.
+    /// Scattering is isotropic (similarity relation), so a measured coefficient has to be reduced: for dense media
+    /// such as milk multiply it by `1 - g` with the mean cosine g; for natural waters, whose reflectance depends on
+    /// backscattering, use twice the backscattering coefficient. The reflectance of a half space is van de Hulst's
+    /// `(1 - s)(1 - 0.139 s)/(1 + 1.17 s)`, `s = √(absorption/(absorption + scattering))` (Multiple Light Scattering,
+    /// 1980), corrected for the light that its surface reflects back inside. The surface is shaded as a matte one by
+    /// the sun, the scene's shadows and [`Light::shade`](crate::Light::shade). The fluid does not shadow itself.
     Turbid {
         /// Absorption per scene unit, linear RGB, [0, ∞).
         absorption: [f32; 3],
@@ -387,7 +400,8 @@ pub enum Medium {
         /// Radiance that an infinitely deep body emits, linear RGB, [0, ∞), for hot media such as lava.
         emission: [f32; 3],
     },
-    /// The thesis' medium: `mix(base·exp(−k T), background, exp(−k_a T))` (thesis, Eq. 3.5 to 3.7).
+    /// The thesis' medium: `mix(base·exp(−k T), background, exp(−k_a T))` (thesis, Eq. 3.5 to 3.7), with the length T
+    /// of the ray in the water, and the falloffs k of the colour and k_a of the background.
     Source {
         /// Colour of thin water, linear RGB, [0, 1].
         base: [f32; 3],
@@ -396,50 +410,57 @@ pub enum Medium {
     },
 }
 
-/// Presets. Red, green and blue are 610, 550 and 465 nm, next to the dominant wavelengths of the primaries of Rec. 709 (611,
-/// 549 and 464 nm), except where the publication measured with the three channels of a camera. All numbers are per metre; [`Settings::new`](crate::Settings::new) converts the default.
-/// For a scene that is simulated larger than it is meant, such as a glass of beer four metres wide, [`thinned`](Self::thinned)
-/// gives the right picture.
+/// Presets. Red, green and blue are 610, 550 and 465 nm, next to the dominant wavelengths of the primaries of Rec.
+/// 709 (611, 549 and 464 nm), except where the publication measured with the three channels of a camera. All numbers
+/// are per metre; [`Settings::new`](crate::Settings::new) converts the default medium to scene units. If a scene is
+/// simulated larger than it is meant, such as a glass of beer four metres wide, [`thinned`](Self::thinned) gives the
+/// right picture.
 impl Medium {
-    /// Pure water: absorption by Pope and Fry (Applied Optics 36, 1997, Table 3), scattering by Morel (1974, fresh water).
-    /// Colourless in a glass, blue over ten metres.
+    /// Pure water: absorption by Pope and Fry (Applied Optics 36, 1997, Table 3), scattering by Morel (1974, fresh
+    /// water). Colourless in a glass, blue over ten metres.
     pub const CLEAR: Self = Self::turbid([0.264, 0.0565, 0.0101], [0.000_94, 0.001_47, 0.003_04]);
     /// A pool: absorbs about four times as much as pure water, so that a metre is visibly blue-green. Chosen by eye.
     pub const POOL: Self =
         Self::Physical { absorption: [1.1, 0.24, 0.11], scattering: [0.014, 0.03, 0.04] };
-    /// A lake, green: 3 mg/m³ of chlorophyll as in [`OCEAN`](Self::OCEAN), and dissolved organic matter of 0.4 per metre at
-    /// 443 nm, falling by 0.0176 per nm (Babin et al., J. Geophys. Res. 108(C7), 2003).
+    /// A lake, green: 3 mg/m³ of chlorophyll, by the sources of [`OCEAN`](Self::OCEAN), and dissolved organic matter,
+    /// which absorbs 0.4 per metre at 443 nm and at other wavelengths λ this times `exp(-0.0176 (λ - 443 nm))` (Babin
+    /// et al., J. Geophys. Res. 108(C7), 2003).
     pub const LAKE: Self = Self::turbid([0.322, 0.165, 0.408], [0.0205, 0.0232, 0.0287]);
-    /// Clear ocean, Jerlov's type IB: 0.1 mg/m³ of chlorophyll (Mobley, Light and Water, 1994), absorption by Prieur
-    /// and Sathyendranath (Limnol. Oceanogr. 26, 1981) as Mobley has it (Eq. 3.27, Table 3.7), scattering by Gordon and
-    /// Morel (1983), of which 0.0183 is backwards (Petzold's particles), and that of sea water (Morel 1974). Its
-    /// diffuse attenuation agrees with Jerlov's table (Marine Optics, 1976, Table XXVII) to a fifth.
+    /// Clear ocean, Jerlov's type IB: 0.1 mg/m³ of chlorophyll (Mobley, Light and Water, 1994). Absorption is that of
+    /// Prieur and Sathyendranath (Limnol. Oceanogr. 26, 1981) as Mobley gives it (Eq. 3.27, Table 3.7). Scattering is
+    /// that of sea water (Morel 1974) and of particles (Gordon and Morel 1983), of which the share 0.0183 goes
+    /// backwards (Petzold's particles). The diffuse attenuation that follows differs from Jerlov's table (Marine
+    /// Optics, 1976, Table XXVII) by less than a fifth.
     pub const OCEAN: Self = Self::turbid([0.273, 0.0639, 0.0252], [0.0036, 0.004_55, 0.007_07]);
-    /// A river, tan: 100 g/m³ of silt, which scatters 0.51 m²/g (Babin et al., Limnol. Oceanogr. 48, 2003), 0.0183 of it
-    /// backwards, and absorbs 0.031 m²/g at 443 nm, falling by 0.0123 per nm; dissolved organic matter of 1 per metre there
-    /// (Babin et al., J. Geophys. Res. 108(C7), 2003).
+    /// A river, tan: 100 g/m³ of silt, which scatters 0.51 m²/g (Babin et al., Limnol. Oceanogr. 48, 2003), the share
+    /// 0.0183 of it backwards, and absorbs 0.031 m²/g times `exp(-0.0123 (λ - 443 nm))`. Dissolved organic matter is
+    /// as in [`LAKE`](Self::LAKE), but absorbs 1 per metre at 443 nm (Babin et al., J. Geophys. Res. 108(C7), 2003).
     pub const RIVER: Self = Self::turbid([0.715, 1.04, 3.05], [1.87, 1.87, 1.87]);
-    /// A lake under a glacier, turquoise: 20 g/m³ of rock flour, fine and pale. It scatters 1 m²/g, twice what silt does,
-    /// and absorbs 0.003 m²/g at 443 nm, a tenth of silt's. Both are estimates, such that water absorbs the red and flour a
-    /// little of the blue, which is how Aas and Bogen explain the colour (Water Resources Research 24, 1988).
+    /// A lake under a glacier, turquoise: 20 g/m³ of rock flour, fine and pale. The flour scatters 1 m²/g, twice as
+    /// much as silt, and absorbs 0.003 m²/g at 443 nm, a tenth of what silt absorbs. Both numbers are estimates. With
+    /// them the water absorbs red and the flour a little of the blue, which is how Aas and Bogen explain the colour
+    /// (Water Resources Research 24, 1988).
     pub const GLACIER: Self = Self::turbid([0.272, 0.0726, 0.0559], [0.733, 0.733, 0.735]);
-    /// Whole milk (Jensen et al., A Practical Model for Subsurface Light Transport, 2001, Fig. 5: per millimetre, reduced
-    /// scattering; red, green and blue of a camera). Index of refraction 1.35.
+    /// Whole milk (Jensen et al., A Practical Model for Subsurface Light Transport, 2001, Fig. 5, whose numbers are
+    /// per millimetre; reduced scattering; red, green and blue of a camera). Index of refraction 1.35.
     pub const MILK: Self = Self::turbid([1.1, 2.4, 14.0], [2550.0, 3210.0, 3770.0]);
-    /// Lager (Narasimhan et al., Acquiring Scattering Properties of Participating Media by Dilution, 2006: Budweiser, from
-    /// the dilution of 2.9 litres in 23 to the bottle; scattering reduced by its g; three channels of a camera). Amber in a
-    /// glass, black a metre deep. Index of refraction 1.345.
+    /// Lager (Narasimhan et al., Acquiring Scattering Properties of Participating Media by Dilution, 2006: Budweiser,
+    /// measured with 2.9 litres of it in 23 litres and scaled to undiluted beer; scattering reduced by its mean
+    /// cosine g; red, green and blue of a camera). Amber in a glass, black a metre deep. Index of refraction 1.345.
     pub const BEER: Self = Self::turbid([11.5, 24.9, 57.8], [0.0244, 0.0241, 0.0106]);
-    /// Honey, amber: an absorbance of 0.5 at 450 nm of a centimetre of half a gram per millilitre (Beretta et al., Analytica
-    /// Chimica Acta 533, 2005, found 0.03 to 3.4), falling by e within 82 nm. That slope is an estimate: it is that of beer,
-    /// whose colour comes from the same reaction of sugars. Clear. Index of refraction 1.49.
+    /// Honey, amber: a solution of half a gram per millilitre has an absorbance of 0.5 per centimetre at 450 nm
+    /// (Beretta et al., Analytica Chimica Acta 533, 2005, found 0.03 to 3.4), scaled to undiluted honey. Absorption
+    /// falls by a factor of e per 82 nm. This slope is an estimate: it is the slope of beer, whose colour comes from
+    /// the same reaction of sugars. No scattering. Index of refraction 1.49.
     pub const HONEY: Self = Self::turbid([45.8, 95.2, 268.0], [0.0; 3]);
-    /// Blood, with oxygen: 150 g/l of haemoglobin by Prahl's table of its molar extinction, reduced scattering
-    /// 2200 (λ/500 nm)^-0.66 per metre (Jacques, Phys. Med. Biol. 58, 2013, Table 1). Index of refraction 1.38.
+    /// Blood with oxygen: absorption of 150 g/l of haemoglobin by Prahl's table of its molar extinction, reduced
+    /// scattering `2200 (λ/500 nm)^-0.66` per metre (Jacques, Phys. Med. Biol. 58, 2013, Table 1). Index of
+    /// refraction 1.38.
     pub const BLOOD: Self = Self::turbid([807.0, 23_000.0, 20_600.0], [1930.0, 2070.0, 2310.0]);
-    /// Molten basalt of 1490 K, as Kilauea's hottest fountains (1216 °C, 1959): Planck's law at the three wavelengths, whose
-    /// luminance is 6800 cd/m², where a radiance of 1 is white paper in a full sun of 100 klx; opaque, absorbing 2000 per metre (an estimate). It has no crust and lights
-    /// nothing but itself. Index of refraction 1.6.
+    /// Molten basalt of 1490 K, as hot as Kilauea's hottest fountains (1216 °C, 1959). Its emission follows Planck's
+    /// law at the three wavelengths and has a luminance of 6800 cd/m², in a unit in which white paper in a full sun
+    /// of 100 klx has a radiance of 1. It absorbs 2000 per metre (an estimate), so it is opaque. It has no crust, and
+    /// its glow lights nothing else. Index of refraction 1.6.
     pub const LAVA: Self = Self::Turbid {
         absorption: [2000.0; 3],
         scattering: [0.0; 3],
@@ -506,16 +527,16 @@ impl Fresnel {
 
 /// Surface foam formation: which of the water's particles are foam, by Weber number.
 ///
-/// `We = scale·ρ·|v − air|²`. A particle foams while its Weber number is at the threshold or above. Onset and decay times vary
-/// from particle to particle (thesis, Sec. 3.2).
+/// `We = scale·ρ·|v − air|²`. A particle foams while its Weber number is at the threshold or above. Onset and decay
+/// times vary from particle to particle (thesis, Sec. 3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct WeberSettings {
     /// Weber number at a density of 1 and a relative speed of 1, (0, ∞): the particle spacing divided by the surface
     /// tension ([`weber`](Self::weber)), or the factor of a reduced form ([`reduced`](Self::reduced)).
     pub scale: f32,
-    /// Weber number from which a particle foams, (0, ∞). It does not transfer between simulations: derive it
-    /// from the data, for example as the 95th percentile over a sequence.
+    /// Weber number at and above which a particle foams, (0, ∞). A value does not transfer between simulations:
+    /// derive it from the data, for example as the 95th percentile of the particles' Weber numbers over a sequence.
     pub threshold: f32,
     /// Mean time in which foam dissolves, seconds, (0, ∞), default 1. Each particle has 0.5 to 1.5 times this.
     pub foam_lifetime: f32,
@@ -536,15 +557,16 @@ impl WeberSettings {
         Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
     }
 
-    /// The Weber number for a particle spacing and speeds in scene units, for a number of scene units per metre.
+    /// The full Weber number of water whose particle spacing and speeds are in scene units, with this number of scene
+    /// units per metre.
     pub fn weber_in(spacing: f32, units_per_metre: f32, threshold: f32) -> Self {
         let scale =
             spacing / (units_per_metre * units_per_metre * units_per_metre * SURFACE_TENSION);
         Self { scale, ..Self::reduced(1.0, threshold) }
     }
 
-    /// The reduced form of the thesis' demo, `1e-5·ρ·v²` with v in 1/1.43 spacings per second. Its thresholds
-    /// are 50 to 110, default 80.
+    /// The reduced form of the thesis' demo, `1e-5·ρ·v²`, where the unit of the speed v is 1/1.43 of the spacing per
+    /// second. The demo's thresholds are 50 to 110, by default 80.
     pub fn reduced(spacing: f32, threshold: f32) -> Self {
         let speed = 1.43 / spacing;
         Self {
@@ -581,67 +603,77 @@ impl WeberSettings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurfaceFoamSettings {
-    /// Extinction per scene unit of foam along the ray, [0, ∞), default 0.4 / spacing: two layers of foam particles
-    /// hide half.
+    /// Extinction per scene unit of foam along the ray, [0, ∞), default 0.4 / spacing: foam that is two particles
+    /// thick hides about half of what is behind it.
     pub extinction: f32,
-    /// How fast the colour approaches [`front_color`](Self::front_color) with the thickness of the front layer,
-    /// per scene unit, [0, ∞), default 0.15 / spacing.
+    /// Rate k at which the colour changes from [`back_color`](Self::back_color) to
+    /// [`front_color`](Self::front_color): the front colour has the weight `1 − exp(−k·t)`, where t is the thickness
+    /// of the front layer along the ray. The front layer is the foam within [`front_depth`](Self::front_depth) behind
+    /// the frontmost foam. Per scene unit, [0, ∞), default 0.15 / spacing.
     pub front_extinction: f32,
     /// Exponent p of an alternative rule for the front colour (thesis Sec. 3.2), [0, 64]: the weight of
-    /// [`front_color`](Self::front_color) is (thickness of the front layer / depth extent of the layer)^p. With 0, the
-    /// default, the rule is off and `front_extinction` applies.
+    /// [`front_color`](Self::front_color) is `(thickness of the front layer / front_depth)^p`. With 0, the default,
+    /// this rule is off and `front_extinction` applies.
     pub front_power: f32,
-    /// Depth of the front layer, scene units, [0, ∞), default 60 spacings, with a soft end of one spacing. (The
-    /// thesis' 7 spacings show drops in front of foam as discs, because the layer begins anew behind each.)
+    /// How far the front layer reaches behind the frontmost foam, scene units, [0, ∞), default 60 spacings. It ends
+    /// softly over one more spacing. (With the thesis' 7 spacings drops of foam in front of other foam show as discs,
+    /// because at each drop the layer starts at the drop and ends before the other foam.)
     pub front_depth: f32,
-    /// Speed at which a sprite is stretched to twice its width, spacings per second, (0, ∞), default 21.
+    /// Speed at which a foam sprite is stretched to twice its width, spacings per second, (0, ∞), default 21.
     pub motion_threshold: f32,
-    /// Strength of a noise per sprite, as in the thesis, 0 (off, default) to 1. It fades where its cells are
-    /// smaller than two texels of the thickness. Either this or [`pattern`](Self::pattern) has to be 0.
+    /// Strength of a noise that each sprite has on its own, as in the thesis, 0 (off, default) to 1. It fades out
+    /// where its cells are smaller than two texels of the thickness image. Either this or [`pattern`](Self::pattern)
+    /// has to be 0.
     pub noise: f32,
-    /// Cells of that noise that pass per second of a particle's age, [0, 1e3], default 2.
+    /// Speed at which [`noise`](Self::noise) changes: number of its cells that pass through a sprite per second of
+    /// the particle's age, [0, 1e3], default 2.
     pub noise_rate: f32,
-    /// Strength of the advected clumping noise, [0, 2], default 1, 0 = off. At 1 a tenth of the foam is at
-    /// least twice as thick, and a tenth is a quarter as thick or less. Not in the thesis. Has to be 0 if
-    /// [`noise`](Self::noise) is used.
+    /// Strength of a noise that gathers foam into clumps and moves with it, [0, 2], default 1, 0 = off. With 1, a
+    /// tenth of the foam is at least twice as thick as without the noise, and a tenth at most a quarter as thick. Not
+    /// in the thesis. Has to be 0 if [`noise`](Self::noise) is used.
     pub pattern: f32,
     /// Size of the largest clumps, spacings, (0, 1e3], default 3.
     pub pattern_size: f32,
-    /// Time after which a stretched clump has been replaced by a new one, seconds, (0, 1e3], default 1.
+    /// Time after which a clump that the foam's motion has stretched has been replaced by a new one, seconds,
+    /// (0, 1e3], default 1.
     pub pattern_period: f32,
-    /// How much thin foam is torn into threads with clear holes, which close where foam is thick, [0, 1],
-    /// default 0: thin foam is a veil. The covered area is that of smooth foam. Not in the thesis.
+    /// How much thin foam is torn into threads with clear holes between them, [0, 1]. The holes close where foam is
+    /// thick. With 0, the default, thin foam is an even veil. Threads cover as much area as the veil would. Not in
+    /// the thesis.
     pub lace: f32,
-    /// Size of the largest holes' cells, spacings, (0, 1e3], default 4. Cells smaller than two pixels are not
-    /// drawn.
+    /// Size of the cells that contain the largest holes of the lace, spacings, (0, 1e3], default 4. Lace fades out
+    /// where these cells become smaller than six pixels, and is gone at two.
     pub lace_size: f32,
-    /// Opacity of the water with bubbles under foam over that of the smooth foam, [0, 1], default 0. It shows
-    /// between the threads of the lace and around foam that ends. Not in the thesis.
+    /// Opacity of the layer of bubbles in the water under foam, as a fraction of the opacity of the foam without
+    /// lace, [0, 1], default 0. The bubbles show between the threads of the lace and around the edge of foam. Not in
+    /// the thesis.
     pub aeration: f32,
-    /// Albedo of water with bubbles, linear RGB, 0 to 1, default 0.30, 0.62, 0.66: bubbles scatter all colours, and the
-    /// water around them absorbs red.
+    /// Albedo of water with bubbles, linear RGB, 0 to 1, default 0.30, 0.62, 0.66: bubbles scatter all colours, and
+    /// the water around them absorbs red.
     pub aerated_color: [f32; 3],
-    /// Time of the frame in seconds, which advances the pattern. Default 0. If it stays constant the pattern
-    /// stays in place and foam moves through it.
+    /// Time of the frame in seconds, which moves the clumps and the lace with the foam. Default 0. If it stays
+    /// constant, they stay in place and foam moves through them.
     pub time: f64,
-    /// Foam thinner than this fades out, scene units, [0, ∞), default one spacing, 0 = off: without it, thin
-    /// veils look like steam. Not in the thesis.
+    /// Foam thinner than this fades out, because thin veils look like steam. Scene units, [0, ∞), default one
+    /// spacing, 0 = off. Not in the thesis.
     pub min_thickness: f32,
-    /// How strongly the front layer's relief is shaded: light lost where it faces away from the sun, [0, 2],
-    /// default 0.35.
+    /// How strongly foam is shaded by the relief of its front layer, [0, 2], default 0.35: it is brighter where the
+    /// relief faces the sun and darker where it faces away.
     pub normal_strength: f32,
-    /// How strongly foam is shaded by the shape of the whole splash, [0, 1], default 0 = off. The foam within
-    /// six spacings turns a point towards the sun or away from it, where only sky light remains, and dims the
-    /// sky in hollows. Not in the thesis.
+    /// How strongly foam is shaded by the shape of the whole splash, [0, 1], default 0 = off. The shape around a
+    /// point is found from the depths of the foam within six spacings. Where it faces away from the sun only skylight
+    /// remains, and in hollows the skylight is dimmed too. Not in the thesis.
     pub shape: f32,
-    /// Extinction of sunlight that foam casts as a shadow, per scene unit, [0, ∞), default 0.25 / spacing: less than
-    /// [`extinction`](Self::extinction), because most scattered light continues.
+    /// Extinction of sunlight in foam, for the shadow that the foam casts, per scene unit, [0, ∞), default 0.25 /
+    /// spacing. It is less than [`extinction`](Self::extinction), because most of the light that foam scatters
+    /// continues forwards.
     pub shadow: f32,
-    /// Two sums of the neighbours' weights (see [`Ellipsoids`]): a particle has no foam up to the first, and all of its
-    /// foam from the second on. Each is in [0, 64], the second at least the first. Default [0, 0]: off. Foam on a few
-    /// flying particles looks like a small star. With an [`Ellipsoids::reach`] of 2.5 a flat surface has a sum of about 21;
-    /// the sums grow about with the cube of the reach. Flat films one layer thick are exempt. No effect without
-    /// [`Kernels::Ellipsoids`]. Not in the thesis.
+    /// Two sums [a, b] of the neighbours' weights (see [`Ellipsoids`]): a particle with a sum up to a has no foam,
+    /// one with b or more keeps all of its foam. Each is in [0, 64], b at least a. Default [0, 0]: off. Without this,
+    /// foam on a few particles that fly together looks like a small star. With an [`Ellipsoids::reach`] of 2.5 a
+    /// particle in a flat surface has a sum of about 21; the sums grow about with the cube of the reach. Particles in
+    /// flat films that are one particle thick are exempt. No effect without [`Kernels::Ellipsoids`]. Not in the
+    /// thesis.
     pub few_neighbours: [f32; 2],
     /// Albedo of thin foam, linear RGB, 0 to 1, default grey 0.65. (The thesis' screen colour is 0.25.)
     pub back_color: [f32; 3],
@@ -678,9 +710,9 @@ impl SurfaceFoamSettings {
         }
     }
 
-    /// The thesis' foam for a particle spacing: a noise per sprite, opaque, without relief. Its numbers are per
-    /// unit of the thesis' own thickness and length (1.43 of them are a spacing), where a sprite holds about 33
-    /// particle volumes.
+    /// The thesis' foam for a particle spacing: opaque, with a noise per sprite, without relief. The extinctions are
+    /// converted from the thesis' units: 1.43 of its units of length are a spacing, and in its unit of thickness a
+    /// sprite holds about 33 particle volumes.
     pub fn thesis(spacing: f32) -> Self {
         let unit = 1.43 * 33.0 / spacing;
         Self {
@@ -745,79 +777,82 @@ impl SurfaceFoamSettings {
 /// Appearance of spray: particles too few together to form a body of water. No effect without
 /// [`Config::spray`](crate::Config).
 ///
-/// As density drops, the particle fades from water to spray. Spray is drawn as droplets around the particle's
-/// centre, each stretched along its motion.
+/// As its density drops, a particle fades from water to spray. Spray is drawn as droplets around the particle's
+/// centre, each stretched along its motion, and as mist: one wide faint sprite per particle for finer drops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SpraySettings {
     /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
-    /// Half-axis of a particle's spray in drawn radii, (0, 8], default 0.5 as in the thesis. Its droplets
-    /// together have about that size.
+    /// Half-axis of a particle's droplet in drawn radii if the particle has only one, (0, 8], default 0.5 as in the
+    /// thesis. Of several droplets each has a random half-axis, 0.2 to 2.3 times this and on average half of it.
     pub size: f32,
-    /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. Above 1 each particle has
-    /// between a fifth and all of them, chosen by its id. From three quarters of spray on, a particle has fewer
-    /// and larger droplets, down to 0.3 of them where it is only spray, and less mist, by the cube of that: an
-    /// isolated particle is a few drops, torn water is many.
+    /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. If it is above 1, each particle has
+    /// a random fraction of them, between a fifth and all, chosen by its id. A particle that is more than three
+    /// quarters spray has fewer and larger droplets, because torn water is many fine drops and an isolated particle a
+    /// few large ones: their number is multiplied by a factor that falls from 1 to 0.3 for a particle that is only
+    /// spray, and its mist by the cube of this factor.
     pub droplets: u32,
     /// Fraction of the rest density below which a particle is only spray, [0, ∞), default 0.6: lines of particles
     /// (0.48 with the usual cubic spline) are spray.
     pub all_spray_density: f32,
-    /// Fraction of the rest density from which its water has the full radius and its foam is complete, at least
-    /// `all_spray_density`, default 0.7.
+    /// Fraction of the rest density at and above which a particle's water has the full radius and its foam is
+    /// complete, at least `all_spray_density`, default 0.7.
     pub full_water_density: f32,
-    /// Fraction of the rest density from which a particle is not spray, at least `all_spray_density`, default 0.85:
-    /// single sheets (0.70) hardly are. These fractions replace [`WaterSettings::density_threshold`] and
+    /// Fraction of the rest density at and above which a particle has no spray, at least `all_spray_density`, default
+    /// 0.85. (With the defaults a particle in a single sheet of particles, which has 0.70, is about two thirds
+    /// spray.) The fractions of this struct replace [`WaterSettings::density_threshold`] and
     /// [`density_full`](WaterSettings::density_full).
     pub no_spray_density: f32,
     /// Maximum distance of droplets from the particle's centre, spacings, [0, 8], default 1.5; 0 as in the
     /// thesis.
     pub scatter_radius: f32,
-    /// Droplets are also spread along the particle's velocity, by its motion in up to this time, forwards and
-    /// backwards. Seconds, [0, 1], default 0. Torn water then flies in strands.
+    /// Each droplet is also moved along the particle's velocity, forwards or backwards, by the way of a random time
+    /// up to this one, so that torn water flies in strands. Seconds, [0, 1], default 0.
     pub stretch: f32,
     /// Opacity at the centre of a particle's mist, [0, 1), default 0.05. If a particle has several droplets, mist
-    /// replaces the first.
+    /// replaces the first of them; if [`droplets`](Self::droplets) is 1 there is no mist.
     pub mist: f32,
     /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
-    /// Strength of the streaks and clumps in the mist, [0, 2], default 0 = smooth: the amplitude, as a natural
-    /// logarithm, of the fine octaves of noise. The octaves go from a drawn radius down to the pixel, and the three
-    /// coarsest have 1/4, 1/2 and 3/4 of that amplitude. The noise moves with the particle. The mean optical depth
-    /// stays, within 4 %.
+    /// Strength of the streaks and clumps in the mist, [0, 2], default 0 = smooth. Octaves of noise, from a drawn
+    /// radius down to the pixel, are added to the natural logarithm of the mist's optical depth. This is the
+    /// amplitude of the fine octaves; the three coarsest have 1/4, 1/2 and 3/4 of it. The noise moves with the
+    /// particle. It changes the mean optical depth by at most 4 %.
     pub mist_contrast: f32,
     /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
-    /// fill, [1, 8], default 1: a ball. It is fitted to the particle's neighbours as its water is: torn water is
-    /// strands and sheets of droplets, and two or three particles alone have no mist. No effect without
-    /// [`Kernels::Ellipsoids`].
+    /// fill, [1, 8], default 1: a ball. Above 1 the ellipsoid is fitted to the particle's neighbours, as the
+    /// ellipsoid of its water is, so that torn water is strands and sheets of droplets, and groups of two or three
+    /// particles have no mist. No effect without [`Kernels::Ellipsoids`].
     pub strand_ratio: f32,
-    /// Two sums of the neighbours' weights (see [`Ellipsoids`]): a particle is all spray up to the first, and its density
-    /// alone decides from the second on. Each is in [0, 64], the second at least the first. Default [0, 0]: off. Many
-    /// solvers write the rest density for a lone drop too. With an [`Ellipsoids::reach`] of 2.5 eight particles close together have about 6, an
-    /// uneven sheet 11; the sums grow about with the cube of the reach. Flat films one layer thick are exempt, and so are
+    /// Two sums [a, b] of the neighbours' weights (see [`Ellipsoids`]): a particle with a sum up to a is only spray,
+    /// whatever its density, because many solvers write the rest density for a lone drop too. With b or more, its
+    /// density alone decides. Each is in [0, 64], b at least a. Default [0, 0]: off. With an [`Ellipsoids::reach`] of
+    /// 2.5 eight particles close together have a sum of about 6, particles of an uneven sheet 11; the sums grow about
+    /// with the cube of the reach. Particles in flat films that are one particle thick are exempt, and so are
     /// particles with a density of 0. No effect without [`Kernels::Ellipsoids`] and `Particles::densities`.
     pub few_neighbours: [f32; 2],
-    /// Exposure time of a droplet's streak, seconds, [0, 1], default 1/250. A longer streak is more
-    /// transparent. (The water itself is drawn at one instant.)
+    /// Exposure time, by which each droplet becomes a streak along its motion, seconds, [0, 1], default 1/250. A
+    /// longer streak is more transparent. (The water itself is drawn at one instant.)
     pub exposure: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
     pub color: [f32; 3],
-    /// Extinction of sunlight by a particle's spray, relative to that by an equal amount of foam, [0, 64], default 0.5.
-    /// With several [`droplets`](Self::droplets) it is multiplied by the square of the fraction that is drawn, an 11th
-    /// for a particle that is only spray; the half-axis of such a shadow is at least 0.6
-    /// [`scatter_radius`](Self::scatter_radius). No effect without a map of the sunlight in the water
-    /// ([`Config::light_map_size`](crate::Config)).
+    /// Extinction of sunlight by a particle's spray, relative to that by an equal amount of foam, [0, 64], default
+    /// 0.5: how dark the spray's shadows are. With several [`droplets`](Self::droplets) it is multiplied by the
+    /// square of the factor that reduces their number, which is `0.3² = 1/11` for a particle that is only spray, and
+    /// the half-axis of a particle's shadow is at least 0.6 [`scatter_radius`](Self::scatter_radius). No effect
+    /// without a map of the sunlight in the water ([`Config::light_map_size`](crate::Config)).
     pub shade: f32,
     /// Weight of multiple scattering in the shadows on spray, [0, 1], default 0. The transmittance T of sunlight
     /// becomes `(1 − s)·T + s·T^¼` (an octave of Wrenninge, Kulla, Lundqvist 2013), because light that droplets
     /// scatter forwards penetrates farther.
     pub scattering: f32,
-    /// Strength of screen-space self-shadowing, [0, 4], default 0. Spray is darker where denser spray lies towards
-    /// the sun, up to a 22nd of the picture's height away, and brighter where thinner spray does. It shows shadows
-    /// that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
+    /// Strength of screen-space self-shadowing, [0, 4], default 0. Spray is darker where the spray beside it in the
+    /// direction of the sun, up to a 22nd of the picture's height away, is denser, and brighter where that is
+    /// thinner. This shows shadows that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
     pub relief: f32,
-    /// Whether spray's light is added to the light from behind (the thesis) instead of composited over it. Default
-    /// false.
+    /// Whether the light of spray is added to the light from behind (the thesis), without dimming it. Default false:
+    /// spray is composited over what is behind.
     pub additive: bool,
 }
 
@@ -902,8 +937,9 @@ impl SpraySettings {
 
 /// Appearance of the baseline's surface noise. No effect without [`Config::noise`](crate::Config).
 ///
-/// Each particle has its own gradient noise, which moves with it. Their sum is a height on the front surface of
-/// the water, which turns its normals. It is also the baseline's foam: grey where the height is large or small.
+/// Each particle has its own gradient noise, which moves with it. The sum of these noises is a height on the front
+/// surface of the water, and its slope turns the normals. It is also the baseline's foam: grey where the height is
+/// far above or below 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 #[non_exhaustive]
@@ -911,14 +947,15 @@ pub struct SurfaceNoiseSettings {
     /// Height of a noise value of 1, in drawn radii, [0, 16], default 0.336, 0 = flat. (The publication gives
     /// this number as the weight of the derivatives, in a unit of its own.)
     pub weight: f32,
-    /// How fast a particle's noise fades with its depth below the surface, [0, 64], default 2: by a factor of e
-    /// per (drawn radius / falloff).
+    /// How fast a particle's noise fades with the particle's depth below the surface, [0, 64], default 2: by a factor
+    /// of e per `drawn radius / falloff`.
     pub falloff: f32,
     /// Half-axis of a particle's noise in drawn radii, (0, 8], default 2.
     pub size: f32,
     /// Noise cells per drawn radius, (0, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
-    /// Foam light added per noise value of 1, clamped to the full foam light, [0, 64], default 0: no such foam.
+    /// Amount of the noise's foam per noise value of 1, where an amount of 1 or more is full foam, [0, 64], default
+    /// 0: no such foam.
     pub foam: f32,
     /// Albedo of that foam, linear RGB, 0 to 1, default grey 0.5.
     pub color: [f32; 3],
@@ -1009,8 +1046,8 @@ mod tests {
     const FRESH: f64 = 0.00583;
     const SEA: f64 = 0.00758;
 
-    /// Absorption, and twice the backscattering, of water with this much chlorophyll (mg/m³) and dissolved matter (per
-    /// metre at 443 nm).
+    /// Absorption, and twice the backscattering, of water with this much chlorophyll (mg/m³) and dissolved matter
+    /// (per metre at 443 nm).
     fn alive(chlorophyll: f64, dissolved: f64, water: f64) -> [[f64; 3]; 2] {
         let molecules = molecules(water);
         let absorption = [0, 1, 2].map(|i| {
@@ -1025,7 +1062,8 @@ mod tests {
         [absorption, scattering]
     }
 
-    /// The same for water with this many g/m³ of silt or flour, which absorbs and scatters this many m²/g.
+    /// Absorption, and twice the backscattering, of water with this many g/m³ of silt or flour, which absorbs and
+    /// scatters this many m²/g.
     fn silted(grams: f64, [absorbs, scatters]: [f64; 2], dissolved: f64) -> [[f64; 3]; 2] {
         let molecules = molecules(FRESH);
         let absorption = [0, 1, 2].map(|i| {
@@ -1048,7 +1086,7 @@ mod tests {
     #[test]
     fn presets_are_what_their_sources_say() {
         let per_millimetre = |k: [f64; 3]| k.map(|k| 1000.0 * k);
-        // From Narasimhan's table (per centimetre, times 100), scaled by the dilution.
+        // From Narasimhan's table (per centimetre, times 100), scaled from the diluted to the undiluted beer.
         let diluted = |k: [f64; 3]| per_millimetre(k.map(|k| 0.01 * k * 23.0 / 2.9));
         let absorbed = diluted([0.1449, 0.3141, 0.7286]);
         let honey = WAVES.map(|wave| {
