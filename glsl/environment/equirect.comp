@@ -1,6 +1,6 @@
 #version 460
-// Pass `environment`: an equirectangular image (row 0 up; the middle column looks along -z)
-// into the cube's first mip, four samples per texel. (The thesis starts from a given cube, Sec. 4.9.)
+// Pass `environment`: converts an equirectangular image (row 0 is up; the middle column looks along -z) to the first
+// mip of the environment's cube map, four samples per texel. (The thesis starts from a given cube map, Sec. 4.9.)
 // Reads: the host's image. Writes: environment (RGBA16F), all faces.
 
 #include "cube.glsl"

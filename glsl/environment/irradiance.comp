@@ -1,6 +1,6 @@
 #version 460
-// Pass `environment`: irradiance divided by 2 pi, so that a constant environment of 1 gives one half, as do the samples
-// that it replaces (Akinci et al. 2013, Sec. 2.4.2).
+// Pass `environment`: computes for each normal the irradiance divided by 2 pi. A constant environment of 1 then gives
+// one half, as do the samples of the environment that this look-up replaces (Akinci et al. 2013, Sec. 2.4.2).
 // Reads: environment. Writes: irradiance (RGBA16F), octahedral with a border.
 
 #include "cube.glsl"
@@ -32,6 +32,6 @@ void main() {
         vec3 light = textureLod(environment, direction, push.mip).rgb;
         sum += angle * vec4(max(dot(direction, normal), 0.0) * light, 1.0);
     }
-    // The weights cover all directions, hence the factor 2.
+    // The sum of the weights stands for all directions (4 pi), so the factor 2 makes this the irradiance over 2 pi.
     imageStore(irradiance, texel, vec4(min(2.0 * sum.rgb / sum.w, 65000.0), 1.0));
 }

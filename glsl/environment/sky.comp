@@ -1,5 +1,5 @@
 #version 460
-// Pass `environment`: the built-in sky (atmosphere.glsl) into the cube's first mip.
+// Pass `environment`: writes the built-in sky (atmosphere.glsl) to the first mip of the environment's cube map.
 // Reads: only the sun. Writes: environment (RGBA16F), all faces.
 
 #include "cube.glsl"

@@ -1,7 +1,8 @@
 #version 460
-// Pass `caustics`: refracts the light of each texel of the light map to where it leaves the water again, usually the
-// ground (caustics mapping, Shah et al. 2007, without its mesh). Where the host's scene shadows the water, no light
-// enters; otherwise light would enter through the water's side at a wall and spread along the bed.
+// Pass `caustics`: for each texel of the light map (water seen from the sun), refracts the sunlight and adds it at
+// the texel where it leaves the water again, usually at the ground (caustics mapping, Shah et al. 2007, without its
+// mesh). No light enters where the host's scene shadows the water; without this test, light would enter through the
+// water's side at a wall and spread along the bed.
 // Reads: smoothed front, thickness, shadow map or its basis and span. Writes: photons, fixed point, summed.
 
 #include "frame.glsl"
@@ -19,13 +20,14 @@ layout(set = 0, binding = 3, std430) buffer Photons { uint photons[]; };
 const float UNITS = 4096.0;
 // Refractive index of water relative to air.
 const float INDEX = 1.333;
-// Half the width over which the surface's slope is measured, relative to the water's depth, and its limit in
-// texels. Shorter waves focus far above the bed: on the bed their light is nearly uniform again, and ripples that
-// particles do not resolve spread the rest.
+// Half the width over which the surface's slope is measured, relative to the metres of water along the light, and the
+// limit of this half width in texels. Waves shorter than this focus light far above the bed. On the bed their light
+// is nearly uniform again, and ripples too small for the particles spread what is left.
 const float SOFT = 1.0 / 16.0;
 const int MOST_SOFT = 8;
 
-// Eye-space position of a point of the maps at a depth. The rows of the matrix are orthogonal.
+// Eye-space position of a point at `place` (0 to 1) in the light's maps and at `depth` in metres along the light.
+// This inverts `to_light`, whose rows are orthogonal.
 vec3 eye_at(vec2 place, float depth) {
     mat4 rows = transpose(frame.to_light);
     vec3 off = vec3(place, depth) - vec3(rows[0].w, rows[1].w, rows[2].w);
@@ -33,7 +35,8 @@ vec3 eye_at(vec2 place, float depth) {
          + rows[2].xyz * (off.z / dot(rows[2].xyz, rows[2].xyz));
 }
 
-// The surface's normal with its small waves, which focus light whatever their size. In the maps' axes.
+// The surface's normal `n`, tilted by the small waves (wavelets.glsl). Both normals are in the axes of the light's
+// maps. All waves count here, because waves of any size focus light.
 vec3 with_waves(vec3 n, vec2 place, float depth) {
     mat3 rows = transpose(mat3(frame.to_light));
     mat3 axes = mat3(normalize(rows[0]), normalize(rows[1]), normalize(rows[2]));
@@ -72,11 +75,11 @@ void main() {
               / (2.0 * float(reach) * frame.light_map.y);
     vec3 n = with_waves(normalize(vec3(rise, -1.0)), (vec2(texel) + 0.5) / float(size), here);
     vec3 bent = refract(vec3(0.0, 0.0, 1.0), n, 1.0 / INDEX);
-    // Drops and thin sheets do not act as lenses: the light that they focus diverges again before it arrives.
-    // Foam scatters it.
+    // Drops and thin layers of water do not act as lenses: the light that they focus diverges again before it reaches
+    // the ground. Foam weakens the lens too, because it scatters the light.
     float lens = deep.x * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep.x)
                * exp(-4.0 * frame.shade.w * deep.y);
-    // Without a mask, which is per pixel of the picture.
+    // A shadow mask is not used, because it has the shadow per pixel of the picture and not per texel of this map.
     float sun = SHADOW > 1u ? past_scene(eye_at((vec2(texel) + 0.5) / float(size), here), vec2(0.0)) : 1.0;
     vec2 at = vec2(texel) + bent.xy / max(bent.z, 0.2) * (lens / frame.light_map.y);
     ivec2 base = ivec2(floor(at));

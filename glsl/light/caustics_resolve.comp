@@ -1,6 +1,7 @@
 #version 460
-// Pass `caustics`, last part: light per texel relative to that without water, slightly blurred, because the sun is not
-// a point. Where there is no water above, the unrefracted light is added. (Source: see caustics.comp.)
+// Pass `caustics`, last part: sunlight that arrives at each texel, divided by the sunlight that would arrive without
+// water. It is slightly blurred, because the sun is not a point. A texel without water also gets its own unrefracted
+// light. (Source: see caustics.comp.)
 // Reads: photons, front. Writes: caustics (R32F).
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `convolution`, second part: the basis of two terms (convolution.glsl), averaged over the map's texels within
-// each texel of the library's image.
-// Reads: shadow map, span. Writes: one page.
+// Pass `convolution`, second part: cosine and sine of two Fourier terms of the shadow map's depth (convolution.glsl),
+// averaged over those texels of the shadow map that lie in one texel of the library's basis image.
+// Reads: shadow map, span. Writes: one page (the two terms).
 
 #include "frame.glsl"
 #include "convolution.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `convolution`, third part: a box filter along x, the first half of the filter (Annen et al. 2007, without their
-// mips). Reads: one page. Writes: the page, filtered along x.
+// Pass `convolution`, third part: filters one page (two Fourier terms) along x with a box; convolution_down.comp then
+// filters it along y (Annen et al. 2007, without their mips). Reads: one page. Writes: the page, filtered along x.
 
 #include "frame.glsl"
 

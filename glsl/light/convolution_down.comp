@@ -1,6 +1,6 @@
 #version 460
-// Pass `convolution`, last part: a box filter along y, the other half of the filter, and the page's border of one
-// texel.
+// Pass `convolution`, last part: filters one page (two Fourier terms) along y with a box, after
+// convolution_across.comp has filtered it along x, and adds a border of one texel around the page.
 // Reads: one page, filtered along x. Writes: the page in the basis.
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `convolution`, first part: the min and max depth of the shadow map, without empty texels, between which the
-// series is defined (src/light/convolution.rs; not in the source). A group reads 128x128 texels.
+// Pass `convolution`, first part: finds the least and the greatest depth of the shadow map's non-empty texels. The
+// Fourier series of the depth comparison is defined between these two depths (src/light/convolution.rs; not in the
+// source). A workgroup reads 128x128 texels.
 // Reads: shadow map. Writes: span.
 
 #include "frame.glsl"
@@ -20,7 +21,7 @@ void main() {
         ivec2 texel = first + 8 * ivec2(i & 15, i >> 4);
         if (all(lessThan(texel, size))) {
             float depth = texelFetch(shadow_map, texel + ivec2(frame.shadow_rect.xy), 0).x;
-            // Bits of positive floats have their order.
+            // The bits of positive floats, taken as integers, are in the same order as the floats.
             uint bits = floatBitsToUint(clamp(depth, 0.0, 1.0));
             least = is_open(depth) ? least : min(least, bits);
             most = is_open(depth) ? most : max(most, bits);

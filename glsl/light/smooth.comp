@@ -1,6 +1,7 @@
 #version 460
-// Pass `caustics`, first part: smooths the front surface of the light map along one axis, by a Gaussian over texels on
-// the same surface. Not in the paper. Reads: front, or the result of the first axis. Writes: smoothed.
+// Pass `caustics`, first part: smooths the front depth of the water in the light map along one axis, by a Gaussian.
+// Only texels with a similar depth, which are on the same surface, count. Not in the paper. Reads: front, or the
+// result of the first axis. Writes: smoothed.
 
 #include "frame.glsl"
 

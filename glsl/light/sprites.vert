@@ -1,6 +1,7 @@
 #version 460
-// Pass `light`: a quad around each particle as seen from the sun, directly from the host's streams. Not in the thesis.
-// Reads: positions, densities, foam, members. Writes: the disc's corners, position, size and heights.
+// Pass `light`: a quad around each particle as seen from the sun, read from the host's streams. Not in the thesis.
+// Reads: positions, densities, foam, members. Writes: the quad's corners; centre, half-axis, depth and thickness of
+// its disc.
 
 #include "frame.glsl"
 #include "density.glsl"
@@ -27,7 +28,7 @@ layout(push_constant, std430) uniform Push {
 #define MEMBERS 4
 #include "members.glsl"
 
-// Half-axis of the shadow of a particle that is only spray, over the scatter radius of its droplets.
+// Half-axis of the shadow of a particle that is only spray, divided by the radius over which its droplets scatter.
 const float SPREAD = 0.6;
 
 layout(location = 0) flat out vec2 centre; // texels
@@ -59,7 +60,8 @@ void main() {
     float torn = torn_of(spray_share);
     float spray = frame.spray_mist.y * spray_share * torn * torn;
     vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + spray * (1.0 - bulk_share * foam));
-    // Random numbers come from the position, so they need no ids and do not depend on the order.
+    // Random numbers are computed from the particle's position, so they need no ids and do not depend on the order of
+    // the particles.
     uvec3 bits = floatBitsToUint(position);
     chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     vec3 seen = (frame.to_light * (frame.view * vec4(position, 1.0))).xyz;
@@ -69,7 +71,7 @@ void main() {
     float wide = mix(frame.particle.z, max(frame.particle.z, SPREAD * frame.spray.z), spray_share);
     axis = max(push.front == 1u ? radius : wide, texel);
     depth = seen.z;
-    // As on the screen, the integral over the map is the volume.
+    // As for the camera's thickness sprites, the integral of a sprite over the map is the particle's volume.
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     amount = shares * volume / (axis * axis);
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);

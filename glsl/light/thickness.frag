@@ -1,7 +1,7 @@
 #version 460
-// Pass `light`: thickness of water and of foam in metres along the sunlight, and both multiplied by their position
-// along it: the thickness of the camera (thesis Sec. 3.2.2, kernel.glsl), but seen from the sun, which is not in the
-// thesis.
+// Pass `light`: thickness in metres of water and of foam along the sunlight, and each of the two multiplied by its
+// depth along the light, from which the mean depth follows. It is the thickness of the camera (thesis Sec. 3.2.2,
+// kernel.glsl), but seen from the sun, which is not in the thesis.
 // Reads: the discs of sprites.vert. Writes: thickness (RGBA32F), summed.
 
 #include "frame.glsl"
@@ -23,10 +23,11 @@ void main() {
     if (rho2 > 1.0) {
         discard;
     }
-    // In whole steps, whose sums are exact in any order.
+    // Thicknesses are whole steps, so that their sums are exact in any order.
     float step = frame.foam_back.w;
     float up = rounding_up(chance, ivec2(gl_FragCoord.xy));
     vec2 height = floor(amount * (thickness_kernel(rho2) / step) + up) * step;
-    // Depths in quarters of a spacing, also a power of two, so products and sums are exact too.
+    // Depths are rounded to 512 steps: a quarter of the spacing, where the spacing is rounded down to a power of two.
+    // So products and sums are exact too.
     thickness = vec4(height, height * (floor(depth / (512.0 * step) + 0.5) * (512.0 * step)));
 }

@@ -1,7 +1,8 @@
 #version 460
-// Pass `whitewater_light`: thickness of whitewater as seen from the sun, and its position along the light. Particles
-// are splatted as for the camera (Akinci et al. 2013, Sec. 2.2); shadows of whitewater are their future work. One
-// invocation per particle, a whole group for large ones.
+// Pass `whitewater_light`: for each texel of the light map, sums the thickness of whitewater as seen from the sun,
+// and this thickness times its position along the light and times the square of the position. Particles are splatted
+// as for the camera (Akinci et al. 2013, Sec. 2.2; shadows of whitewater are future work there). One invocation
+// handles a particle, a whole workgroup a large one.
 // Reads: positions, kinds, radii, ages, ids, crossfade, front, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
@@ -54,12 +55,12 @@ Sprite sprite_at(uint i) {
     float texel = frame.light_map.y;
     s.depth = seen.z;
     s.f = footprint_at(seen.xy * frame.light_map.x, vec2(s.p.radius / texel), s.p.kind);
-    // The far end, so that a particle of any size does not shade itself. A particle between the sun and the
-    // region shades all of it; one behind the region shades nothing.
+    // The position of a particle is that of its far end, so that a particle of any size does not shade itself. A
+    // particle between the sun and the map's region shades all of the region; one behind the region shades nothing.
     float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
     // Particles behind the eye cast shadows too.
     bool there = world.w < 1.0 && all(lessThan(abs(s.p.centre), vec3(EMPTY))) && place < frame.light_map.x;
-    // The part of it that is drawn as a blob casts its shadow as a blob.
+    // The fraction of the particle that is drawn as a blob casts its shadow as a blob, so only the rest counts here.
     float kept = 1.0;
     for (bool handed = frame.whitewater.z > 0.0 && may_be_blob(s.p, length(s.p.centre)); handed; handed = false) {
         kept = kept_of(s.p);
@@ -69,8 +70,8 @@ Sprite sprite_at(uint i) {
     return s;
 }
 
-// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether or not
-// they add anything. An addition to a sum that is full is subtracted again.
+// All additions are in one loop: a CPU driver runs the invocations one by one at each atomic operation in the code,
+// even those that add nothing. An addition to a sum that is already full is subtracted again.
 void add(uint at, uint steps, uint place) {
     uint high, low;
     umulExtended(steps * place, place, high, low);
@@ -94,7 +95,7 @@ void splat(ivec2 texel, Sprite s) {
         return;
     }
     float amount = whitewater_amount(s.p, s.f, rr);
-    // Particles that are not drawn behind the water's surface cast no shadow.
+    // If the picture fades out particles behind the water's surface, their shadow fades out likewise.
     if (SHAPED == 1u && frame.whitewater.w > 0.0) {
         float depth = s.depth - sqrt(1.0 - rr) * s.p.radius;
         amount = whitewater_shares(amount, depth, texelFetch(front, texel, 0).x).x;
@@ -112,7 +113,8 @@ ivec4 inside(ivec4 box) {
 // Whether a particle with its centre in this sphere may shade any of the rows.
 bool shows(vec3 middle, float reach) {
     vec3 seen = (frame.to_light * (frame.view * vec4(middle, 1.0))).xyz;
-    // The largest radius of a particle, plus the widest to which smaller ones are enlarged.
+    // How far from `middle` a shadow may reach, in texels: the sphere's radius, the largest radius of a particle, and
+    // the half-axis to which small particles are enlarged.
     float texel = frame.light_map.y;
     float wider = (reach + frame.whitewater.x) / texel + LEAST_REACH;
     vec2 at = seen.xy * frame.light_map.x;

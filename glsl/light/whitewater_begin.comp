@@ -1,5 +1,6 @@
 #version 460
-// Pass `whitewater_light`, first part: arguments of the dispatches over the particles. Not in the paper.
+// Pass `whitewater_light`, first part: computes the arguments of the indirect dispatches over the whitewater
+// particles. Not in the paper.
 // Reads: count. Writes: arguments.
 
 layout(local_size_x = 64) in;

@@ -1,6 +1,7 @@
 #version 460
-// Pass `whitewater_light`, last part: converts the sums to the thickness of each texel, its mean position and its
-// standard deviation, slightly blurred, because the sun is not a point. (Source: see whitewater.comp.)
+// Pass `whitewater_light`, last part: converts the sums of each texel to the thickness of the whitewater, and to the
+// mean and standard deviation of its position along the light. All are slightly blurred, because the sun is not a
+// point. (Source: see whitewater.comp.)
 // Reads: words. Writes: whitewater (RGBA16F).
 
 #include "frame.glsl"
@@ -43,7 +44,8 @@ struct Moments {
     float square; // mean square of the offset from `about`
 };
 
-// Moments about an integer near the mean. Everything except the final quotients is exact.
+// Mean and mean square of the position along the light, measured from an integer near the mean. Everything except the
+// final quotients is exact.
 Moments moments_of(uvec4 w) {
     Moments m;
     m.sum = float(w.x);
@@ -54,7 +56,7 @@ Moments moments_of(uvec4 w) {
     uvec2 square = minus(second, times(first, 2u * about));
     square = plus(square, times(uvec2(w.x, 0u), about * about));
     m.about = int(about);
-    // Its magnitude is below the sum, so the low word suffices.
+    // The magnitude of `off` is below the sum `w.x`, so the low word suffices.
     m.mean = float(int(off.x)) / m.sum;
     m.square = (float(square.y) * 4294967296.0 + float(square.x)) / m.sum;
     return m;

@@ -1,6 +1,7 @@
 #version 460
-// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample per texel. Not in
-// the thesis; the hit is that of pass `depth`.
+// Pass `back`, second part: nearest exact depth of the spheres or ellipsoids that lie behind the boundary (the depth
+// that separates the nearer of two layers of water from the farther one), one sample per texel. Not in the thesis;
+// the hit of a ray is computed as in pass `depth`.
 // Reads: Counts, visible, boundaries, blocks, levels. Writes: bits of the back depth.
 
 #include "frame.glsl"
@@ -44,7 +45,7 @@ ivec4 span(Ellipsoid body, Level level) {
     return pixel_span(pixel_bounds(slopes, level.slope), vec2(level.rect.zw));
 }
 
-// The part of a box of texels whose blocks have a boundary that the sphere may lie behind.
+// Narrows a box of texels to those blocks of 16x16 pixels that have a boundary in front of the sphere's centre.
 ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
     // From the centre of each texel.

@@ -1,7 +1,8 @@
 #version 460
-// Pass `back`, first part: initial depth of the back layer's first level. In tiles with a boundary in or around them it
-// is the depth of the water where there is only one layer, so that the smoothing finds neighbours; EMPTY elsewhere. Not
-// in the thesis.
+// Pass `back`, first part: initial depth of the back layer (the farther of two layers of water) in its first level.
+// In pixels with only one layer it is the depth of that layer, but only in tiles that have a boundary between two
+// layers in or around them, where the smoothing of the back layer needs neighbours. Elsewhere it is EMPTY. Not in the
+// thesis.
 // Reads: boundaries, levels, depth. Writes: back.
 
 #include "frame.glsl"
@@ -15,8 +16,8 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D back;
 
 shared uint wanted;
 
-// Whether there is a boundary in the tile or within a tile's width around it, which is as far as smoothing
-// reaches. Boundaries are never isolated, so every eighth pixel suffices.
+// Whether there is a boundary in the tile or within a tile's width around it, which is as far as smoothing reaches.
+// Boundaries are never isolated, so it suffices to test every eighth pixel on each axis.
 bool boundary_near(ivec2 corner, int edge) {
     ivec2 extent = ivec2(frame.extent.xy);
     ivec2 first = max((corner - 16) * edge, ivec2(0)) >> 3;

@@ -1,6 +1,7 @@
 #version 460
-// Pass `back`, last part: adds the back layer to the levels of the smoothing: its first level unchanged, and for each
-// required coarser level the nearest depth of each block. Not in the thesis.
+// Pass `back`, last part: enters the back layer (the farther of two layers of water) in the levels of the smoothing:
+// in its first level unchanged, in each coarser level that is needed as the nearest depth of each block of texels.
+// Not in the thesis.
 // Reads: back, levels, levels needed. Writes: both smoothing images, plan, work of the levels' tiles.
 
 #include "frame.glsl"
@@ -22,7 +23,7 @@ layout(set = 0, binding = 8, std430) readonly buffer Counts { Marked marked; };
 shared uint most;
 
 void main() {
-    uint coarser = gl_WorkGroupID.z; // levels coarser than its first, which is the front sheet's second
+    uint coarser = gl_WorkGroupID.z; // 0: the back layer's first level, which is as fine as the front layer's second
     Level level = levels.level[BACK + coarser];
     ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16;
     if (any(greaterThanEqual(corner, level.rect.zw))) {

@@ -1,7 +1,8 @@
 #version 460
-// Pass `classify`: foam phases by Weber number (thesis Sec. 3.2). Each particle's state is looked up by id in the
-// previous table, advanced, and entered in the new table: order does not matter, and vanished ids are forgotten. A
-// dispatch sees one part of the tables and handles the particles whose ids belong there.
+// Pass `classify`: decides which particles of the water foam, by Weber number (inertia over surface tension; thesis
+// Sec. 3.2). Each particle's state is looked up by id in the hash table of the previous step, advanced, and entered
+// in the table of this step. So the order of the particles does not matter, and ids that have vanished are forgotten.
+// A dispatch binds one part of each table and handles the particles whose ids belong there.
 // Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 #include "random.glsl"
@@ -70,7 +71,7 @@ float weber(uint i) {
     return number;
 }
 
-// Row of the part at which the search for a key begins; outside the part if the key belongs to another.
+// Row of the bound part at which the search for a key begins; outside the part if the key belongs to another part.
 uint slot_of(uint key) {
     uint high;
     uint low;
@@ -78,9 +79,9 @@ uint slot_of(uint key) {
     return high - push.part_first;
 }
 
-// Max length of a search in rows. In a table that is two thirds full no search takes a quarter of this. But with ids
-// chosen to collide, or with a corrupt state, each search would visit all rows. A particle that finds no row starts as
-// new water in each step.
+// Max length of a search in rows. In a table that is two thirds full no search takes a quarter of this. Without the
+// limit, ids chosen to collide, or a corrupt table, would make each search visit all rows. A particle that finds no
+// row starts as new water in each step.
 const uint MOST_LOOKS = 1024u;
 
 // The search wraps around at the end of the part.
@@ -163,7 +164,8 @@ void main() {
         return;
     }
     if (push.id_stride == 0u) {
-        // Without ids there is no memory: foam is a ramp around the threshold. Comparisons with NaN are false.
+        // Without ids no state can be kept. Then foam rises linearly from 0 at half the threshold to 1 at one and a
+        // half times the threshold. Comparisons with NaN are false.
         float ramp = weber(i) / push.threshold - 0.5;
         foam[i] = vec2(ramp > 0.0 ? min(ramp, 1.0) : 0.0, 0.0);
         return;

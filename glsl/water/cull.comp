@@ -1,6 +1,7 @@
 #version 460
-// Pass `cull`: the input stage. It drops NaN and infinite particles, classifies spray, culls the rest against the
-// frustum (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the survivors in eye space: small
+// Pass `cull`, the first to read the water's particles: drops those with NaN or infinite positions and those that are
+// only spray, and culls the others against the frustum (thesis Sec. 4.3: the host's packets, which are groups of
+// particles with a bounding box, or each bounding sphere). It writes the survivors in eye space to a list: small
 // sprites from the front of the list, large ones from its back.
 // Reads: positions (for ellipsoids with their shapes), densities, packets. Writes: Counts, visible, members.
 
@@ -64,7 +65,8 @@ vec4 seen_shape(uint at) {
     return vec4(uintBitsToFloat(pack_axes(turn * axes * transpose(turn))), 0.0);
 }
 
-// Small or large by the size on the screen of the ellipsoid and of its thickness sprite.
+// SMALL or LARGE, by the larger of the sizes that the ellipsoid and its thickness sprite have on the screen; NONE if
+// the ellipsoid is not in the frustum.
 uint classify_ellipsoid(Ellipsoid body) {
     vec3 centre = body.sphere.xyz;
     float times = frame.particle.z / frame.particle.x;
@@ -127,7 +129,7 @@ uint classify(uint index, out vec4 sphere, out vec4 shape, out float share) {
         shape = seen_shape(at + 3u);
         return classify_ellipsoid(ellipsoid_of(vec4(centre, radius), shape));
     }
-    // The half-axis of the thickness sprite bounds both, because it is the larger one.
+    // The half-axis of the thickness sprite is larger than the sphere's radius, so it bounds sphere and sprite.
     float reach = radius * frame.particle.z / frame.particle.x;
     if (!in_frustum(centre, reach)) {
         return NONE;
@@ -207,7 +209,8 @@ void main() {
         enter(packet);
     }
     vec3 centre = (frame.view * vec4(packet.middle, 1.0)).xyz;
-    // The bounding sphere of the packet's box, enlarged by a sprite, is conservative.
+    // The bounding sphere of the packet's box of centres, enlarged by the half-axis of a sprite, is a conservative
+    // bound.
     if (!in_frustum(centre, packet.reach + frame.particle.z)) {
         return;
     }

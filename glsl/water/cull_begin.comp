@@ -1,6 +1,6 @@
 #version 460
-// Pass `cull`, first part: clamps the count and initializes each chunk's arguments. Not in the source, which culls on
-// the CPU (thesis Sec. 4.3).
+// Pass `cull`, first part: limits the number of particles to the capacity and initializes the indirect arguments of
+// each chunk (the particles of one buffer binding). Not in the source, which culls on the CPU (thesis Sec. 4.3).
 // Reads: the host's count. Writes: Counts of every chunk.
 
 #include "counts.glsl"

@@ -1,5 +1,6 @@
 #version 460
-// Pass `cull`, last part: converts the number of survivors to a number of workgroups. (The thesis draws directly.)
+// Pass `cull`, last part: converts the numbers of small and large survivors to numbers of workgroups. (The thesis
+// draws the survivors directly.)
 // Reads: Counts of every chunk. Writes: their arguments.
 
 layout(local_size_x = 32) in;
@@ -18,7 +19,8 @@ void main() {
     }
     uint base = chunk * 64u;
     uint large = words[base + 5u];
-    // If there are only large sprites, the dispatch over the small ones must still run for them.
+    // With only large sprites there is still one workgroup for the small ones: in pass `front` it copies the large
+    // ones.
     words[base + 8u] = max((words[base] + push.group_size - 1u) / push.group_size, min(large, 1u));
     words[base + 11u] = min(large, push.most_groups);
 }

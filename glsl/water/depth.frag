@@ -1,6 +1,6 @@
 #version 460
-// Pass `depth`, raster path: intersection of the pixel's ray (thesis Sec. 4.6.1; Listing A.9 offsets the billboard
-// instead). MIN blending keeps the nearest.
+// Pass `depth`, raster path: intersects the pixel's ray with the sphere or ellipsoid (thesis Sec. 4.6.1; Listing A.9
+// offsets the billboard instead). MIN blending keeps the nearest hit.
 // Reads: the sphere of depth.vert. Writes: depth (R32F).
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `front`, second part: keeps the sprites that can be visible in some cell that they touch, in a list of the same
-// form. In deep water these are only the surface. Not in the thesis.
+// Pass `front`, second part: copies the sprites that may be visible in at least one of the cells of 4x4 pixels that
+// they touch to a second list of the same form. In deep water these are only the sprites at the surface. Not in the
+// thesis.
 // Reads: Counts, visible, cells. Writes: front counts, front list.
 
 #include "frame.glsl"

@@ -1,8 +1,8 @@
 #version 460
-// Pass `front`, first part: for each cell of 4x4 pixels the depth behind which nothing is visible, because one sphere
-// covers the whole cell. Each small sprite tests the four cells nearest its centre. The part of a convex body's front
-// that is nearer than a given depth has a convex outline, so the farthest point over a cell is at a corner. Not in the
-// thesis.
+// Pass `front`, first part: finds for each cell of 4x4 pixels a depth behind which nothing is visible, because one
+// sphere or ellipsoid in front of it covers the whole cell. Each small sprite tests the four cells nearest its
+// centre, by the rays through their corners. That suffices: the part of a convex body's front that is nearer than a
+// given depth has a convex outline, so over a cell the farthest point of the front is at a corner. Not in the thesis.
 // Reads: Counts, visible. Writes: cells (bits of the depth; EMPTY if no sphere covers the cell).
 
 #include "frame.glsl"

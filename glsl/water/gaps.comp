@@ -1,7 +1,8 @@
 #version 460
-// Pass `gaps`, first and second part: per cell of 8x8 pixels the nearest centre, then the depth slices behind it that
-// hold water. The whole footprints of spheres and ellipsoids count, so a cell is also closed by water outside of its
-// pixels. Not in the thesis (its limitation, Fig. 5.13).
+// Pass `gaps` (which finds the air between two layers of water), first and second part: for each cell of 8x8 pixels
+// the depth of the nearest particle's centre, then the depth slices behind it that hold water. A particle counts in
+// each cell that its footprint touches (that of its sphere, also for ellipsoids), so water outside a cell's own
+// pixels fills the cell too. Not in the thesis (its limitation, Fig. 5.13).
 // Reads: Counts, visible, nearest. Writes: nearest (1), marks (2).
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Passes `gaps` and `back`: the farthest or the nearest boundary of each block of 16x16 pixels, so that
-// most spheres need not read its texels. Not in the thesis. Reads: boundaries. Writes: blocks.
+// Passes `gaps` and `back`: the farthest or the nearest boundary (depth that separates two layers of water) in each
+// block of 16x16 pixels, so that most spheres need not read the texels of the block. Not in the thesis. Reads:
+// boundaries. Writes: blocks.
 
 #include "frame.glsl"
 #include "sheets.glsl"

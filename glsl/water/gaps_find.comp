@@ -1,6 +1,6 @@
 #version 460
-// Pass `gaps`, third part: for each cell the airs: slices without water that have water before and behind them. Not in
-// the thesis.
+// Pass `gaps`, third part: lists the airs of each cell of 8x8 pixels. An air is a run of depth slices without water
+// that has water in front of it and behind it. Not in the thesis.
 // Reads: nearest, marks. Writes: airs of the cells.
 
 #include "frame.glsl"
@@ -16,7 +16,8 @@ layout(push_constant, std430) uniform Push {
     int rows;
 } push;
 
-// The first slice at `from` or behind that is marked or that is not; SLICES if there is none.
+// The first slice, from slice `from` on, that holds water (with `marked`) or holds none (without); SLICES if no slice
+// does.
 int next(uint cell, int from, bool marked) {
     uint all = uint(push.columns * push.rows);
     for (int word = from >> 5; word < WORDS; ++word) {

@@ -1,6 +1,7 @@
 #version 460
-// Pass `gaps`, fourth part: dilation: cells without air take that of a cell beside them, or else of one on a diagonal. Not
-// in the thesis. Reads: airs. Writes: the same, dilated.
+// Pass `gaps`, fourth part: dilates the airs (depth ranges without water between two layers): a cell without an air
+// takes the airs of a cell beside it or, if those have none, of a diagonal neighbour. Not in the thesis. Reads: airs.
+// Writes: airs, dilated.
 
 #include "frame.glsl"
 #include "gaps.glsl"
@@ -34,7 +35,7 @@ void main() {
         bool inside = all(greaterThanEqual(q, ivec2(0))) && q.x < push.columns && q.y < push.rows;
         from = inside ? uint(q.y * push.columns + q.x) : from;
     }
-    // The sign tells that it is another cell's.
+    // The sign of the cell's nearest depth marks airs that were taken from another cell.
     spread[AIR_WORDS * own] = airs[AIR_WORDS * from] | (from == own ? 0u : 0x80000000u);
     for (uint i = 1u; i < AIR_WORDS; ++i) {
         spread[AIR_WORDS * own + i] = airs[AIR_WORDS * from + i];

@@ -1,8 +1,8 @@
 #version 460
-// Pass `gaps`, last part: for each texel of the thickness the boundary between the water that it shows and the next body
-// of water behind. Cells have many airs and neighbours may see others, so each texel chooses by its own depth and by
-// weights that are bilinear between cells: cells do not show. Any depth in an air separates the same layers. Not in the
-// thesis.
+// Pass `gaps`, last part: for each texel of the thickness the boundary, a depth in the air between the water that the
+// texel shows and the next body of water behind. A cell of 8x8 pixels may have several airs, and its neighbours other
+// ones. So each texel chooses an air by its own depth and by weights that are bilinear between cells, so that the
+// edges of cells do not show. Any depth in the same air separates the same layers. Not in the thesis.
 // Reads: airs, dilated; depth. Writes: boundaries.
 
 #include "frame.glsl"
@@ -19,11 +19,12 @@ layout(push_constant, std430) uniform Push {
     int rows;
 } push;
 
-// A boundary lies in the middle of its air, but not farther than this behind the water before it, in spacings.
+// A boundary lies in the middle of its air, but at most this far behind the water in front of the air, in spacings.
 const float BEYOND = 2.0;
-// A boundary keeps this distance to the water at either side of all chosen airs, in spacings, if there is room.
+// Min distance, in spacings, of a boundary from the ends of the depth range that all chosen airs share, if there is
+// room.
 const float CLEAR = 0.5;
-// What air before a drop counts for, relative to air before a body.
+// Weight of an air with only a drop behind it, relative to an air with a body of water behind it.
 const float LEAST = 0.05;
 
 // Nearest depth of a texel's pixels.
@@ -45,15 +46,17 @@ struct Cells {
     uvec4 words[3];
 };
 
-// Of each cell the first air behind the surface at depth z that begins at `after` or farther, or the last before the
-// surface; without one it ends at -1. body: how much the water behind it is a body, 0 to 1.
+// One air of each of the four cells, between the depths `from` and `to`. If `behind` is true: the first air whose
+// middle is behind the surface at depth z and that begins at `after` or farther. Otherwise: the last air whose middle
+// is before the surface. Without such an air `to` is -1. `body`: 0 if the water behind the air is a drop, 1 if it is
+// a body.
 void airs_of(Cells cells, float z, float after, bool behind, out vec4 from, out vec4 to, out vec4 body) {
     float size = SLICE * frame.particle.y;
     from = vec4(EMPTY);
     to = vec4(-1.0);
     body = vec4(0.0);
     for (int k = 0; k < AIRS; ++k) {
-        // The last that fits, of the airs in reverse or in their order.
+        // The last air that fits is kept. The order is reversed to find the first one behind the surface.
         int i = behind ? AIRS - 1 - k : k;
         for (int c = 0; c < 4; ++c) {
             uint word = cells.words[i >> 1][c] >> (16 * (i & 1));
@@ -88,20 +91,21 @@ float boundary_of(ivec2 p) {
             cells.words[k][i] = weights[i] > 0.0 ? airs[cell + 1u + uint(k)] : 0u;
         }
     }
-    // Airs of other cells do not count when airs are compared.
+    // Airs that a cell took from another cell have no weight when airs are compared.
     vec4 counted = mix(weights, vec4(0.0), lessThan(cells.origin, vec4(0.0)));
     cells.origin = abs(cells.origin);
     float boundary = EMPTY;
     float most = -1.0;
     float after = 0.0;
-    // An air of half this width is chosen before those behind it: its surfaces are farther apart than the falloff, so that
-    // `composite` does not mix their texels. A narrower one hardly shows.
+    // An air of at least half this width is chosen without regard to the airs behind it: the surfaces at its ends are
+    // farther apart in depth than surfaces that `composite` takes for one (`frame.surface.w`), so their texels are
+    // not mixed. A narrower air hardly shows.
     float spacing = frame.particle.y;
     float wide = 2.0 * max(frame.surface.w - spacing, CLEAR * spacing);
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool there = any(greaterThan(cells.words[0], uvec4(255u)));
     float z = 0.0;
-    // Behind the surface, or else before it.
+    // Whether airs behind the surface are examined, or airs before it.
     bool behind = true;
     while (there) {
         z = behind && after == 0.0 ? front_of(p) : z;
@@ -109,13 +113,13 @@ float boundary_of(ivec2 p) {
         vec4 to;
         vec4 body;
         airs_of(cells, z, after, behind, from, to, body);
-        // The nearest to the surface, and those that overlap it.
+        // The air nearest to the surface; below, the airs of other cells that overlap it count with it.
         vec2 first = vec2(EMPTY, -1.0);
         for (int i = 0; i < 4; ++i) {
             bool nearer = to[i] >= 0.0 && (behind ? from[i] < first.x : to[i] > first.y);
             first = nearer ? vec2(from[i], to[i]) : first;
         }
-        vec2 all = vec2(0.0, EMPTY); // what they have in common
+        vec2 all = vec2(0.0, EMPTY); // the range that these airs share
         float sum = 0.0;
         float weight = 0.0;
         float open = 0.0;
@@ -133,7 +137,8 @@ float boundary_of(ivec2 p) {
         float at = rest > 0.0 ? clamp(sum / weight, all.x + edge, all.y - edge) : sum / weight;
         boundary = better ? at : boundary;
         most = better ? open : most;
-        // Behind, until one is chosen or there is none; then before, if there was none.
+        // Continues behind the surface until an air is wide enough or none is left. If there was none at all, looks
+        // before the surface.
         there = behind && (weight > 0.0 ? open < 0.5 : boundary == EMPTY);
         behind = weight > 0.0;
         after = first.y;

@@ -1,6 +1,7 @@
 #version 460
-// Pass `level`: the reduction repeated for each level coarser than the configured one, in tiles with water near enough
-// to need it. Not in the thesis, whose cap leaves near water rough.
+// Pass `level`: repeats the reduction of pass `reduce` for each level of the smoothing (resolution) that is coarser
+// than the configured one, in tiles whose water is near enough to need that level. Not in the thesis, whose limit on
+// the number of iterations leaves near water rough.
 // Reads: levels, depth (occluded pixels emptied), marks and list of the levels' tiles. Writes: both smoothing images,
 // plan, work of the levels' tiles.
 
@@ -41,7 +42,7 @@ void main() {
     barrier();
     ivec2 block = corner - own.rect.xy + ivec2(gl_LocalInvocationID.xy);
     if (all(lessThan(block, own.rect.zw))) {
-        // Texels outside the tiles that need this level do not contribute to the smoothing.
+        // A tile that only neighbours one which needs this level is EMPTY: it does not contribute to the smoothing.
         float z = EMPTY;
         ivec2 end = mark == 2u ? min((block + 1) * edge, ivec2(frame.extent.xy)) : ivec2(0);
         for (int y = block.y * edge; y < end.y; ++y) {

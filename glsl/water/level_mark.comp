@@ -1,6 +1,6 @@
 #version 460
-// Pass `level`, first part: marks the tiles of coarser levels that contain near water or neighbour it. One invocation
-// per tile of the first level.
+// Pass `level`, first part: marks, in each coarser level of the smoothing (resolution), the tiles with water near
+// enough to need that level and the tiles beside them. One invocation per tile of the first level.
 // Reads: levels, work of the tiles. Writes: marks and list of the coarser levels' tiles, levels needed.
 
 #include "frame.glsl"

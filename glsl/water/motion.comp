@@ -1,6 +1,7 @@
 #version 460
-// Pass `motion`, second part, not in the sources: sums the motions of the particles near a surface, weighted by their
-// thickness. One invocation handles a sprite of few texels; a whole group handles each of the other sprites.
+// Pass `motion`, second part, not in the sources: sums in each texel the motions of the particles near a visible
+// surface, weighted by the thickness that each particle adds there. One invocation handles a sprite that covers few
+// texels, a whole workgroup a larger one.
 // Reads: Counts (particles), positions, velocities, densities, foam, members, fronts. Writes: sums.
 
 #include "frame.glsl"
@@ -50,8 +51,9 @@ struct Sprite {
     ivec4 box;   // texels that it may cover; empty: none
 };
 
-// Least half-axis in texels. A pixel's ray meets the particle's sphere within a radius and 0.71 texels of a
-// texel's centre; a sprite this wide reaches that texel.
+// Least half-axis of a sprite in texels. If the ray of one of a texel's pixels meets the particle's sphere, then the
+// texel's centre is at most the radius plus 0.71 texels from the sphere's centre. A sprite this wide reaches that
+// far.
 const float LEAST_AXIS = 1.5;
 // Largest number of texels that one invocation handles alone.
 const int SMALL = 64;
@@ -92,7 +94,7 @@ Sprite sprite_of(uint index, bool foamy) {
     }
     s.centre = (frame.view * vec4(position, 1.0)).xyz;
     float depth = -s.centre.z;
-    // A particle whose centre is before the near plane has no sprite.
+    // A particle whose centre is nearer than the near plane has no sprite.
     if (depth <= frame.depth.z || !in_frustum(s.centre, 2.0 * FOAM_AXIS * frame.particle.x)) {
         return NONE;
     }
@@ -167,7 +169,8 @@ void splat(ivec2 texel, Sprite s) {
 // The smallest rectangle of the sprite's box that holds all texels in which the sprite lies near a surface. In a deep
 // body of water it is empty for most particles.
 ivec4 near_surfaces(Sprite s) {
-    // The distance of a foam sprite's plane from its centre is at most its half-axes.
+    // Inside the sprite, the depth of a foam sprite's plane differs from its centre's by at most the sum of the
+    // half-axes.
     float tilt = s.normal.z == 1.0 ? 0.0 : inversesqrt(dot(s.along, s.along)) + inversesqrt(dot(s.across, s.across));
     float reach = 3.0 * frame.particle.x + 1.001 * tilt;
     ivec4 part = ivec4(s.box.zw + 1, s.box.xy - 1);

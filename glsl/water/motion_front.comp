@@ -1,5 +1,6 @@
 #version 460
-// Pass `motion`, first part, not in the sources: the surfaces in each texel; clears its sums.
+// Pass `motion`, first part, not in the sources: finds the nearest and the farthest visible surface of each texel's
+// pixels, and clears the texel's sums.
 // Reads: depth, foam depth and thickness, scene depth. Writes: fronts, sums.
 
 #include "frame.glsl"
@@ -29,7 +30,7 @@ void main() {
             farthest = z < EMPTY ? max(farthest, z) : farthest;
         }
     }
-    // Otherwise particles near the first surface would also be near the second.
+    // A second surface must be this far behind: otherwise particles near the first would also be near the second.
     bool other = nearest < EMPTY && farthest - nearest > 3.0 * frame.particle.x;
     uint at = texel_index(texel);
     fronts[at] = vec2(nearest, other ? farthest : EMPTY);

@@ -34,8 +34,8 @@ float sum_at(uint at) {
     return negative ? -value : value;
 }
 
-// Weighted displacement and weight of the texel's surface that is nearer to a depth, among those with a weight; and its
-// distance from that depth.
+// Of the texel's surfaces that have a weight, chooses the one nearest to depth z. Returns its weighted displacement
+// and its weight; `away` is its distance from z.
 vec4 texel_sums(ivec2 texel, float z, out float away) {
     uint at = texel_index(texel);
     vec2 front = fronts[at];
@@ -56,8 +56,9 @@ vec4 texel_sums(ivec2 texel, float z, out float away) {
     return weight > 0.0 ? vec4(moved, weight) : vec4(0.0);
 }
 
-// Displacement of the surface at a depth in eye space, in spacings. Bilinear over those of the four texels
-// around the pixel that lie on the surface; if none does, from the nearest in depth of sixteen texels.
+// Displacement since the previous frame, in spacings and eye space, of the surface at depth z. Bilinear over those of
+// the four texels around the pixel that have a surface at about this depth; if none has, that of the texel, among
+// sixteen, whose surface is nearest to z.
 vec3 moved_at(vec2 pixel, float z) {
     vec2 h = pixel / float(texel_edge()) - 0.5;
     ivec2 base = ivec2(floor(h));
@@ -107,8 +108,8 @@ void main() {
         // No scene: with a reversed infinite depth, infinity is 1/0, or negative by rounding.
         z = device == frame.before_lens.w || !(scene > 0.0 && scene < EMPTY) ? EMPTY : scene;
     }
-    // Its position in the eye space of the previous frame minus that in the current one. For points at
-    // infinity both are directions.
+    // `change`: the point's position in the eye space of the previous frame minus its position in the current one.
+    // For points at infinity both positions are directions.
     bool sky = z >= EMPTY;
     vec3 here = vec3(slope, -1.0) * (sky ? 1.0 : z) - moved;
     vec3 change = mat3(frame.before) * here - moved + (sky ? vec3(0.0) : frame.before[3].xyz);

@@ -1,6 +1,7 @@
 #version 460
-// Pass `noise` (van der Laan et al. 2009): one octave per particle, fixed to it, under a kernel, fading with its depth
-// below the surface. Reads: water depth. Writes: noise (R32F), summed; 0 where there is no water.
+// Pass `noise` (van der Laan et al. 2009): each particle adds one octave of noise that moves with it. The octave is
+// weighted by a kernel around the particle's centre and fades with the particle's depth below the surface. Reads:
+// water depth. Writes: noise (R32F), summed; 0 where there is no water.
 
 #include "frame.glsl"
 #include "random.glsl"
@@ -17,7 +18,7 @@ layout(location = 0) out float noise;
 void main() {
     float depth = -centre.z;
     vec2 slope = ray_slope(gl_FragCoord.xy * frame.noise_image.z, frame.slope);
-    // In the plane of the centre's depth, as for thickness sprites.
+    // The offset lies in the plane of the centre's depth, as for thickness sprites.
     vec2 off = slope * depth - centre.xy;
     vec2 place = off / frame.noise.w;
     float rho2 = dot(place, place);

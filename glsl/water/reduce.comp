@@ -1,6 +1,7 @@
 #version 460
-// Pass `reduce`: rejects water behind the scene, takes the nearest surface of each block of pixels (but not a single
-// drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1, Listing A.12).
+// Pass `reduce`: rejects water behind the scene, takes for each block of pixels the depth of the nearest surface (but
+// not of a single drop), and plans the smoothing of that depth: the number of iterations and the step size, fixed
+// from here on (thesis Sec. 3.1, Listing A.12).
 // Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan, work of
 // every tile.
 
@@ -17,8 +18,8 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
-// Max number of iterations + 1, 0 without water; from bit 16 on the coarsest required level; bit 24: whether a coarser
-// level may be visible.
+// Per tile. Bits 0 to 15: the max number of iterations + 1, or 0 without water. Bits 16 to 23: the coarsest level
+// needed. Bit 24: whether a coarser level may be visible.
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
 #include "surface_foam_texels.glsl"
@@ -29,8 +30,8 @@ layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; 
 shared uint most;
 shared uint nearest_bits;
 
-// Depth of a block in front of the scene. `best` is the nearest depth; `other` tells whether something other than water
-// is drawn there.
+// Depth of a block of pixels, from the water in front of the scene and without single drops. `best` is the nearest
+// depth, drops included; `other` tells whether something other than water is drawn in the block.
 float reduced(ivec2 block, out float best, out bool other) {
     ivec2 extent = ivec2(frame.extent.xy);
     other = foam_beside(block << LEVEL, 1 << LEVEL);
@@ -54,7 +55,7 @@ float reduced(ivec2 block, out float best, out bool other) {
             }
         }
     }
-    // One pixel is at least a quarter of four.
+    // A surface counts as a drop if it has less than a quarter of the pixels. In four pixels or fewer, none has.
     return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 
@@ -86,7 +87,7 @@ void main() {
     if (gl_LocalInvocationIndex == 0u) {
         float near = uintBitsToFloat(nearest_bits);
         uint coarsest = near < 0.8 ? 0u : min(uint(0.5 * log2(1.25 * near)) + 1u, uint(levels.atlas.w));
-        // A pixel's ray is less than a texel away from that of its block.
+        // The limit is 0.9 and not 1, because a pixel's ray may be almost a texel away from the ray of its block.
         uint shows = near < 0.9 ? 0u : 1u;
         tile_work[gl_WorkGroupID.y * levels.atlas.z + gl_WorkGroupID.x] = most | coarsest << 16 | shows << 24;
     }

@@ -1,9 +1,10 @@
 #version 460
 // Pass `shape`, third part: fits the ellipsoid of each particle to the weighted covariance of its neighbours (Yu and
-// Turk 2013, Sec. 4, Eqs. 6 and 9 to 16). Differs: it keeps its sphere's volume (the paper's k_s is a kernel constant),
-// and it changes from sphere to ellipsoid gradually with the sum of the neighbours' weights, instead of at a number of
-// neighbours, so that it does not jump in time. Spray has an ellipsoid of its own, from one neighbour on: a line of
-// torn water is a strand of droplets. Sums use fixed-point steps: the order of the neighbours does not matter.
+// Turk 2013, Sec. 4, Eqs. 6 and 9 to 16). Differs: the ellipsoid keeps the volume of the particle's sphere (the
+// paper's k_s is a kernel constant). The shape changes from sphere to ellipsoid gradually with the sum of the
+// neighbours' weights, instead of at a number of neighbours, so that it does not jump in time. The droplets of spray
+// fill a second ellipsoid, which needs only one neighbour: a line of torn water is a strand of droplets. Sums use
+// fixed-point steps, so the order of the neighbours does not matter.
 // Reads: the grid, counts. Writes: shaped, shifts.
 
 #include "random.glsl"
@@ -15,9 +16,9 @@ layout(push_constant, std430) uniform Push {
     float cells;   // grid cells per unit of length: 1 / reach
     uint buckets;  // a power of two
     float ratio;   // largest ratio of the longest to the shortest half-axis
-    float fewest;  // sum of the neighbours' weights from which on it is an ellipsoid
+    float fewest;  // sum of the neighbours' weights from which on it is fully an ellipsoid
     float lone;    // size of a particle with at most one neighbour
-    float strand;  // as `ratio`, of its spray
+    float strand;  // like `ratio`, for the ellipsoid of its spray
 } push;
 
 #include "grid.glsl"
@@ -27,23 +28,24 @@ layout(push_constant, std430) uniform Push {
 
 layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; };
 layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
-// In the order of the grid: vector to the mean of the neighbours in units of the reach, and the weight of the
-// ellipsoid.
+// For each particle, in the order of the grid: the vector to the mean of the neighbours in units of the reach, and
+// the weight of the ellipsoid, 0 for a sphere to 1.
 layout(set = 0, binding = 5, std430) writeonly buffer Shifts { vec4 shifts[]; };
 
-// Fixed-point steps; addends are at most 1, so the sums of 27 full buckets fit.
+// Fixed-point steps per unit. Addends are at most 1, so the sums over 27 full buckets fit in 32 bits.
 const float STEPS = 65536.0;
 
-// Sums of the neighbours' weights between which spray becomes an ellipsoid. One neighbour in mid-reach has 7/8.
+// Sums of the neighbours' weights between which the shape of spray changes from a ball to an ellipsoid. A single
+// neighbour at half the reach has the weight 7/8.
 const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
 
-// Sums of the neighbours' weights between which a lone particle becomes one of full size: two particles have at most 1, a
-// line of them 2.9.
+// Sums of the neighbours' weights between which a particle grows from the size of a lone one to full size. For each
+// of two particles alone the sum is at most 1, for a particle in a line of them 2.9.
 const vec2 ALONE = vec2(1.5, 2.5);
 
-// Films: water one layer thick on a floor or a wall. Limits between which a particle gradually counts as part of one: the
-// ratio of the smallest to the middle variance, the ratio of the middle to the largest, and the sum of the neighbours'
-// weights (three particles always lie in a plane).
+// Films: water that is one particle thick, on a floor or a wall. Limits between which a particle gradually counts as
+// part of a film: the ratio of the smallest to the middle variance, the ratio of the middle to the largest, and the
+// sum of the neighbours' weights (because three particles always lie in a plane).
 const vec2 FLAT = vec2(0.02, 0.06);
 const vec2 BROAD = vec2(0.15, 0.3);
 const vec2 SOME = vec2(2.5, 4.5);
@@ -51,7 +53,7 @@ const vec2 SOME = vec2(2.5, 4.5);
 // Variance that counts as 0: Jacobi rotations leave rounding errors. In squares of the reach.
 const float NO_VARIANCE = 1.0e-6;
 
-// Half-axes with a product of 1 in the proportions of the variances, limited to a ratio.
+// Half-axes proportional to the variances, with the product 1; the longest is at most `ratio` times the shortest.
 vec3 axes_of(vec3 variances, float ratio) {
     float most = max(variances.x, max(variances.y, variances.z));
     if (most <= NO_VARIANCE) {

@@ -1,8 +1,8 @@
 #version 460
-// Pass `shape`, last part: moves particles towards the centre of their neighbours, so that sheets and rims are smooth
-// (Yu and Turk 2013, Eq. 6), minus the mean displacement of their neighbours (Vollmer, Mencl, Mueller 1999): with Eq.
-// 6 alone the whole surface moves inwards, and a body shrinks from its walls. Neighbours with large displacements, at
-// the surface like the particle, count most.
+// Pass `shape`, last part: moves each particle towards the centre of its neighbours, so that thin layers of water and
+// their rims are smooth (Yu and Turk 2013, Eq. 6). The mean displacement of the neighbourhood is subtracted (Vollmer,
+// Mencl, Mueller 1999), because with Eq. 6 alone the whole surface moves inwards, and a body of water shrinks away
+// from its walls. In this mean, large displacements have a large weight: they belong to particles at the surface.
 // Reads: the grid, counts, shifts. Writes: shaped (places).
 
 #include "random.glsl"
@@ -23,7 +23,7 @@ layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; 
 layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Shifts { vec4 shifts[]; };
 
-// Fixed-point steps; addends are at most 1, so the sums of 27 full buckets fit.
+// Fixed-point steps per unit. Addends are at most 1, so the sums over 27 full buckets fit in 32 bits.
 const float STEPS = 65536.0;
 
 void visit(uint i) {

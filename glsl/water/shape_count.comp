@@ -1,6 +1,6 @@
 #version 460
-// Pass `shape`, first part: number of particles in each bucket of the neighbour grid (Yu and Turk 2013 do not say how
-// neighbours are found).
+// Pass `shape`, first part: counts the particles in each bucket of the grid that finds neighbours (Yu and Turk 2013
+// do not say how neighbours are found).
 // Reads: the host's count, positions. Writes: bucket counts; shaped: the spheres of particles that are not in the grid.
 
 #include "random.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `shape`, optional last part: surface foam and densities of particles by the sum of their neighbours' weights. A few
-// particles that fly together hold no air, so they have no foam. They are spray, although many solvers write the rest
-// density for them. Not in the thesis.
+// Pass `shape`, optional last part: lowers the surface foam and the density of particles with few neighbours, by the
+// sum of the neighbours' weights. A few particles that fly together hold no air, so they have no foam. They are
+// spray, although many solvers write the rest density for them. Not in the thesis.
 // Reads: the host's count, foam amounts and ages, densities, shaped. Writes: foam (amount, age), densities.
 
 #include "shaped.glsl"
@@ -23,11 +23,11 @@ layout(push_constant, std430) uniform Push {
     uint chunk_first;
     uint chunk;          // most particles of the chunk
     uint count;          // number from the host, or the capacity
-    uint from_gpu;       // 1: the count is in the buffer
+    uint from_gpu;       // 1: the buffer has the number
     float foam_few;      // sum of the neighbours' weights up to which a particle has no foam,
     float foam_many;     // and from which on it has all of its foam
-    float spray_few;     // the same for its density
-    float spray_many;
+    float spray_few;     // sum up to which its density is at most `alone`,
+    float spray_many;    // and from which on it is unchanged
     float alone;         // highest density of a particle without neighbours
 } push;
 

@@ -1,6 +1,6 @@
 #version 460
-// Pass `smooth`, form Tiles: one iteration of curvature flow (thesis Sec. 3.1, 4.7, Listing A.13) over the
-// tiles with work left. The thesis draws one quad over the image.
+// Pass `smooth`, form Tiles: one iteration of curvature flow (thesis Sec. 3.1, 4.7, Listing A.13) over the tiles that
+// still have iterations to do. The thesis draws one quad over the image.
 // Reads: one smoothing image, plan, list. Writes: the other smoothing image.
 
 #include "frame.glsl"
@@ -8,8 +8,8 @@
 #include "level.glsl"
 #include "curvature.glsl"
 
-// An invocation smooths ROWS rows of two columns: a gather reads four texels, and the rows that it needs stay in
-// registers. ROWS is 2 on devices with many threads and 16 on those with few.
+// An invocation smooths two columns of ROWS rows each: one gather reads 2x2 texels, and rows that the next texels
+// need again stay in registers. ROWS is 2 on devices with many threads and 16 on those with few.
 layout(local_size_x = 8, local_size_y_id = 2) in;
 layout(constant_id = 1) const uint RULE = 1;
 layout(constant_id = 3) const int ROWS = 2;

@@ -1,6 +1,7 @@
 #version 460
-// Pass `smooth`, form Query: one iteration of curvature flow, and the two accompanying draws (thesis Sec. 4.7, Listings
-// A.11-A.13; the thesis counts fragments that it has not discarded).
+// Pass `smooth`, form Query: one iteration of curvature flow, or one of the two draws that go with it, a count of the
+// active pixels and a copy (thesis Sec. 4.7, Listings A.11-A.13; the thesis counts fragments that it has not
+// discarded).
 // Reads: one smoothing image, plan. Writes: the other smoothing image.
 
 #include "frame.glsl"

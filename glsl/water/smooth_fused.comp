@@ -1,8 +1,8 @@
 #version 460
-// Pass `smooth`, form Fused: eight iterations per dispatch in shared memory, over the tiles with work left. A tile of
-// 16x16 is smoothed from a window of 32x32: each iteration invalidates one more texel from the window's rim, so after
-// eight iterations the tile itself is still valid. The arithmetic is that of the other forms (thesis Sec. 4.7, Listing
-// A.13); this form is not in the thesis.
+// Pass `smooth`, form Fused: eight iterations per dispatch in shared memory, over the tiles that still have
+// iterations to do. A tile of 16x16 texels is smoothed in a window of 32x32: each iteration makes one more row of
+// texels along the window's rim invalid, so after eight iterations the tile itself is still valid. The arithmetic is
+// that of the other forms (thesis Sec. 4.7, Listing A.13); this form is not in the thesis.
 // Reads: one smoothing image, plan, list. Writes: the other smoothing image.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `smooth`, form Query: converts one block's sample count to the next block's predicate, 0 or 1. (It is never the
-// count itself, because it also serves as a draw count, which devices limit.) The thesis decides on the CPU (Sec. 4.7,
-// Listing A.11).
+// Pass `smooth`, form Query: converts the number of active pixels that a query counted in one block of iterations to
+// the predicate of the next block: 1 if there are any, otherwise 0. (The predicate is not the number itself, because
+// it also serves as a draw count, which devices limit.) The thesis decides on the CPU (Sec. 4.7, Listing A.11).
 // Reads: query results. Writes: predicates.
 
 layout(local_size_x = 1) in;

@@ -1,6 +1,7 @@
 #version 460
-// Pass `split`: sorts the first level's tiles with water by whether they hold a boundary, foam, and coarser levels, so
-// that `composite` can shade each kind with the simplest shader that suffices. Not in the thesis.
+// Pass `split`: sorts the tiles with water of the first level by three properties: two layers of water, foam, and a
+// visible coarser level of the smoothing. So `composite` can shade each of the eight kinds with the simplest shader
+// that suffices. Not in the thesis.
 // Reads: tile list and arguments, work, levels, boundaries, foam depth and thickness. Writes: eight lists, their
 // lengths.
 
@@ -14,8 +15,8 @@ layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// Lists for one sheet, two sheets, both with foam, and all of these with coarser levels. Each has room for all
-// tiles.
+// Eight lists of tiles: with one layer of water, with two layers, these two with foam, and these four with coarser
+// levels. Each list has room for all tiles.
 layout(set = 0, binding = 3, std430) writeonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 4, std430) buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 5) uniform sampler2D foam_depth;
@@ -37,8 +38,8 @@ void split(uint tile) {
         kind = near << 2;
     }
     barrier();
-    // A tile is 16 texels wide, plus one texel on each side of the coarsest visible level, by which near surfaces
-    // may be widened. This includes the thickness texels beside the tile, which are needed for interpolation.
+    // The area examined is 16 texels wide, plus on each side one texel of the coarsest visible level, by which near
+    // surfaces may be widened. It includes the thickness texels beside the tile, which are needed for interpolation.
     float edge = levels.level[0].texel.z;
     float wider = near == 0u ? edge : edge * exp2(float(tile_work[tile] >> 16 & 255u));
     vec2 corner = vec2(texel) * edge;
@@ -53,7 +54,7 @@ void split(uint tile) {
             if (SHEETS == 2u && boundary_of(p) < EMPTY) {
                 found |= 1u;
             }
-            // Test both: the depth has narrower sprites, and the thickness may be less than a step.
+            // Both are tested: the sprites of the depth are narrower, and a thickness below one step is stored as 0.
             if (FOAM == 1u && (texelFetch(foam_depth, p, 0).x < EMPTY || texelFetch(foam_thickness, p, 0).x > 0.0)) {
                 found |= 2u;
             }

@@ -1,7 +1,7 @@
 #version 460
-// Pass `split`, last part: writes the arguments of `composite` for each of the eight kinds of tiles. Not in the thesis.
-// A draw has a quad per tile. A dispatch has several groups of 8x8 pixels per tile, because a tile is 16x16 texels of
-// the first smoothing level.
+// Pass `split`, last part: writes the indirect arguments of `composite` for each of the eight kinds of tiles. Not in
+// the thesis. A draw has one quad per tile. A dispatch has several workgroups of 8x8 pixels per tile, because a tile
+// is 16x16 texels of the first smoothing level.
 // Reads: lengths of the lists, levels (width of a texel). Writes: arguments: eight draws, then eight dispatches.
 
 #include "frame.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `spray`: optical depth of droplets in front of scene and water (thesis Sec. 4.9.5 adds a colour instead).
+// Pass `spray`: sums the optical depth of droplets in front of scene and water (thesis Sec. 4.9.5 adds a colour).
 // Reads: scene depth, water depth. Writes: spray (RG32F, or RG16F if the device cannot blend that), summed.
 
 #include "frame.glsl"
@@ -16,7 +16,7 @@ layout(location = 8) flat in vec2 turn;
 
 // 1: sums in single precision, 0: in half precision.
 layout(constant_id = 34) const uint SINGLE = 1;
-// Fixed-point steps per optical depth of 1: sums are exact in any order up to 64, with half floats up to 4.
+// Fixed-point steps per optical depth of 1. Sums up to 64 are exact in any order, with half floats sums up to 4.
 const float STEPS = SINGLE == 1u ? 262144.0 : 512.0;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
@@ -24,7 +24,7 @@ layout(set = 0, binding = 3) uniform sampler2D water_depth;
 
 layout(location = 0) out vec2 optical_depth; // optical depth: all, and the sunlit part
 
-// Logarithm of the mean of exp(a n) over a^2, for value noise n and amplitudes a up to 2: within 0.3 %.
+// log(mean(exp(a n))) / a^2 for value noise n, which is this within 0.3 % for amplitudes a up to 2.
 const float RAISED = 0.0895;
 
 // Random value of a lattice point, -1 to 1. `joined` has the point's coordinates multiplied by primes of xxHash, as in
@@ -48,11 +48,12 @@ float value_noise(vec2 p, uint salt) {
     return mix(low, high, f.y);
 }
 
-// Growth of the noise's amplitude per octave, up to 1. Coarse octaves are weak, because strong clumps of a particle's
-// size would show the particles.
+// Octave k of the noise, from 0, has the relative amplitude min(FINER (k + 1), 1). Coarse octaves are weak, because
+// strong clumps of a particle's size would show the particles.
 const float FINER = 0.25;
 
-// Density of mist relative to its mean. Drops come in clumps of all sizes: the logarithm is a sum of octaves of noise.
+// Density of mist, divided by its mean. Drops come in clumps of all sizes, so the logarithm of the density is a sum
+// of octaves of noise.
 float clumps(vec2 place) {
     vec2 cells = place * grain.xy;
     vec2 at = vec2(cells.x * turn.x - cells.y * turn.y, cells.x * turn.y + cells.y * turn.x);
@@ -73,8 +74,8 @@ void main() {
         discard;
     }
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
-    // Only a body of water hides spray; a single drop does not. So of the water's depths at this pixel and at four
-    // pixels diagonally a drop away, the farthest is used.
+    // Only a body of water hides spray; a single drop does not. So the farthest of five water depths is used: at this
+    // pixel and at the four pixels that are `aside` pixels away on both axes, farther than a drop reaches.
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float water = texelFetch(water_depth, pixel, 0).x;
     for (int i = 0; i < 4; ++i) {

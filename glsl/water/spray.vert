@@ -1,7 +1,8 @@
 #version 460
-// Pass `spray` (thesis Sec. 4.9.5; several droplets per particle are new): a quad around each droplet, an ellipse that
-// faces the camera, stretched along its projected motion. Droplets of a particle with neighbours fill the ellipsoid
-// that pass `shape` has fitted to them; mist is the projection of that ellipsoid and of its streak.
+// Pass `spray` (thesis Sec. 4.9.5; several droplets per particle are new): a quad around each droplet, an ellipse
+// that faces the camera, stretched along its projected motion. Droplets of a particle with neighbours fill the
+// ellipsoid that pass `shape` has fitted to the neighbours. The first droplet of a particle is mist, the projection
+// of that ellipsoid lengthened by its motion.
 // Reads: sprites, inputs of sunlight.glsl. Writes: the quad's corners, its optical depth and visibility of the sun, and
 // the scale of the noise in mist.
 
@@ -31,12 +32,13 @@ layout(location = 8) flat out vec2 turn;   // cosine and sine from the noise's a
 const uint PLACE = 0x5370u;
 // First counter of the random numbers that a particle has once.
 const uint SPINDLE = 4096u;
-// Sums of squared half-axes between which droplets change from a random spindle to the ellipsoid of the neighbours.
+// Sums of an ellipsoid's squared half-axes (3 for a ball) between which droplets change from a random spindle to this
+// ellipsoid, which is fitted to the neighbours.
 const float BALL = 3.0;
 const float FLAT = 3.6;
-// Root of the sum of squared half-axes of that ellipsoid, over the scatter radius.
+// Root of the sum of squared half-axes of the ellipsoid that the droplets fill, divided by the scatter radius.
 const float STRAND = 0.7;
-// Difference of the squared half-axes of an ellipse, over their sum, below which it is a circle.
+// An ellipse counts as a circle if the difference of its squared half-axes is less than this times their sum.
 const float ROUND = 1.0e-3;
 // Sums of the neighbours' weights between which mist fades in: two or three particles alone are drops without mist.
 const vec2 CROWD = vec2(1.0, 6.0);
@@ -76,14 +78,14 @@ void main() {
     uint number = 5u * (gl_InstanceIndex % droplets);
     chance = chance_of(id, number);
     bool several = droplets > 1u;
-    // Droplets are uniform in a ball. With several, the ball is a spindle in a random direction and of random
-    // length: some are a burst, some hardly torn.
+    // Droplets are distributed uniformly in a ball. If a particle has several, the ball is stretched to a spindle of
+    // random direction and size, so that some particles look like a burst and some hardly torn.
     vec3 off = direction_of(id, number);
     off *= frame.spray.z * pow(uniform_of(PLACE, id, number + 2u), 1.0 / 3.0);
     vec3 axis = direction_of(id, SPINDLE);
     float wide = (1.0 + 5.0 * uniform_of(PLACE, id, SPINDLE + 2u)) / 6.0;
     vec3 spindle = wide * (0.4 * off + 0.6 * dot(off, axis) * axis);
-    // With neighbours, droplets lie in strands and sheets between them.
+    // With neighbours, droplets lie in strands and thin layers between the particles.
     mat3 shape = unpack_axes(sprite.shape.xyz);
     float squares = axes_norm2(shape);
     vec3 strand = shape * off * (STRAND * inversesqrt(squares));
@@ -111,8 +113,9 @@ void main() {
     vec3 level = normalize(cross(side, normal));
     vec3 e1 = speed > still_below ? motion / speed : level;
     vec3 e2 = cross(e1, normal);
-    // A streak covers a larger area than the droplet, but each point for a shorter time: its optical depth is lower in
-    // proportion. A narrower sprite is widened to 1.4 pixels, to avoid flicker; the same holds for its optical depth.
+    // A streak covers a larger area than the droplet, but each point for a shorter time, so its optical depth is
+    // divided by the ratio of the areas. A sprite narrower than 1.4 pixels is widened to that, to avoid flicker; its
+    // optical depth is divided likewise.
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
@@ -126,17 +129,18 @@ void main() {
     float crowd = smoothstep(CROWD.x, CROWD.y, uintBitsToFloat(sprite.shape.w));
     float thick = mist ? frame.spray_cloud.x * torn * torn * torn * crowd : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
-    // One value for all colours: around it there is more foam than water.
+    // Visibility of the sun, one value for all colours: around spray there is more white foam than coloured water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     float direct = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
     amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z);
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
-    // Cells are one drawn radius wide, and lengthened by the streak. The smallest octave is a pixel wide.
+    // Cells of the mist's noise are one drawn radius wide, and lengthened by the streak. Cells of the finest octave
+    // are at least a pixel wide.
     vec2 cell = frame.particle.x + abs(vec2(dot(motion, e1), dot(motion, e2))) * frame.spray.w;
     float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(min(cell.x, cell.y) / pixel), 0.0, OCTAVES) : 0.0;
     grain = vec3(axes / cell, mist ? octaves : 0.0);
-    // The noise is lengthened along the streak, and does not turn with it: the streak of a particle that hardly moves
-    // has a random direction, another one in each frame.
+    // The noise is lengthened along the streak, but does not turn with it, because the streak of a particle that
+    // hardly moves has a random direction that changes from frame to frame.
     turn = vec2(dot(e1, level), dot(e1, upright));
     along = e1 / axes.x;
     across = e2 / axes.y;

@@ -60,8 +60,8 @@ void visit(uint index) {
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
     velocity = mat3(frame.view) * velocity;
-    // Droplets lie within the scatter radius of the centre, and their streaks and sizes reach further. A particle
-    // nearer to the eye than that radius is not drawn, because it would fill the picture.
+    // Droplets lie within the scatter radius of the particle's centre; `reach` adds their sizes and streaks. A
+    // particle nearer to the eye than the scatter radius is not drawn, because it would fill the picture.
     uvec4 shape = uvec4(pack_axes(mat3(1.0)), floatBitsToUint(CROWDED));
     if (push.shape_stride > 0u) {
         at = push.shape_word + index * push.shape_stride;

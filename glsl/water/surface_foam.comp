@@ -1,7 +1,8 @@
 #version 460
-// Pass `surface_foam`, compute path: depth of the frontmost surface foam (thesis Sec. 4.6.2), then metres of all foam and of
-// the front layer (Sec. 4.8), in fixed-point steps. One invocation per sprite, a whole group for large ones. A noise
-// breaks up the discs: the shared pattern, or one per sprite that changes with its age.
+// Pass `surface_foam`, compute path. It finds the depth of the frontmost surface foam (thesis Sec. 4.6.2), then sums,
+// in fixed-point steps, the metres of all foam and of its front layer, the foam right behind the frontmost (Sec.
+// 4.8). One invocation handles a sprite, a whole workgroup a large one. A noise breaks up the discs: a pattern that
+// all sprites share, or a noise of each sprite that changes with its age.
 // Reads: Counts, sprites, words. Writes: words.
 
 #include "frame.glsl"
@@ -25,7 +26,7 @@ layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprite
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 
-// Max number of texels of a box that one invocation processes alone; it is the upper end of a size class.
+// Max number of texels in a sprite's box that one invocation processes alone; it is the upper end of a size class.
 const int SMALL = 1023;
 
 // Number of size classes: two per power of two of the number of texels.
@@ -44,8 +45,9 @@ struct Splat {
     ivec4 box;   // texels that it may cover
 };
 
-// Bounds of the ellipse in slopes on an axis, from the tangent planes through the eye; everything where it
-// reaches the eye's plane. Relative to the centre's slope, which is exact for small sprites.
+// Bounds of the ellipse on one axis of the image, as slopes, from the two tangent planes through the eye; unbounded
+// if the ellipse reaches the plane through the eye. They are computed relative to the centre's slope, so that they
+// are exact for small sprites.
 vec2 touching(vec2 centre, vec2 half1, vec2 half2) {
     float from = centre.x / -centre.y;
     vec2 w = vec2(half1.x + from * half1.y, half2.x + from * half2.y);
@@ -78,9 +80,9 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Adds to the sum of all foam and to the following sums, which often get 0. Any number of sprites may lie on one spot:
-// an addition to a word that is half full is subtracted again. All in one loop: at each atomic operation that a CPU
-// driver meets, it runs the invocations one by one, whether or not they add anything.
+// Adds to the sum of all foam and to the sums after it, most of which get 0. Any number of sprites may lie on one
+// spot: an addition to a word that is already half full is subtracted again. All additions are in one loop: a CPU
+// driver runs the invocations one by one at each atomic operation in the code, even those that add nothing.
 void add(uint word, uvec4 steps) {
     do {
         // A zero must not count as an overflow: it would be subtracted again forever.
@@ -103,7 +105,7 @@ void splat(ivec2 texel, Splat s) {
     uint at = words_of(texel);
     uint front = words[at + FRONT];
     if (THICK == 0u) {
-        // Most sprites lose against the scene or others: a read is cheaper than an atomic.
+        // Most sprites are behind the scene or other sprites: a read is cheaper than an atomic.
         if (floatBitsToUint(depth) < front) {
             atomicMin(words[at + FRONT], floatBitsToUint(depth));
         }
@@ -135,7 +137,7 @@ uint class_of(int texels) {
     return min(2u * power + (power > 0u ? n >> (power - 1u) & 1u : 0u), CLASSES - 1u);
 }
 
-// Invocations in lockstep wait for the one with the most texels, so a group's sprites are sorted by class.
+// Invocations in lockstep wait for the one with the most texels, so the sprites of a group are sorted by size class.
 uint in_order(int own) {
     uint local = gl_LocalInvocationIndex;
     if (local < CLASSES) {

@@ -1,6 +1,6 @@
 #version 460
-// Pass `surface_foam`, compute path, first part: clears all texels and stores the scene's depth at their centres: sprites read
-// it many times, and a word beside the sums is faster than a texel of an image.
+// Pass `surface_foam`, compute path, first part: clears all texels and stores the scene's depth at their centres.
+// Sprites read this depth many times, and reading a word beside the sums is faster than reading a texel of an image.
 // Reads: scene depth. Writes: words.
 
 #include "frame.glsl"

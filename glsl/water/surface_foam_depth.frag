@@ -1,6 +1,6 @@
 #version 460
-// Pass `surface_foam`, raster path: the frontmost foam (thesis Sec. 4.6.2, Listing A.10). MIN blending keeps the
-// nearest.
+// Pass `surface_foam`, raster path: depth of the frontmost foam (thesis Sec. 4.6.2, Listing A.10). MIN blending keeps
+// the nearest.
 // Reads: scene depth. Writes: foam depth (R32F).
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `surface_foam`: velocity of the foam on the screen, which advects the lace (not in the thesis). Each sprite adds its
-// velocity to the four nodes around its centre.
+// Pass `surface_foam`: sums the velocities of the foam on a grid of nodes on the screen. They advect the lace, a
+// pattern of bubbles that tears thin foam into threads (not in the thesis). Each sprite adds its velocity to the four
+// nodes around its centre.
 // Reads: Counts, sprites. Writes: drift.
 
 #include "frame.glsl"
@@ -23,7 +24,8 @@ void main() {
     vec2 pixel = (centre.xy / -centre.z - frame.slope.zw) / frame.slope.xy;
     vec2 at = pixel / DRIFT_CELL;
     ivec2 last = drift_nodes() - 1;
-    // Sprites more than half a cell outside the grid add to no node. If one is visible, there are others inside.
+    // Sprites more than half a cell outside the grid add to no node. If such a sprite is visible, others lie inside
+    // the grid.
     if (!(all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, vec2(last) + 0.5)))) {
         return;
     }

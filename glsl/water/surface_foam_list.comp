@@ -1,6 +1,6 @@
 #version 460
-// Pass `surface_foam`, first part: lists the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2). The share that is
-// spray is subtracted.
+// Pass `surface_foam`, first part: lists the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2). A particle
+// that is partly spray has less foam in proportion.
 // Reads: Counts (particles), positions, foam, velocities, ids, densities, members, shadow maps. Writes: Counts (foam),
 // sprites.
 
@@ -71,7 +71,7 @@ void visit(uint index) {
         return;
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
-    // An upper bound of the half-axes. A centre behind the near plane has no sprite.
+    // `reach`: an upper bound of the half-axes. A particle whose centre is nearer than the near plane has no sprite.
     float texel = -centre.z * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
     float reach = max(2.0 * FOAM_AXIS * frame.particle.x, LEAST_FOAM_AXIS * texel);
     if (-centre.z <= frame.depth.z || !in_frustum(centre, reach)) {

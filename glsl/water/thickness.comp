@@ -1,8 +1,10 @@
 #version 460
-// Pass `thickness`, compute path: fixed-point sums, so that the order does not matter (thesis Sec. 4.8.1 blends;
-// kernel.glsl). An addend is 2^26 at most (a particle of half the radius), so 64 of them overflow a word; carries are
-// counted in a second word. Any number of particles may lie on one spot. A second dispatch sums the front of two layers
-// and the window between them, for the few spheres that are not well behind every nearby boundary.
+// Pass `thickness`, compute path: sums the metres of water of each texel in fixed point, so that the order of the
+// particles does not matter (thesis Sec. 4.8.1 blends; kernel.glsl). An addend is at most 2^26 (of a particle with
+// half the radius), so 64 of them overflow a word. Carries are counted in a second word, so any number of particles
+// may lie on one spot. A second dispatch handles texels with two layers of water: it sums the front layer and the
+// window, the water close to the boundary between the layers. Only the few spheres that are not well behind every
+// nearby boundary take part.
 // Reads: Counts, visible, scene depth (with foam: depths of scene and frontmost foam, from the foam's words),
 // boundaries, blocks. Writes: sums (UNITS of the amplitude).
 
@@ -22,8 +24,8 @@ layout(constant_id = 1) const uint APART = 0;
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 3) uniform sampler2D scene_depth;
-// Each sum is two words: the low word and the number of carries. First all water; then, if there may be foam,
-// the water before the frontmost foam; then the front sheets; then the windows.
+// Each sum is two words: the low word and the number of carries. First the sums of all water; then, if there may be
+// foam, those of the water before the frontmost foam; then those of the front layers; then those of the windows.
 layout(set = 0, binding = 4, std430) buffer Sums { uint sums[]; };
 // The farthest boundary of each block.
 layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
@@ -47,13 +49,13 @@ struct Sprite {
     float scale; // units per amplitude of 1
 };
 
-// A smaller sprite holds the same volume.
+// Units per amplitude of 1. A particle with a smaller radius has a smaller sprite that holds the same volume.
 float units(float radius) {
     float grown = frame.particle.x / radius;
     return UNITS * grown * grown;
 }
 
-// The sprite of a particle at full size, scaled by the fraction that is water.
+// The sprite of a particle at its full size, its amount scaled by the fraction of the particle that is water.
 Sprite sprite_of(uint index) {
     Ellipsoid body = ellipsoid_in(visible, index);
     float water = FOAM == 1u ? shares[index] : 1.0;
@@ -82,8 +84,9 @@ ivec4 span(Sprite sprite) {
     return pixel_span(pixel_bounds(slopes, frame.thick_slope), frame.thick_extent.xy);
 }
 
-// Adds to two sums: to each its low word, and if that overflows, a carry. All in one loop: at each atomic
-// operation that a CPU driver meets, it runs the invocations one by one, whether or not they add anything.
+// Adds to two sums: to the low word of each and, if that overflows, 1 to the number of carries. All additions are in
+// one loop: a CPU driver runs the invocations one by one at each atomic operation in the code, even those that add
+// nothing.
 void add(uint at, float amount, uint other, float more) {
     uint word = 2u * at;
     uint units = uint(amount + 0.5);
@@ -133,8 +136,8 @@ void splat(ivec2 texel, Sprite sprite) {
     }
 }
 
-// The part of a box of texels whose blocks have a boundary that the sphere may lie before (front sheet or
-// window).
+// Narrows a box of texels to those blocks of 16x16 pixels that have a boundary which the sphere may be in front of or
+// close to (front layer or window).
 ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of a block's texels
@@ -159,7 +162,7 @@ void main() {
             return;
         }
         Sprite sprite = sprite_of(index);
-        // A centre behind the near plane has no sprite.
+        // A particle whose centre is nearer than the near plane has no sprite.
         if (-sprite.centre.z <= frame.depth.z) {
             return;
         }
@@ -174,7 +177,7 @@ void main() {
             }
         }
         // One `do`-`while` loop instead of two nested loops. SIMD lanes wait for the lane with the most pixels: once
-        // here, in nested loops once per row. No lane runs an empty iteration.
+        // for the whole loop here, but once per row in nested loops. No lane runs an empty iteration.
         ivec2 p = box.xy;
         do {
             splat(p, sprite);

@@ -1,6 +1,6 @@
 #version 460
-// Pass `thickness`, raster path: additive, tested against the scene by the centre's depth
-// (thesis Sec. 4.8.1, Listing A.15; kernel.glsl).
+// Pass `thickness`, raster path: adds the metres of water of each sprite by blending, except where the sprite's
+// centre is behind the scene (thesis Sec. 4.8.1, Listing A.15; kernel.glsl).
 // Reads: scene depth, foam depth. Writes: thickness (metres along z; R32F, or RG32F with foam).
 
 #include "frame.glsl"

@@ -1,5 +1,6 @@
 #version 460
-// Pass `thickness`, raster path: a disc in the plane of each centre (thesis Sec. 3.2.2, 4.8.1).
+// Pass `thickness`, raster path: a disc for each particle, in the plane of its centre's depth (thesis Sec. 3.2.2,
+// 4.8.1).
 // Reads: visible. Writes: the disc's corners.
 
 #include "frame.glsl"
@@ -30,7 +31,7 @@ void main() {
     float widened;
     float axis = drawn_axis(sphere.w * frame.particle.z / frame.particle.x, -sphere.z, frame.thick_slope, widened);
     disc = vec4(sphere.xyz, 1.0 / axis);
-    // A smaller sprite holds the same volume.
+    // A particle with a smaller radius has a smaller sprite that holds the same volume.
     float grown = frame.particle.x / sphere.w;
     amplitude = share * frame.particle.w * grown * grown / widened;
     vec2 reach = vec2(axis);
@@ -53,7 +54,7 @@ void main() {
                   (gl_VertexIndex & 2) == 0 ? pixels.y : pixels.w);
     }
     gl_Position = vec4(at / frame.thick_extent.xy * 2.0 - 1.0, 0.5, 1.0);
-    // A centre behind the near plane has no sprite: move it off the screen.
+    // A particle whose centre is nearer than the near plane has no sprite: it is moved off the screen.
     if (-sphere.z <= frame.depth.z) {
         gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
         gl_PointSize = 1.0;

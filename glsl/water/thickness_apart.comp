@@ -1,6 +1,6 @@
 #version 460
-// Pass `thickness`, compute path, with two layers: converts their sums to metres, and removes the boundary where all
-// water belongs to one layer. Not in the thesis.
+// Pass `thickness`, compute path, with two layers of water: converts the sums of the layers to metres, and removes
+// the boundary between the layers in texels where all water belongs to one of them. Not in the thesis.
 // Reads: sums, boundaries, scene depth. Writes: sheets (RGBA32F: front, back, window, boundary as found), boundaries.
 
 #include "frame.glsl"
@@ -26,9 +26,9 @@ void main() {
     float front = metres(sums[at + (1u + FOAM) * texels]);
     float window = metres(sums[at + (2u + FOAM) * texels]);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(p) + 0.5) * frame.thick_extent.z), 0).x);
-    // Both sums are rounded sprite by sprite, so the front layer's may exceed the whole by some steps. With fixed point
-    // the front layer's is exactly the whole if nothing is behind it. `precise`: a fused multiply-add would keep what
-    // the products above round off, so equal sums would differ.
+    // The sums of all water and of the front layer are rounded sprite by sprite, so the second may exceed the first
+    // by some steps. In fixed point the two are exactly equal if no water is behind the boundary. `precise`: a fused
+    // multiply-add would keep what the products above round off, so equal sums would differ.
     precise float back = all - front;
     back = max(back, 0.0);
     float found = boundaries[at];

@@ -11,8 +11,8 @@ layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer List { uint list[]; };
-// [0]: draw of all tiles with water (4, n, 0, 0). Then dispatches {x, 1, 1, n}: one per iteration, and at the end
-// all tiles.
+// [0]: arguments of a draw of all tiles with water (4, n, 0, 0). After it arguments of dispatches {x, 1, 1, n}: one
+// for each iteration, and at the end one over all tiles with water.
 layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -51,8 +51,8 @@ void main() {
         arguments[258] = uvec4(min(sum, push.most_groups), 1u, 1u, sum);
     }
     barrier();
-    // Iteration i runs the tiles with at least i - 1 iterations. The additional one copies all pixels, so that
-    // both images hold the result.
+    // Iteration i runs the tiles that need at least i - 1 iterations. The one iteration more than needed copies all
+    // pixels of a tile, so that both images hold the result.
     for (uint i = lane + 1u; i <= 257u; i += 256u) {
         uint least = max(i, 2u);
         uint n = first[least] + histogram[least];
