@@ -16,13 +16,13 @@ pub const LAYERS: usize = 4;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ShoreConfig {
-    /// How the edge of foam within a pixel is computed.
+    /// How a pixel at the edge of foam is computed.
     #[cfg(feature = "diagnostics")]
     pub edge: Edge,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) edge: Edge,
-    /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. It takes 25⅓ bytes per
-    /// texel.
+    /// Side length of the foam texture in texels, a power of two from 16 to 2048, default 512. The texture takes
+    /// 25⅓ bytes of memory per texel.
     pub texture_size: u32,
     /// Seed of the built-in foam texture and noise, default 1.
     pub seed: u32,
@@ -45,17 +45,17 @@ impl ShoreConfig {
     }
 }
 
-/// How the edge of shoreline foam within a pixel is computed.
+/// How a pixel at the edge of shoreline foam is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Edge {
-    /// The fraction of the pixel that foam covers, from the foam's derivatives and the variance of detail finer
-    /// than the pixel. Default: it neither crawls nor sparkles.
+    /// The fraction of the pixel that foam covers, from the derivatives of the thresholded value and the variance of
+    /// its detail finer than the pixel. Default, because edges neither crawl nor sparkle.
     Smooth,
     /// A pixel is foam or not, as in the blog.
     Clip,
-    /// The average of four alpha-to-coverage samples: [`Smooth`](Self::Smooth) quantised to quarters and dithered over
-    /// 2×2 pixels.
+    /// The average of four alpha-to-coverage samples: the fraction of [`Smooth`](Self::Smooth), quantised to quarters
+    /// and dithered over 2×2 pixels.
     Coverage,
 }
 
@@ -63,10 +63,10 @@ pub enum Edge {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ShoreSettings {
-    /// Time in seconds, finite. Motion is derived from it in 64 bits. Default 0.
+    /// Time in seconds, finite, default 0. All motion is computed from it in 64 bits.
     pub time: f64,
-    /// Period after which everything repeats, seconds, [0.1, 1e6]: speeds are rounded to whole cycles per
-    /// period. `None` (default): no repetition.
+    /// Time after which all motion repeats, seconds, [0.1, 1e6]. For that, each speed is rounded to a whole number of
+    /// cycles per period. `None` (default): no repetition.
     pub period: Option<f32>,
     /// Foam along shores.
     pub shoreline: ShorelineSettings,
@@ -97,7 +97,7 @@ impl ShoreSettings {
         ] {
             wider(&mut noise.scale);
         }
-        // Of these noises the amplitude is a length as well.
+        // The amplitude of these noises is a length, too.
         for warp in [&mut shore.texture_warp, &mut shore.warp] {
             wider(&mut warp.scale);
             longer(&mut warp.amplitude);
@@ -113,9 +113,10 @@ impl ShoreSettings {
 /// Zero-mean seamless noise over the water's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Maximum value, [-1000, 1000], in the unit of the quantity that it modulates.
+    /// Maximum value, [-1000, 1000], in the unit of the quantity to which the noise is added.
     pub amplitude: f32,
-    /// Repetitions per scene unit, [0, 100]. The coarsest cells are a quarter of a repetition wide.
+    /// Repetitions of the noise texture per scene unit, [0, 100]. The coarsest cells of the noise are a quarter of a
+    /// repetition wide.
     pub scale: f32,
 }
 
@@ -140,34 +141,38 @@ impl Noise {
 ///     + texture_weight · (web + a'·v + b' + n₃) ≥ threshold + n₂
 /// ```
 ///
-/// where the shore coordinate v is 0 at the foam's seaward edge, 1 at the shore line and 2 at the foam's inland edge (the
-/// blog, Sec. IV to VIII).
+/// where the shore coordinate v is 0 at the foam's seaward edge, 1 at the shore line and 2 at the foam's inland edge
+/// (the blog, Sec. IV to VIII). The phase advances with `speed`. a and b are `wave_slope` and `wave_offset`, a' and
+/// b' are `texture_slope` and `texture_offset`. `web` is the foam texture. n₁, n₂ and n₃ are `frequency_noise`,
+/// `threshold_noise` and `rise_noise`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShorelineSettings {
-    /// Width of the foam seawards of the shore line, scene units, (0, 1e6], default 12. It applies where v is computed
-    /// from a distance; the vertices of a strip give v themselves.
+    /// Width of the foam seawards of the shore line, scene units, (0, 1e6], default 12. It converts a distance from
+    /// the shore to v; it has no effect on a strip, whose vertices give v themselves.
     pub sea_reach: f32,
     /// Width of the foam inland of the shore line, scene units, (0, 1e6], default 3.
     pub land_reach: f32,
-    /// Wave frequency in radians per v, [0, 1000], default 13: two waves between the sea's edge and the shore
-    /// line.
+    /// Wave frequency in radians per unit of v, [0, 1000], default 13: two waves between the foam's seaward edge and
+    /// the shore line.
     pub frequency: f32,
-    /// Wave speed in radians per second, [-1000, 1000], default -0.9. Negative values run towards the shore, positive
-    /// ones out to sea, as in the blog.
+    /// Wave speed in radians of phase per second, [-1000, 1000], default -0.9. With a negative speed waves run
+    /// towards the shore; with a positive one, as in the blog, out to sea.
     pub speed: f32,
-    /// Share of the motion that oscillates, 0 (none) to 1 (all), default 0.35.
+    /// Share of the waves' motion that is an oscillation instead of a constant `speed`, 0 (none) to 1 (all), default
+    /// 0.35.
     pub swing: f32,
     /// Amplitude of the oscillation, radians, [0, 1000], default 2.2.
     pub swing_amplitude: f32,
     /// Period of the oscillation, seconds, [0.1, 1e6], default 7.
     pub swing_period: f32,
-    /// Noise added to the frequency. Default 5, 1/90 m.
+    /// Noise added to the frequency, radians per unit of v. Default: amplitude 5, scale 1/90 per scene unit.
     pub frequency_noise: Noise,
-    /// Noise added to the speed, radians per second. Default 0.35, 1/90 m. It oscillates, because otherwise different
-    /// places would drift apart without limit.
+    /// Noise added to the speed, radians per second. Default: amplitude 0.35, scale 1/90 per scene unit. At each
+    /// place the added speed oscillates around 0, because with a constant one the phases of different places would
+    /// drift apart without limit.
     pub speed_noise: Noise,
-    /// Period of that oscillation, seconds, [0.1, 1e6], default 11.
+    /// Period of the oscillation of `speed_noise`, seconds, [0.1, 1e6], default 11.
     pub speed_period: f32,
     /// Slope a of the waves over v, [-100, 100], default 1.1.
     pub wave_slope: f32,
@@ -185,19 +190,23 @@ pub struct ShorelineSettings {
     pub texture_offset: f32,
     /// Layers of the foam texture. Default: two.
     pub layers: [TextureLayer; LAYERS],
-    /// Domain warp of the foam texture, scene units. Default 0.7, 1/18 m.
+    /// Noise by which the foam texture's positions are displaced, scene units. Default: amplitude 0.7, scale 1/18 per
+    /// scene unit.
     pub texture_warp: Noise,
-    /// Velocity of that warp's noise, scene units per second, [-1000, 1000], default 0.35 and 0.2.
+    /// Velocity at which the noise of `texture_warp` moves, scene units per second, [-1000, 1000], default 0.35 and
+    /// 0.2.
     pub texture_warp_velocity: [f32; 2],
-    /// Threshold of the mix from which there is foam, [-100, 100], default 0.39.
+    /// Threshold: there is foam where the mix of waves and foam texture is at least this, [-100, 100], default 0.39.
     pub threshold: f32,
-    /// Noise added to the threshold. Default 0.1, 1/90 m.
+    /// Noise added to the threshold. Default: amplitude 0.1, scale 1/90 per scene unit.
     pub threshold_noise: Noise,
-    /// Noise added to both offsets, so that the foam's reach varies along the shore. Default 0.22, 1/90 m.
+    /// Noise added to `wave_offset` and `texture_offset`, so that the foam's reach varies along the shore. Default:
+    /// amplitude 0.22, scale 1/90 per scene unit.
     pub rise_noise: Noise,
-    /// Domain warp applied to everything except v, scene units. Default none.
+    /// Noise by which the positions of the foam texture and of all other noises are displaced, but not v, scene
+    /// units. Default none.
     pub warp: Noise,
-    /// Range of v over which foam fades out at the sea's edge and at the inland edge, [0.001, 1], default 0.2.
+    /// Range of v over which foam fades out at its seaward edge and at its inland edge, [0.001, 1], default 0.2.
     pub fade: f32,
     /// Albedo, linear RGB, 0 to 1; default 0.9 of each.
     pub color: [f32; 3],
@@ -263,32 +272,36 @@ impl Default for ShorelineSettings {
     }
 }
 
-/// Contact foam: the closer the scene is behind the water's surface, the more foam (Lettier).
+/// Contact foam: foam on water around the objects in it. The closer the scene is behind the water's surface, the more
+/// foam there is (Lettier).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ContactSettings {
-    /// Distance at which contact foam ends on the host's surface, scene units, (0, 1e6], default 0.4. (The tutorial
-    /// has 4 in its own units.)
+    /// Distance between water surface and scene at which contact foam ends on the application's own water surface,
+    /// scene units, (0, 1e6], default 0.4. (The tutorial has 4 in its own units.)
     pub depth: f32,
-    /// The same distance on the particles' water. `None` (default): four spacings.
+    /// Distance between water surface and scene at which contact foam ends on the particles' water, scene units,
+    /// (0, 1e6]. `None` (default): four particle spacings.
     pub particle_depth: Option<f32>,
-    /// How that distance is measured.
+    /// How the distance between water surface and scene is measured.
     pub measure: Measure,
-    /// Strength of the mask, 0 (none) to 1 (no foam where it is black), default 0.8.
+    /// Strength of the mask, 0 (none) to 1 (no foam where the mask is black), default 0.8.
     pub mask: f32,
-    /// Repetitions per scene unit of the foam texture that serves as mask if the host has none, [0, 100], default
-    /// 1/2.2.
+    /// If the application gives no mask, the foam texture serves as mask: its repetitions per scene unit, [0, 100],
+    /// default 1/2.2.
     pub mask_scale: f32,
-    /// Velocity of that texture, scene units per second, [-1000, 1000], default 0.05 and 0.03.
+    /// Velocity of the foam texture that serves as mask, scene units per second, [-1000, 1000], default 0.05 and
+    /// 0.03.
     pub mask_speed: [f32; 2],
-    /// Albedo, linear RGB, 0 to 1, default the tutorial's (0.8, 0.85, 0.92 in sRGB). With `lit` of 0 it is a
-    /// radiance, [0, ∞).
+    /// Albedo of contact foam, linear RGB, 0 to 1, default the tutorial's (0.8, 0.85, 0.92 in sRGB). If `lit` is 0,
+    /// it is the radiance that the foam emits, [0, ∞).
     pub color: [f32; 3],
-    /// Share of its light that comes from sun and sky, 0 (it emits light) to 1 (default).
+    /// Mix of emission and reflection: 0, the foam emits `color` as its radiance; 1 (default), it reflects sun and
+    /// sky with `color` as its albedo.
     pub lit: f32,
-    /// Opacity on the host's surface, 0 (none) to 1 (default).
+    /// Opacity of contact foam on the application's own water surface, 0 (none) to 1 (default).
     pub opacity: f32,
-    /// Opacity on the particles' water, 0 (none, default) to 1.
+    /// Opacity of contact foam on the particles' water, 0 (none, default) to 1.
     pub particle_opacity: f32,
 }
 
@@ -309,14 +322,15 @@ impl Default for ContactSettings {
     }
 }
 
-/// How the distance between the surface and the scene behind it is measured.
+/// How the distance between the water's surface and the scene behind it is measured, at each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
-    /// The distance between both points of the pixel, as in the tutorial's program. Default.
+    /// The distance from the surface to the scene along the pixel's ray, as in the tutorial's program. Default.
     Distance,
-    /// The difference of their depths along the view, as in the tutorial's text.
+    /// The difference between the depths of scene and surface along the view axis, as in the tutorial's text.
     View,
-    /// The difference of their heights. No foam where the scene behind is not below.
+    /// The difference between the heights of surface and scene. Where the scene is not below the surface, there is no
+    /// foam.
     Vertical,
 }
 
@@ -330,7 +344,7 @@ impl ShoreSettings {
         self.contact.check()
     }
 
-    /// Phase, 0 to 1, of a motion with `rate` cycles per second.
+    /// Phase, 0 to 1, of a motion with `rate` cycles per second, at the time of these settings.
     pub(crate) fn turned(&self, rate: f64) -> f64 {
         let rate = match self.period {
             Some(period) => (rate * f64::from(period)).round() / f64::from(period),
@@ -339,14 +353,14 @@ impl ShoreSettings {
         (rate * self.time).rem_euclid(1.0)
     }
 
-    /// The phase of the waves in radians, and the factor on the noise of their speed.
+    /// The phase of the waves in radians, and the factor with which `speed_noise` is added to it.
     pub(crate) fn phases(&self) -> [f32; 2] {
         let s = &self.shoreline;
         let (by, seconds) = (f64::from(s.swing_amplitude), f64::from(s.swing_period));
         let swing = f64::from(s.swing);
         let straight = self.turned((1.0 - swing) * f64::from(s.speed) / TAU) * TAU;
         let swung = swing * by * (self.turned(1.0 / seconds) * TAU).sin();
-        // The derivative is a cosine with amplitude 1, so the noise is in radians per second.
+        // The derivative of `local` by time is a cosine with amplitude 1, so the noise is in radians per second.
         let period = f64::from(s.speed_period);
         let local = period / TAU * (self.turned(1.0 / period) * TAU).sin();
         [(straight + swung).rem_euclid(TAU) as f32, local as f32]
