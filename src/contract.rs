@@ -1,9 +1,9 @@
-//! All types of the interface between host and library, in the order of use: configuration of a renderer ([`Host`],
+//! The public types that host and library exchange, in the order of use: configuration of a renderer ([`Host`],
 //! [`EnabledFeatures`], [`Config`]); inputs of a frame ([`Frame`] and its parts [`HostImage`], [`Particles`],
-//! [`Camera`], [`Previous`], [`Settings`]) and of a foam step ([`SurfaceFoamStep`]); results of a record ([`Recorded`],
-//! [`Layer`], [`MemoryUse`]).
+//! [`Camera`], [`Previous`], [`Settings`]) and of a foam step ([`SurfaceFoamStep`]); results of a call of `record`
+//! ([`Recorded`], [`Layer`], [`MemoryUse`]).
 //!
-//! `check` validates a frame, and `frame` derives uniform values from it.
+//! The module `check` validates a frame, and the module `frame` derives the shaders' uniform values from it.
 
 use std::sync::Arc;
 
@@ -28,8 +28,8 @@ use crate::whitewater::settings::{WhitewaterConfig, WhitewaterSettings};
 macro_rules! with {
     ($($name:ty),+ $(,)?) => {$(
         impl $name {
-            /// The value after a change. It replaces struct-update syntax for structs that may grow:
-            /// `Config::new(..).with(|it| it.surface_foam = true)`.
+            /// Returns the value with a change applied. It replaces struct-update syntax (`..other`), which Rust does
+            /// not allow for structs that may get more fields: `Config::new(..).with(|it| it.surface_foam = true)`.
             #[must_use]
             pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
                 change(&mut self);
@@ -57,23 +57,24 @@ with!(
     Light,
 );
 
-/// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All have to outlive the context and everything
-/// created from it. The library owns none of them.
+/// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All have to outlive the context and
+/// everything created from it. The library owns none of them.
 #[non_exhaustive]
 pub struct Host<'a> {
     /// The instance.
     pub instance: &'a ash::Instance,
     /// The physical device.
     pub physical_device: vk::PhysicalDevice,
-    /// A device of Vulkan 1.2 or newer that meets [`requirements`](crate::requirements); its instance was created for
-    /// that version too.
+    /// A device of Vulkan 1.2 or newer that meets [`requirements`](crate::requirements). Its instance was also
+    /// created for Vulkan 1.2 or newer.
     pub device: &'a ash::Device,
-    /// Source of memory; called only in construction, `reconfigure`, `resize`, `collect` and `destroy`. `Host` and the
-    /// context hold references to it: an allocator that must be dropped before the device can be dropped after these,
-    /// once everything made from the context is destroyed. With `None` the context creates an allocator of its own and
-    /// drops it with itself.
+    /// Allocator of device memory. It is called only in construction, `reconfigure`, `resize`, `collect` and
+    /// `destroy`. An allocator usually has to be dropped before the device is destroyed. `Host` and the context share
+    /// it, so it can be dropped only after both, and the context lives on until everything made from it is destroyed.
+    /// With `None` the context creates an allocator of its own, which is dropped together with the context.
     pub allocator: Option<Arc<dyn Allocate>>,
-    /// A queue family with graphics and compute. Every command buffer handed in belongs to it.
+    /// Index of a queue family that supports graphics and compute. Every command buffer that the host hands in
+    /// belongs to this family.
     pub queue_family: u32,
     /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
     pub frames_in_flight: u32,
@@ -125,17 +126,19 @@ impl<'a> Host<'a> {
     }
 }
 
-/// Optional features and extensions that the host enabled; by default none. Without a feature, a path is unavailable;
-/// the picture stays correct.
+/// Optional Vulkan features and extensions that the host enabled on its device; by default none. Without one of them
+/// an implementation or an option that needs it is unavailable. The picture stays correct.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct EnabledFeatures {
-    /// `synchronization2` of Vulkan 1.3 or VK_KHR_synchronization2: barriers with their own stages. Without it
-    /// barriers of Vulkan 1.0 are recorded, which wait for slightly more; the picture is the same.
+    /// `synchronization2` of Vulkan 1.3 or VK_KHR_synchronization2: each barrier has pipeline stages of its own.
+    /// Without it the library records barriers of Vulkan 1.0, which wait for slightly more work; the picture is the
+    /// same.
     pub synchronization2: bool,
-    /// `shaderStorageImageWriteWithoutFormat`. Needed only on a device created for Vulkan 1.2, because 1.3 allows
-    /// it per format: for [`Config::surface_foam`], [`Config::motion`], [`Shadows::Convolution`] and
-    /// [`Shading::Compute`].
+    /// `shaderStorageImageWriteWithoutFormat`: shaders may write a storage image without declaring its format.
+    /// [`Config::surface_foam`], [`Config::motion`], [`Shadows::Convolution`] and [`Shading::Compute`] need it, but
+    /// only on a device created for Vulkan 1.2: in Vulkan 1.3 each format supports such writes or not, without this
+    /// feature.
     pub storage_image_write_without_format: bool,
     /// VK_EXT_debug_utils on the instance: names and labels.
     pub debug_utils: bool,
@@ -145,78 +148,86 @@ pub struct EnabledFeatures {
     pub draw_indirect_count: bool,
     /// `largePoints`. Without it the raster splats draw quads only.
     pub large_points: bool,
-    /// `occlusionQueryPrecise`. Without it a query only distinguishes zero from non-zero, which suffices for
-    /// the termination.
+    /// `occlusionQueryPrecise`. Without it an occlusion query only distinguishes zero samples from more, which
+    /// suffices to end the smoothing.
     pub precise_occlusion_queries: bool,
-    /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater takes two passes over
-    /// its particles (`WhitewaterSplat`).
+    /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`. Without them whitewater is drawn in two passes over
+    /// its particles instead of one (`WhitewaterSplat`).
     pub buffer_int64_atomics: bool,
 }
 
-/// Configuration of a renderer, which determines memory and pipelines. [`reconfigure`](crate::Renderer::reconfigure)
-/// changes it between records.
+/// Configuration of a renderer. It determines what memory and which pipelines are created.
+/// [`reconfigure`](crate::Renderer::reconfigure) changes it between two calls of `record`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Config {
-    /// Max size of the output's `rect` in pixels, from 1 to the device's limit for 2D images, framebuffers and
-    /// viewports. Images are allocated for it; a frame may be smaller ([`HostImage::rect`]).
+    /// Maximum width and height of a frame in pixels, each from 1 to the device's limit for 2D images, framebuffers
+    /// and viewports. Images are allocated for this size; a frame may be smaller (the `rect` of the output,
+    /// [`HostImage::rect`]).
     ///
-    /// Some sizes exceed other limits of a device; [`DeviceSupport::check`](crate::DeviceSupport::check) reports them.
-    /// If [`smoothing_level`](Self::smoothing_level) is 0, one image has to hold all smoothing levels, placed beside or
-    /// below each other: a square frame can be up to two thirds of the image limit wide, a narrow one up to the whole
-    /// limit long. Each of these buffers is bound as a whole and has to fit in the storage-buffer range: 32 bytes per
-    /// pixel with [`whitewater`](Self::whitewater); 4 bytes per pixel and layer, plus 4 per pixel, with
-    /// [`bubbles`](Self::bubbles); for thickness 8 bytes per texel, plus 8 with [`surface_foam`](Self::surface_foam),
-    /// plus 16 with two [`sheets`](Self::sheets).
+    /// Large sizes can also exceed two other limits of a device;
+    /// [`DeviceSupport::check`](crate::DeviceSupport::check) reports this. First, the smoothing has several
+    /// resolutions, and one image holds all of them, beside or below each other. With a
+    /// [`smoothing_level`](Self::smoothing_level) of 0 a square frame can therefore be at most two thirds of the
+    /// image limit wide; a narrow one can be as long as the whole limit. Second, each of the following buffers is
+    /// bound as a whole and has to fit in the storage-buffer range: with [`whitewater`](Self::whitewater) 32 bytes
+    /// per pixel; with [`bubbles`](Self::bubbles) `4·layers + 4` bytes per pixel; for thickness 8 bytes per texel of
+    /// its image, plus 8 with [`surface_foam`](Self::surface_foam), plus 16 with [`sheets`](Self::sheets) of 2.
     pub extent: vk::Extent2D,
     /// Format of the output, which is a colour attachment or a storage image, depending on
     /// [`composite`](Self::composite).
     pub output_format: vk::Format,
     /// Maximum number of particles per frame, at least 1.
     pub max_particles: u32,
-    /// Maximum stride of the particle streams in bytes, a multiple of 4 (default 16). With the device's
-    /// storage-buffer range it determines how many particles are processed at a time.
+    /// Maximum stride of the particle streams in bytes, a multiple of 4 (default 16). The device's storage-buffer
+    /// range divided by this stride limits how many particles are processed at a time.
     pub max_stride: u32,
     /// Resolution of the smoothing: 0 full, 1 half (default), 2 quarter.
     pub smoothing_level: u32,
-    /// Resolution of the thickness and of surface foam: 0 full, 1 half, 2 quarter (default), 3 eighth. It is
-    /// upsampled with weights of texels on the same surface, and foam only where the scene does not hide it.
+    /// Resolution of the images of water thickness and surface foam: 0 full, 1 half, 2 quarter (default), 3 eighth. A
+    /// pixel interpolates the thickness only between texels that show its own surface, and foam only between texels
+    /// whose foam the scene does not hide.
     pub thickness_level: u32,
-    /// Path of the depth splats. `None`: [`Splat::Compute`], the fastest on lavapipe and an H200 at every size
-    /// tested.
+    /// How the particles' depth is rasterized. With `None`: [`Splat::Compute`], which was the fastest on lavapipe (a
+    /// CPU driver) and on an H200 at every size tested.
     #[cfg(feature = "diagnostics")]
     pub depth_splat: Option<Splat>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) depth_splat: Option<Splat>,
-    /// Path of the splats of thickness and surface foam. `None` takes that of `depth_splat`.
+    /// How the particles' thickness and surface foam are rasterized. With `None`: [`Splat::Compute`], independent of
+    /// `depth_splat`.
     #[cfg(feature = "diagnostics")]
     pub thickness_splat: Option<Splat>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) thickness_splat: Option<Splat>,
     /// Implementation of the smoothing. `None`: [`Smoothing::Tiles`] on CPUs, where it was measured fastest,
-    /// [`Smoothing::Fused`] on GPUs (on an H200 half the time of tiles).
+    /// [`Smoothing::Fused`] on GPUs (on an H200 it takes half the time of `Tiles`).
     #[cfg(feature = "diagnostics")]
     pub smoothing: Option<Smoothing>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) smoothing: Option<Smoothing>,
-    /// How water is shaded. `None`: [`Shading::Raster`] on every device. GPUs built for computing rasterize slowly;
-    /// there [`Shading::Compute`] is faster (14 times on an H200). It writes the output as a storage image, so the
-    /// image needs storage usage and a format that supports storing without a format qualifier. R16G16B16A16_SFLOAT
-    /// nearly always does, sRGB formats do not; [`DeviceSupport`](crate::DeviceSupport) reports it.
+    /// How water is shaded. With `None`: [`Shading::Raster`] on every device. GPUs built for computing rasterize
+    /// slowly; on them [`Shading::Compute`] is faster (14 times on an H200). It writes the output as a storage image,
+    /// so the output needs storage usage, and its format has to support storing without a format qualifier in the
+    /// shader. R16G16B16A16_SFLOAT nearly always supports this, sRGB formats do not;
+    /// [`DeviceSupport::output_storage`](crate::DeviceSupport) reports whether a format does.
     pub composite: Option<Shading>,
-    /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first step is a 128th of the
-    /// picture's height long. Lengths grow geometrically (by 2.2 on a wide picture), so that the last step ends at the
-    /// picture's edge. A ray that hits nothing on the screen shows the environment. With 0, as in the thesis, and with
-    /// `Compositing::Source`, only the environment is reflected.
+    /// Number of steps of the screen-space ray march that finds which part of the scene water reflects, 0 to 64,
+    /// default 8. The first step is a 128th of the picture's height long. Each further step multiplies the distance
+    /// from the ray's start by a constant factor (2.2 on a wide picture), so that the last step ends at the picture's
+    /// edge. A ray that hits nothing on the screen shows the environment. With 0 steps, as in the thesis, and with
+    /// `Compositing::Source`, water reflects only the environment.
     pub mirror_steps: u32,
-    /// What is visible through water with air behind it. Default [`Exit::TwoInterfaces`]. With
-    /// [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in a pool).
+    /// How the view through water that has air behind it, such as a jet or a drop, is computed. Default
+    /// [`Exit::TwoInterfaces`]. With [`Exit::Straight`] the pass `composite` is a fifth faster (lavapipe, a splash in
+    /// a pool).
     pub exit: Exit,
-    /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`] merge thin water
-    /// into one body, by the pass `shape`. It takes 108 to 112 more bytes per particle, 8 more with `surface_foam` and 4 more
-    /// with `spray`; 40 of them have to fit in one binding for all particles. A frame of 1280×720 takes 1.1 times as long with 28 000 particles and 1.5 times with
-    /// 140 000 (lavapipe), or 1.0 and 1.2 times with an [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2 and
-    /// `centred` of 0.
+    /// Shape that each particle is drawn as. Default [`Kernels::Spheres`]. [`Kernels::Ellipsoids`], which the pass
+    /// `shape` fits, make thin water look like one body instead of separate balls. They take 108 to 112 more bytes
+    /// per particle, plus 8 with `surface_foam`, plus 4 with `spray`; 40 of these bytes, times the number of
+    /// particles, have to fit in the storage-buffer range. A frame of 1280×720 then takes 1.1 times as long as with
+    /// spheres at 28 000 particles and 1.5 times at 140 000 (lavapipe). With an
+    /// [`Ellipsoids::reach`](crate::water::Ellipsoids) of 2 and `centred` of 0 it takes 1.0 and 1.2 times as long.
     pub kernels: Kernels,
     /// Iteration rule of the smoothing.
     #[cfg(feature = "diagnostics")]
@@ -225,56 +236,63 @@ pub struct Config {
     pub(crate) rule: Rule,
     /// Maximum number of smoothing iterations, 1 to 256 (default 256, as in the thesis).
     pub max_iterations: u32,
-    /// Number of levels coarser than [`smoothing_level`](Self::smoothing_level) at which near water, which would exceed
-    /// the maximum number of iterations, is smoothed: 0 to 3 (default 3: water stays smooth down to an eighth of the
-    /// distance). Each pixel chooses its level by its distance, and blends between two. It applies only to the rule of
-    /// constant width (the default). 0 saves up to a third of the smoothing's memory.
+    /// Number of additional smoothing resolutions (levels), each half of the one before, for water near the camera: 0
+    /// to 3 (default 3). Near water needs more iterations than [`max_iterations`](Self::max_iterations) allows; at
+    /// half the resolution it needs a quarter of them. Each further level halves the distance down to which water is
+    /// fully smoothed, so 3 levels reach an eighth of it. Each pixel selects its level by the distance of its water,
+    /// and blends between two levels. Levels apply only to smoothing of constant width (the default rule). 0 saves up
+    /// to a third of the smoothing's memory.
     pub coarsening: u32,
-    /// Number of water layers that are separated where one stands in front of another with air between, such as a drop
-    /// in front of a pool: 1 as in the thesis, or 2 (default). Each layer has its own thickness, and the back layer has
-    /// its own surface where the front layer covers it. With 1 there are no passes `gaps` and `back`.
+    /// Maximum number of layers of water (sheets) in a pixel: 1 as in the thesis, or 2 (default). With 2, water that
+    /// stands in front of other water with air between, such as a drop in front of a pool, is a layer of its own.
+    /// Each layer then has its own thickness, and the back layer has its own surface where the front layer covers it.
+    /// With 1 the passes `gaps` and `back` do not exist.
     pub sheets: u32,
-    /// Whether surface foam is drawn (default false): the pass `surface_foam`. The foam part of a particle is
-    /// subtracted from its water. It takes 68 more bytes per particle.
+    /// Whether the pass `surface_foam` draws surface foam (default false), into which particles of the water turn.
+    /// The part of a particle that is foam no longer counts as water. Surface foam takes 68 more bytes per particle.
     pub surface_foam: bool,
-    /// Whether spray is drawn (default false): the pass `spray`, for particles below the limits
-    /// [`SpraySettings::all_spray_density`] to [`no_spray_density`](SpraySettings::no_spray_density), which then also
-    /// apply to water and foam. It takes 48 more bytes per particle.
+    /// Whether the pass `spray` draws particles of low density as droplets and mist (default false). A particle below
+    /// [`SpraySettings::all_spray_density`] is only spray, one above
+    /// [`no_spray_density`](SpraySettings::no_spray_density) is no spray; in between the share of spray falls
+    /// gradually. The limits of [`SpraySettings`] then also apply to water and surface foam. Spray takes 48 more
+    /// bytes per particle.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own, [`Frame::whitewater`]):
-    /// the passes `splat`, `radiance`, `blur`. With `None`, the default, it is not. It takes 88 more bytes per pixel.
+    /// the passes `splat`, `radiance`, `blur`. With `None`, the default, it is not drawn. It takes 88 more bytes per
+    /// pixel.
     pub whitewater: Option<WhitewaterConfig>,
-    /// Whether blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`, and `near` if
-    /// they come from whitewater foam ([`BubbleConfig::crossfade`]). With `None`, the default, they are not. They take
-    /// 14½ more bytes per pixel, 4 per pixel and layer plus 4 per pixel, and 64 per blob.
+    /// Whether blobs of bubble foam (balls of soap bubbles) are drawn ([`Frame::bubbles`]): the passes `blobs`,
+    /// `peel`, `soap`, and `near` if the blobs are made from whitewater foam ([`BubbleConfig::crossfade`]). With
+    /// `None`, the default, they are not drawn. They take `18½ + 4·layers` more bytes per pixel, and 64 per blob.
     pub bubbles: Option<BubbleConfig>,
     /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`. With
-    /// `None`, the default, they are not. They take 4 more bytes per pixel, and 8.7 MiB for the textures.
+    /// `None`, the default, they are not drawn. They take 4 more bytes per pixel, and 8.7 MiB for the textures.
     pub shore: Option<ShoreConfig>,
-    /// Resolution of the baseline's surface noise, for comparison: 0 full, 1 half, 2 quarter, 3 eighth; adds the pass
-    /// `noise`. With `None`, the default, it is not drawn. It takes 16 more bytes per particle, and 4 per texel.
+    /// Resolution at which the pass `noise` draws the surface noise of the baseline (van der Laan et al. 2009), which
+    /// is meant only for comparisons: 0 full, 1 half, 2 quarter, 3 eighth. With `None`, the default, there is no such
+    /// noise. It takes 16 more bytes per particle, and 4 per texel.
     #[cfg(feature = "diagnostics")]
     pub noise: Option<u32>,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) noise: Option<u32>,
     /// Whether the host hands in a shadow map or mask ([`Frame::shadow`]), and how the map is filtered. With `None`,
-    /// the default, the sun reaches everything.
+    /// the default, the scene casts no shadow on water and foam.
     pub shadow: Option<Shadows>,
-    /// Whether water and foam cast shadows and caustics on the scene, and foam on itself: the passes `light`,
-    /// `caustics` and `lit`. The value is the side length of the light maps over [`Frame::light_volume`] in texels, a
-    /// multiple of 16 from 16 to 4096. The maps take 36 bytes per texel, in addition to a lit copy of the scene. With
-    /// [`whitewater`](Self::whitewater) whitewater also casts shadows on the scene, the water, foam and itself, in the
-    /// pass `whitewater_light`, which takes 24 more bytes per texel. With `None`, the default, there are no shadows or
-    /// caustics.
+    /// Whether water and foam cast shadows and caustics on the scene, and foam casts shadows on itself: the passes
+    /// `light`, `caustics` and `lit`. The value is the side length in texels of the light maps, which show
+    /// [`Frame::light_volume`] as seen from the sun: a multiple of 16 from 16 to 4096. The maps take 36 bytes per
+    /// texel, in addition to a lit copy of the scene. With [`whitewater`](Self::whitewater) whitewater also casts
+    /// shadows on the scene, the water, foam and itself, in the pass `whitewater_light`, which takes 24 more bytes
+    /// per texel. With `None`, the default, there are no shadows or caustics.
     pub light_map_size: Option<u32>,
     /// Whether motion vectors are rendered (default false): the pass `motion` and the layer `motion`, from
-    /// [`Frame::previous`] and the particles' velocities. They take 12.5 more bytes per pixel (48, 26, 12.5 or 9.1 for
-    /// a [`thickness_level`](Self::thickness_level) of 0 to 3).
+    /// [`Frame::previous`] and the particles' velocities. They take 12.5 more bytes per pixel with the default
+    /// [`thickness_level`](Self::thickness_level) of 2 (48 with level 0, 26 with 1, 9.1 with 3).
     pub motion: bool,
     /// Side length of a face of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
-    /// Whether the output is the scene's colour image (default true). It is then copied before it is written,
-    /// and needs transfer-source usage.
+    /// Whether the output may also be the image that holds the scene behind the water (default true). The library
+    /// then copies the scene before it writes the output, so the output needs transfer-source usage.
     pub in_place: bool,
     /// Whether the images of intermediate layers can be read by the host after `record` (default false).
     pub keep_layers: bool,
@@ -318,16 +336,17 @@ impl Config {
 }
 
 /// A frame in flight: an index below `frames_in_flight`. By passing a slot, the host promises that all GPU work
-/// recorded with it before is complete.
+/// recorded earlier with the same slot is complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot(pub u32);
 
-/// An image of the host, with its state when `record` acquires it and when it returns it.
+/// An image of the host, with the state in which it is passed to `record` and the state in which `record` returns it.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct HostImage {
-    /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage (required by its
-    /// read-only layout), an output with the usage that [`Config::in_place`] and [`Config::composite`] demand.
+    /// The image: single-sampled and 2D. An image that is read needs sampled usage; a depth image also needs
+    /// attachment usage, because its read-only layout requires it. An output needs the usage that
+    /// [`Config::in_place`] and [`Config::composite`] demand.
     pub image: vk::Image,
     /// A 2D view of its first mip and layer; for depth-stencil images a view of only the depth aspect.
     pub view: vk::ImageView,
@@ -337,8 +356,8 @@ pub struct HostImage {
     pub aspect: vk::ImageAspectFlags,
     /// Size in texels.
     pub extent: vk::Extent2D,
-    /// The part of the image that is used: the whole image, a window for one of several views, or a size that changes
-    /// from frame to frame. Barriers cover the whole image.
+    /// The part of the image that is used: the whole image, the part of one view in an image of several views, or a
+    /// part whose size changes from frame to frame. Barriers cover the whole image.
     pub rect: vk::Rect2D,
     /// Last use before `record`: the stages and accesses to wait for, and the current layout.
     pub before: Access,
@@ -388,8 +407,9 @@ fn aspects_of(format: vk::Format) -> vk::ImageAspectFlags {
     }
 }
 
-/// One particle attribute in a buffer: a value every `stride` bytes from `offset` on. Streams may share a
-/// buffer (interleaved) or not. Little-endian 32-bit values, 4-byte aligned.
+/// One attribute of all particles in a buffer: the value of particle i begins at byte `offset + i·stride`. Several
+/// streams may share a buffer (interleaved) or have one each. Components are little-endian 32-bit values, aligned to
+/// 4 bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Stream {
     /// A buffer with storage usage.
@@ -454,10 +474,10 @@ pub enum Count {
     },
 }
 
-/// The host's own groups of particles for culling: `count` records of 32 bytes with first particle (u32),
-/// number of particles (u32), minimum and maximum corner of the centres (3×f32 each, world space). A particle
-/// may be in one packet only. Particles in no packet are not drawn and cast no shadow. Packets outside the view
-/// are not drawn, but cast shadows into it.
+/// Packets: the host's own groups of consecutive particles, each culled as a whole. The buffer holds `count` records
+/// of 32 bytes: first particle (u32), number of particles (u32), minimum and maximum corner of the box around the
+/// particles' centres (3×f32 each, world space). A particle may be in one packet only. Particles in no packet are not
+/// drawn and cast no shadow. Packets outside the view are not drawn, but their particles still cast shadows into it.
 #[derive(Clone, Copy, Debug)]
 pub struct Packets {
     /// A buffer with storage usage.
@@ -476,8 +496,8 @@ pub struct Particles {
     /// and counted.
     pub positions: Stream,
     /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a particle
-    /// that was just emitted: it gets the rest density and is therefore full water or foam, and not spray. With `None`
-    /// this applies to all particles.
+    /// that was just emitted: it gets the rest density and is therefore full water or foam, and not spray. With
+    /// `None` this applies to all particles.
     pub densities: Option<Stream>,
     /// World velocities (3×f32, scene units per second), along which foam and spray are stretched, and for motion
     /// vectors. Read only with [`Config::surface_foam`], [`Config::spray`] or [`Config::motion`]. With `None` the
@@ -503,7 +523,8 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Only positions, in buffers that the CPU wrote before the submission and otherwise only shaders read.
+    /// Particles with only positions, in buffers that the CPU wrote before the submission and that otherwise only
+    /// shaders read.
     pub fn new(positions: Stream, count: Count) -> Self {
         Self {
             positions,
@@ -564,7 +585,8 @@ pub struct WhitewaterParticles {
     pub positions: Stream,
     /// Kind of each particle (u32): 0 foam, 1 spray, 2 bubble. `None`: all are foam.
     pub kinds: Option<Stream>,
-    /// Radii (f32, scene units, (0, ∞)). `None`, and radii of 0 or less: [`WhitewaterSettings::radius`].
+    /// Radii (f32, scene units, (0, ∞)). With `None`, and for radii of 0 or less, [`WhitewaterSettings::radius`] is
+    /// used.
     pub radii: Option<Stream>,
     /// Relative age (f32), 0 new to 1 gone. Particles of 1 or more are not drawn. `None`: all are new.
     pub ages: Option<Stream>,
@@ -573,16 +595,17 @@ pub struct WhitewaterParticles {
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
-    /// Packets of these particles, with [`WhitewaterConfig::packets`](crate::whitewater::WhitewaterConfig::packets).
-    /// Packets outside the view, and for shadows outside the light's region, are not read. If the particles
-    /// have [`radii`](Self::radii), boxes enclose the spheres, otherwise the centres.
-    /// The raster path reads all packets. `None`: each particle is culled on its
-    /// own.
+    /// Packets (groups with bounding boxes) of these particles; they need
+    /// [`WhitewaterConfig::packets`](crate::whitewater::WhitewaterConfig::packets). Particles of a packet outside the
+    /// view are not read, nor, for shadows, those of a packet outside the light's maps. If the particles have
+    /// [`radii`](Self::radii), the boxes have to enclose the spheres, otherwise the centres. The raster path reads
+    /// all packets. With `None` each particle is culled on its own.
     pub packets: Option<Packets>,
-    /// Depth of a fluid surface of the host, such as a sea, in the camera's convention. The nearer of it and
-    /// the particles' water counts. Any size, sampled by compute only, an image other than the scene's depth.
-    /// Particles behind it are visible with [`Submerged::Falloff`](crate::whitewater::Submerged::Falloff) only,
-    /// because the host's water has no known absorption. `None`: the particles' water is the only surface.
+    /// Depth image of a fluid surface of the host, such as a sea, in the camera's depth convention. The water surface
+    /// of a pixel is then the nearer of this one and the particles' water. The image may have any size and is sampled
+    /// by compute shaders only; it must not be the image of the scene's depth. Whitewater behind this surface is
+    /// visible only with [`Submerged::Falloff`](crate::whitewater::Submerged::Falloff), because the library does not
+    /// know how much light the host's water absorbs. With `None` the particles' water is the only surface.
     pub fluid_depth: Option<HostImage>,
     /// Last use of all these buffers before `record` (layout ignored).
     pub before: Access,
@@ -638,8 +661,8 @@ impl WhitewaterParticles {
     }
 }
 
-/// The blobs of bubble foam of one frame: balls of soap bubbles around a white core (Huszár, Szécsi). The library only
-/// reads them.
+/// The blobs of bubble foam of one frame: balls of soap bubbles around a white core (Huszár, Szécsi). The library
+/// only reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Blobs {
@@ -649,8 +672,8 @@ pub struct Blobs {
     /// Orientation of each blob, from its own space to the world: quaternions (4×f32, the real part last) of
     /// any length; zero means identity. `None`: all are the identity.
     pub rotations: Option<Stream>,
-    /// Ids that identify blobs from frame to frame (u32). They choose its variant and films. With `None` the index is
-    /// used.
+    /// Ids that identify blobs from frame to frame (u32). A blob's id selects one of the precomputed variants and its
+    /// soap films. With `None` the index is used.
     pub ids: Option<Stream>,
     /// Number of blobs.
     pub count: Count,
@@ -694,22 +717,22 @@ impl Blobs {
 
 /// Shoreline and contact foam of one frame, an overlay on water. The library only reads it.
 ///
-/// The scene's depth is that of everything in and below the water. If it contains the water's surface too, set
-/// [`bias`](Self::bias).
+/// The scene's depth image ([`Frame::scene_depth`]) should contain everything in and below the water, but not the
+/// water's surface. If it contains the surface too, set [`bias`](Self::bias).
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Shore {
-    /// The host's water surface, visible in its scene. `None`: foam is on the strip and the particles' water
-    /// only.
+    /// The host's own water surface, which its scene already shows. With `None` foam is drawn only on the mesh of
+    /// [`Shoreline::Strip`] and on the particles' water.
     pub surface: Option<Surface>,
     /// Where shores are. `None`: no shoreline foam. [`Shoreline::Map`] and [`Shoreline::Screen`] need a
     /// surface.
     pub shoreline: Option<Shoreline>,
-    /// A single-channel mask over the view that suppresses contact foam: 0 completely, 1 not at all. Any size,
-    /// only sampled. `None`: the foam texture at world positions.
+    /// A single-channel mask over the view that suppresses contact foam: 0 completely, 1 not at all. It may have any
+    /// size and is only sampled. With `None` the foam texture, tiled over the world, takes its place.
     pub mask: Option<HostImage>,
-    /// Depth bias in scene units, [0, 1000], default 0: scene geometry up to this far in front of the surface is
-    /// treated as behind it. Increase it if the scene's depth contains the water surface.
+    /// Depth bias in scene units, [0, 1000], default 0: scene geometry that lies at most this far in front of the
+    /// water's surface is treated as behind it. Increase it if the scene's depth contains the water's surface.
     pub bias: f32,
 }
 
@@ -731,8 +754,8 @@ impl Shore {
 pub enum Surface {
     /// A level surface at this height along [`Settings::up`].
     Level(f32),
-    /// A surface of any shape: its depth in the camera's convention, any size, only sampled, an image other
-    /// than the scene's depth. Foam treats it as locally level.
+    /// A surface of any shape, as a depth image in the camera's convention. It may have any size, is only sampled,
+    /// and must not be the image of the scene's depth. Foam treats the surface as locally level.
     Depth(HostImage),
 }
 
@@ -743,8 +766,8 @@ pub enum Shoreline {
     Strip(Strip),
     /// Distances in the world, for islands that move or change.
     Map(ShoreDistances),
-    /// The scene's depth alone: the water's depth divided by the slope of the ground below. Shores that are
-    /// hidden or off the screen have no foam.
+    /// An estimate from the depth images: the vertical distance from the water's surface to the ground below, divided
+    /// by the ground's slope, gives the distance to the shore. Shores that are hidden or off the screen have no foam.
     Screen,
 }
 
@@ -765,7 +788,8 @@ impl Triangles {
         self.indices.map_or(self.vertices, |(_, count)| count)
     }
 
-    /// Validates the triangles; the names are those of their vertices, indices and counts.
+    /// Validates the triangles. The three names are those of the fields of vertices, indices and counts, for the
+    /// error.
     pub(crate) fn check(
         &self,
         [positions, indices, count]: [&'static str; 3],
@@ -821,9 +845,10 @@ pub struct SurfaceFoamStep<'a> {
     /// SPH densities (f32), (0, ∞). 0, negative values and NaN mean that no density is known yet, as for a particle
     /// that was just emitted: [`WeberSettings::rest_density`] is used. With `None` this applies to all particles.
     pub densities: Option<Stream>,
-    /// Ids (u32), unique within a step and constant from step to step; they need not be dense. If two particles
-    /// share an id, only one (unspecified) keeps its state. 0xffff_ffff is never foam. `None`: no state is
-    /// kept, and the foam amount is a ramp of the Weber number, from half the threshold to one and a half.
+    /// Ids (u32), unique within a step and constant from step to step; gaps between them are allowed. If two
+    /// particles share an id, only one (unspecified) keeps its state. A particle with the id 0xffff_ffff is never
+    /// foam. With `None` no state is kept: the foam amount rises linearly with the Weber number, from 0 at half the
+    /// threshold to 1 at one and a half times the threshold.
     pub ids: Option<Stream>,
     /// Number of particles, at most [`SurfaceFoamStateConfig::max_particles`](crate::SurfaceFoamStateConfig).
     pub count: Count,
@@ -951,8 +976,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera from two matrices, as four columns of four or any type that converts to them: matrices of cgmath,
-    /// nalgebra and mint do, and glam's with `to_cols_array_2d`.
+    /// A camera from two matrices, each given as four columns of four numbers or as a type that converts to them.
+    /// Matrices of cgmath, nalgebra and mint convert; those of glam do with `to_cols_array_2d`.
     pub fn new(view: impl Into<[[f32; 4]; 4]>, projection: impl Into<[[f32; 4]; 4]>) -> Self {
         Self { view: view.into(), projection: projection.into() }
     }
@@ -985,21 +1010,21 @@ impl Camera {
     }
 }
 
-/// The previous frame, for motion vectors: the layer `motion`, two 32-bit floats per pixel, with
-/// [`Config::motion`].
+/// The previous frame, which motion vectors refer to. With [`Config::motion`] they are the layer `motion`, two 32-bit
+/// floats per pixel.
 ///
 /// A vector is the position of the visible point in this frame (the pixel's centre) minus its position in the
-/// previous frame, in pixels of this frame, x to the right and y down. To reproject, sample the previous frame
-/// at `uv − vector / size`. A surface point of water or foam was previously at its position minus `dt` times
-/// the mean velocity of the particles around it. The scene is static. Both projections are used as given:
-/// jittered ones give jittered vectors. If the two frames differ in size, both are treated as having this
-/// one's.
+/// previous frame, in pixels of this frame, x to the right and y down. To reproject, sample the previous frame at
+/// `uv − vector / size`. A surface point of water or foam was previously at its position minus `dt` times the mean
+/// velocity of the particles around it. The scene is taken as static. Both projections are used as given, so
+/// sub-pixel jitter in a projection also appears in the vectors. If the two frames differ in size, the previous one
+/// is treated as if it had the size of this one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Previous {
     /// The camera of the previous frame. It may have another projection, near plane or depth convention.
     pub camera: Camera,
-    /// Seconds from the previous frame to this one, [0, ∞). Motion is limited to a thousand spacings in that
-    /// time along each axis of eye space.
+    /// Seconds from the previous frame to this one, [0, ∞). In that time a particle's motion along each axis of eye
+    /// space is limited to a thousand particle spacings.
     pub dt: f32,
 }
 
@@ -1039,7 +1064,7 @@ impl Shadow {
     }
 }
 
-/// A sphere in the world. The light's maps are fitted to it; objects outside of it cast no shadows.
+/// A sphere in the world. The light's maps are fitted to it: water and foam outside of it cast no shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightVolume {
     /// Centre, world space, finite.
@@ -1049,7 +1074,8 @@ pub struct LightVolume {
 }
 
 impl LightVolume {
-    /// World space to the light's maps: position from 0 to 1, and distance in metres along the light.
+    /// Matrix from world space to the light's maps: x and y are the position in the map, 0 to 1, and z is the
+    /// distance along the light from the sphere's centre, in scene units.
     pub(crate) fn to_map(self, light: &Light, up: Vec3) -> Mat4 {
         let sun = light.toward();
         let aside = if sun.dot(up).abs() > 0.99 { level_axes(up)[0] } else { up };
@@ -1069,39 +1095,43 @@ impl LightVolume {
 pub struct Frame<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// The output. It is written where there is water and unchanged elsewhere. Linear, scene-referred. Its `rect` is
-    /// the frame's size, at most [`Config::extent`].
+    /// The output, with linear, scene-referred colour. It is written where there is water and foam, and unchanged
+    /// elsewhere; with [`Config::light_map_size`] all of its `rect` is written. The size of its `rect` is the frame's
+    /// size, at most [`Config::extent`].
     pub output: HostImage,
-    /// The scene behind the water, linear, only sampled. It may be the image of `output`: then the `rect` of
-    /// `output` is copied first, and the image needs transfer-source usage. Otherwise its size may differ.
+    /// The scene behind the water, with linear colour, only sampled. It may be the image of `output`: then the `rect`
+    /// of `output` is copied first, and the image needs transfer-source usage. A separate image may have another size
+    /// than the output.
     pub scene_color: HostImage,
-    /// Depth of the scene in the camera's convention, only sampled. Its size may differ.
+    /// Depth image of the scene in the camera's convention, only sampled. It may have another size than the output.
     pub scene_depth: HostImage,
     /// The particles.
     pub particles: Particles,
     /// Whitewater particles, with [`Config::whitewater`]. `None`: there are none.
     pub whitewater: Option<WhitewaterParticles>,
-    /// Blobs of bubble foam, with [`Config::bubbles`]. `None`: there are none, except those that whitewater
-    /// foam turns into ([`BubbleConfig::crossfade`]), with which it has to be `None`.
+    /// Blobs of bubble foam, with [`Config::bubbles`]. With `None` the host hands in no blobs. It has to be `None`
+    /// with [`BubbleConfig::crossfade`], which makes the blobs from whitewater foam.
     pub bubbles: Option<Blobs>,
     /// Shoreline and contact foam, with [`Config::shore`]; `None`: there is none.
     pub shore: Option<Shore>,
     /// The camera.
     pub camera: Camera,
-    /// The scene's shadow on the fluid, with [`Config::shadow`]. With `None`, the default, there is none.
+    /// The shadow that the host's scene casts on water and foam. It has to be given exactly if [`Config::shadow`] is
+    /// set. Default `None`.
     pub shadow: Option<Shadow>,
-    /// The sphere that contains the fluid that casts shadows and the scene that receives them, with
-    /// [`Config::light_map_size`]. With `None`, the default, there are no shadows.
+    /// The sphere that contains the water and foam that cast shadows and the part of the scene that receives them. It
+    /// has to be given exactly if [`Config::light_map_size`] is set. Default `None`.
     pub light_volume: Option<LightVolume>,
-    /// The previous frame, with [`Config::motion`]. With `None`, as for the first frame, nothing has moved.
+    /// The previous frame, for motion vectors ([`Config::motion`]). With `None`, as in a first frame, all vectors are
+    /// zero.
     pub previous: Option<Previous>,
     /// Settings that are uniforms.
     pub settings: &'a Settings,
 }
 
 impl<'a> Frame<'a> {
-    /// A frame without optional inputs: water over the scene in `output`. This needs [`Config::in_place`]; otherwise
-    /// add [`with_scene_color`](Self::with_scene_color).
+    /// A frame without optional inputs: water over the scene that `output` already holds. This needs
+    /// [`Config::in_place`]; without it add a separate scene image ([`with_scene_color`](Self::with_scene_color)).
     pub fn new(
         slot: Slot,
         output: HostImage,
@@ -1175,15 +1205,15 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// All settings that may change from frame to frame at no cost. Where a range has no end (∞) the limit is 1e12, so that
-/// products of a few stay finite.
+/// All settings that may change from frame to frame at no cost. Where a range is documented as ending at ∞, the
+/// largest accepted value is 1e12, so that a product of a few values stays finite.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
-    /// World up direction, any length except 0, default +y. It defines the horizon below which water reflects
-    /// more water, the level ground of [`Light::irradiance`], the drainage of soap films, and shores.
-    /// Environments have their own ([`Sky::up`](crate::Sky), [`Equirectangular::up`](crate::Equirectangular)),
-    /// simulations their gravity.
+    /// World up direction, any length except 0, default +y. It defines the horizon (rays that water reflects below it
+    /// meet more water), the level ground of [`Light::irradiance`], the direction in which soap films drain, and the
+    /// level surfaces of shores. Environments have an up direction of their own ([`Sky::up`](crate::Sky),
+    /// [`Equirectangular::up`](crate::Equirectangular)), and simulations have their gravity.
     pub up: [f32; 3],
     /// Layered water.
     pub water: WaterSettings,
@@ -1233,14 +1263,14 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The defaults for a particle spacing in scene units (twice the solver's particle radius, (0, ∞)) and a number of
-    /// scene units per metre (1 for metres, 100 for centimetres, (0, ∞)), under the default [`Sky`](crate::Sky) with +y
-    /// up. All lengths, speeds and optical densities of all looks follow from these two numbers. For another sky see
-    /// [`with_light`](Self::with_light).
+    /// The defaults for a particle spacing in scene units (twice the solver's particle radius, (0, ∞)) and a number
+    /// of scene units per metre (1 for metres, 100 for centimetres, (0, ∞)), under the default [`Sky`](crate::Sky)
+    /// with +y up. All lengths, speeds and optical densities of all looks follow from these two numbers. For another
+    /// sky see [`with_light`](Self::with_light).
     ///
-    /// The host sets values that belong to a frame or step: radii of whitewater particles, [`Shore::bias`], gravity of
-    /// [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and [`GeneratorSettings`], and
-    /// [`WeberSettings::weber_in`].
+    /// Values that belong to a frame or a simulation step are left to the host: radii of whitewater particles,
+    /// [`Shore::bias`], gravity of [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and
+    /// [`GeneratorSettings`], and [`WeberSettings::weber_in`].
     pub fn new(spacing: f32, units_per_metre: f32) -> Self {
         let mut settings = Self::default();
         settings.water.spacing = spacing;
@@ -1259,7 +1289,7 @@ impl Settings {
         Self { light, ..self }
     }
 
-    /// Replaces the up direction, of any length except 0. The environment has to have the same.
+    /// Replaces the up direction, of any length except 0. The environment has to be given the same up direction.
     #[must_use]
     pub fn with_up(self, up: [f32; 3]) -> Self {
         Self { up, ..self }
@@ -1288,7 +1318,7 @@ impl Settings {
 }
 
 impl Light {
-    /// The same light with the thesis' shade on foam, 0.6 of the sunlit value (Listing A.20).
+    /// This light with [`shade`](Self::shade) as in the thesis: 0.6 of the irradiance in the sun (Listing A.20).
     pub fn thesis(self) -> Self {
         Self { shade: self.irradiance.map(|c| 0.6 * c), ..self }
     }
@@ -1324,21 +1354,24 @@ impl Default for Light {
 }
 
 impl Light {
-    /// Unit vector to the sun, even if its squared length overflows single precision.
+    /// Unit vector to the sun. It is correct even if the squared length of `direction` overflows single precision.
     pub(crate) fn toward(&self) -> Vec3 {
         Vec3::from(self.direction).as_dvec3().normalize_or(DVec3::Y).as_vec3()
     }
 }
 
-/// An intermediate image after a record. The host may read it until the next record.
+/// An intermediate image that `record` leaves for the host, which may read it until the next `record`.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Layer {
-    /// Name as in the tool's EXR files: `water.depth` for `water.depth.Z`, `motion` for `motion.X` and
-    /// `motion.Y`. With [`Config::surface_foam`] `water.thickness` has a second channel: the water in front of the
-    /// frontmost foam. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: front layer, back layer,
-    /// the window between them, and the eye depth of the boundary as it was found. A texel of `water.iterations` has 32 bits: the low nine are the planned
-    /// iterations, the other 23 the step size relative to the largest one.
+    /// Name. The tool's EXR files append a channel to it: the layer `water.depth` is the channel `water.depth.Z`, the
+    /// layer `motion` the channels `motion.X` and `motion.Y`. With [`Config::surface_foam`] `water.thickness` has a
+    /// second channel: metres of water in front of the frontmost foam. With [`Config::sheets`] of 2 there is a layer
+    /// `water.thickness.sheets` with four channels: thickness of the front layer of water, thickness of the back
+    /// layer, metres of water within about a spacing of the boundary between them (with water there the two are drawn
+    /// as one), and the eye depth of this boundary as it was first found. A texel of `water.iterations` has 32 bits:
+    /// the low nine are the number of smoothing iterations planned for it, the other 23 the size of its steps
+    /// relative to the largest step.
     pub name: &'static str,
     /// The image; transfer source usage.
     pub image: vk::Image,
@@ -1346,9 +1379,10 @@ pub struct Layer {
     pub view: vk::ImageView,
     /// Its format.
     pub format: vk::Format,
-    /// Its size in texels; some layers have less than the picture's resolution. `water.surface` and
-    /// `water.iterations` have the configured level. Near water is smoothed at coarser levels;
-    /// `Diagnostics::levels` (feature `diagnostics`) tells where those and the back layer lie in the image.
+    /// Its size in texels; some layers have a lower resolution than the picture. For `water.surface` and
+    /// `water.iterations` it is the size at [`Config::smoothing_level`]. Their images are larger: they also hold the
+    /// coarser levels, at which near water is smoothed, and the back layer. `Diagnostics::levels` (feature
+    /// `diagnostics`) tells where.
     pub extent: vk::Extent2D,
     /// Its state after `record`.
     pub access: Access,
@@ -1366,7 +1400,8 @@ pub struct Recorded {
 
 #[cfg(feature = "diagnostics")]
 impl Recorded {
-    /// The renderer's own buffers, for tests and tools. Their layout follows the shaders and may change in any version.
+    /// The renderer's own buffers, for tests and tools. Their layout follows the shaders and may change in any
+    /// version.
     pub fn diagnostics(&self) -> &Diagnostics {
         &self.diagnostics
     }

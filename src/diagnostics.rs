@@ -12,9 +12,10 @@ use crate::contract::Config;
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Diagnostics {
-    /// With [`Smoothing::Query`](crate::water::Smoothing): a buffer of this many `u32`, the samples that were still active in iterations
-    /// 5, 10, …, for blocks that ran (0 for others; the last block is not counted). Transfer source; last
-    /// written by a transfer.
+    /// With [`Smoothing::Query`](crate::water::Smoothing), which runs the smoothing in blocks of five iterations: a
+    /// buffer, and its number of `u32`, one per block: the number of samples that were still active in the block's
+    /// last iteration (5, 10, …). It is 0 for a block that was skipped; the last block is not counted. Transfer
+    /// source; last written by a transfer.
     pub active_samples: Option<(vk::Buffer, u32)>,
     /// Particle statistics.
     pub counts: Option<ParticleCounts>,
@@ -25,42 +26,45 @@ pub struct Diagnostics {
     /// is the number of tiles that iteration i processes. Transfer source; last written by a compute shader,
     /// read as indirect arguments.
     pub tiles: Option<vk::Buffer>,
-    /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness, row by row: the
-    /// eye depth between the two layers, 1e10 where there is only one. Transfer source; last written by a
-    /// compute shader, read by compute and fragment shaders.
+    /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness, row by row: the eye
+    /// depth at which the two layers of water are separated, 1e10 where there is only one layer. Transfer source;
+    /// last written by a compute shader, read by compute and fragment shaders.
     pub sheets: Option<vk::Buffer>,
-    /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. The position where it
-    /// is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to its ellipsoid, six signed
-    /// 16-bit fractions of 4: xx, yy, zz, yz, xz, xy; the same of the ellipsoid of its spray; the sum of its
-    /// neighbours' weights (f32; up to 64 in films one layer thick, 64 for particles outside of the grid).
-    /// Transfer source; last written and read by compute shaders.
+    /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. They hold the position
+    /// where it is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to its ellipsoid (xx,
+    /// yy, zz, yz, xz, xy, each a signed normalised 16-bit number, times 4); the matrix of its ellipsoid as spray, in
+    /// the same form; and the sum of the weights of its neighbours (f32). In films one particle thick the sum is
+    /// raised towards 64, and for particles outside of the grid it is 64. Transfer source; last written and read by
+    /// compute shaders.
     pub shapes: Option<vk::Buffer>,
-    /// With [`Config::bubbles`]: a buffer of this many `u32` per pixel of the frame, row by row. For each
-    /// layer, front to back: 256 times the blob's index in the streams plus the bubble's index, or 0xffff_ffff
-    /// for none. Then the bits of the maximum opacity (f32). Transfer source; last written and read by compute
-    /// shaders.
+    /// With [`Config::bubbles`]: a buffer, and its number of `u32` per pixel of the frame; the pixels follow row by
+    /// row. A pixel's words are one for each of its layers of blobs, front to back: 256 times the blob's index in the
+    /// streams plus the index of the bubble in the blob, or 0xffff_ffff for none. The pixel's last word holds the
+    /// bits of the maximum opacity of its blobs (f32). Transfer source; last written and read by compute shaders.
     pub bubbles: Option<(vk::Buffer, u32)>,
-    /// With [`Config::bubbles`]: a buffer of five `u32`, statistics of the blobs: bits of the eye depth at
-    /// which the first begins and of that at which the last begins (f32), number on the screen, number of
-    /// invalid ones that were ignored (not finite, no radius), and total length of the tile lists
-    /// ([`BubbleSort::Tiles`](crate::bubbles::BubbleSort::Tiles)). Transfer source; last written by a compute
-    /// shader, read by compute shaders.
+    /// With [`Config::bubbles`]: a buffer of five `u32`, statistics of the blobs: least and greatest eye depth at
+    /// which a blob begins (the bits of two f32), number of blobs on the screen, number of invalid ones that were
+    /// ignored (not finite, no radius), and total length of the tile lists
+    /// ([`BubbleSort::Tiles`](crate::bubbles::BubbleSort::Tiles)). Transfer source; last written by a compute shader,
+    /// read by compute shaders.
     pub blobs: Option<vk::Buffer>,
 }
 
-/// Layout of the smoothing levels in the images `water.surface` and `water.iterations`, and the distances at
-/// which each is shown.
+/// Layout of the smoothing levels (resolutions) in the images `water.surface` and `water.iterations`, and the
+/// distances from the camera at which each is shown.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct SmoothingLevels {
-    /// Four levels of the front layer, each half the size of the previous, then three of the back layer from
-    /// the second level on. Unused ones are zero. A texel of a coarser level is valid near where its level is
-    /// shown; around that it is empty (1e10), and farther away it may stem from an earlier frame.
+    /// Four levels of the front layer of water, each half the resolution of the previous, then three levels of the
+    /// back layer, at the second to fourth of these resolutions. Unused levels are zero. A coarser level is computed
+    /// only near the pixels that show it. Around these parts its texels are empty (1e10); farther away they may stem
+    /// from an earlier frame.
     pub level: [SmoothingLevel; 7],
     /// Size of the images (x, y), tiles per row, number of coarser levels.
     pub atlas: [i32; 4],
-    /// Iterations of the first level at depth 1 on the optical axis, divided by a quarter of the cap; squared
-    /// aspect of a pixel, width over height; maximum depth difference on one surface, metres; 0.
+    /// Four numbers: the iterations that the first level needs at eye depth 1 on the optical axis, divided by a
+    /// quarter of the maximum number of iterations; the square of a pixel's width over its height; the depth
+    /// difference in metres up to which neighbouring texels belong to one surface; 0.
     pub near: [f32; 4],
 }
 
@@ -70,15 +74,18 @@ pub struct SmoothingLevels {
 pub struct SmoothingLevel {
     /// First texel (x, y) and size, in texels.
     pub rect: [i32; 4],
-    /// Scale and offset from a point of the level (texel centres at +0.5) to the slope of its ray.
+    /// Scale (x, y) and offset (z, w) from a point of the level, in texels with centres at +0.5, to the slope (xy /
+    /// eye depth) of its view ray.
     pub slope: [f32; 4],
-    /// World size of a texel per depth in x and y; its side length in pixels of the output; 0.
+    /// Size of a texel in the world per unit of eye depth, in x and y; side length of a texel in pixels of the
+    /// output; 0.
     pub texel: [f32; 4],
 }
 
 impl SmoothingLevels {
-    /// The front layer's level that is shown at an eye depth, for the slope of its ray, and how far the next
-    /// level has faded in, 0 to 1. The back layer shows the same level, but at least the second.
+    /// Returns which level of the front layer is shown for water at an eye depth on a view ray of a slope, and how
+    /// far the next coarser level has faded in, 0 to 1. The back layer shows the same level, but the second instead
+    /// of the first.
     pub fn shown(&self, depth: f32, slope: [f32; 2]) -> (usize, f32) {
         let [iterations, shape, ..] = self.near;
         let foreshortened = 1.0 + slope[0].powi(2) + (1.0 + slope[1].powi(2)) * shape;
@@ -94,9 +101,10 @@ impl SmoothingLevels {
     }
 }
 
-/// Buffers with particle statistics, 256 bytes per chunk. Words 0 and 5 are the number of small and of large
-/// sprites, word 18 the particles dropped for non-finite positions, word 19 those classified as spray (0 in
-/// `front`). Transfer source; last written by a compute shader, read as indirect arguments.
+/// Buffers with particle statistics, 256 bytes for each chunk (the particles that are processed at a time). Of a
+/// chunk's u32 words, word 0 is the number of small sprites, word 5 of large sprites, word 18 of particles dropped
+/// for non-finite positions, and word 19 of particles classified as spray (0 in `front`). Transfer source; last
+/// written by a compute shader, read as indirect arguments.
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleCounts {
     /// Particles on the screen.

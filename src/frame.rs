@@ -15,7 +15,8 @@ use crate::water::settings::{
 use crate::water::wavelets::WAVELETS;
 use crate::whitewater::settings::{OcclusionReach, ShadowMixing, Submerged};
 
-/// Depth of an empty pixel: farther than any surface (a MIN blend needs a positive value).
+/// Eye depth that marks an empty pixel. It is larger than that of any surface, so a MIN blend with a surface replaces
+/// it.
 pub const EMPTY: f32 = 1.0e10;
 
 /// The block `Frame` of `glsl/include/frame.glsl`, whose comments describe each member.
@@ -244,8 +245,8 @@ impl Lens {
         Ok(Self { view, p, linear: (p32, p22), near, far })
     }
 
-    /// Scale and offset from pixel coordinates (centre at +0.5) to slopes, of an image whose
-    /// texels are `scale` full-resolution pixels wide.
+    /// Scale (x, y) and offset (z, w) from the pixel coordinates of an image (centres at +0.5) to slopes of view rays
+    /// (xy / eye depth). The image's texels are `scale` full-resolution pixels wide.
     pub fn slope(&self, full: vk::Extent2D, scale: f32) -> Vec4 {
         let x = 2.0 * scale / (full.width as f32 * self.p.x);
         let y = 2.0 * scale / (full.height as f32 * self.p.y);
@@ -265,7 +266,8 @@ impl Lens {
         if eye > 0.0 && eye < 1.001 * self.near { 0.0 } else { 1.0 }
     }
 
-    /// Inward planes of the frustum in eye space (xyz·p + w ≥ 0 inside). An absent plane accepts everything.
+    /// Planes of the frustum in eye space, with inward normals: a point p is inside where xyz·p + w ≥ 0. If there is
+    /// no far plane, its entry accepts every point.
     fn planes(&self) -> [[f32; 4]; 6] {
         let side = |x: f32, y: f32, z: f32| {
             let n = glam::Vec3::new(x, y, z).normalize();
@@ -310,7 +312,7 @@ impl FrameUniforms {
             let (x, y) = (part.extent.width as f32, part.extent.height as f32);
             [x / full.width as f32, y / full.height as f32, x, y]
         };
-        // If the output is its own scene, its copy begins with the view, and so does the lit scene.
+        // The copy of an output that is also the scene has the view at its origin, and so has the lit scene.
         let own = frame.in_place() || config.light_map_size.is_some();
         let scene_color = if own { full.into() } else { frame.scene_color.rect };
         let to_world = lens.view.inverse();
@@ -542,14 +544,16 @@ impl Since {
     }
 }
 
-/// Radiance of foam with an albedo: its bubbles face all directions, on average as level ground.
+/// Radiance of foam with this albedo, lit by the irradiance of level ground: its bubbles face all directions, and on
+/// average receive as much light.
 fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
     let [r, g, b] = light.irradiance.map(|c| c * std::f32::consts::FRAC_1_PI);
     [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
 }
 
-/// Mean of `(1 − x^n)^m` over the unit disc, `∫ 2x (1 − x^n)^m dx`: 1 − 2/(n + 2) for m = 1, otherwise a sum
-/// over x = 1 − s³, for which the integrand is smooth.
+/// Mean of `(1 − x^n)^m` over the unit disc, where x is the distance from the centre: `∫ 2x (1 − x^n)^m dx` from 0 to
+/// 1. For m = 1 it is 1 − 2/(n + 2). Otherwise it is summed numerically over s, with x = 1 − s³, because the
+/// integrand is smooth in s.
 fn falloff_mean(n: f32, m: f32) -> f32 {
     let (n, m) = (f64::from(n), f64::from(m));
     if m == 1.0 {
@@ -566,8 +570,8 @@ fn falloff_mean(n: f32, m: f32) -> f32 {
     (sum / f64::from(steps)) as f32
 }
 
-/// The sun's irradiance on a surface that faces it, divided by 2π. It is found from the irradiance of level ground; for
-/// a sun lower than a sine of 0.1, as if the sine were 0.1.
+/// The sun's irradiance on a surface that faces it, divided by 2π. The irradiance is the sun's part of that on level
+/// ground, divided by the sine of the sun's elevation; a sine below 0.1 counts as 0.1.
 pub fn sun_on(settings: &Settings) -> [f32; 4] {
     let light = &settings.light;
     let height = settings.upward().dot(light.toward()).max(0.1);
@@ -605,8 +609,8 @@ fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
 
 fn spray_shape(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
     let optical_depth = -(1.0 - spray.opacity).ln();
-    // The droplets together cover as much as one sprite: the mean of their squared sizes is 0.513, and 0.6 of them are
-    // drawn (spray.vert).
+    // A particle's droplets together cover as much as its undivided sprite would: the mean of their squared relative
+    // sizes is 0.513, and 0.6 of the droplets are drawn (spray.vert).
     let many = if spray.droplets > 1 { 0.513 * 0.6 * spray.droplets as f32 } else { 1.0 };
     let half_axis = spray.size * water.radius() / many.sqrt();
     [optical_depth, half_axis, spray.scatter_radius * water.spacing, spray.exposure]
@@ -625,7 +629,8 @@ fn spray_color(spray: &SpraySettings, light: &Light) -> [f32; 4] {
     [r, g, b, f32::from(u8::from(spray.additive))]
 }
 
-/// Quantum of the foam thickness in metres: a power of two, so that 32-bit sums up to 4096 spacings are exact.
+/// Step in metres to which a sprite's foam thickness is rounded. It is a power of two, so that sums in 32-bit floats
+/// are exact up to 4096 spacings.
 pub fn foam_step(spacing: f32) -> f32 {
     spacing.log2().floor().exp2() / 2048.0
 }
@@ -639,8 +644,10 @@ const TO_PLACE: Mat4 = Mat4::from_cols_array(&[
     0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.5, 0.0, 1.0,
 ]);
 
-/// For the two phases of the foam's pattern: weights, such that the variance of their sum is constant;
-/// displacement relative to half a period, -1 to 1; origin in the noise, new in each period.
+/// The noise pattern of surface foam is the weighted sum of two phases, each of which drifts with the foam for one
+/// period and then starts anew, half a period apart. Returns for both phases: their weights, such that the variance
+/// of the sum is constant; their displacement in units of the drift in half a period, -1 to 1; and their origin in
+/// the noise, which is a new one in each period.
 fn pattern_phases(look: &SurfaceFoamSettings) -> ([f32; 2], [f32; 2], [f32; 2]) {
     let cycles = look.time / f64::from(look.pattern_period);
     let [one, other] = [0.0, 0.5].map(|late| {
@@ -667,7 +674,8 @@ fn shade(light: &Light, foam: &SurfaceFoamSettings) -> [f32; 4] {
     [part(0), part(1), part(2), foam.shadow]
 }
 
-/// Index of refraction: Schlick's reflectance at normal incidence is ((n - 1)/(n + 1))^2.
+/// Index of refraction n of the water. With Schlick's form it follows from the reflectance at normal incidence, which
+/// is ((n - 1)/(n + 1))^2.
 fn index(water: &WaterSettings) -> f32 {
     match water.fresnel {
         Fresnel::Schlick { f0 } => {
@@ -678,8 +686,9 @@ fn index(water: &WaterSettings) -> f32 {
     }
 }
 
-/// Share of uniform sky light that the surface transmits. The mean of Schlick's reflectance is F0 + (1 - F0)/21. The
-/// mean of the thesis' form is bias + 2 scale/((p + 1)(p + 2)).
+/// Share of the light of a uniform sky that passes into the water: 1 minus the mean reflectance of the surface. The
+/// mean of Schlick's reflectance is F0 + (1 - F0)/21. The mean of the thesis' form, with power p, is bias + 2
+/// scale/((p + 1)(p + 2)).
 fn comes_in(water: &WaterSettings) -> f32 {
     let mean = match water.fresnel {
         Fresnel::Schlick { f0 } => f0 + (1.0 - f0) / 21.0,
@@ -696,7 +705,8 @@ fn leaves(water: &WaterSettings) -> f32 {
     (comes_in(water) / (n * n)).max(1.0e-3)
 }
 
-/// Uniforms `bed` and `bed_light`: effect of the surface on the light of the ground below.
+/// Uniforms `bed` and `bed_light`: how the water's surface changes the light that falls on, and comes from, the
+/// ground below.
 fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let per_light = |e: f32| std::f32::consts::PI / e.max(1.0e-9);
     let [r, g, b] = light.irradiance.map(per_light);
@@ -706,7 +716,8 @@ fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let n = index(water);
     let comes_in = comes_in(water);
     let leaves = leaves(water);
-    // 2 n^2 (1 - sqrt(1 - 1/n^2)) in a form without cancellation: the mean of 1/cos inside, over sin^2 outside.
+    // Path of an even sky's light per metre of depth: the mean of 1/cos of the angle inside, over sin^2 of the angle
+    // outside, is 2 n^2 (1 - sqrt(1 - 1/n^2)); this form has no cancellation.
     let sky = 2.0 / (1.0 + (1.0 - 1.0 / (n * n)).max(0.0).sqrt());
     let cosine = light.toward().dot(up).clamp(0.0, 1.0);
     let inside = (1.0 - (1.0 - cosine * cosine) / (n * n)).max(1.0e-6).sqrt();
@@ -722,10 +733,10 @@ fn light_vector(c: [f32; 3]) -> [f32; 4] {
     [c[0], c[1], c[2], 0.0]
 }
 
-/// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders know absorption, single scattering and the light that is
-/// scattered. A turbid medium is passed as a medium that only scatters, with its own radiance as that light. The last
-/// component of `medium_b` is then the scattered share of that radiance, which depends on the sun and the slope of the
-/// surface; the rest is emission.
+/// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders compute absorption and single scattering of a given
+/// ambient light. A turbid medium is passed as one that only scatters, with the radiance of an infinitely deep body
+/// of it in place of the ambient light. The last component of `medium_b` is then the share of this radiance that is
+/// scattered light, which depends on the sun and the slope of the surface; the rest is emission.
 fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]) {
     match water.medium {
         Medium::Physical { absorption: a, scattering: s } => {
@@ -812,7 +823,8 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
 mod tests {
     use super::*;
 
-    /// Against closed forms: `(2/n) B(2/n, m + 1)` is 1/(m + 1) for n = 2 and 2/((m + 1)(m + 2)) for n = 1.
+    /// Compares with the closed form `(2/n) B(2/n, m + 1)` with the beta function B: 1/(m + 1) for n = 2 and 2/((m +
+    /// 1)(m + 2)) for n = 1.
     #[test]
     fn the_mean_of_a_falloff_is_its_integral() {
         for m in [0.1_f32, 0.4, 1.0, 2.5, 16.0] {
@@ -831,7 +843,8 @@ mod tests {
         Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d())
     }
 
-    /// Every convention must return the depth and the slope of a point that it projected.
+    /// For every projection convention the lens has to recover the depth and the slope of a point from its
+    /// projection.
     #[test]
     fn lens_inverts_every_projection() {
         let mut off_axis = Mat4::perspective_rh(0.8, 1.5, 0.1, 50.0);

@@ -1,41 +1,42 @@
 //! Draws particle water, foam, spray and bubbles into the frame of your own Vulkan engine.
 //!
-//! The library records into your command buffer. It owns no device, queue, window or swapchain. Barriers are explicit;
-//! counts, culling and the end of the smoothing are decided on the GPU, so nothing waits for the host. Each pass is
-//! checked against a CPU twin on a software device.
+//! The library records into your command buffer. It owns no device, queue, window or swapchain. Barriers are
+//! explicit. The GPU itself decides counts, culling and when the smoothing ends, so nothing waits for the host. Each
+//! pass is tested on a software device against a twin of it that runs on the CPU.
 //!
 //! # Embedding
 //!
 //! 1. Before you create the device (Vulkan 1.2 or newer; no feature is required), ask [`requirements`] and
-//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what the
-//!    device supports, [`EnabledFeatures::device_features`] builds the structures for `vkCreateDevice`, and
-//!    [`DeviceSupport::with_enabled`] returns the support with only some of them. Report truthfully in
-//!    [`EnabledFeatures`] what you enabled. On a Vulkan 1.2 device surface foam, motion vectors and
+//!    [`DeviceSupport::check`], and enable the optional features that you want: [`DeviceSupport::optional`] is what
+//!    the device supports, [`EnabledFeatures::device_features`] builds the structures for `vkCreateDevice`, and
+//!    [`DeviceSupport::with_enabled`] returns what is supported if only some of them are enabled. Report truthfully
+//!    in [`EnabledFeatures`] what you enabled. On a Vulkan 1.2 device surface foam, motion vectors and
 //!    [`Shading::Compute`](water::Shading) need [`EnabledFeatures::storage_image_write_without_format`].
 //! 2. Create one [`Context`] per device from a [`Host`], then a [`Renderer`] from the context and a [`Config`]. This
 //!    allocates all memory, and creates all pipelines that the context does not have yet.
-//! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Frames before
-//!    that are refused. [`Settings::new`] derives all looks from the spacing and the scale of your scene, [`Light::of`]
-//!    the light from a sky.
-//! 4. Each frame, after the slot's fence, call [`Renderer::collect`] and then [`Renderer::record`] with a [`Frame`].
-//!    [`Renderer::timings`] returns the time of each pass.
-//! 5. Call [`Renderer::resize`] or [`Renderer::reconfigure`] at any time between records, and [`Renderer::destroy`] when the
-//!    GPU is done.
+//! 3. Record [`Renderer::record_setup`] once, and [`Renderer::record_environment`] once per environment. Before both
+//!    are recorded, `record` refuses frames. [`Settings::new`] derives all looks from the spacing and the scale of
+//!    your scene, [`Light::of`] the light from a sky.
+//! 4. Each frame uses a slot, the index of a frame in flight. Wait for the slot's fence, then call
+//!    [`Renderer::collect`] and then [`Renderer::record`] with a [`Frame`]. [`Renderer::timings`] returns the time of
+//!    each pass.
+//! 5. Call [`Renderer::resize`] or [`Renderer::reconfigure`] at any time between records, and [`Renderer::destroy`]
+//!    when the GPU is done.
 //!
 //! `tools/embed` in the repository is a complete small host.
 //!
-//! State that outlives a frame is kept in objects of its own, which several views share. Each is updated once per
-//! simulation step:
+//! State that outlives a frame is kept in separate objects, which several views can share. The first three are
+//! updated once per simulation step:
 //!
 //! - [`SurfaceFoamState`] holds which of the water's particles are foam ([`SurfaceFoamState::record_step`]).
 //! - [`Generator`] emits, moves and ages whitewater: spray, foam and bubbles that are particles of their own.
 //! - [`bubbles::BlobSimulation`] simulates blobs of bubble foam.
-//! - [`shore::ShoreMap`] holds the distance to the shore. It is updated only where the land has changed.
+//! - [`shore::ShoreMap`] holds the distance to the shore. It is updated only when, and where, the land has changed.
 //!
 //! # What `record` takes
 //!
-//! State "`before` → `after`" means: `record` waits for the use named in `before` and leaves the resource ready for the use
-//! named in `after`.
+//! State "`before` → `after`" means: `record` waits for the use named in `before` and leaves the resource ready for
+//! the use named in `after`.
 //!
 //! | input | what | needs | state |
 //! |---|---|---|---|
@@ -66,50 +67,52 @@
 //!
 //! # Motion vectors
 //!
-//! With [`Config::motion`] each record leaves a [`Layer`] `motion` that covers the frame. A vector is the position of a
-//! surface point in this frame minus its position in the previous frame ([`Frame::previous`]), in pixels, y down. Water and
-//! foam have the motion of their own surface, from the velocities of the particles near it, not the motion of the scene
-//! behind it. The scene is taken as static, so its vectors come from the camera alone. An engine with motion vectors of its
-//! own takes these where there is water: where `water.depth` or `surface_foam` is less than 1e10. (`surface_foam` has the
-//! resolution of the thickness.)
+//! With [`Config::motion`] each record leaves a [`Layer`] `motion` that covers the frame. A vector is the position of
+//! a surface point in this frame minus its position in the previous frame ([`Frame::previous`]), in pixels, y down.
+//! Water and foam have the motion of their own surface, from the velocities of the particles near it, not the motion
+//! of the scene behind it. The scene is taken as static, so its vectors come from the camera alone. An engine with
+//! motion vectors of its own takes these where there is water: where `water.depth` or `surface_foam` is less than
+//! 1e10. (`surface_foam` has the resolution of the thickness.)
 //!
 //! # Promises
 //!
 //! - `record` only records: it never submits, waits, creates pipelines or allocates device memory.
-//! - Each host image gets one acquire and one release barrier. The output gets more in between if it is copied first,
-//!   or if the lit scene is drawn to it. Core and synchronization validation report nothing.
-//! - Pixels outside the fluid are unchanged, and zero particles change nothing. With `Config.light_map_size` the whole view is
-//!   written: the scene with shadows and caustics.
-//! - Every [`Error::BadInput`] is found before the first command. After any other error discard the command buffer and call
-//!   [`Renderer::abandon`].
-//! - `resize` and `reconfigure` are legal with frames in flight. `collect` frees the objects that they replaced as soon
-//!   as every slot that used them has finished. Only construction, `resize`, `reconfigure`, `collect` and `destroy`
-//!   call the allocator.
-//! - Equal inputs give equal pictures on one device, in any order of the particles. Sums are of integers, or of steps that
-//!   floats represent exactly. There are three exceptions: the additive blending of splats by raster; light
-//!   maps some hundred spacings from the centre of their region, which are nearly exact; and whitewater by raster, which
-//!   rounds sums beyond 256 and, of two whitewater particles at one depth, shows the first.
+//! - Each host image gets one acquire and one release barrier. The output gets more barriers in between if it is
+//!   copied first, or if the lit scene is drawn to it. Core and synchronization validation report nothing.
+//! - Pixels outside the fluid are unchanged, and zero particles change nothing. With `Config.light_map_size` the
+//!   whole view is written: the scene with shadows and caustics.
+//! - Every [`Error::BadInput`] is found before the first command. After any other error discard the command buffer
+//!   and call [`Renderer::abandon`].
+//! - `resize` and `reconfigure` are legal with frames in flight. `collect` frees the objects that they replaced as
+//!   soon as every slot that used them has finished. Only construction, `resize`, `reconfigure`, `collect` and
+//!   `destroy` call the allocator.
+//! - Equal inputs give equal pictures on one device, whatever the order of the particles, because sums add integers,
+//!   or multiples of a step that floats represent exactly. The order can matter in three cases: splats that a raster
+//!   path adds by blending; light maps some hundred spacings from the centre of [`Frame::light_volume`], where sums
+//!   are only nearly exact; and whitewater by raster, which rounds sums beyond 256 and shows the first of two
+//!   particles at the same depth.
 //!
 //! # Demands
 //!
 //! - Command buffers are primary, of the family in [`Host`], outside any render pass, without an active query or
-//!   conditional rendering. They are submitted to one queue in the order in which they were recorded. Report a recorded one
-//!   that is never submitted with [`Renderer::abandon`].
-//! - One `record` per slot; two views are two renderers. The slot's earlier work is complete.
-//! - Queue family ownership is acquired beforehand. Images are single-sampled.
+//!   conditional rendering. They are submitted to one queue in the order in which they were recorded. Report a
+//!   recorded command buffer that is never submitted with [`Renderer::abandon`].
+//! - Before a slot is recorded again, its earlier GPU work is complete. Each view has a renderer of its own.
+//! - The host acquires queue family ownership of its resources beforehand. Its images are single-sampled.
 //!
 //! Up is +y unless [`Settings::up`], and for the environment [`Sky::up`] or [`Equirectangular::up`], say otherwise.
 //!
-//! The view may be a part of each image ([`HostImage::rect`]). Several views can then share an image, and the resolution
-//! can change from frame to frame, up to [`Config::extent`], without a resize.
+//! The view may be a part of each image ([`HostImage::rect`]). Several views can then share an image, and the
+//! resolution can change from frame to frame, up to [`Config::extent`], without a resize.
 //!
-//! `record` clobbers the bound pipelines, descriptor sets, push constants, viewport and scissor. It does no tone mapping,
-//! exposure, anti-aliasing or ownership transfers, and takes no multisampled images, array images or orthographic cameras.
+//! `record` clobbers the bound pipelines, descriptor sets, push constants, viewport and scissor. It does no tone
+//! mapping, exposure, anti-aliasing or ownership transfers, and takes no multisampled images, array images or
+//! orthographic cameras.
 //!
 //! # Memory
 //!
-//! [`Renderer::memory`] returns the exact number of bytes in use. With default values, each part takes, for w × h pixels
-//! and n particles:
+//! [`Renderer::memory`] returns the exact number of bytes in use. With default values, each part takes, for w × h
+//! pixels and n particles:
 //!
 //! | what | bytes | 1280×720 | 1920×1080 |
 //! |---|---|---|---|
@@ -145,14 +148,14 @@
 //! | ellipsoids: grid, shapes, lists (`kernels`); with `surface_foam` 8 n more, with `spray` 4 n | 108 to 124 n | 7.0 to 7.8 MiB for 65 536 | 1.1 to 1.2 GB for 10 million |
 //! | spheres: all, and the visible ones | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
-//! A [`SurfaceFoamState`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid and 44 per
-//! whitewater particle. A [`shore::ShoreMap`] takes 16 bytes per texel.
+//! A [`SurfaceFoamState`] takes 68 bytes per particle. A [`Generator`] takes 76 to 80 bytes per particle of the fluid
+//! and 44 per whitewater particle. A [`shore::ShoreMap`] takes 16 bytes per texel.
 //!
 //! # Where it differs from its sources
 //!
-//! Each pass states this in its header; `docs/differences.md` in the repository collects the main points. `water`
-//! follows Bagar 2010, `WhitewaterSettings` Akinci et al. 2013 and Ihmsen et al. 2012, `bubbles` Huszár and Szécsi, `shore` a blog and a
-//! tutorial.
+//! The header of each pass states its differences; `docs/differences.md` in the repository collects the main ones.
+//! `water` follows Bagar 2010, `WhitewaterSettings` Akinci et al. 2013 and Ihmsen et al. 2012, `bubbles` Huszár and
+//! Szécsi, `shore` a blog and a tutorial.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
