@@ -54,7 +54,7 @@ pub fn is_of_velocities(path: &Path) -> bool {
         .is_some_and(|stem| word(stem, &VELOCITIES).is_some() && word(stem, &POSITIONS).is_none())
 }
 
-/// Adds velocities from the file beside the positions. If files hold several frames, the frame is `step`.
+/// Adds velocities from the file beside the positions. If each file holds several frames, `step` selects one.
 pub fn add(particles: &mut Particles, path: &Path, step: Option<Step>) {
     if particles.velocities.is_some() {
         return;

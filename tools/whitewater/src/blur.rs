@@ -10,7 +10,8 @@ use whitewater::io::picture::{Channel, Layers};
 use crate::args::DrawArgs;
 use crate::failure::Outcome;
 
-/// Defaults for a photograph: exposure time in seconds; lens diameter over focus distance; max lens diameter in metres.
+/// Defaults for a photograph: exposure time in seconds (`SHUTTER`), ratio of lens diameter to focus distance
+/// (`LENS`), and max lens diameter in metres (`LARGEST`).
 const SHUTTER: f32 = 0.005;
 const LENS: f32 = 0.0015;
 const LARGEST: f32 = 0.015;
@@ -38,8 +39,8 @@ pub struct Sample {
 }
 
 impl Blur {
-    /// `None` if nothing is blurred. With `photograph` the defaults are those of a camera; `focus` is the focus
-    /// distance.
+    /// `None` if nothing is blurred. Missing arguments default to those of a photograph ([`SHUTTER`], [`LENS`]) if
+    /// `photograph` is set, otherwise to no blur. `focus` is the focus distance.
     pub fn of(args: &DrawArgs, photograph: bool, focus: f32) -> Option<Self> {
         let usual = |value: f32| if photograph { value } else { 0.0 };
         let seconds = args.shutter.unwrap_or(usual(SHUTTER));
@@ -64,8 +65,8 @@ impl Blur {
         })
     }
 
-    /// Draws one picture per sample, with the particles moved to its time, and returns the mean. At the end the
-    /// particles are back in place.
+    /// Draws one picture per sample, with the particles moved to the sample's time, and returns the mean of the
+    /// pictures. At the end the particles are back in place.
     pub fn draw(
         &self,
         headless: &mut Headless,
@@ -88,8 +89,8 @@ impl Blur {
     }
 }
 
-/// The view through a point of the lens. Points at distance `focus` stay where they are in the picture, except for the
-/// offset within the pixel.
+/// The camera's view through a point of the lens. In the picture, points at distance `focus` do not move, except by
+/// the sample's offset within the pixel.
 pub fn through(
     camera: &Camera,
     Sample { lens, pixel, .. }: Sample,

@@ -13,26 +13,28 @@ pub struct Bounds {
     pub max: Vec3,
 }
 
-/// Coordinates of at least this size count as outliers: the determinant of a light's projection, 1 over the cube of its
-/// size, would underflow in single precision. (`cull` drops particles from 1e18 on.)
+/// Coordinates of at least this size count as outliers. With a scene of such a size, the determinant of the light's
+/// projection, 1 / size³, would underflow in single precision. (The pass `cull` drops particles with coordinates of
+/// 1e18 or more.)
 const FAR: f32 = 1.0e12;
-/// Limit of the distance from the quartiles, in interquartile ranges of the widest axis, beyond which a particle is an
-/// outlier. Evenly spread water ends at half a range and a splash at a few; if the bounds reached 100 ranges, the bulk
-/// would be a few pixels.
+/// A particle is an outlier if it lies beyond the quartiles of an axis by more than this many interquartile ranges
+/// (of the axis with the largest range). Evenly spread water reaches half a range beyond its quartiles, a splash a
+/// few ranges. In a picture of bounds that reach 100 ranges, the bulk would be a few pixels.
 const REACH: f32 = 100.0;
-/// Width of a grid cell in spacings. A cell of this width holds 27 particles of a body of water, 9 of a sheet one
-/// particle thick, 3 of a line.
+/// Width of a grid cell in spacings. A cell of this width holds 27 particles inside a body of water, 9 of a sheet
+/// that is one particle thick, 3 of a line of particles.
 const CELL: f32 = 3.0;
 /// Min number of particles in a cell that is water and not spray.
 const DENSE: usize = 5;
-/// Min share of all particles in a connected body of such cells, for the body to belong to the bulk.
+/// Min share of all particles that a connected body of such cells has to hold, in order to belong to the bulk.
 const BODY: f32 = 0.05;
-/// How far spray may reach beyond the bulk, as a part of its longest side. Below the bulk is the floor that the water
-/// stands on.
+/// How far spray may reach beyond the bulk to the sides and upwards, as a part of the bulk's longest side. Below the
+/// bulk is the floor that the water stands on, so the limit there is one grid cell.
 const SPRAY: f32 = 0.5;
-/// The same above the bulk, for particles that fly farther than that.
+/// If particles above the bulk fly farther than [`SPRAY`] and are ignored, the bounds still reach this far above the
+/// bulk, as a part of its longest side.
 const SPLASH: f32 = 0.15;
-/// Max share of the particles that may lie beyond that on one side.
+/// Particles farther away than [`SPRAY`] are ignored if on that side they are fewer than this share of all particles.
 const STRAY: f32 = 0.08;
 /// Number of particles from which quartiles are computed.
 const SAMPLES: usize = 65_536;
@@ -50,7 +52,8 @@ fn plausible(positions: &[[f32; 3]]) -> Option<Bounds> {
         low[axis] = *values.select_nth_unstable_by(quarter.min(last), f32::total_cmp).1;
         high[axis] = *values.select_nth_unstable_by(last - quarter.min(last), f32::total_cmp).1;
     }
-    // A sheet has a range of 0 across. If half of all particles are at one place, no range is known.
+    // A sheet has an interquartile range of 0 across its plane, so the largest of the three ranges counts. If half of
+    // all particles are at one place, all three are 0, and only `FAR` limits the box.
     let range = (high - low).max_element();
     let reach = if range > 0.0 { REACH * range } else { FAR };
     Some(Bounds {
@@ -73,8 +76,9 @@ pub fn count_far(positions: &[[f32; 3]]) -> usize {
 }
 
 impl Bounds {
-    /// Bounding box of the particles that [`together`] keeps, without strays: at most 1 in 500 at each end of an axis,
-    /// and only if they are far off. `None` without particles.
+    /// Bounding box of the particles that [`together`] keeps, without strays. Strays are at most 1 in 500 particles
+    /// at each end of an axis, if they are far from the rest, and the few particles that fly farther than spray from
+    /// the bodies of water. `None` without particles.
     pub fn of_bulk(positions: &[[f32; 3]]) -> Option<Self> {
         let positions = together(positions);
         let mut bounds = Self { min: Vec3::ZERO, max: Vec3::ZERO };
@@ -92,7 +96,8 @@ impl Bounds {
         Some(bounds.within_reach_of(Self::of_bodies(&positions), &positions))
     }
 
-    /// The box without particles that are farther from bodies of water than spray flies, or below the floor.
+    /// Shrinks the box on each side beyond which few particles lie farther from the bodies of water than spray flies
+    /// ([`SPRAY`]), or, downwards, below the floor.
     fn within_reach_of(self, bodies: Option<(Self, f32)>, positions: &[[f32; 3]]) -> Self {
         let Some((bodies, cell)) = bodies else { return self };
         let reach = (SPRAY * bodies.size().max_element()).max(cell);
@@ -116,7 +121,8 @@ impl Bounds {
         bounds
     }
 
-    /// Bounding box of the cells that are as dense as water, and the width of a cell; `None` if no cell is.
+    /// Bounding box of the bodies of water, and the width of a cell. A body consists of connected cells with at least
+    /// [`DENSE`] particles each, which together hold at least [`BODY`] of all particles. `None` if there is no body.
     fn of_bodies(positions: &[[f32; 3]]) -> Option<(Self, f32)> {
         let cell = CELL * estimate_spacing(positions)?;
         let mut cells: HashMap<[i64; 3], (usize, Self)> = HashMap::new();
@@ -196,8 +202,8 @@ mod tests {
         assert_eq!(Bounds::of_bulk(&[[f32::NAN; 3]]), None);
     }
 
-    /// If 3 % of the particles leaked below or were thrown out, they do not change the bounds; a splash is part of the
-    /// bulk.
+    /// If 3 % of the particles leaked below or were thrown out, the bounds stay close to the rest; a splash is part
+    /// of the bulk.
     #[test]
     fn what_leaked_or_flew_away_does_not_count() {
         let block: Vec<[f32; 3]> = (0..4000)

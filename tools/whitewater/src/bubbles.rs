@@ -297,7 +297,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     let meshes = boxes.iter().map(|(at, half)| {
         Mesh::cuboid(at.to_array(), half.to_array(), turn.to_array(), material.clone())
     });
-    // The blobs fill the upper half of the ramp to a height of a third of its width.
+    // The blobs lie in layers on the upper half of the ramp, to a height of about two thirds of its width.
     let radius = 0.062 * (1000.0 / count as f32).cbrt();
     let apart = 1.45 * radius;
     let across = ((wide - 2.0 * radius) / apart).floor().max(1.0) as u32 + 1;
@@ -392,8 +392,8 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     }
     if let Some(path) = args.scene.as_ref().filter(|path| path.as_os_str() != "ground") {
         scene = stage::read(path)?;
-        // The obstacles of a file's blobs are the scene that is drawn; the slope's ramp belongs to
-        // its own scene.
+        // Blobs that move collide with the scene of `--scene`. It replaces the built-in scene, and with it the
+        // slope's ramp.
         if blobs.motion.is_some() {
             blobs.motion = Some(Motion::on(&scene, largest(&blobs.blobs))?);
         }

@@ -14,20 +14,22 @@ const DEFAULT_FOV: f32 = 40.0;
 /// Vertical field of view in degrees of a camera that is found from the particles: neither
 /// wide-angle nor telephoto.
 const FOUND_FOV: f32 = 36.0;
-/// Height of the horizon in such a view, from the middle (0) to the upper edge (1): the sky takes a
-/// seventh of the picture's height.
+/// Height of the horizon in the view of such a camera, from the picture's middle (0) to its upper edge (1): the sky
+/// takes a seventh of the picture's height.
 const HORIZON: f32 = 0.7;
-/// Min pitch of the axis below the horizontal, radians, for any field of view.
+/// Min and max angle of the camera's axis below the horizontal, radians, whatever the field of view is.
 const LEAST_PITCH: f32 = 0.14;
 const MOST_PITCH: f32 = 0.52;
-/// Max angle, in degrees, at which the camera looks down on the middle of the floor.
+/// Max angle below the horizontal, in degrees, of the line from the eye to the middle of the floor.
 const HIGHEST: f32 = 27.0;
-/// Max part of the half height, and of the half width, that the framed points fill.
+/// Max distance of the framed points from the picture's middle, as a part of half its height (`FILLED`) and of half
+/// its width (`WIDTH`).
 const FILLED: f32 = 0.86;
 const WIDTH: f32 = 0.73;
 
 /// A camera as in its file: the first six values, or `view` and `projection`, or `keys` of an
-/// animated camera. With keys the other values hold except eye and target.
+/// animated camera. With `keys`, eye and target come from the keys; `up` and `fov_y_degrees` are the defaults of keys
+/// without them, and `near` and `far` hold for all frames.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraFile {
@@ -80,7 +82,8 @@ pub struct Key {
 type Pose = ([Vec3; 3], f32);
 
 impl CameraFile {
-    /// The camera of a frame. It does not depend on which other frames are drawn.
+    /// The camera at a frame, on its way along the keys and around the target. It does not depend on which other
+    /// frames are drawn.
     pub fn at_frame(&self, frame: u64) -> Self {
         let camera = self.on_its_way(frame);
         match (self.turn, camera.eye, camera.target) {
@@ -141,8 +144,8 @@ impl CameraFile {
         ([key.eye.into(), key.target.into(), up], fov)
     }
 
-    /// Slope in a key, per frame: the difference between its neighbours over the frames between
-    /// them.
+    /// Slope at a key, per frame: (next key - previous key) / (frames between these two). It is 0 at the first and at
+    /// the last key.
     fn slope(&self, key: usize) -> Pose {
         let around = (key.checked_sub(1).and_then(|k| self.keys.get(k)), self.keys.get(key + 1));
         let (Some(a), Some(b)) = around else { return ([Vec3::ZERO; 3], 0.0) };
@@ -255,8 +258,8 @@ impl CameraFile {
         Ok(Camera::of(Mat4::look_at_rh(eye, target, up), projection))
     }
 
-    /// A three-quarter view: the horizon is a seventh of the height below the upper edge, the water
-    /// in the lower part. The camera is as near as possible with the bulk of every frame in the
+    /// A three-quarter view: the horizon is below the upper edge by a seventh of the picture's height, and the water
+    /// is in the lower part. The camera is as near as it can be while the bulk of the water of every frame is in the
     /// picture.
     pub fn of_particles(
         frames: &[&[[f32; 3]]],
@@ -269,7 +272,8 @@ impl CameraFile {
         Self::turned_to(turn, frames, bounds, fov, size)
     }
 
-    /// A front view of a sheet: from +z, or from +x if the sheet is perpendicular to x.
+    /// A front view of a sheet, that is, of particles that all lie in one plane: from +z, or from +x if the sheet is
+    /// perpendicular to x.
     pub fn of_sheet(
         across_x: bool,
         frames: &[&[[f32; 3]]],
@@ -303,8 +307,8 @@ impl CameraFile {
         let pitch = (HORIZON * tan_y).atan().clamp(LEAST_PITCH, MOST_PITCH);
         let (sin, cos) = pitch.sin_cos();
         let framing = Framing { points, tan: Vec2::new(tan_x, tan_y), sin, cos };
-        // The eye is as high as the lower edge of the picture allows, so that near walls hide
-        // little, but not lower than the pitch.
+        // The eye is as high as it can be with all points above the lower edge of the picture, so that near walls
+        // hide little of the water, but at an angle above the floor of at least `low`.
         let low = pitch + 2.0_f32.to_radians();
         let high = HIGHEST.to_radians().max(pitch + 6.0_f32.to_radians());
         let eye_at = |distance: f32| {
@@ -364,8 +368,8 @@ impl CameraFile {
         }
     }
 
-    /// The camera moved horizontally so that its target is above `point`: an object that turns
-    /// about that point stays in the middle.
+    /// The camera moved horizontally so that its target is straight above or below `point`. An orbit around the
+    /// target then keeps an object that stands around `point` in the middle of the picture.
     pub fn over(mut self, point: Vec3) -> Self {
         if let (Some(eye), Some(target)) = (&mut self.eye, &mut self.target) {
             for axis in [0, 2] {
@@ -393,7 +397,7 @@ struct Framing {
     cos: f32,
 }
 
-/// Bounding rectangle of the projected points, from -1 to 1 from the left and lower edge.
+/// Bounding rectangle of the projected points. -1 is the picture's left or lower edge, 1 the right or upper one.
 struct Seen {
     low: Vec2,
     high: Vec2,
@@ -416,9 +420,9 @@ impl Framing {
     }
 }
 
-/// The highest and the lowest points of all frames in a grid over the view plane, without the
-/// farthest drops, and the corners of the floor. `along` converts to right, up, and towards the
-/// eye.
+/// Points that the picture has to contain: the highest and the lowest point, over all frames, in each cell of a
+/// horizontal grid, without the farthest drops; and the corners of the floor. `along` converts a position to
+/// coordinates to the right, upwards, and towards the eye.
 fn outline(frames: &[&[[f32; 3]]], bounds: &Bounds, along: impl Fn(Vec3) -> Vec3) -> Vec<Vec3> {
     const CELLS: usize = 24;
     let size = bounds.size();
@@ -429,8 +433,8 @@ fn outline(frames: &[&[[f32; 3]]], bounds: &Bounds, along: impl Fn(Vec3) -> Vec3
     let step = ((high - low) / CELLS as f32).max(Vec3::splat(f32::MIN_POSITIVE));
     let mut cells = vec![(None::<Vec3>, None::<Vec3>); CELLS * CELLS];
     for positions in frames {
-        // The limits are those of each frame, so that a brief splash does not count as a stray of
-        // the whole sequence.
+        // The limits without the farthest drops are found for each frame by itself, so that a brief splash does not
+        // count as a stray of the whole sequence.
         let step_of = positions.len().div_ceil(20_000).max(1);
         let points: Vec<Vec3> = positions
             .iter()
@@ -461,8 +465,8 @@ fn outline(frames: &[&[[f32; 3]]], bounds: &Bounds, along: impl Fn(Vec3) -> Vec3
     cells.chain(floor).collect()
 }
 
-/// The 0.995 quantile of the values of a frame: a picture may lose one particle in two hundred, the
-/// farthest drops.
+/// Upper limit of the values of a frame: the 0.995 quantile plus 0.35 of its distance from the median, or the max if
+/// that is smaller. So the picture may lose one particle in two hundred, the farthest drops.
 fn most(mut values: Vec<f32>) -> f32 {
     values.sort_unstable_by(f32::total_cmp);
     let Some(last) = values.last() else { return 0.0 };
@@ -499,8 +503,8 @@ impl Lens {
         let scale = 1.0 / m[2][3].abs();
         let p = Vec4::new(m[0][0], m[1][1], mirror * m[2][0], mirror * m[2][1]) * scale;
         let linear = (m[3][2] * scale, mirror * m[2][2] * scale);
-        // The plane with the larger eye depth is the far one; an infinite depth appears as zero or
-        // negative.
+        // Of the planes at device depth 0 and 1, the one with the larger eye depth is the far plane. A plane at
+        // infinity may give a depth of zero or a negative one.
         let depth = |z: f32| {
             let depth = linear.0 / (z + linear.1);
             if depth.is_finite() && depth > 0.0 { depth } else { f32::INFINITY }
@@ -519,7 +523,8 @@ impl Lens {
         }
     }
 
-    /// Scale and offset from coordinates in pixels (centres at +0.5) to x / depth and y / depth.
+    /// Scale (first two values) and offset (last two) that convert texel coordinates, with centres at +0.5, to x /
+    /// depth and y / depth in view space. A texel is `texel` pixels wide.
     pub fn slope(&self, size: (u32, u32), texel: f32) -> [f32; 4] {
         let x = 2.0 * texel / (size.0 as f32 * self.p.x);
         let y = 2.0 * texel / (size.1 as f32 * self.p.y);
@@ -565,8 +570,8 @@ mod tests {
         }
     }
 
-    /// For every shape of the water the horizon is a seventh below the upper edge, and the camera
-    /// looks down on the water steeply enough for near walls to hide little.
+    /// For every shape of the water the horizon is below the upper edge by a seventh of the picture's height, and the
+    /// camera looks down on the water so steeply that near walls hide little.
     #[test]
     fn the_horizon_is_in_the_picture() {
         let box_of = |size: [usize; 3]| -> Vec<[f32; 3]> {
@@ -609,8 +614,8 @@ mod tests {
         assert!(seen(&splash) > 0.7 * seen(&alone), "{} of {}", seen(&splash), seen(&alone));
     }
 
-    /// One of sixteen frames has a splash: a tenth of its own particles, but less than one in two
-    /// hundred of all. It is in the picture, with room above it.
+    /// One of sixteen frames has a splash, of a twentieth of that frame's particles, which is less than one in two
+    /// hundred of the particles of all frames. The splash is in the picture, with room above it.
     #[test]
     fn a_moments_splash_is_in_the_picture() {
         let pool: Vec<[f32; 3]> = (0..4096)
@@ -665,7 +670,7 @@ mod tests {
         }
         assert_eq!(camera.at_frame(20).fov_y_degrees, Some(50.0));
         assert_eq!(camera.at_frame(60).fov_y_degrees, Some(30.0));
-        // The path has no step and no kink, and is at rest at both ends.
+        // The eye's path has no step and no kink, and the eye is at rest at both ends.
         let steps: Vec<f32> = (5..55).map(|f| eye(f + 1).x - eye(f).x).collect();
         assert!(steps.iter().all(|s| (-1e-6..0.2).contains(s)), "{steps:?}");
         assert!(steps.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.04), "{steps:?}");

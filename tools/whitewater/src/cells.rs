@@ -35,9 +35,9 @@ impl Cells {
         Self { placed, reach }
     }
 
-    /// Calls `of` for each particle that `asked` selects, with its index, its position, and all
-    /// particles in its cell and the neighbouring cells; these include all particles within reach,
-    /// and the particle itself. Runs on all cores.
+    /// Calls `of` for each particle that `asked` selects, with the particle's index, its position, and all particles
+    /// in its cell and the neighbouring cells. Among these are all particles within reach, and the particle itself.
+    /// Runs on all cores.
     pub fn map<T: Send>(
         &self,
         asked: impl Fn(usize) -> bool + Sync,
@@ -91,8 +91,8 @@ impl Cells {
     }
 }
 
-/// The outermost cells hold everything beyond them; callers compare positions, so no neighbours are
-/// wrong.
+/// The cell of a position. The outermost cells also hold everything beyond them. That gives no wrong neighbours,
+/// because callers compare the positions themselves.
 fn cell(position: Vec3, reach: f32) -> [i64; 3] {
     let most = (1_i64 << (BITS - 1)) - 2;
     position.to_array().map(|c| ((c / reach).floor() as i64).clamp(-most, most))

@@ -32,7 +32,7 @@ pub fn run(args: &CompareArgs) -> Outcome<()> {
 
 fn compare_channels(mut a: Layers, mut b: Layers) -> Outcome<f32> {
     if a.encoding != b.encoding {
-        // If one picture is a PNG and the other is linear, both are compared as displayed.
+        // If one picture is a PNG and the other holds linear light, both are compared as a screen displays them.
         for layers in [&mut a, &mut b] {
             let rgb = layers.display(0.0).ok_or_else(no_color)?;
             layers.channels.clear();

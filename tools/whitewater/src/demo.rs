@@ -49,8 +49,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         None => viewpoint(args.camera.fov),
     };
     camera.check([0], args.draw.size)?;
-    // The light is that of cache files. The sun's position does not depend on a camera that the
-    // user sets.
+    // The light is the same as `render` uses for particle files. The sun's position follows from the demo's own
+    // viewpoint, also if the user sets another camera.
     let eye = Vec3::from(viewpoint(None).eye.unwrap_or_default());
     let environment = session::environment(&args.draw, Some(stage::side_light(eye)))?;
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
@@ -67,8 +67,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         }
         let speed = impact_speed(std::slice::from_ref(&particles));
         spray_of_caches(&mut settings.spray, SPACING, speed);
-        // The particles are so large that one drop for each would be too large, and many drops for
-        // each would look like a star.
+        // The particles are large, so one drop for each of them would be too large, and many tiny drops for each
+        // would look like a star.
         (settings.spray.droplets, settings.spray.size) = (40, 0.12);
         [
             settings.spray.all_spray_density,

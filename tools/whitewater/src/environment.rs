@@ -48,7 +48,7 @@ pub struct Environment {
 impl Environment {
     /// The built-in sky.
     pub fn sky(sun: Option<[f32; 3]>) -> Outcome<Self> {
-        // The sun is behind the water for the views that are found here, so that the water
+        // In the views that the program finds by itself, the default sun is behind the water, so that the water
         // glitters.
         let sun = unit(sun.unwrap_or(SUN))?;
         let sky = Sky::default().with(|it| it.sun = sun.to_array());
@@ -57,8 +57,8 @@ impl Environment {
         Ok(Self { source: Source::Sky(sky), sun, sun_irradiance, sky_irradiance })
     }
 
-    /// An artificial environment: the radiance `room` of each direction without the key light, and
-    /// a square key light around `to_key`. `key` is its radiance and its angle in radians.
+    /// An artificial environment. `room` gives the radiance from each direction without the key light. The key light
+    /// is a square around the direction `to_key`; `key` is its radiance and its angular width in radians.
     pub fn lit(room: impl Fn(Vec3) -> Vec3, to_key: [f32; 3], key: (Vec3, f32)) -> Outcome<Self> {
         let sun = unit(to_key)?;
         let (radiance, half) = (key.0, (0.5 * key.1).tan());
@@ -125,7 +125,8 @@ impl Environment {
             it.direction = self.sun.to_array();
             // The picture contains the sun, so its highlight is part of the reflection.
             it.color = [0.0; 3];
-            // Mean radiance over all directions; the water above absorbs half of the sun's part.
+            // Mean radiance over all directions. The sun's part is halved, because the water above absorbs half of
+            // it.
             it.ambient =
                 ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array();
             it.irradiance =
@@ -134,14 +135,14 @@ impl Environment {
         })
     }
 
-    /// Irradiance in the shade: light of the sky, light that sunlit water and ground reflect, and
-    /// light that the surrounding foam scatters, which has lost its colour.
+    /// Irradiance in the shade: skylight, and sunlight that sunlit water and ground reflect. Half of the skylight is
+    /// grey, because the surrounding foam has scattered it and taken its colour.
     fn shade(&self) -> Vec3 {
         let sky = 0.5 * (self.sky_irradiance + self.sky_irradiance.dot(LUMINANCE));
         sky + THROWN_BACK * self.sun_irradiance * self.sun.y.max(0.0)
     }
 
-    /// Sets the sun of a scene. If the sky is a picture, the scene's own clouds are removed.
+    /// Sets the sun of a scene. If the environment is a picture, the scene's own clouds are removed.
     pub fn light_scene(&self, scene: &mut Scene) {
         scene.sun = self.sun_light();
         if !matches!(self.source, Source::Sky(_)) {
@@ -162,8 +163,8 @@ impl Environment {
     }
 }
 
-/// Fraction of the sun's light that sunlit water and ground reflect; a pool reflects more green and
-/// blue than red.
+/// Fraction of the sunlight that sunlit water and ground reflect into the shade, for red, green and blue; a pool
+/// reflects more green and blue than red.
 const THROWN_BACK: Vec3 = Vec3::new(0.24, 0.3, 0.31);
 const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
@@ -219,8 +220,8 @@ impl Panorama {
             return (Vec3::Y, Vec3::ZERO);
         };
         let center = self.direction(at % self.width.max(1), at / self.width.max(1));
-        // The sun is the region within 10 degrees of the brightest texel that is brighter than the
-        // ring from 10 to 14 degrees.
+        // The sun is made of the texels within 10 degrees of the brightest one that have more than a tenth of its
+        // brightness. The mean colour of the ring from 10 to 14 degrees replaces what is brighter than it.
         let cosine = |p: &Self, i: usize| p.direction(i % p.width, i / p.width).dot(center);
         let (mut around, mut angle) = (Vec3::ZERO, 0.0);
         for i in (0..self.pixels.len()).filter(|&i| (0.97..=0.985).contains(&cosine(self, i))) {
@@ -258,8 +259,8 @@ mod tests {
     const TOP: f32 = 6420.0;
     const SCALE_HEIGHTS: [f32; 2] = [8.0, 1.2];
 
-    /// Max optical depth of the three colours from just above the ground to the end of the
-    /// atmosphere.
+    /// Optical depth of the atmosphere from just above the ground, for the colour with the largest one, along a ray
+    /// with this cosine to the vertical.
     fn depth_of_air(cosine: f32) -> f32 {
         let height = EARTH + 0.05;
         let b = height * cosine;
@@ -296,8 +297,8 @@ mod tests {
         assert!(Environment::sky(Some([0.0; 3])).is_err());
     }
 
-    /// A sky of constant radiance with a disc of five degrees, at an elevation of 45 degrees. `sun`
-    /// is the disc's irradiance on a plane that faces it.
+    /// A sky of constant radiance, and in it a sun: a disc five degrees wide at an elevation of 45 degrees. `sun` is
+    /// the disc's irradiance on a plane that faces it.
     fn with_disc(sky: Vec3, sun: Vec3) -> Panorama {
         let to = Vec3::new(0.0, 1.0, -1.0).normalize();
         let mut panorama = Panorama::build(512, 256, |_| Vec3::ZERO);
@@ -364,13 +365,12 @@ mod tests {
         sum / drawn.data.len() as f32
     }
 
-    /// Lambert: a ground of albedo a under an irradiance E has the radiance a E / π. In addition it
-    /// has specular reflections: of the sky 0.04 · (1 - ½) (the share of `scene.frag` at roughness
-    /// 1), of the sun 0.04 + at most 1e-3 by Schlick, times a distribution of 1/π and a visibility
-    /// of at most ½ / (n·l). Errors of the numerical integral: the hemisphere's edge, which is
-    /// softened over a tenth, costs a thousandth; sums over 8² texels a face are within a hundredth
-    /// of the integral (second differences of the cosine over a texel of a quarter, (1/4)²/24, and
-    /// of the sky's radiance).
+    /// By Lambert's law a ground of albedo a under an irradiance E has the radiance a E / π. The drawn ground may be
+    /// brighter by two specular reflections. The sky's is 0.04 · (1 - ½), the share of `scene.frag` at roughness 1.
+    /// The sun's is 0.04 plus at most 1e-3 by Schlick, times a distribution of 1/π and a visibility of at most ½ /
+    /// (n·l). The numerical integral has two errors: the edge of the hemisphere, which is softened over a tenth,
+    /// costs a thousandth, and sums over 8² texels a face are within a hundredth of the integral (second differences
+    /// of the cosine over a texel of a quarter, (1/4)²/24, and of the sky's radiance).
     #[test]
     fn ground_under_a_sun_is_lambert() {
         let folder = tempfile::tempdir().unwrap();
@@ -406,8 +406,8 @@ mod tests {
         }
     }
 
-    /// Scene, foam and water are lit by one consistent light: the sun removed from the picture plus
-    /// the sun of the light are the original light, for every `--sun`.
+    /// Scene, foam and water are lit by one consistent light: the picture without its sun, plus the sun that is
+    /// removed from it, give the original light, for every direction of `--sun`.
     #[test]
     fn the_sun_is_taken_out_of_a_picture_once() {
         let folder = tempfile::tempdir().unwrap();
@@ -415,7 +415,8 @@ mod tests {
         let path = file_of(&with_disc(sky, sun), folder.path());
         for moved in [None, Some([0.0, 1.0, 0.0])] {
             let environment = Environment::read(&path, moved).unwrap();
-            // The middle of a texel (180/256 degrees) stands for all of it, weighted by a cosine.
+            // The tolerance covers the error of taking the cosine at the middle of each texel, which is 180/256
+            // degrees wide.
             let close = |a: Vec3, b: Vec3| (a - b).abs().cmple(2.0e-3 * b).all();
             assert!(close(environment.sky_irradiance, PI * sky), "{}", environment.sky_irradiance);
             assert!(close(environment.sun_irradiance, sun), "{}", environment.sun_irradiance);
@@ -428,8 +429,8 @@ mod tests {
     /// Texels along an edge of the cube, and pixels along an edge of its pictures.
     const SIZE: u32 = 64;
 
-    /// World direction of a pixel and its steps to the next one right and below, for a camera of
-    /// 90 degrees: the pixels of a face are the texels of the cube.
+    /// World direction of a pixel, and the steps to the directions of the next pixel to the right and below. The
+    /// camera's field of view is 90 degrees, so its pixels are the texels of a face of the cube.
     fn ray(view: Mat4, pixel: usize) -> [Vec3; 3] {
         let size = SIZE as usize;
         let at = |i: usize| (2.0 * i as f32 + 1.0) / size as f32 - 1.0;
@@ -440,13 +441,16 @@ mod tests {
 
     /// Max relative difference between two computations of the sky in single precision.
     ///
-    /// Altitude is a difference of numbers near 6400 km, whose ulp is 2^-11 km: their squares add
-    /// three roundings of half an ulp of 4 (together 3 * 2 / (2 * 6400) km), the root half an ulp
-    /// on the CPU and 5 on a device (Vulkan: 2 for the inverse root and 2.5 for the division). The
-    /// density of the thinner layer, Mie's, changes by this error over its scale height.
-    /// In-scattered light changes in proportion. It also changes with the optical depth: by a mean
-    /// of 1 along a thick view ray (for a density exp(-x)), and by the depth towards the sun, whose
-    /// altitudes start with the error of those along the view.
+    /// Altitude is a difference of numbers near 6400 km, whose ulp is 2^-11 km. Its error has two parts. The squares
+    /// under the root have an ulp of 4 km²; three roundings by half an ulp move the root by 3 * 2 / (2 * 6400) km in
+    /// each computation. The root itself is off by half an ulp on the CPU and by 5 on a device (Vulkan: 2 for the
+    /// inverse root and 2.5 for the division).
+    ///
+    /// The error over the scale height is the relative error of the density of the thinner layer, Mie's. The light
+    /// changes by this error three times: in proportion to the density that scatters it; by the optical depth along
+    /// the view ray, where the factor has a mean of 1 if the ray is thick (for a density exp(-x)); and by the optical
+    /// depth towards the sun, counted twice, because the altitudes towards the sun start with the error of those
+    /// along the view ray.
     fn precision(sun: Vec3) -> f32 {
         let ulp = 2.0_f32.powi(-11);
         let altitude = 2.0 * 6.0 / (2.0 * EARTH) + (0.5 + 5.0) * ulp;
@@ -454,8 +458,8 @@ mod tests {
         altitude / SCALE_HEIGHTS[1] * (1.0 + 1.0 + 2.0 * depth)
     }
 
-    /// The sky of this module equals the drawn sky: the faces of the cube map are compared with
-    /// photographs of an empty scene, texel by texel.
+    /// The sky that the CPU computes equals the drawn sky: the faces of the cube map, drawn as pictures of an empty
+    /// scene, are compared with it texel by texel.
     #[test]
     fn the_sky_is_the_one_that_is_drawn() {
         let validation =

@@ -104,8 +104,8 @@ impl Condition {
         &self.name
     }
 
-    /// The values of that attribute. `what` names the argument in the error if the attribute is
-    /// missing.
+    /// The values of the compared attribute, one per particle. If the attribute is missing, `what` names the
+    /// command-line argument in the error.
     pub fn values<'p>(
         &self,
         particles: &'p Particles,
@@ -138,7 +138,8 @@ impl Condition {
     }
 }
 
-/// Reads a frame with the attributes that this module needs, and one of radii with this name.
+/// Reads a frame with the attributes that conditions and fluids compare, those that distinguish phases, and those of
+/// radii, among them one with the name `radius`.
 pub fn read(
     frame: &Frame,
     conditions: &[Condition],
@@ -199,8 +200,8 @@ pub fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
     particles.extras.iter().find(|extra| same_name(&extra.name, name))
 }
 
-/// The values as integers, and the number of particles with each; `None` if any value is not a
-/// small integer.
+/// The different values as integers, and the number of particles with each; `None` if any value is not an integer, or
+/// if there are more than [`MOST`] different ones.
 fn whole(values: &[f64]) -> Option<BTreeMap<i64, usize>> {
     let mut counts = BTreeMap::new();
     for value in values {
@@ -237,7 +238,8 @@ pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
     all.filter_map(|extra| Some((extra.name.as_str(), whole(&extra.values)?))).collect()
 }
 
-/// Messages about attributes that distinguish phases, if all phases are drawn as one water.
+/// Messages about attributes that distinguish phases but are used by no condition and no `--fluid`, so that all
+/// phases are drawn as one water.
 pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) -> Vec<String> {
     let mut known = conditions.iter().map(Condition::name).chain(fluids.names());
     let mut asked = |name: &str| known.any(|known| same_name(known, name));
@@ -267,7 +269,8 @@ pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) ->
     several.map(line).chain(text).collect()
 }
 
-/// The value of the phase that moves most; without velocities, of the phase with most particles.
+/// The attribute's value for the phase that moves fastest on average, or, without velocities, for the phase with the
+/// most particles.
 fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i64 {
     let speed = |value: i64| -> f32 {
         let (Some(velocities), Some(extra)) = (&particles.velocities, find(particles, name)) else {

@@ -13,8 +13,7 @@ use crate::folder;
 /// Kind of a failure; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// The reader of standard output has closed it, as `| head` does: the program ends without a
-    /// message.
+    /// The program that reads standard output has closed it, as `| head` does: this program ends without a message.
     Closed = 0,
     /// Pictures differ, or some frames of a sequence failed.
     Partly = 1,
@@ -141,7 +140,7 @@ impl From<SequenceError> for Failure {
     }
 }
 
-/// A size that is too large is the product of two flags, so the message names both.
+/// The drawn size is `--size` times `--supersample`, so if it is too large, the message names both.
 pub fn too_large(error: Error, supersample: u32) -> Failure {
     let of_size = matches!(error, Error::BadInput { field: "Config.extent", .. });
     let failure = Failure::from(error);

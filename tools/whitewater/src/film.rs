@@ -96,9 +96,8 @@ impl Film {
         let config = EncoderConfig::new()
             .usage_type(UsageType::CameraVideoRealTime)
             .complexity(Complexity::High)
-            // The rate is so high that the min quantizer applies: to an encoder foam is noise,
-            // which a lower rate would blur most. (The encoder's constant-quantizer mode uses its
-            // own value, 26.)
+            // The bit rate is so high that the min quantizer applies. To an encoder foam is noise, and a lower rate
+            // would blur it first. (The encoder's constant-quantizer mode uses a quantizer of its own, 26.)
             .rate_control_mode(RateControlMode::Quality)
             .bitrate(BitRate::from_bps(bits))
             .qp(QpRange::new(QUANTIZER, QUANTIZER + 6))
@@ -106,8 +105,8 @@ impl Film {
             .intra_frame_period(IntraFramePeriod::from_num_frames(
                 (KEY_SECONDS * fps).ceil().max(1.0) as u32,
             ))
-            // Without frame skipping the encoder warns on stderr that it cannot hold the rate;
-            // `push` makes sure that no frame is skipped.
+            // Frame skipping is on only because without it the encoder warns on stderr that it cannot hold the bit
+            // rate. `push` makes sure that no frame is skipped.
             .skip_frames(true)
             .scene_change_detect(false)
             .background_detection(false)
@@ -158,9 +157,9 @@ fn failed(error: &dyn std::fmt::Display) -> Failure {
 }
 
 /// A picture as planar YUV 4:2:0: luma, then two chroma planes at half the size. ITU-R BT.709-6,
-/// Sec. 3.2 and 3.4, 8 bits, limited range (16 to 235, chroma to 240). A chroma sample belongs
-/// between its two rows and at the left of its two columns (H.264, Fig. E-1, type 0); the mean of
-/// the four pixels is off by half a pixel, as in most encoders.
+/// Sec. 3.2 and 3.4, 8 bits, limited range (16 to 235, chroma to 240). A chroma sample is the mean of two by two
+/// pixels, which lies in their middle. The standard places the sample between the two rows, but on the left column
+/// (H.264, Fig. E-1, type 0); the difference is half a pixel, as in most encoders.
 fn planes(rgb: &[[f32; 3]], width: usize) -> Vec<u8> {
     let luma = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let mut all: Vec<u8> =
@@ -229,7 +228,7 @@ mod tests {
         let mut decoder = Decoder::new().unwrap();
         let mut seen = 0;
         for (frame, _) in &film.frames {
-            // The file holds the same bytes, with a length in place of the start code.
+            // The file holds the same bytes as the encoder gave, with a length in place of the start code.
             let part = frame.windows(4).rposition(|w| w == [0, 0, 0, 1]).unwrap();
             let part = &frame[part + 4..];
             assert!(bytes.windows(part.len()).any(|w| w == part), "frame {seen} is in the file");

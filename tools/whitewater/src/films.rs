@@ -7,24 +7,26 @@ use crate::cells::Cells;
 
 /// Min number of neighbours of a particle in a film.
 const NEIGHBOURS: usize = 6;
-/// Max ratio of the smallest to the middle variance of the neighbours: no flying sheet is so flat.
-/// Among particles with 0.4 to 0.65 of the rest density, 2 % in a splash crown and in jets are
-/// below it, and 64 % in a film that runs over a floor.
+/// Max ratio of the smallest to the middle variance of the neighbours' positions. Flying sheets are rarely so flat:
+/// of the particles with 0.4 to 0.65 of the rest density, 2 % are below this ratio in a splash crown and in jets, and
+/// 64 % in a film that runs over a floor.
 const FLAT: f32 = 0.02;
-/// Min ratio of the middle to the largest variance; a lower ratio is a thread.
+/// Min ratio of the middle to the largest variance of the neighbours' positions; with a lower ratio they form a
+/// thread.
 const BROAD: f32 = 0.25;
 
-/// Min height of a box, in spacings, that is assumed to have a lid.
+/// If the water is higher than this, in spacings, its topmost particles are assumed to touch the lid of a box.
 const LID: f32 = 8.0;
 
-/// Raises densities below `limit` to `limit` where a particle and its neighbours within two
-/// spacings lie in one plane, so that a film is not drawn as spray.
+/// Raises the densities of particles in films to at least `limit`, so that a film is not drawn as spray. A particle
+/// is in a film if it and its neighbours within two spacings lie in one plane.
 pub fn hold(positions: &[[f32; 3]], densities: &mut [f32], spacing: f32, limit: f32) {
     let reach = 2.0 * spacing;
     let cells = Cells::new(positions, reach, |_| true);
     let heights = || positions.iter().map(|p| p[1]).filter(|y| y.is_finite());
     let (low, high) = (heights().fold(f32::MAX, f32::min), heights().fold(f32::MIN, f32::max));
-    // A flat layer above all other water has hit the lid of the solver's box, and falls in drops.
+    // The topmost layer is left out: a flat layer above all other water has hit the lid of the solver's box, and
+    // falls in drops.
     let lid = if high - low > LID * spacing { high - spacing } else { f32::MAX };
     let few = |i: usize| densities[i] > 0.0 && densities[i] < limit && positions[i][1] < lid;
     let flat = cells.map(few, |_, p, others| {
@@ -74,8 +76,8 @@ mod tests {
         densities.iter().filter(|d| **d > 0.6).count()
     }
 
-    /// 400 particles in a plane, displaced randomly in the plane and off it by these amounts in
-    /// spacings.
+    /// 400 particles in a plane that is tilted by `tilt` radians. They are displaced randomly in the plane (`anyhow`)
+    /// and off it (`off`); both are the width of the displacements' range in spacings.
     fn plane(tilt: f32, anyhow: f32, off: f32) -> Vec<[f32; 3]> {
         let mut random = Random(7);
         let mut noise = || random.next() - 0.5;

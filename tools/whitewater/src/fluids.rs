@@ -1,11 +1,11 @@
 //! Several fluids, each with its own look: which particles belong to which fluid, and how the
 //! pictures are combined.
 //!
-//! The renderer draws one liquid at a time. So each fluid is drawn over the picture of the others,
-//! and each pixel is taken from the picture of the fluid whose surface is nearest there. Fluids
-//! behind it are refracted and absorbed by it and reflect nothing, because a surface between two
-//! liquids hardly does. A fluid casts no shadow on another one. Whitewater is drawn once: in the
-//! last picture of each fluid, and not in those that lie behind another.
+//! The renderer draws one liquid at a time. So for each fluid a picture is made in which it is drawn over the picture
+//! of all others, and each pixel of the result is taken from the picture of the fluid whose surface is nearest there.
+//! The fluids behind it are refracted and absorbed by it. They reflect nothing, because a surface between two liquids
+//! hardly reflects. A fluid casts no shadow on another one. Whitewater is drawn only together with the fluid in
+//! front, not into the pictures that lie behind it, so each pixel shows it once.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -60,7 +60,7 @@ pub fn fluid(text: &str) -> Result<FluidArg, String> {
              or a settings file as LIQUID{why}"
         )
     };
-    // A file name may contain a colon, and so may a liquid with a share.
+    // A file name may contain a colon, and so does a liquid with a share, so every colon is tried.
     let mut why = String::new();
     for (at, _) in text.match_indices(':') {
         let (which, look) = (text[..at].trim(), text[at + 1..].trim());
@@ -78,7 +78,8 @@ pub fn fluid(text: &str) -> Result<FluidArg, String> {
                 };
                 return Ok(FluidArg { which, look, text: text.into() });
             }
-            // An error about a known liquid is more helpful than one about an unknown liquid.
+            // The error about the share of a known liquid is kept, because it helps more than one about an unknown
+            // liquid.
             Err(_) if why.contains("share") => {}
             Err(error) => why = format!("; {}: {error}", &text[at + 1..]),
         }
@@ -90,7 +91,7 @@ pub fn fluid(text: &str) -> Result<FluidArg, String> {
 #[derive(Default)]
 pub struct Fluids {
     args: Vec<FluidArg>,
-    /// For files that are a fluid of their own, the index of their argument.
+    /// For each file that `--fluid` names, the index of its fluid: 1 for the first argument. Fluid 0 is the inputs.
     files: HashMap<PathBuf, usize>,
 }
 
@@ -143,8 +144,8 @@ impl Fluids {
         if self.args.is_empty() { 1 } else { self.args.len() + 1 }
     }
 
-    /// Number of fluids that are drawn. If any argument is a comparison, particles that match none
-    /// are not drawn.
+    /// Number of fluids that are drawn. The inputs are one of them unless an argument is a comparison; then particles
+    /// that match no comparison are not drawn.
     pub fn drawn(&self) -> usize {
         self.args.len() + usize::from(self.conditions().next().is_none())
     }
@@ -161,7 +162,7 @@ impl Fluids {
         })
     }
 
-    /// Stores the fluid's index in the particles of a file, before the frame's files are joined.
+    /// Stores the index of a file's fluid as an attribute of its particles, before the frame's files are joined.
     pub fn mark(&self, path: &Path, particles: &mut Particles) {
         if self.args.is_empty() {
             return;
@@ -280,8 +281,8 @@ fn range(frames: &[Frame]) -> String {
     }
 }
 
-/// Reorders particles by indices; indices that are missing drop their particle, repeated indices
-/// duplicate it.
+/// Reorders particles by indices. A particle whose index is missing in `order` is dropped, and one whose index is
+/// repeated is duplicated.
 pub fn reorder(particles: &mut Particles, order: &[usize]) {
     fn of<T: Copy>(list: &mut Vec<T>, order: &[usize]) {
         *list = order.iter().map(|i| list[*i]).collect();
@@ -336,8 +337,8 @@ impl<'a> Liquids<'a> {
         if all.is_empty() { Self { all: vec![(Cow::Borrowed(one), 0..0)] } } else { Self { all } }
     }
 
-    /// Draws a frame. With several liquids it returns the combined picture, and the device holds
-    /// the layers of the first.
+    /// Draws a frame. With several liquids it returns the combined picture, while the layers (depth, thickness and so
+    /// on) on the device are those of the first liquid.
     pub fn draw(
         &self,
         headless: &mut Headless,
@@ -383,7 +384,8 @@ impl<'a> Liquids<'a> {
             render(headless, fluid, settings, &under)?;
             Ok(headless.color()?)
         };
-        // Each fluid over the others. The first is drawn last, because its layers are kept.
+        // Draws each fluid over the picture of the others. The first fluid is drawn last, so that its layers stay on
+        // the device.
         let mut pictures = Vec::new();
         for fluid in (0..self.all.len()).rev() {
             let mut others = far.iter().copied().filter(|other| *other != fluid);
@@ -409,7 +411,7 @@ impl<'a> Liquids<'a> {
 }
 
 /// The look of a fluid behind another liquid: the surface between two liquids reflects almost
-/// nothing (0.3 % between water and honey) and refracts less.
+/// nothing (0.3 % between water and honey) and refracts less than a surface to air.
 fn wetted(settings: &Settings) -> Settings {
     let mut settings = settings.clone();
     settings.water.fresnel = Fresnel::Source { bias: 0.0, scale: 0.0, power: 1.0 };

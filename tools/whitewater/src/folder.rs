@@ -41,7 +41,8 @@ const EXTENSIONS: [&str; 28] = [
     "xmf",
 ];
 
-/// Returns a file name or pattern unchanged; for a folder, the pattern of its only sequence.
+/// Returns a file name or pattern unchanged; for a folder, the pattern of its only sequence, or a file that lists the
+/// sequence.
 pub fn in_folder(input: &str) -> Outcome<String> {
     let path = Path::new(input);
     if !path.is_dir() {
@@ -182,8 +183,8 @@ fn pieces(folder: &Path, names: &[String]) -> HashSet<String> {
     found
 }
 
-/// Patterns of the sequences in a list of names, and the number of files in each. A number with a
-/// decimal point or exponent is a time; if only its last digits counted, each file would be a
+/// Patterns of the sequences in a list of names, and the number of files in each. A number with a decimal point or
+/// exponent is a time and counts as a whole: if only its last digits varied in the pattern, each file would be a
 /// sequence of its own.
 fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     let mut timed: BTreeMap<String, Vec<&String>> = BTreeMap::new();
@@ -231,7 +232,8 @@ fn time(name: &str) -> Option<Range<usize>> {
                 end = run(end + 1 + sign);
             }
         }
-        // A number with leading zeros after the point is the rank of a process.
+        // If the digits before the point are padded with zeros, they are a frame number, and the digits after the
+        // point are the rank of a process.
         let padded = whole - start > 1 && name[start..].starts_with('0');
         if end > whole && end < name.len() && !padded {
             found = Some(start..end);
@@ -376,7 +378,8 @@ mod tests {
             text.contains("Fluid_*.bgeo' (3 files), '") && text.contains("Foam_*.bgeo' (1 file)"),
             "{text}"
         );
-        // The ranks of a frame, which a list joins, and a list of all frames.
+        // Each frame has one file per rank and a list (.pvtu) that joins them. Then a list of all frames (.pvd) is
+        // added.
         std::fs::create_dir_all(at("ranks")).unwrap();
         for number in [1, 2] {
             for rank in [0, 1] {
@@ -418,7 +421,7 @@ mod tests {
         for name in ["case", "case/0.1", "case/0.1/lagrangian/cloud"] {
             assert!(said(name).contains("foamToVTK"), "{name}: {}", said(name));
         }
-        // NumPy arrays in separate files, in one folder and in a folder for each frame.
+        // Positions and velocities in separate NumPy files, all in one folder, and in one folder per frame.
         std::fs::create_dir_all(at("npy")).unwrap();
         for frame in [0, 1, 2] {
             std::fs::create_dir_all(at(&format!("each/{frame}"))).unwrap();

@@ -9,7 +9,7 @@ use crate::failure::{Failure, Outcome};
 use crate::folder::in_folder;
 
 /// The frames of one sequence, or of one file that holds several frames. A folder stands for the
-/// sequence in it. If no file matches, the error suggests a name that would. With `join`, files
+/// sequence in it. If no file matches an input, the error suggests a pattern that would match. With `join`, files
 /// with the same number are one frame.
 pub fn expand(inputs: &[String], join: bool) -> Outcome<Vec<Frame>> {
     Ok(in_files(files(inputs, join)?))
@@ -47,7 +47,7 @@ pub fn in_files(frames: Vec<Frame>) -> Vec<Frame> {
     steps.into_iter().map(of).collect()
 }
 
-/// An error of expanding inputs, with advice if the pattern has the syntax of another program.
+/// An error about the inputs, with advice if the pattern has the wrong padding or the syntax of another program.
 pub fn advised(error: SequenceError) -> Failure {
     let advice = match &error {
         SequenceError::NotFound { input } => foreign(input),

@@ -18,17 +18,17 @@ use crate::whitewater_source::{Columns, Sizes};
 
 /// Default max number of whitewater particles alive at once.
 const MOST: u32 = 1_000_000;
-/// Fraction of the max number that is alive in the steady state, when as many are emitted as die.
+/// Fraction of the max number of particles that is alive in the steady state, in which as many are emitted as die.
 const FULL: f64 = 0.5;
 /// Quantile of the potentials, over all probed frames, that becomes the upper limit.
 const NEARLY_ALL: f64 = 0.999;
 /// Lower limit of a potential as a part of its upper limit.
 const LEAST: f32 = 0.1;
-/// Min values of the upper limits, so that water at rest emits nothing: trapped air and speed in
-/// units of the speed after a fall through a spacing, and wave crests. They lie in the middle of
-/// limits that artists chose.
+/// Min values of the upper limits of trapped air, wave crests, and speed (for energy), so that water at rest emits
+/// nothing. Trapped air and speed are in units of √(gravity · spacing), the speed after a fall through half a
+/// spacing. The values lie in the middle of limits that artists chose.
 const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
-/// Max number of particles that one particle emits per second; more would form a cloud around it.
+/// Max number of whitewater particles that one water particle emits per second; more would form a cloud around it.
 const MOST_RATE: f64 = 4000.0;
 /// Limits while the table's are unset.
 const ANY: PotentialRange = PotentialRange { min: 0.0, max: 1.0 };
@@ -48,8 +48,8 @@ pub struct Generate {
     columns: [Option<f32>; 3],
 }
 
-/// Limits of trapped air, wave crests and energy, from the particles' potentials. `fall` is half
-/// the squared speed after a fall through a spacing.
+/// Limits of trapped air, wave crests and energy, from the particles' potentials. `fall` is gravity times spacing,
+/// half the squared speed after a fall through a spacing.
 fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [PotentialRange; 3] {
     let floors = [FLOORS[0] * fall.sqrt(), FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall];
     [0, 1, 2].map(|which| {
@@ -72,8 +72,8 @@ impl Generate {
         let mut settings = GeneratorSettings::new(spacing, [ANY; 3], 0.0);
         table.apply(&mut settings);
         settings.check()?;
-        // No walls confine the spray. The bounds are those of the water over all frames, slightly
-        // enlarged, and open upwards.
+        // No walls confine the spray, so it is removed outside these bounds: those of the water over all probed
+        // frames, slightly enlarged, and higher by the water's longest side.
         let size = bounds.max - bounds.min;
         let aside = Vec3::new(ASIDE * size.x, 0.0, ASIDE * size.z) + spacing;
         let up = Vec3::Y * size.max_element();
@@ -123,8 +123,8 @@ impl Generate {
         Ok((found, Some(line)))
     }
 
-    /// Sets size and opacity from how densely the particles lie, once the settings are found.
-    /// Values in the settings file are kept, and so is the thesis' look.
+    /// Sets size and opacity of the whitewater from how densely its particles lie, once the settings of the emission
+    /// are found. Values in the settings file are kept, and so is the thesis' look.
     pub fn choose(&self, file: &SettingsFile, settings: &mut Settings) -> Option<String> {
         if file.is_thesis() || self.columns == [None; 3] {
             return None;
@@ -143,8 +143,8 @@ impl Generate {
         ))
     }
 
-    /// Mean numbers per column, when each frame emits by itself; that is about as many as in a
-    /// sequence.
+    /// Mean number of whitewater particles of each kind in a column that holds any, if each probed frame emits by
+    /// itself. In a sequence there are about as many.
     fn count(
         &self,
         headless: &mut Headless,
@@ -205,8 +205,8 @@ impl Generate {
             };
             set(&mut settings, rate_of(life));
             if self.seconds.is_none() {
-                // A splash in a single frame emits less, because part of the water has just arrived
-                // there.
+                // In a single frame a splash emits less than this rate gives, because part of the water has just
+                // arrived there.
                 let mut made = 0.0;
                 self.each_probe(headless, |headless| {
                     headless.generate_snapshot(0, &settings, self.max_particles())?;
@@ -244,8 +244,8 @@ impl Generate {
 mod tests {
     use super::*;
 
-    /// A pool whose particles tremble at a tenth of the speed after a fall through a spacing: its
-    /// limits are the floors, and its potentials are below them all.
+    /// A pool whose particles tremble at a tenth of √(gravity · spacing): its upper limits are the floors, and its
+    /// potentials are below all lower limits.
     #[test]
     fn a_calm_pool_makes_nothing() {
         for spacing in [0.02_f32, 0.5] {
@@ -258,8 +258,7 @@ mod tests {
         }
     }
 
-    /// The ten particles with the largest potentials of 10 000 are beyond the limit, also if most
-    /// have a potential of 0.
+    /// The upper limit is the tenth largest potential of 10 000 particles, also if most have a potential of 0.
     #[test]
     fn limits_are_by_nearly_all_particles() {
         let wild: Vec<_> = (0..10_000_u16).map(|i| [100.0 + f32::from(i); 4]).collect();

@@ -68,7 +68,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     ))
 }
 
-/// The frames of one sequence. If the inputs are no sequence, the frames of each input by itself.
+/// The frames of the inputs as one sequence or, if two files have the same frame number, of each input by itself.
 fn expand(inputs: &[String]) -> Result<Vec<Frame>, SequenceError> {
     match sequence::expand(inputs, None).map(frames::in_files) {
         Err(SequenceError::Twice { .. }) if inputs.len() > 1 => {

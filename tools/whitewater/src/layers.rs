@@ -43,7 +43,8 @@ const GROUPS: [&str; 30] = [
     LADDER,
 ];
 
-/// Motion vectors in pixels: from where the content of a pixel was in the previous frame.
+/// Layer of motion vectors in pixels: each leads from where the content of a pixel was in the previous frame to the
+/// pixel.
 pub const MOTION: &str = "motion";
 
 /// Cumulative composites, three channels for each layer.
@@ -62,7 +63,8 @@ fn renamed(name: &str) -> Option<String> {
     of("water.foam", "surface_foam").or_else(|| of("foam", "whitewater"))
 }
 
-/// Parses `--layers`. `all` does not include the ladder, because each of its rungs is another frame to draw.
+/// Parses `--layers`. `all` does not include the ladder, because for each of its rungs (cumulative composites) the
+/// frame has to be drawn again.
 pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
     match text {
         "all" => return Ok(GROUPS.into_iter().filter(|name| *name != LADDER).collect()),
@@ -110,8 +112,8 @@ impl Merge {
     }
 }
 
-/// Downsamples a picture to at most `width`: each square of its pixels becomes one. The picture's width is a whole
-/// multiple of `width`, or smaller.
+/// Downsamples a picture to `width`: each square of its pixels becomes one. The picture's width has to be a whole
+/// multiple of `width`; a picture that is narrower than twice `width` stays as it is.
 fn merged(picture: &Picture<f32>, width: usize, merge: Merge) -> Picture<f32> {
     let n = (picture.width / width).max(1);
     let row = |y: usize, x: usize| &picture.data[y * picture.width + x * n..][..n];
@@ -123,7 +125,8 @@ fn merged(picture: &Picture<f32>, width: usize, merge: Merge) -> Picture<f32> {
     Picture { width, height, data: data.map(|(x, y)| pixel(x, y)).collect() }
 }
 
-/// For each square of pixels that [`merged`] combines, the index of the nearest; if depths are equal, of the first.
+/// For each square of pixels that [`merged`] combines, the index of the pixel with the least depth; of the first one
+/// if several are equal.
 fn nearest(depths: &Picture<f32>, width: usize) -> Picture<usize> {
     let n = (depths.width / width).max(1);
     let (width, height) = (depths.width / n, depths.height / n);
@@ -135,8 +138,8 @@ fn nearest(depths: &Picture<f32>, width: usize) -> Picture<usize> {
     Picture { width, height, data: data.map(|(x, y)| pixel(x, y)).collect() }
 }
 
-/// Reads the beauty and the wanted layers back from the device. `size` is the size of the output; the frame was drawn
-/// at a power of two times that.
+/// Reads the picture (R, G, B, A) and the wanted layers back from the device. `size` is the size of the output; the
+/// frame was drawn at a power of two times this size.
 pub fn collect(
     headless: &mut Headless,
     size: (u32, u32),
@@ -204,7 +207,7 @@ pub fn collect(
     {
         let picture = merged(&depth(picture), width, Merge::Nearest);
         if normal {
-            // A texel of a reduced surface covers a power of two of pixels along an edge.
+            // A texel of a surface at reduced resolution covers a square of pixels whose edge is a power of two.
             let texel = width.div_ceil(picture.width).next_power_of_two() as f32;
             let slope = lens.slope(size, texel);
             let xyz = normals(&picture.data, picture.width, picture.height, slope);
@@ -228,12 +231,12 @@ pub fn collect(
     if wanted.contains(&MOTION)
         && let (Some(x), Some(y)) = (headless.layer("motion.X")?, headless.layer("motion.Y")?)
     {
-        // Motion vectors are not averaged over an outline, because the mean is no object's motion; the nearest sample
-        // counts.
+        // Motion vectors are not averaged: across an outline the mean would be the motion of no object. The sample
+        // with the least depth counts.
         let mut depths = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
         for name in ["water.depth", "surface_foam"] {
             if let Some(layer) = headless.layer(name)? {
-                // A texel of a reduced layer covers a power of two of pixels along an edge.
+                // A texel of a layer at reduced resolution covers a square of pixels whose edge is a power of two.
                 let texel = depths.width.div_ceil(layer.width).next_power_of_two();
                 for (i, z) in depths.data.iter_mut().enumerate() {
                     let (x, y) = (i % depths.width / texel, i / depths.width / texel);
@@ -252,7 +255,8 @@ pub fn collect(
     Ok(layers)
 }
 
-/// Draws the frame again up to each rung of the ladder and adds the composites.
+/// Draws the frame again for each rung of the ladder, composited only up to that rung, and adds the pictures as
+/// layers.
 pub fn ladder(
     headless: &mut Headless,
     camera: &Camera,
@@ -284,9 +288,9 @@ pub fn show(layers: &mut Layers, picture: &Picture<[f32; 4]>) {
     }
 }
 
-/// Computes alpha: the frame was drawn over black and is drawn again over white; the difference is the transmittance,
-/// and 1 minus it goes to channel A (two backgrounds: Smith and Blinn 1996). Water transmits red and blue differently,
-/// so A is the mean of the channels.
+/// Computes alpha from two backgrounds (Smith and Blinn 1996): the frame was drawn over black and is drawn again over
+/// white. The difference is the transmittance, and channel A is 1 minus its mean over red, green and blue, which
+/// water transmits differently.
 pub fn matte(
     headless: &mut Headless,
     camera: &Camera,

@@ -5,8 +5,8 @@ use whitewater::headless::scene::{Material, Mesh};
 
 use crate::shore::terrain::number;
 
-/// A box whose edges have a chamfer with smooth normals. `hidden` lists faces that other objects hide, in the order +x
-/// -x +y -y +z -z.
+/// A box whose edges have a chamfer with smooth normals. `hidden` lists the faces that are left out because other
+/// objects hide them, as indices in the order +x -x +y -y +z -z.
 pub fn dressed(low: Vec3, high: Vec3, chamfer: f32, material: Material, hidden: &[usize]) -> Mesh {
     let mut mesh = Mesh { name: "stone".into(), material, ..Mesh::default() };
     add(&mut mesh, low, high, chamfer, hidden);
@@ -67,7 +67,7 @@ fn add(mesh: &mut Mesh, low: Vec3, high: Vec3, chamfer: f32, hidden: &[usize]) {
     }
 }
 
-/// A row of stones that fills a box along an axis. Each has about the given length, and its own shade.
+/// A row of stones that fills a box along an axis. Each stone is about `long`, and has one of three shades.
 pub fn row(
     (low, high): (Vec3, Vec3),
     axis: usize,
