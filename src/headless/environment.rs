@@ -46,7 +46,8 @@ impl Headless {
         })
     }
 
-    /// Sets an equirectangular image as environment: linear RGBA, row 0 up.
+    /// Sets an equirectangular image as environment: linear RGBA, row 0 up. `scale` and `turn` are those of
+    /// [`Equirectangular`].
     ///
     /// # Errors
     /// A picture above the device's image size limit, no memory; Vulkan errors.
@@ -60,8 +61,9 @@ impl Headless {
         self.pictures(extent, pixels, None, (scale, turn))
     }
 
-    /// Sets an equirectangular image that contains the sun of the scene and of [`Light`](crate::Light), and the
-    /// same image without it. Water and sky show the first; diffuse light comes from the second.
+    /// Sets an equirectangular image that contains the sun, which the scene and [`Light`](crate::Light) also
+    /// describe, and the same image without the sun. Water and sky show the image with the sun; diffuse light
+    /// comes from the one without it, so that the sun is not counted twice.
     ///
     /// # Errors
     /// Those of [`equirectangular`](Self::equirectangular), and pictures of different sizes.

@@ -1,9 +1,10 @@
 //! Everything that a host engine would provide to the library: a Vulkan device, a scene, submission and read-back.
 //! This module serves the tool, tests and examples; an engine that embeds the library does not compile it.
 //!
-//! It draws one frame at a time. After [`Headless::new`], the inputs of a frame are set with [`Headless::particles`]
-//! and [`Headless::motion`], [`Headless::whitewater`] or in parts [`Headless::whitewater_parts`], [`Headless::sky`] or
-//! [`Headless::equirectangular`], [`Headless::scene`]; [`Headless::render`] then draws, and the picture and its layers
+//! [`Headless`] draws one frame at a time. After [`Headless::new`], these methods set the inputs of a frame:
+//! [`Headless::particles`] and [`Headless::motion`] the fluid, [`Headless::whitewater`] or, in parts,
+//! [`Headless::whitewater_parts`] the whitewater, [`Headless::sky`] or [`Headless::equirectangular`] the environment,
+//! and [`Headless::scene`] the background. [`Headless::render`] then draws the frame, and the picture and its layers
 //! can be read back. Every call submits its commands and waits for them.
 
 mod device;

@@ -1,4 +1,4 @@
-//! Shoreline and contact foam: the stand-in host's water surface and shores.
+//! Inputs of shoreline and contact foam that a host engine would provide: its water surface and its shores.
 
 use std::sync::Arc;
 
@@ -98,7 +98,8 @@ impl Headless {
         self.shores.shore = shore;
     }
 
-    /// Sets a strip of foam with the shore coordinate v of each vertex. It replaces an earlier strip or map.
+    /// Sets a strip, a mesh around islands that foam is drawn on, with the shore coordinate v of each vertex.
+    /// It replaces an earlier strip, and an earlier or later map.
     ///
     /// # Errors
     /// Numbers of vertices and values of v differ; no memory; Vulkan errors.
@@ -116,7 +117,7 @@ impl Headless {
     }
 
     /// Sets a map of distances to the shores of meshes, with `size` texels along each axis. It replaces an
-    /// earlier strip or map. [`shore_map_step`](Self::shore_map_step) fills it.
+    /// earlier map, but a strip takes precedence over it. [`shore_map_step`](Self::shore_map_step) fills it.
     ///
     /// # Errors
     /// Those of [`ShoreMap::new`].
@@ -190,8 +191,8 @@ impl Headless {
         })
     }
 
-    /// Sets the mask of the next frames' contact foam over the view, replacing an earlier one: 0 suppresses it
-    /// completely, 1 not at all. `size` is the number of texels along each axis.
+    /// Sets a mask over the whole picture for the contact foam of the next frames, replacing an earlier one: 0
+    /// suppresses the foam completely, 1 not at all. `size` is the number of texels along each axis.
     ///
     /// # Errors
     /// The number of texels differs from `size`; no memory; Vulkan errors.

@@ -1,4 +1,5 @@
-//! Sets up the stand-in scene and draws it into the images that the water is drawn over.
+//! Sets up a scene, which stands in for that of a host engine, and draws it into the images that the water is
+//! drawn over.
 
 use std::sync::Arc;
 
@@ -53,7 +54,7 @@ impl Kept {
 
 impl Headless {
     /// Sets the scene behind the water, drawn by [`Background::Scene`](super::Background::Scene). `antialias` draws its
-    /// colour with four samples per pixel. Its light is baked, so a new sun needs a new scene.
+    /// colour with four samples per pixel. The light of the scene is baked, so a new sun needs a new scene.
     ///
     /// # Errors
     /// Invalid parameters of sun or sea, no memory, Vulkan errors.

@@ -1,4 +1,4 @@
-//! Command buffers: begun, submitted and waited for; several in sequence if the host reads queries back in
+//! Command buffers are begun, submitted and waited for; several in sequence if the CPU reads queries back in
 //! between.
 
 use std::sync::Arc;

@@ -121,8 +121,8 @@ impl Headless {
         Ok(sum)
     }
 
-    /// Samples that the smoothing's queries counted in the last frame, in iterations 5, 10, …; empty for other
-    /// forms.
+    /// Numbers of samples that the occlusion queries of the smoothing counted in the last frame, in iterations
+    /// 5, 10, …; empty if the smoothing uses no queries.
     ///
     /// # Errors
     /// No memory; Vulkan errors.
@@ -186,12 +186,13 @@ impl Headless {
 
     /// A layer of the last frame by its name; `None` if no layer has that name.
     ///
-    /// - Smoothing layers have its configured resolution; each texel is taken from the level that is shown
-    ///   there. `water.back` is the smoothed back layer.
+    /// - Layers of the smoothing (`water.surface`, `water.iterations`) have the resolution that is configured
+    ///   for the smoothing; each texel is taken from the smoothing level that is shown there. `water.back` is
+    ///   the smoothed depth of the back layer of water.
     /// - `water.thickness.front` and `.back` are the parts of `water.thickness` in front of and behind the
     ///   frontmost foam (T_wf and T_wb of the thesis; without foam everything is in front).
-    /// - `water.sheet.front` and `.back` are the water of each of two layers, channels of
-    ///   `water.thickness.sheets`.
+    /// - `water.sheet.front` and `.back` are the thicknesses of the front and the back layer of water, channels
+    ///   of `water.thickness.sheets`.
     /// - `surface_foam.front` is the thickness of the front foam layer, a channel of `surface_foam.thickness`.
     /// - `motion.X` and `motion.Y` are channels of `motion`.
     /// - Whitewater has `whitewater` (depth), `whitewater.intensity`, `whitewater.thickness`, `whitewater.submerged` (the part of the

@@ -1,5 +1,5 @@
-//! Turns a scene into vertices with baked light. Large triangles are subdivided so that the vertices are
-//! dense enough for it.
+//! Turns a scene into vertices with baked light. Large triangles are subdivided, so that the vertices are dense
+//! enough for the light that they store.
 
 use std::collections::HashMap;
 
@@ -16,7 +16,8 @@ pub struct Vertex {
     pub position: [f32; 3],
     pub normal: [f32; 3],
     pub uv: [f32; 2],
-    /// x: visible fraction of the sky. yzw: irradiance of sunlight after one bounce and two, divided by the sun's.
+    /// x: visible fraction of the sky. yzw: RGB irradiance by sunlight that has bounced once or twice, divided by
+    /// the sun's irradiance.
     pub light: [f32; 4],
     /// Mean albedo of the surfaces seen over the hemisphere, counting the sky as 0.
     pub around: [f32; 3],
@@ -48,7 +49,8 @@ pub struct Batch {
     pub count: u32,
 }
 
-/// Vertices and indices of a whole scene. Ground and backdrop come last: they cast no shadow.
+/// Vertices and indices of a whole scene. Ground and backdrop come last, because they cast no shadow: the
+/// shadow map draws only the indices before theirs.
 pub struct Baked {
     pub vertices: Vec<Vertex>,
     pub indices: Vec<u32>,
@@ -166,8 +168,8 @@ pub fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
     (vertices, indices)
 }
 
-/// Subdivides until no edge is longer than `longest`. The decision for an edge depends on that edge alone, so
-/// both triangles agree and no T-junctions appear.
+/// Subdivides until no edge is longer than `longest`. Whether an edge is split depends on that edge alone, so
+/// the two triangles that share it agree, and no T-junctions appear.
 fn split(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, longest: f32) {
     for _ in 0..16 {
         let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
@@ -187,7 +189,7 @@ fn split(vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>, longest: f32) {
                 }))
             };
             let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
-            // Rotated so that the split edges are none, the first, the first two, or all.
+            // In each case the corners are listed so that the edges to split come first.
             match (ab, bc, ca) {
                 (None, None, None) => out.extend([a, b, c]),
                 (Some(x), Some(y), Some(z)) => out.extend([a, x, z, x, b, y, z, y, c, x, y, z]),

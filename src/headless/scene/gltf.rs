@@ -439,7 +439,8 @@ fn integer(kind: u32, _: bool, raw: &[u8]) -> Option<u32> {
 mod tests {
     use super::*;
 
-    /// A triangle with every byte broken in turn: errors or meshes, never a panic.
+    /// A file with one triangle, in which each byte is replaced in turn, gives an error or a mesh, never a
+    /// panic.
     #[test]
     fn broken_glb_is_an_error() {
         let json = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],

@@ -25,7 +25,7 @@ pub struct SceneError {
 pub(super) const MOST: usize = 20_000_000;
 
 impl Scene {
-    /// Reads a scene by its file's extension: `.glb`, `.obj` or `.json`.
+    /// Reads a scene by its file's extension: `.glb`, `.gltf`, `.obj` or `.json`.
     ///
     /// # Errors
     /// Another extension, or an error of the format's loader.
@@ -81,8 +81,9 @@ impl Scene {
     }
 
     /// Reads the project's own format: boxes, cylinders and tubes (upright or rotated), spheres, a ground, a
-    /// camera, and for moving parts, by their names, a pose per frame. Boxes whose names begin with `basin`
-    /// form a basin: their inward faces are tiled, with a dark row at the pool's level.
+    /// camera, a sun, and for moving parts, which are listed by name, one pose per frame. Boxes whose names
+    /// begin with `basin` form a basin: their inward faces are tiled, with a dark row at the height
+    /// `pool_level`.
     ///
     /// # Errors
     /// The file cannot be read, is no JSON of this form, or names an unknown material.
@@ -148,8 +149,8 @@ struct FileSphere {
     radius: f32,
 }
 
-/// Meshes that move together. For each frame: the position of the body's origin (x y z) and the rotation
-/// about it (quaternion x y z w), both applied to the parts as listed.
+/// Parts that move together. Each frame has a pose: the position of the body's origin (x y z) and the rotation
+/// about it (quaternion x y z w). A pose is applied to the parts as they are listed, not to the previous pose.
 #[derive(Deserialize)]
 struct FileMotion {
     parts: Vec<String>,
@@ -330,7 +331,8 @@ impl Scene {
     }
 }
 
-/// Makes the normals of a mesh without: smooth across edges of less than 40 degrees, sharp elsewhere.
+/// Makes normals for a mesh that has none: smooth where the normals of two faces differ by less than 40
+/// degrees, sharp elsewhere.
 pub(super) fn make_normals(mesh: &mut Mesh) {
     let crease = 40_f32.to_radians().cos();
     let place = |mesh: &Mesh, i: u32| mesh.positions[i as usize].map(f32::to_bits);
@@ -355,8 +357,8 @@ pub(super) fn make_normals(mesh: &mut Mesh) {
         for &i in t {
             let sum: Vec3 = at[&place(mesh, i)]
                 .iter()
-                // At most 64 faces count: a vertex with more lies on no smooth surface, and the time stays
-                // bounded.
+                // At most 64 faces count at a vertex, so that the time stays bounded; a vertex with more lies
+                // on no smooth surface.
                 .take(64)
                 .map(|&other| faces[other])
                 .filter(|other| other.normalize_or_zero().dot(own) > crease)

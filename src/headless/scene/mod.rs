@@ -40,22 +40,23 @@ pub struct Scene {
     /// Time of the frame in seconds, which moves the sea.
     pub time: f64,
     /// Distant opaque meshes that close the picture: lawns, hedges, trees, a room's walls. They are lit by sun
-    /// and sky without subdivision; few rays per vertex find the visibility of sky and sun. They cast no shadow
-    /// on [`meshes`](Self::meshes) or water and reflect no light to them. [`bounds`](Self::bounds), shadow map
-    /// and ground ignore them. They are static.
+    /// and sky at their vertices, without subdivision; a few rays per vertex find how much of the sky and the
+    /// sun is visible there. They cast no shadow on [`meshes`](Self::meshes) or water and reflect no light to
+    /// them. [`bounds`](Self::bounds), shadow map and ground ignore them. They are static.
     pub backdrop: Vec<Mesh>,
     /// Distance over which air reduces the contrast of [`ground`](Self::ground) and
     /// [`backdrop`](Self::backdrop) to 1/e, towards the environment's colour at the horizon. World units, (0,
     /// ∞). `None`, the default: clear air. Meshes are always in clear air.
     pub haze: Option<f32>,
-    /// Share of thin high clouds, of a bright band of haze over the horizon and of bluer air above it, in the visible
-    /// sky: [0, 1], default 0. The [`sea`](Self::sea) reflects the band. Reflections in the particles' water and the
-    /// lighting ignore all of them.
+    /// Strength, [0, 1], default 0, of three additions to the visible sky: thin high clouds, a bright band of haze
+    /// over the horizon, and bluer air above that band. The [`sea`](Self::sea) reflects the band. Reflections in the
+    /// particles' water and the lighting ignore all three.
     pub clouds: f32,
-    /// Rectangle of a basin, from the least x and z to the greatest, whose water has splashed: stone and
-    /// paving round it are damp in patches. `None`, the default: all is dry.
+    /// Rectangle, `[[min x, min z], [max x, max z]]`, of a basin whose water has splashed: stone and paving round
+    /// it are damp in patches. `None`, the default: all is dry.
     pub splashed: Option<[[f32; 2]; 2]>,
-    /// World units per metre for procedural surfaces, whose grain is metric, (0, ∞). `None`, the default: 1.
+    /// World units per metre, (0, ∞), for procedural surfaces, whose grain has a fixed size in metres. `None`,
+    /// the default: 1.
     pub metre: Option<f32>,
 }
 
@@ -144,8 +145,8 @@ pub struct Mesh {
     pub indices: Vec<u32>,
     /// Material.
     pub material: Material,
-    /// Transform to world space. Patterns are in the mesh's frame if it is rotated, otherwise in the world's,
-    /// so that they continue from one mesh to the next.
+    /// Transform to world space. Procedural patterns are laid out in the mesh's own frame if the mesh is
+    /// rotated, otherwise in world space, so that they continue from one mesh to the next.
     pub transform: Mat4,
 }
 

@@ -83,8 +83,8 @@ fn numbers<'a, const N: usize>(
     Ok(out)
 }
 
-/// Parses `p`, `p/t`, `p//n` or `p/t/n`. Indices count from 1, or backwards from −1. Returns indices from 1,
-/// 0 for none.
+/// Parses `p`, `p/t`, `p//n` or `p/t/n`. Indices count from 1, or backwards from −1. Returns the indices of
+/// position, texture coordinate and normal, counted from 1; 0 stands for a missing one.
 fn corner(word: &str, counts: [usize; 3]) -> Result<[usize; 3], String> {
     let mut key = [0; 3];
     for (k, part) in word.split('/').enumerate() {

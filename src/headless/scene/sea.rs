@@ -20,9 +20,9 @@ const GRAVITY: f64 = 9.81;
 ///
 /// It is visible but not in the depth buffer: the scene's depth and shadow map stay those of the ground below.
 /// Water absorbs and scatters light along the refracted ray, but shows the scene along the straight one:
-/// refraction moves no edge, only patterns waver. Sunlight is focused on the floor (caustics). Solids cast no
-/// shadow on the surface, which reflects only the environment and the sun. A camera below the level does not
-/// see it.
+/// refraction moves no edges, it only makes the patterns on surfaces under water waver. Sunlight is focused on
+/// the floor (caustics). Solids cast no shadow on the surface, which reflects only the environment and the sun.
+/// A camera below the level does not see it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sea {
     /// Mean height, default 0.
@@ -38,8 +38,9 @@ pub struct Sea {
     /// Direction of the largest waves, or of the lava's flow: world x and z, any length except 0, default [0.8,
     /// 0.6].
     pub towards: [f32; 2],
-    /// Period after which everything repeats, seconds, (0, ∞). `None`, the default: never. Wave speeds are
-    /// rounded to it; lava cross-fades two layers.
+    /// Period after which everything repeats, seconds, (0, ∞). `None`, the default: never. For this, the
+    /// frequency of each wave is rounded to a multiple of 1 / period, and lava cross-fades two copies of its
+    /// flow that are a period apart.
     pub period: Option<f32>,
     /// Liquid, default water.
     pub liquid: Liquid,
@@ -148,8 +149,9 @@ impl Sea {
         })
     }
 
-    /// Of each wave: by how much the two parts of `unrest` in `sea.glsl` shift its phase, short ones as much relative to
-    /// their length; variance of the slopes of it and all shorter ones.
+    /// For each wave: x and y are the factors with which the two components of `unrest` in `sea.glsl` shift its
+    /// phase, in radians; they grow with the wave's index, to shorter waves. z is the variance of the slopes of this
+    /// wave and all shorter ones.
     pub(super) fn shifts_of(waves: &[[f32; 4]; WAVES]) -> [[f32; 4]; WAVES] {
         std::array::from_fn(|i| {
             let (more, turn) = (1.0 + 0.35 * i as f32, 2.1 * i as f32);
@@ -159,8 +161,10 @@ impl Sea {
         })
     }
 
-    /// Distance that the lava has flown, in metres. With a period also that of the previous loop and its
-    /// weight: towards the loop's end it replaces the current one. `None` without a period.
+    /// Distance that the lava has flowed, in metres. With a period, this is the distance since the period's
+    /// start; then also the distance of a copy that is a period behind (negative), and the copy's weight, which
+    /// rises from 0 to 1, so that the copy has replaced the flow when the next period starts. `None` without a
+    /// period.
     pub(super) fn drift_at(&self, time: f64) -> (f32, Option<[f32; 2]>) {
         let speed = match self.liquid {
             Liquid::Lava { speed, .. } => f64::from(speed),

@@ -115,8 +115,8 @@ impl Mesh {
             let at = out * radius;
             at + Vec3::Y * if top { half + slope * at.x } else { -half }
         };
-        // Strips between two rims: outside, bore, top, bottom. Each strip goes counter-clockwise as seen from
-        // above; with the first rim and then the second its face points outside.
+        // Strips between two rims: outside, bore, top, bottom. Each strip runs counter-clockwise as seen from
+        // above; the order of its two rims makes its triangles face out of the solid.
         let strips = [
             (radius, false, radius, true),
             (bore, true, bore, false),

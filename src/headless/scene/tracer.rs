@@ -1,5 +1,6 @@
-//! Bakes indirect light by rays from each vertex: visibility of the sky, sunlight after one bounce and two off
-//! other surfaces, and the albedo of the surroundings. Deterministic: every vertex uses the same directions.
+//! Bakes indirect light by rays from each vertex: visibility of the sky, sunlight that has bounced once or
+//! twice off other surfaces, and the albedo of the surroundings. Deterministic: every vertex uses the same
+//! directions.
 
 use std::collections::HashMap;
 
@@ -10,13 +11,14 @@ use super::{Mesh, Scene};
 
 /// Rays per vertex.
 const RAYS: usize = 64;
-/// Rays per vertex of the backdrop: to the hemisphere (near, far) and to the sun. The sun is taken as wide
-/// (tangent of its angular radius), because leaves blur shadows.
+/// Rays per vertex of the backdrop that is not near the meshes: `FEW` over the hemisphere, or `FEWEST` for
+/// farther vertices, and `SUNS` to the sun. `PENUMBRA` is the tangent of the angular radius that the sun is
+/// given, larger than the real one, because leaves blur shadows.
 const FEW: usize = 6;
 const FEWEST: usize = 4;
 const SUNS: usize = 2;
 const PENUMBRA: f32 = 0.06;
-/// Distance up to which the backdrop is lit by rays, in multiples of the near range.
+/// Distance from the scene's centre up to which the backdrop is lit by rays, in multiples of `Around::near`.
 const FAR: f32 = 14.0;
 
 struct Triangle {
@@ -59,8 +61,8 @@ impl Tracer {
         Self::of(&scene.meshes, |_, _| true, scene, diagonal)
     }
 
-    /// Traces `meshes` on the scene's ground. `counts` receives a corner and the size of a triangle and returns whether
-    /// the triangle is used; it rejects distant ones.
+    /// A tracer for `meshes` and the scene's ground. `counts` receives a corner and the size of a triangle and
+    /// returns whether the triangle is used; it rejects distant ones.
     fn of<'a>(
         meshes: impl IntoIterator<Item = &'a Mesh>,
         counts: impl Fn(Vec3, f32) -> bool,
@@ -235,7 +237,8 @@ impl Tracer {
         }
     }
 
-    /// The sun's irradiance at a point of a surface over that on what faces the sun.
+    /// The sun's irradiance at a point of a surface, divided by that on a surface that faces the sun; 0 in
+    /// shadow.
     fn sunny(&self, at: Vec3, normal: Vec3) -> f32 {
         let cosine = normal.dot(self.sun);
         if cosine > 0.0 && self.trace(at, self.sun, true).is_none() { cosine } else { 0.0 }
@@ -264,8 +267,8 @@ impl Tracer {
                     around += hit.albedo;
                     let at = from + d * hit.distance + hit.normal * self.lift;
                     let mut light = Vec3::splat(self.sunny(at, hit.normal));
-                    // One ray for the second bounce, another for each of the first: the wall over its own shadow is
-                    // lit by the ground beyond it.
+                    // One ray for the second bounce, in another direction for each hit of the first: a wall above
+                    // its own shadow is lit by the sunlit ground beyond the shadow.
                     let turn = Quat::from_rotation_arc(Vec3::Z, hit.normal);
                     let d = turn * self.directions[(29 * i + 13) % self.directions.len()];
                     if let Some(next) = self.trace(at, d, false).filter(|next| !next.inside) {
@@ -281,8 +284,9 @@ impl Tracer {
         let [r, g, b] = (bounced * share).to_array();
         vertex.light = [visible, r, g, b];
         vertex.around = (around * share).to_array();
-        // Single sheets have back faces without being solids, so a vertex counts as inside only if at least 70 %
-        // of its rays hit back faces. A vertex of a mesh below the ground counts as inside too.
+        // Surfaces without thickness have back faces without being solids, so a vertex counts as inside a solid
+        // only if at least 70 % of its rays hit back faces. A vertex of a mesh below the ground counts as inside
+        // too.
         let buried = is_mesh && self.ground.is_some_and(|(y, _)| from.y < y);
         inside * 10 < RAYS * 7 && !buried
     }
@@ -299,7 +303,7 @@ fn directions(count: usize) -> Vec<Vec3> {
         .collect()
 }
 
-/// Bakes the light of the backdrop: with as many rays as for meshes near them, with few rays elsewhere.
+/// Bakes the light of the backdrop: near the meshes with as many rays as theirs, with few rays elsewhere.
 pub struct Around {
     all: Tracer,
     /// Finds whether the backdrop hides the sun; the meshes' own shadow is in the shadow map.
@@ -364,7 +368,8 @@ impl Around {
     fn light_vertex(&self, vertex: &mut Vertex) {
         let away = vertex.at().distance(self.middle);
         if away > FAR * self.near {
-            // Haze hides about half of it: no rays, but full sun, and sky by the slope alone.
+            // Haze hides about half of what is so far away, so no rays are traced: the vertex gets full sun,
+            // and as much sky as its slope alone allows.
             vertex.bulge = 1.0;
             let down = 0.5 - 0.5 * vertex.normal[1];
             vertex.light = [1.0 - 0.6 * down, 0.0, 0.0, 0.0];
@@ -391,8 +396,8 @@ impl Around {
                 Some(hit) if hit.inside => {}
                 Some(hit) => {
                     around += hit.albedo;
-                    // No ray from the hit point to the sun: the visibility of the sun at the vertex is used for
-                    // it, below.
+                    // No ray is traced from the hit point to the sun: the visibility of the sun at the vertex
+                    // stands for it, below.
                     bounced += hit.albedo * hit.normal.dot(self.all.sun).max(0.0);
                 }
             }
@@ -469,8 +474,8 @@ mod tests {
 
     #[test]
     fn sunlight_bounces_twice() {
-        // Sun overhead, along a very wide and high wall, which the ground lights: half of what the wall sees. It is half of what
-        // the ground at its foot sees.
+        // The sun is overhead: it lights the ground, but not a very wide and high wall. The lit ground is half of
+        // what the wall sees, and the wall is half of what the ground at its foot sees.
         let wall = Mesh::cuboid(
             [0.0, 500.0, -1.0],
             [1000.0, 500.0, 1.0],
@@ -483,7 +488,8 @@ mod tests {
         let mut foot =
             Vertex { position: [0.0, 0.0, 0.01], normal: [0.0, 1.0, 0.0], ..Vertex::default() };
         assert!(tracer.light_vertex(&mut foot, false));
-        // Each ray to the wall draws one of 64 to the ground or not: four standard deviations of 32 of them.
+        // Half of the 64 rays hit the wall. The second ray of each hits the ground with a probability of a
+        // half: the tolerance is four standard deviations of the mean of these 32.
         let expected = 0.6 * 0.6 * 0.5 * 0.5;
         let deviation = 0.6 * 0.6 * (32.0_f32 * 0.25).sqrt() / 64.0;
         assert!((foot.light[1] - expected).abs() < 4.0 * deviation, "{:?}", foot.light);

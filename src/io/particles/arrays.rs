@@ -1,5 +1,6 @@
-//! Attributes stored one after the other, as in legacy VTK (text) and VTK XML, there in one segment per piece
-//! of the file. Each attribute is read with its own position.
+//! Reads attributes that a file stores one after the other, as in legacy VTK (text) and VTK XML. In VTK XML,
+//! each piece of the file has one segment of each attribute. Each attribute is read with a file position of its
+//! own.
 
 use std::sync::Arc;
 
@@ -44,7 +45,8 @@ pub(super) struct Array<'a> {
     pub(super) segments: Vec<Segment<'a>>,
 }
 
-/// Makes the track that reads an attribute. `column` has the name and type that hold for all segments.
+/// Makes the [`Track`] of an attribute, which reads its values. `column` has the name and type that hold for
+/// all segments.
 pub(super) fn track<'a>(column: Column, array: Array<'a>) -> Track<'a> {
     let length = array.segments.iter().fold(0_u64, |sum, s| sum.saturating_add(s.count));
     let what = array.name.clone();
@@ -74,8 +76,8 @@ pub(super) fn first(segment: Segment<'_>, ty: AttributeType) -> Option<Vec<f64>>
     (0..column.data.len()).map(|i| column.data.f64(i)).collect()
 }
 
-/// Sources that were opened for an earlier segment and can be read on for the next one. A packed file can
-/// only be read forwards, so opening it anew would unpack it from the start.
+/// Sources that were opened for an earlier segment and can be read on for the next one. A compressed file can
+/// only be read forwards, so opening it anew would mean to decompress it from the start.
 #[derive(Default)]
 pub(super) struct Spare<'a> {
     pub(super) data: Option<Source<'a>>,

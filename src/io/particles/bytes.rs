@@ -4,8 +4,8 @@ use std::io::Read;
 
 use super::error::{Place, ReadError};
 
-/// The most that compressed content of `len` bytes may unpack to. Real particle data packs to a half or a
-/// third; single constant attributes pack to a thousandth.
+/// Max number of bytes to which `len` compressed bytes may decompress. Real particle data compresses to a half
+/// or a third of its size, a single constant attribute to a thousandth.
 pub(super) fn unpack_limit(len: usize) -> usize {
     len.saturating_mul(64).saturating_add(16 << 20)
 }

@@ -22,7 +22,8 @@ const NAMED: usize = 12;
 pub(super) enum Ends<'a> {
     /// In the list of points itself, before the points of each cell.
     Inside,
-    /// As a list of sums that begins with this number: 1, or 0 if it has one value more than there are cells.
+    /// As a list of running sums, and the first of them: 1, or 0 if the list has one value more than there are
+    /// cells.
     Sums(Track<'a>, u64),
 }
 
@@ -40,14 +41,14 @@ pub(super) struct Lists<'a> {
 pub(super) struct Cells {
     /// Number of points of all pieces so far, which is the number of cells.
     count: u64,
-    /// Index of the point of each cell; `None` while cell i has had point i so far.
+    /// Index of the point of each cell; `None` as long as every cell i has point i.
     order: Option<Vec<u32>>,
     /// Why the cells are no particles.
     why: Option<String>,
 }
 
 impl Cells {
-    /// Adds a piece of so many points without values on its cells.
+    /// Adds a piece of `points` points whose cells have no values.
     pub(super) fn skip(&mut self, points: u64) {
         let count = self.count.saturating_add(points);
         if let (Some(order), Ok(all)) = (&mut self.order, u32::try_from(count)) {
@@ -72,7 +73,7 @@ impl Cells {
         }
     }
 
-    /// Adds a piece of so many points. All of its lists are read.
+    /// Adds a piece of `points` points. All of its lists are read.
     pub(super) fn add(&mut self, points: u64, lists: &Lists<'_>) {
         self.compare(lists.cells, points);
         let found = match self.why {
@@ -113,7 +114,8 @@ impl Cells {
         })
     }
 
-    /// Adds a piece of so many points, whose cells have one point each, in this list; `None` means all in order.
+    /// Adds a piece of `points` points whose cells have one point each. `list` holds the point of each cell;
+    /// `None` means that every cell i has point i.
     #[cfg(feature = "hdf5")]
     pub(super) fn add_list(&mut self, points: u64, list: Option<&Data>) {
         let Some(list) = list else { return self.skip(points) };
@@ -150,7 +152,8 @@ impl Cells {
         Ok(())
     }
 
-    /// The cell of each point, `None` if it has the same number; or why the cells are no particles.
+    /// The cell of each point; `None` if every point has the cell of the same number. The error says why the
+    /// cells are no particles.
     pub(super) fn finish(self) -> Result<Option<Arc<[u32]>>, String> {
         if let Some(why) = self.why {
             return Err(why);
@@ -198,7 +201,8 @@ pub(super) fn column_name(name: &str) -> String {
     }
 }
 
-/// Of the fields of cells, those whose names points have too are not used. Returns their names.
+/// Removes from `cells` the fields whose names the points have too, because they are not used. Returns their
+/// names, except those of ghosts.
 pub(super) fn doubled(cells: &mut Vec<Attribute>, points: &[Attribute]) -> Vec<String> {
     let plain: Vec<String> = points.iter().map(|point| names::plain(&point.name)).collect();
     let (double, own): (Vec<_>, Vec<_>) = std::mem::take(cells)
@@ -217,7 +221,7 @@ pub(super) fn unused(names: &[String], why: &str) -> Option<String> {
         .then(|| format!("fields of cells are not used: {}{more}; {why}", quoted.join(", ")))
 }
 
-/// Why such fields are not used, if the cells are no particles.
+/// Why fields of cells are not used, if the cells are no particles.
 pub(super) fn no_particles(why: &str) -> String {
     format!(
         "particles are points, or cells of one point each, but {why}; save the fields as point data (ParaView: filter Cell \
@@ -225,12 +229,13 @@ pub(super) fn no_particles(why: &str) -> String {
     )
 }
 
-/// Why such fields are not used, if points have them too.
+/// Why fields of cells are not used, if points have them too.
 pub(super) const DOUBLED: &str = "the points have fields of the same names, which are used";
-/// Why such fields are not used, if they have too few values or too many.
+/// Why fields of cells are not used, if they have too few values or too many.
 pub(super) const UNEVEN: &str = "they do not have a value for each cell";
 
-/// The track with its rows in the order of the points instead of the cells. All of them are in memory while they are read.
+/// The track with its rows in the order of the points instead of the cells. All rows are in memory while they are
+/// read.
 pub(super) fn reordered<'a>(track: Track<'a>, cells: Arc<[u32]>) -> Track<'a> {
     let Track { columns, lengths, what, open: inner } = track;
     let empty = columns.clone();

@@ -54,7 +54,7 @@ impl Encoding {
         }
     }
 
-    /// Number of bytes in the file that hold this many decoded bytes, encoded separately.
+    /// Number of bytes in the file that hold `bytes` decoded bytes which are encoded on their own.
     fn stored(self, bytes: u64) -> u64 {
         if self.base64 { bytes.div_ceil(3).saturating_mul(4) } else { bytes }
     }
@@ -243,7 +243,8 @@ impl<'a> Run<'a> {
         Ok(self)
     }
 
-    /// Whether all decoded bytes were returned, which means that padding ended the data.
+    /// Whether all decoded bytes were returned. For base64 this means that padding ended the data; raw bytes
+    /// are never decoded ahead.
     fn is_ended(&self) -> bool {
         !self.encoding.base64 || self.given == self.decoded.len()
     }

@@ -309,12 +309,12 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
     } else if is_readable(bytes)
         && matches!(hint, Extension::Csv | Extension::Xyz | Extension::Text)
     {
-        // Text in another encoding. Raw numbers would contain control characters.
+        // Text in an encoding other than UTF-8. Raw binary numbers would contain control characters.
         return Ok(if hint == Extension::Csv { Reader::Csv } else { Reader::XyzText });
     } else if hint == Extension::Xyz {
         return Ok(Reader::XyzRaw);
     }
-    // Compressed or raw data may follow so early that the prefix is no valid text.
+    // Compressed or raw data may follow the XML so early that the beginning of the file is no valid text.
     if bytes.starts_with(b"<?xml") || bytes.starts_with(b"<VTKFile") {
         return Ok(Reader::VtkXml);
     }
@@ -333,7 +333,7 @@ fn is_section(text: &[u8]) -> bool {
         && inner.get(word.len()..).is_some_and(|rest| rest.starts_with(b"]"))
 }
 
-/// Min number of rows of numbers in a text whose name says nothing.
+/// Min number of rows of numbers that make a text with an unknown extension a table.
 const ROWS: usize = 3;
 
 /// Whether a text begins as a table of positions: rows with equally many numbers, preceded only by column names, a
@@ -372,7 +372,8 @@ fn is_text(bytes: &[u8]) -> bool {
     valid && is_readable(bytes)
 }
 
-/// Whether the beginning has no control characters: text in any encoding. (A unit may contain a superscript.)
+/// Whether the beginning has no control characters, as text in any encoding. Bytes that are not ASCII are
+/// allowed: a unit may contain a superscript.
 fn is_readable(bytes: &[u8]) -> bool {
     let head = bytes.get(..bytes.len().min(4096)).unwrap_or(bytes);
     !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))

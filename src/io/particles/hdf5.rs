@@ -8,8 +8,8 @@
 //!   several kinds of particles, those called fluid are read.
 //! - H5Part: groups `Step#N`. Other groups whose names differ only in a number are frames as well.
 //! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
-//! - Positions of that shape in any group, or components of shape (frames, particles). Arrays with the same number of
-//!   frames belong to them.
+//! - Positions of shape (frames, particles, 3) in any group, or components of shape (frames, particles). Other arrays
+//!   of the group with the same number of frames are attributes of these particles.
 //! - Others: the group, or groups, with an array of positions; several are joined.
 //!
 //! Only arrays of the requested frame that have a meaning are read. Memory use is limited by the size of the file.
@@ -216,8 +216,8 @@ fn type_of(dataset: &Dataset) -> AttributeType {
 /// Rows that are read at a time, if the dataset is not stored in larger chunks.
 const ROWS: u64 = 1 << 17;
 
-/// Selections to read in sequence. Each is as many rows as are decompressed together, so that no other rows are in
-/// memory.
+/// Selections of rows to read in sequence. Each ends at a chunk boundary, so that no rows of another selection are
+/// decompressed with it.
 fn selections(dataset: &Dataset, rows: &Rows) -> Vec<SliceInfo> {
     let all = SliceInfoElem::Slice { start: 0, end: u64::MAX, step: 1 };
     let of = |first: Option<SliceInfoElem>| {
@@ -250,8 +250,8 @@ fn selections(dataset: &Dataset, rows: &Rows) -> Vec<SliceInfo> {
     parts
 }
 
-/// Reads values of a dataset. Fails if they need more bytes than the file's size warrants, because chunks that were
-/// never written take no space in the file.
+/// Reads values of a dataset. Fails if they need more bytes than the file's size warrants: chunks that were never
+/// written take no space in the file, so a small file may declare a huge dataset.
 fn numbers(
     dataset: &Dataset,
     ty: AttributeType,
@@ -310,7 +310,7 @@ fn memory_left() -> Option<u64> {
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// Size of a frame in bytes from which available memory is checked.
+/// Min size of a frame in bytes for which the available memory is checked.
 const LARGE: u64 = 1 << 28;
 
 /// Refuses a frame that does not fit in memory: HDF5 is not read in parts.
@@ -318,7 +318,8 @@ fn fits(particles: u64, bytes: u64) -> Result<(), ReadError> {
     if bytes < LARGE {
         return Ok(());
     }
-    // A test allocation: it fails at a limit of the process, although a system may grant more than it has.
+    // A test allocation fails at a memory limit of the process. The system may grant more than it has, so the
+    // free memory is compared too.
     let mut probe: Vec<u8> = Vec::new();
     let probed = usize::try_from(bytes).is_ok_and(|bytes| probe.try_reserve_exact(bytes).is_ok());
     if probed && memory_left().is_none_or(|left| bytes <= left) {
@@ -459,7 +460,8 @@ impl Part {
         self.arrays.iter().any(|array| array.shape().0 > 0)
     }
 
-    /// Removes arrays of other lengths: PySPH has an empty array for each property that is not stored.
+    /// Removes empty arrays, unless all are empty: PySPH has an empty array for each property that is not
+    /// stored.
     fn without_empty(mut self) -> Self {
         let some = self.has_some();
         self.arrays.retain(|array| !some || array.shape().0 > 0);
@@ -616,7 +618,7 @@ struct Steps {
     points: Vec<u64>,
     parts: Vec<u64>,
     counts: Vec<u64>,
-    /// For arrays with their own offsets, of points and of cells.
+    /// Names and offsets of the arrays that have offsets of their own: those of points, and those of cells.
     arrays: [Vec<(String, Vec<u64>)>; 2],
 }
 

@@ -50,7 +50,7 @@ pub(super) enum Words<'d> {
     Here(&'d str),
     /// It is in this byte range of the file.
     There(u64, u64),
-    /// It is partly in the file, with entities or CDATA between, and cannot be read from there.
+    /// It has entities or CDATA besides a part that is only in the file, so it cannot be read from there.
     Mixed,
 }
 
@@ -201,7 +201,8 @@ struct Run {
     /// Number of these bytes at the end of `out`.
     kept: usize,
     lines: u64,
-    /// Range of the run from its first to behind its last non-space byte; `None` if there is none.
+    /// Range within the run, from its first non-space byte to the end of its last one; `None` if all are
+    /// spaces.
     words: Option<(u64, u64)>,
 }
 
@@ -307,7 +308,8 @@ impl Scan {
     fn step(&mut self, byte: u8) {
         let start = self.out.len() - 1;
         self.state = match (self.state, byte) {
-            // Inside an attribute this is an error, which the parser reports. The bytes after it may be text again.
+            // Inside the value of an attribute, `<` is an error, which the parser reports. The bytes after it may
+            // be text again.
             (State::Text | State::Tag(_) | State::Quoted(_) | State::Reference(_), b'<') => {
                 State::Tag(start)
             }

@@ -12,7 +12,7 @@ use super::source::Content;
 use super::tecplot;
 use super::text::Text;
 
-/// Number of lines searched for the names, and of these with comments.
+/// Max number of lines that are searched for the names, without and with comment lines.
 const LINES: usize = 64;
 const ALL: usize = 4096;
 
@@ -154,7 +154,7 @@ pub(super) fn number_with_comma(field: &[u8]) -> Option<f64> {
     parse_number(&field)
 }
 
-/// If the fields of a table are vectors such as `"(1, 2, 3)"`, the column with the positions.
+/// If the fields of a table are vectors such as `"(1, 2, 3)"`, the name of the column with the positions.
 pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
     if have_positions(&heading.names) {
         return None;
@@ -169,8 +169,8 @@ pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
     all.find(|(name, field)| is_position(name) && vector(field)).map(|(name, _)| name)
 }
 
-/// The first line with a number at or below a line; only lines without numbers may precede it. Returns its index and
-/// the line.
+/// If the first line from index `from` on (comments do not count) has no numbers, but the next has, the first may
+/// hold units or a rule. Returns the index of that first line, and the line of numbers.
 fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
     let mut all = lines.iter().enumerate().skip(from).filter(|(_, line)| !is_comment(&line.text));
     let ((at, units), (_, row)) = (all.next()?, all.next()?);

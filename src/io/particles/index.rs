@@ -103,7 +103,7 @@ impl Pieces {
     }
 }
 
-/// The index in the same folder that lists this file as a piece, if there is one.
+/// The index (PVTU or PVTP) in the same folder that lists this file as a piece of a frame, if there is one.
 pub(super) fn lists(file: &Path) -> Option<PathBuf> {
     let extension = file.extension()?.to_string_lossy().to_lowercase();
     if !matches!(extension.as_str(), "vtu" | "vtp") {

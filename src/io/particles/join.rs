@@ -8,7 +8,8 @@ use super::{Meaning, Particles};
 /// Appends the particles of another file.
 pub(super) fn append(to: &mut Particles, mut other: Particles) {
     let (first, second) = (to.positions.len(), other.positions.len());
-    // The empty file of a process does not say which attributes particles have.
+    // A file without particles, which a process writes that has none, does not say which attributes particles
+    // have.
     if second == 0 || first == 0 {
         let mut warnings = std::mem::take(&mut to.warnings);
         if first == 0 {

@@ -49,7 +49,8 @@ pub(super) fn read_part(content: &Content<'_>, asked: &Asked) -> Option<Particle
 fn value(bytes: &[u8]) -> Result<Value, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match parse(bytes) {
-        // Tried only after an error, because such files are rare and the replacement takes a copy.
+        // What is no strict JSON is replaced only after an error, because such files are rare and the
+        // replacement takes a copy.
         Err(error) => match strict(bytes) {
             Some(bytes) => parse(&bytes),
             None => Err(error),
@@ -200,8 +201,9 @@ fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Reads tables as pandas writes them: lists of names and of rows, columns keyed by row name, or rows keyed
-/// by column name.
+/// Converts tables as pandas writes them: a list of column names and a list of rows; columns whose values are
+/// keyed by row name; or rows whose values are keyed by column name. Returns rows; columns stay in `map`, as
+/// arrays.
 fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> {
     if let (Some(Value::Array(names)), Some(Value::Array(_))) =
         (map.get("columns"), map.get("data"))
@@ -360,7 +362,8 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
         }
         several_frames(&rows, &format!("`{name}`"))?;
         let (mut components, mut data) = numbers(&name, &rows)?;
-        // `x` may be a list of vectors, or of their first components.
+        // `x` may be a list of vectors or of their first components, so a flat list of that name is not split
+        // into vectors.
         let alone = names::plain(&name) != "x" && names::plain(&name).len() > 1;
         if components == 1 && names::is_vector(&name) && alone {
             (components, data) = vectors(&name, components, data)?;
@@ -392,7 +395,7 @@ fn components(value: &Value) -> Option<Vec<&Value>> {
 fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
     let number = |value: &Value| match value {
         Value::Null => Ok(f64::NAN),
-        // Some programs quote them, `"NaN"` more than others.
+        // Some programs write numbers as strings, most often `"NaN"`.
         Value::String(text) if text.trim().parse::<f64>().is_ok() => {
             Ok(text.trim().parse().unwrap_or(f64::NAN))
         }

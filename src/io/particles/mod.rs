@@ -22,12 +22,14 @@
 //! [`Parts`] reads the same particles in parts, for files that are too large for memory: all of these formats
 //! except JSON, HDF5 and XDMF.
 //!
-//! Any of them may be compressed with gzip. The content decides the format; the extension is only a hint. Case, blanks
-//! and units in names are ignored: `Pos.x [m]` is `pos_x`. A valid file that is not one frame of particles is refused;
-//! the error says what it is and what to do. Ambiguous interpretations are reported in [`Particles::warnings`].
+//! Any of them may be compressed with gzip. The content decides the format; the extension is only a hint. Case,
+//! blanks and units in the names of attributes are ignored: `Pos.x [m]` is `pos_x`. A valid file that is not one
+//! frame of particles is refused; the error says what it is and what to do. Ambiguous interpretations are reported in
+//! [`Particles::warnings`].
 //!
-//! Lengths and times are kept as they are; nothing is scaled or reordered. Ghosts are left out. An origin is
-//! subtracted only from double-precision positions that are very far away ([`Particles::origin`]).
+//! Lengths and times keep the file's units; nothing is scaled or reordered. Ghosts (copies of particles that
+//! belong to another piece of the file) are left out. An origin is subtracted only from double-precision
+//! positions that are very far away ([`Particles::origin`]).
 //!
 //! A reader never panics and trusts no count in a header: it allocates in proportion to the file's actual size. Content
 //! that decompresses to more than 16 MiB + 64 times the file's size is refused.
@@ -105,21 +107,23 @@ pub struct Particles {
     /// Ids: integers that identify a particle from frame to frame. Ids beyond 32 bits are kept modulo 2^32. If any id
     /// is negative or fractional, or if ids repeat, all are dropped with a warning.
     pub ids: Option<Vec<u32>>,
-    /// Remaining lifetime of whitewater particles. At or below zero a particle dies with the next frame.
+    /// Remaining lifetime of whitewater particles. A particle whose lifetime is zero or less dies with the next
+    /// frame.
     pub lifetimes: Option<Vec<f32>>,
     /// Kind of a whitewater particle: 0 foam, 1 spray, 2 bubble. Other values are kept.
     pub kinds: Option<Vec<u32>>,
     /// Every attribute in the file, including positions and attributes that are not read.
     pub attributes: Vec<Attribute>,
-    /// Meanings of attributes, by their names, positions first. Attributes in no list were ignored.
+    /// Each meaning that was found, with the names of the attributes that have it, positions first. Attributes
+    /// in no list were ignored, except [`extras`](Self::extras) and those that mark ghosts or time steps.
     pub meanings: Vec<(Meaning, Vec<String>)>,
     /// Attributes that were requested with [`read_with`].
     pub extras: Vec<Extra>,
     /// Time of the frame in the file's unit, if the file has it.
     pub time: Option<f64>,
     /// Offset that was subtracted from the file's positions in double precision, so that 32-bit floats can
-    /// distinguish particles far from the origin; otherwise 0. Frames of a sequence may differ in it: see
-    /// [`move_to`](Self::move_to).
+    /// distinguish particles far from the origin; 0 if nothing was subtracted. The frames of a sequence may
+    /// have different offsets, see [`move_to`](Self::move_to).
     pub origin: [f64; 3],
     /// Format of the file.
     pub format: Format,
@@ -152,15 +156,15 @@ impl Particles {
         survey::retain(self, kept);
     }
 
-    /// Appends the particles of another file of the same frame. Attributes that only one of them has are dropped, with
-    /// a warning, and so are ids that both files give to different particles. [`extras`](Self::extras) are NaN for
-    /// particles of a file that lacks them.
+    /// Appends the particles of another file of the same frame. Attributes that only one of the files has are
+    /// dropped, with a warning. All ids are dropped, with a warning, if the files give one id to different particles.
+    /// [`extras`](Self::extras) are NaN for particles of a file that lacks them.
     pub fn append(&mut self, other: Self) {
         join::append(self, other);
     }
 
     /// Changes the [`origin`](Self::origin), for example to that of a sequence's first frame, and adjusts the
-    /// positions so that each particle stays where it is.
+    /// positions so that origin + position of each particle stays the same.
     pub fn move_to(&mut self, origin: [f64; 3]) {
         if self.origin != origin {
             let ([x, y, z], [a, b, c]) = (self.origin, origin);
@@ -296,7 +300,7 @@ fn read_plain(
     }
 }
 
-/// Number of positions with a NaN or an infinity. They stay in the arrays, so that indices stay valid; the
+/// Number of positions with a NaN or an infinity. Readers keep such particles, so that indices stay valid; the
 /// renderer drops them.
 pub fn count_non_finite(positions: &[[f32; 3]]) -> usize {
     positions.iter().filter(|p| !p.iter().all(|c| c.is_finite())).count()

@@ -83,7 +83,8 @@ impl Geometry {
     }
 }
 
-/// A device buffer and the mapped buffer that it is filled from; `None` if there is no content.
+/// A device buffer and the mapped buffer that it is filled from, which is `None` without content and after the
+/// upload.
 struct Data {
     buffer: Buffer,
     staging: Option<Buffer>,

@@ -1,5 +1,5 @@
-//! Draws the opaque meshes and the ground. One pipeline per kind of surface, because a software device
-//! executes both sides of every branch.
+//! Draws the opaque meshes, the ground and the backdrop. Each kind of surface has a pipeline of its own,
+//! because a Vulkan device on the CPU executes both sides of every branch.
 //! Reads: vertices, shadow map, environment, irradiance, textures, uniforms.
 
 use std::collections::btree_map::Entry;

@@ -1,10 +1,10 @@
 //! Pass `scene`: opaque meshes, ground and sky under a sun with a shadow map.
 //!
-//! Set-up: [`geometry`] and [`textures`] are uploaded, and [`shadow`] draws the shadow map. Each frame: [`irradiance`]
-//! of the environment; [`depth`], which the water is tested against, with one sample per pixel; [`color`] of [`meshes`]
-//! and [`sky`], with four samples if requested and supported. [`targets`] are the images and framebuffers that they
-//! draw to, [`uniforms`] and [`sea`] the view and the sea for their shaders, and [`opaque`] the pipeline state that
-//! they share.
+//! In the set-up, [`geometry`] and [`textures`] are uploaded, and [`shadow`] draws the shadow map. In each frame,
+//! [`irradiance`] projects the environment's light, [`depth`] draws the depth that the water is tested against, with
+//! one sample per pixel, and [`color`] draws [`meshes`] and [`sky`], with four samples if requested and supported.
+//! [`targets`] holds the images and framebuffers that these passes draw to, [`uniforms`] and [`sea`] the shaders'
+//! data on the view and the sea, and [`opaque`] the pipeline state that the passes share.
 //! Reads: vertices, shadow map, environment. Writes: the whole scene colour and depth.
 
 mod color;
@@ -118,8 +118,8 @@ impl Recording<'_> {
 
 impl SceneRenderer {
     /// Bakes the scene's light and creates pipelines, images and buffers. Each record takes the depth convention from
-    /// its camera. `antialias` smooths edges; it costs little on a GPU, but several times the pass on a software
-    /// device. After an error the next `Gpu::bury` frees the objects.
+    /// its camera. `antialias` smooths edges; it costs little on a GPU, but makes the pass several times slower on a
+    /// Vulkan device that runs on the CPU. After an error the next `Gpu::bury` frees the objects.
     ///
     /// # Errors
     /// A sun without direction, an invalid sea, no memory; Vulkan errors.
@@ -134,7 +134,8 @@ impl SceneRenderer {
         Self::with_light(gpu, scene, &baked, color_format, depth_format, antialias)
     }
 
-    /// The same, with the baked light of a renderer of the same scene in any frame.
+    /// Like [`SceneRenderer::new`], with the light that was baked for a renderer of the same scene, in
+    /// whichever frame.
     ///
     /// # Errors
     /// Those of [`SceneRenderer::new`].
@@ -177,8 +178,8 @@ impl SceneRenderer {
         self.surroundings.move_sea(scene)
     }
 
-    /// The sun's shadow map in the form that a host passes. `bias`: depth bias in metres, to which
-    /// the width of a texel is added.
+    /// The sun's shadow map in the form in which a host engine passes its own. `bias` is the depth bias in
+    /// world units, to which the width of a texel is added.
     pub fn shadow(&self, bias: f32) -> crate::contract::Shadow {
         self.shadow.handed_over(bias)
     }

@@ -1,5 +1,5 @@
-//! Shared by all draws of the scene: triangles with a depth test whose direction follows the camera, and the
-//! depth-only draw.
+//! What all draws of the scene share: pipelines for triangles with a depth test, whose direction follows the
+//! camera's depth convention, and the draw of depth alone.
 
 use ash::vk;
 use glam::Mat4;

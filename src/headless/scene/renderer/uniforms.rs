@@ -13,8 +13,8 @@ use crate::error::Error;
 use crate::frame::Lens;
 use crate::gpu::shader;
 
-/// Radiance of the sun's disc over its irradiance: 1 over its solid angle, reduced so that a half float does not
-/// overflow.
+/// Radiance of the sun's disc divided by the sun's irradiance: 1 / (solid angle of the disc, in steradians).
+/// `DISC_MOST` limits the radiance, so that a half float does not overflow.
 const DISC: f32 = 1.0 / 6.8e-5;
 const DISC_MOST: f32 = 3.0e4;
 /// Height of a missing ground, far from all objects.
@@ -128,7 +128,7 @@ impl Surroundings {
 }
 
 impl Uniforms {
-    /// `far` is the device depth of the far plane, `extent` that of the picture.
+    /// `far` is the device depth of the far plane, `extent` the size of the picture.
     pub fn new(
         surroundings: &Surroundings,
         sun: &SunView,
@@ -142,7 +142,8 @@ impl Uniforms {
         let world = lens.view.inverse();
         let turn = |v: Vec3, w: f32| world.transform_vector3(v).extend(w).to_array();
         let p = lens.p;
-        // Clip space of the sun is -1 to 1 with the same y down.
+        // The sun's clip space runs from -1 to 1; its y points down in the map, like that of texture
+        // coordinates.
         let to_uv = Mat4::from_translation(Vec3::new(0.5, 0.5, 0.0))
             * Mat4::from_scale(Vec3::new(0.5, 0.5, 1.0));
         let disc = DISC.min(DISC_MOST / sun_color.max_element().max(1e-6));
