@@ -48,8 +48,8 @@ impl Whitewater {
         self.radiance.resize(gpu, config, retired)
     }
 
-    /// Pass `splat`: depth and thickness. Runs as soon as the water's depth is known, because tile
-    /// classification needs the result.
+    /// Pass `splat`: depth and thickness of whitewater. It runs as soon as the water's depth is known, because the
+    /// classification of screen tiles needs its result.
     pub fn record_splat(
         &self,
         r: &mut Recording<'_>,
@@ -59,7 +59,7 @@ impl Whitewater {
         self.sprites.record(r, particles, water)
     }
 
-    /// Passes `radiance` and `blur`. `water` are its layers, if there may be water.
+    /// Passes `radiance` and `blur`. `water` holds the water's images, if there may be water.
     pub fn record_radiance(
         &self,
         r: &mut Recording<'_>,
@@ -81,7 +81,7 @@ impl Whitewater {
         [self.sprites.occluders(), self.sprites.thickness(), self.radiance.image()]
     }
 
-    /// Layers of a frame of this size for the host.
+    /// The images that a frame of this size leaves for the host.
     pub fn kept(&self, extent: ash::vk::Extent2D) -> Vec<Layer> {
         let layer = |name, image: &Image| Layer {
             name,

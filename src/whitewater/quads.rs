@@ -1,6 +1,6 @@
 //! Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2): the paper's own path, with the fixed functions of a
-//! GPU. It finds the frontmost particle by a depth test, then sums thickness by blending. A vertex shader builds each
-//! particle's quad, so that there is no sprite list here either.
+//! GPU. It finds the frontmost particle by a depth test, then sums thickness by blending. A vertex shader builds the
+//! quad of each particle, so that no list of quads is stored.
 //! Reads: the host's streams, words. Writes: depth bits and attributes of the frontmost particle, thickness.
 
 use ash::vk;
@@ -127,13 +127,14 @@ impl Quads {
         Ok(())
     }
 
-    /// Bits of the frontmost depth (all ones if there is none) and its attributes; a colour attachment after
-    /// `record`.
+    /// Depth bits (all ones if there is none) and attributes of each pixel's frontmost particle. The image is a
+    /// colour attachment after `record`.
     pub fn fronts(&self) -> &Image {
         &self.targets.fronts
     }
 
-    /// `thickness` is the barrier that makes it a colour attachment. `draw` draws all particles with a pipeline.
+    /// `thickness` is the barrier that makes the thickness image a colour attachment. `draw` draws all particles with
+    /// the pipeline that it is given.
     pub fn record(
         &self,
         r: &Recording<'_>,

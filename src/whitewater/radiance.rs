@@ -2,12 +2,13 @@
 //! 2.5; passes 6 and 7).
 //!
 //! In the reference mode the samples are the paper's: points of a Halton sequence in spheres of growing radius, the
-//! same for every pixel. In the fast mode each pixel evaluates a sixteenth of the points, which the blur recombines.
-//! Foam without neighbours has only its own samples. They come in opposite pairs, of which a plane through the centre
-//! occludes exactly one. Their density follows the paper's weights, so that all have weight 1. Particles smaller than a
-//! pixel take the mean direction of unoccluded samples as their normal, which is not in the paper.
-//! Reads: the images of `splat`, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes: foam
-//! normal, foam radiance.
+//! same for every pixel. In the fast mode each pixel evaluates a sixteenth of the points, and the blur recombines the
+//! results. A pixel of isolated foam then has only its own samples, so these come in opposite pairs: of each pair, a
+//! plane through the sphere's centre hides exactly one. The density of these points follows the paper's weights, so
+//! that each counts equally. Particles smaller than a pixel take the mean direction of unoccluded samples as their
+//! normal, which is not in the paper.
+//! Reads: the images of `splat`, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes:
+//! foam normal, foam radiance.
 
 use std::f64::consts::TAU;
 
@@ -47,7 +48,8 @@ fn radical_inverse(mut index: u32, base: u32) -> f64 {
     value
 }
 
-/// The first Halton points (bases 2, 3, 5, from 1 on, in [−1, 1]³) inside the unit sphere, with `λ = (1 − |s|)²`.
+/// The first points s of the Halton sequence (bases 2, 3, 5, indices from 1, scaled to [−1, 1]³) that lie inside the
+/// unit sphere, each with its weight `λ = (1 − |s|)²`.
 fn points() -> Vec<[f32; 4]> {
     let point = |index| [2, 3, 5].map(|base| 2.0 * radical_inverse(index, base) - 1.0);
     let inside = (1..).map(point).filter_map(|[x, y, z]| {
@@ -57,12 +59,14 @@ fn points() -> Vec<[f32; 4]> {
     inside.take(MOST_SAMPLES).collect()
 }
 
-/// Pairs of points of the fast mode, a sixteenth of them for each pixel of a block (glsl/whitewater/radiance.comp).
+/// Number of pairs of opposite points in the fast mode. Each pixel of a 4×4 block uses a sixteenth of them
+/// (glsl/whitewater/radiance.comp).
 const PAIRS: u32 = 160;
 
-/// One point of each opposite pair, all with weight 1: density as `λ = (1 − |s|)²`, low-discrepancy by the
-/// multiples of three powers of a root of x⁴ = x + 1 (Roberts, The unreasonable effectiveness of quasirandom
-/// sequences, 2018). Any run of them fills the sphere.
+/// One point s of each pair ±s in the unit sphere, with weight 1, because the density of the points follows
+/// `λ = (1 − |s|)²`. They are a low-discrepancy sequence, so that any run of successive points fills the sphere: the
+/// coordinates of point i are the fractions of i times three powers of the inverse root of x⁴ = x + 1 (Roberts, The
+/// unreasonable effectiveness of quasirandom sequences, 2018).
 fn pairs() -> Vec<[f32; 4]> {
     const ROOT: f64 = 1.220_744_084_605_759_6;
     let pair = |index: u32| {
@@ -75,7 +79,8 @@ fn pairs() -> Vec<[f32; 4]> {
     (1..=PAIRS).map(pair).map(|[x, y, z]| [x, y, z, 1.0]).collect()
 }
 
-/// The radius that contains a given λ-weighted share of the unit sphere: solves `10 r³ − 15 r⁴ + 6 r⁵ = share`.
+/// Radius r of the ball that contains a given share of the unit ball, both weighted by λ: solves
+/// `10 r³ − 15 r⁴ + 6 r⁵ = share`.
 fn radius_within(share: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..50 {
@@ -86,7 +91,7 @@ fn radius_within(share: f64) -> f64 {
     high
 }
 
-/// The water's surface, as the fragment shaders of `composite` read it.
+/// Images of the water's surface, in the state in which the fragment shaders of `composite` sample them.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
     pub depth: &'a Image,
@@ -292,10 +297,13 @@ mod tests {
         assert!((weight - 0.1).abs() < 0.005, "mean weight {weight}, of a full sphere 1/10");
     }
 
-    /// Means over the sphere weighed by `λ`: of the squared radius `B(5,3)/B(3,3) = 2/7`, of the squared height a third of
-    /// it. Of a sixteenth they are no farther from that than those of as many points at random, whose variances are
-    /// `B(7,3)/B(3,3) = 5/42` less `(2/7)²`, and `5/42 / 5` less `(2/21)²`, over their number: of 16 such squares the mean
-    /// is 1 ± 0.35 of it (χ²), and beyond 2.1 once in two hundred.
+    /// In the unit sphere weighted by `λ`, the mean of the squared radius is `B(5,3)/B(3,3) = 2/7`, and that of the
+    /// squared height is a third of it, 2/21. All pairs together have nearly these means. The means of a sixteenth,
+    /// 10 pairs, deviate from them no more than those of 10 random points would. One random point has a variance of
+    /// `5/42 − (2/7)²` in the squared radius (`B(7,3)/B(3,3) = 5/42`) and of `5/42 / 5 − (2/21)²` in the squared
+    /// height; the mean of 10 has a tenth of that as its expected squared deviation. Averaged over 16 sets, the
+    /// squared deviation is 1 ± 0.35 times the expected one (χ²), and more than 2.1 times as large once in two
+    /// hundred.
     #[test]
     fn pairs_fill_the_weighed_sphere() {
         let pairs = pairs();

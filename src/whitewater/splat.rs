@@ -1,11 +1,12 @@
 //! Pass `splat`: depth and normal of the frontmost whitewater particle, and the thickness of all (Akinci et al.
 //! 2013, Sec. 2.1 to 2.3; passes 3 to 5).
 //!
-//! One invocation per particle uses integer atomics: depths are compared as bits and sums use fixed-point steps, so the
-//! order of the particles does not matter. Depth and thickness are written in one pass, so that a particle is read once
-//! for both. The attributes of the frontmost particle are the low bits of a 64-bit word whose high bits are its depth,
-//! or they take a second pass. There is no intermediate sprite list: for millions of particles it would dominate the
-//! memory. `quads` is the alternative path.
+//! One invocation per particle uses integer atomics: depths are compared as bits and sums use fixed-point steps, so
+//! the order of the particles does not matter. Depth and thickness are written in one pass, so that a particle is
+//! read once for both. With 64-bit atomics, the attributes of the frontmost particle are the low bits of a word whose
+//! high bits are its depth; with 32-bit atomics, a second pass writes them. No list of projected particles is stored:
+//! for millions of particles it would take most of the memory. `quads` is the alternative path, which rasterizes
+//! quads.
 //! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
 use crate::gpu::memory::MemoryLocation;
@@ -60,9 +61,10 @@ struct Targets {
     words: Buffer,
     /// Foam depth, total intensity, depths of fluid and scene.
     occluders: Image,
-    /// Thickness in front of the fluid, behind it, and the latter times its distance behind.
+    /// Foam thickness in front of the fluid's surface, behind it, and the latter weighted by `d / (d + spacing)` at
+    /// the distance d behind the surface.
     thickness: Image,
-    /// World normal, search radius.
+    /// World normal of the frontmost particle, search radius.
     normal: Image,
 }
 
@@ -183,12 +185,13 @@ impl Sprites {
         &self.targets.occluders
     }
 
-    /// Thickness in front of the fluid, behind it, and the latter times its distance behind.
+    /// Foam thickness in front of the fluid's surface, behind it, and the latter weighted by `d / (d + spacing)` at
+    /// the distance d behind the surface.
     pub fn thickness(&self) -> &Image {
         &self.targets.thickness
     }
 
-    /// World normal of the frontmost, and its search radius.
+    /// World normal of the frontmost particle, and the search radius of its ambient occlusion.
     pub fn normal(&self) -> &Image {
         &self.targets.normal
     }
@@ -202,7 +205,8 @@ impl Sprites {
         }
     }
 
-    /// `water` is the depth of its frontmost spheres, before and after in the state in which pass `depth` leaves it.
+    /// `water` is the depth of the frontmost spheres of the water. Before and after, the image is in the state in
+    /// which pass `depth` leaves it.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -212,7 +216,8 @@ impl Sprites {
         let scope = r.begin(c"splat");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let (words, arguments) = (self.targets.words.handle, self.arguments.handle);
-        // Compute shaders use the buffer as dispatch arguments and for the number of particles.
+        // The compute path uses the buffer as dispatch arguments, and its shaders read the number of particles from
+        // it.
         let (words_used, arguments_used) = match self.way {
             Way::Compute(_) => (COMPUTE_READ_WRITE, INDIRECT.and(COMPUTE_READ)),
             Way::Quads(_) => (FRAGMENT_READ.and(COMPUTE_READ), INDIRECT),

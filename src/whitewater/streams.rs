@@ -1,5 +1,6 @@
-//! Binds the host's streams of whitewater particles for all passes over them: in chunks that the device can bind, with
-//! a count that the host or the GPU knows.
+//! Binds the host's streams of whitewater particles (buffers with one attribute of each particle) for all passes over
+//! the particles. Streams are bound in chunks as large as the device can bind. The number of particles comes from the
+//! host or from a buffer on the GPU.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -19,7 +20,7 @@ use crate::whitewater::settings::WhitewaterConfig;
 /// Maximum number of groups per dispatch.
 const MOST_GROUPS: u32 = 65_535;
 
-/// Offsets and strides of a chunk's streams; the stride of an absent one is 0
+/// Offsets and strides of a chunk's streams, in words of 32 bits; an absent stream has a stride of 0
 /// (glsl/include/whitewater_streams.glsl).
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
@@ -83,7 +84,7 @@ shader::assert_layout!(
     Counting { count, from_gpu, chunks, chunk_size, group_size }
 );
 
-/// The maximum number of particles, in chunks.
+/// The division of the maximum number of particles into chunks.
 #[derive(Clone, Copy)]
 pub struct Chunks {
     /// Number of chunks.
@@ -105,8 +106,9 @@ impl Chunks {
         16 * u64::from(self.count)
     }
 
-    /// Counts for groups of a size (0 for quads), and the buffer with the GPU's count; without one, `unread` (any
-    /// buffer) is bound.
+    /// Push constants from which a shader computes the number of particles in each chunk, and the buffer with the
+    /// count on the GPU. If the host gives the count instead, that buffer is `unread` (any buffer). `group_size` is
+    /// the number of particles per workgroup, 0 for quads.
     pub fn counting(
         &self,
         particles: Option<&WhitewaterParticles>,
@@ -124,7 +126,8 @@ impl Chunks {
         (Counting { count, from_gpu, chunks, chunk_size, group_size }, buffer)
     }
 
-    /// Binds each chunk's streams and `more`, pushes its offsets, and calls a function with its index.
+    /// For each chunk, binds its streams and the resources `own`, pushes what `push` makes of its offsets, and calls
+    /// `act` with its index.
     pub fn each<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -138,7 +141,8 @@ impl Chunks {
         for chunk in 0..self.count {
             let first = chunk * self.size;
             let bound = Window::all(r.gpu, &particles.positions, others, first);
-            // A stream that ends before the chunk has no particles in it: the count was clamped.
+            // If a stream ends before the chunk, the chunk has no particles: the count was clamped to the shortest
+            // stream.
             let Some((positions, [kinds, radii, ages, ids])) = bound else { break };
             let streams = [
                 (0, r.uniforms),
@@ -172,8 +176,8 @@ impl Chunks {
     }
 }
 
-/// Capacity of a chunk's list of large particles (glsl/include/whitewater_cover.glsl); one invocation each processes
-/// the particles beyond it.
+/// Capacity of a chunk's list of large particles (glsl/include/whitewater_cover.glsl). A large particle that does not
+/// fit is processed by a single invocation, like a small one.
 const ROOM: u64 = 16_384;
 /// Bytes of a chunk's list: dispatch arguments and the number of large particles, then their indices.
 const LIST: u64 = 4 * (4 + ROOM);
@@ -194,7 +198,8 @@ struct Ways {
 }
 
 impl Covering {
-    /// `name` is that of its list. `constants` are the shader's own, with ids other than 1 to 3.
+    /// `name` is that of the list of large particles. `constants` are further specialization constants of the shader,
+    /// with ids other than 1 to 3.
     pub fn new(
         gpu: &Gpu,
         name: &str,
@@ -233,8 +238,8 @@ impl Covering {
         self.list.size
     }
 
-    /// Records all chunks. `arguments` are those of their dispatches, already visible. Results are accumulated by
-    /// atomics in any order, so no barrier is needed in between.
+    /// Records the dispatches over all chunks. `arguments` holds their indirect arguments, which are already visible.
+    /// Atomics accumulate the results in any order, so chunks need no barriers between them.
     pub fn record<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -260,7 +265,7 @@ impl Covering {
         let bound = |packets| [own, &[(9, packets), (10, Resource::buffer(&self.list))]].concat();
         // Bound but not read.
         let unread = Resource::Buffer(arguments, 0, 16);
-        // The frame's check has ensured that the configuration has them.
+        // The check of the frame has ensured that packets come only with a configuration for packets.
         let ways = &self.ways[usize::from(r.shaped)];
         match (particles.packets, &ways.packets) {
             (Some(Packets { buffer, offset, count }), Some(pipeline)) => {

@@ -1,5 +1,5 @@
-//! Part of pass `radiance`: the screen tiles that contain whitewater, over which light and shadow are computed.
-//! Not in the paper: most of a picture has none.
+//! Part of pass `radiance`: lists the screen tiles that contain whitewater. Light and shadow are computed only for
+//! these, because most of a picture has no whitewater. The paper has no such list.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -19,7 +19,7 @@ use crate::water::Recording;
 
 /// Number of halvings from pixels to tiles: tiles are 8×8 (glsl/include/whitewater_tiles.glsl).
 const LEVEL: u32 = 3;
-/// Arguments of an empty dispatch, followed by the tile count (same file).
+/// Arguments of an empty dispatch, followed by a tile count of 0 (glsl/include/whitewater_tiles.glsl).
 const NONE: [u32; 4] = [0, 0, 1, 0];
 /// State after the list is complete.
 const READ: Access = COMPUTE_READ.and(INDIRECT);

@@ -3,12 +3,12 @@
 //! particle-based fluids, 2012).
 //!
 //! A step finds the fluid's neighbours with a hashed grid, advances the whitewater particles, and emits new ones.
-//! Emission is summed in fixed-point steps, slots come from a prefix sum, and random numbers depend on ids. A sequence
-//! therefore gives the same particles in every run, however it is cut into jobs ([`Generator::record_save`]). There is
-//! one exception: if more than 256 fluid particles share a grid bucket, thirty times as many as water has in a cell,
-//! the order on the device decides which of them are visited. For a single frame a snapshot
-//! ([`Generator::record_snapshot`]) gives the whitewater that a steady flow would have left, by tracing each fluid
-//! particle back along the flow.
+//! Sums over neighbours are in fixed point, new particles get their slots in the buffers from a prefix sum, and
+//! random numbers depend on ids. A sequence therefore gives the same particles in every run, also if a run continues
+//! from a saved state ([`Generator::record_save`]). There is one exception: if more than 256 fluid particles share a
+//! bucket of the grid, thirty times as many as water has in a cell, their order on the device decides which of them
+//! are visited. For a single frame, a snapshot ([`Generator::record_snapshot`]) gives the whitewater that a steady
+//! flow would have left, by tracing each fluid particle back along the flow.
 //! Reads: the fluid's positions, velocities and ids. Writes: whitewater particles, potentials.
 
 mod passes;
@@ -35,7 +35,8 @@ struct GeneratorSlot {
     timer: Timer,
 }
 
-/// Emits the whitewater of one body of water from its particles, step by step. Views share it.
+/// Emits the whitewater of one body of water from its particles, step by step. Several views of the water can share
+/// it.
 pub struct Generator {
     gpu: Arc<Gpu>,
     config: GeneratorConfig,
@@ -93,10 +94,10 @@ impl Generator {
         self.record_any(cmd, step, false)
     }
 
-    /// Records a snapshot instead of a step: the whitewater in a steady state, as if the fluid had always moved as it
-    /// does now; previous steps do not count. The fluid is traced back along the flow to 15 times within the longest
-    /// lifetime, and whitewater emitted then is aged accordingly. [`GeneratorStep::dt`] has no effect. Steps may
-    /// follow.
+    /// Records a snapshot instead of a step: the whitewater of a steady state, as if the fluid had always moved as it
+    /// does now. It replaces the whitewater of earlier steps. Each fluid particle is traced back along the flow to 15
+    /// moments within the longest lifetime; foam emitted at a moment has the age since then. [`GeneratorStep::dt`]
+    /// has no effect. Steps may follow.
     ///
     /// # Errors
     /// Those of [`record_step`](Self::record_step).
@@ -175,18 +176,19 @@ impl Generator {
         Stream { buffer: own.handle, size, offset: 0, stride: stride as u32 }
     }
 
-    /// Potentials of each fluid particle of the last step, in its order, as four `f32`: trapped air, wave crest, energy
-    /// (in the units of [`GeneratorSettings`]) and number of neighbours. Particles with a non-finite or huge position
-    /// or velocity have zeros. The buffer has transfer-source usage.
+    /// Potentials of each fluid particle of the last step, in the order of its streams, as four `f32`: trapped air,
+    /// wave crest, energy (in the units of [`GeneratorSettings`]) and number of neighbours. A particle with a
+    /// non-finite or huge position or velocity has zeros. The buffer has transfer-source usage.
     pub fn potentials(&self) -> vk::Buffer {
         self.passes.buffers.potentials.handle
     }
 
-    /// Six `u32`: slots in the streams of [`particles`](Self::particles) that were ever used; fluid particles of the
-    /// last step; those of them with valid position and velocity; free slots before the step's emission; emitted
-    /// particles, including those lost for lack of slots; all particles ever emitted. The buffer has transfer-source
-    /// usage. Like the potentials, it is last written by a compute shader, after which compute shaders and copies may
-    /// read it.
+    /// Six `u32`. The first is the number of slots in the streams of [`particles`](Self::particles) that were ever
+    /// used. Then, for the last step: its fluid particles; those of them with valid position and velocity; slots that
+    /// were free before its emission, among the used ones; particles that it emitted, including those that found no
+    /// slot. The sixth is the number of particles that found no slot, in all steps. The buffer has transfer-source
+    /// usage. A compute shader writes it, as it does the potentials; after a step, compute shaders and copies may
+    /// read both.
     pub fn counts(&self) -> vk::Buffer {
         self.passes.buffers.counts.handle
     }
@@ -196,13 +198,13 @@ impl Generator {
         self.passes.size()
     }
 
-    /// Records a copy of the state after the last step into a buffer of the host.
-    /// [`record_restore`](Self::record_restore) restores it, here or in another run with the same
-    /// configuration, and the sequence continues as if it had not been interrupted.
+    /// Records a copy of the state after the last step into a buffer of the host. After
+    /// [`record_restore`](Self::record_restore), in this run or in another one with the same configuration, the
+    /// sequence continues from this state as if it had not been interrupted.
     ///
     /// # Safety
-    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on, and
-    /// no pending access. In addition those of [`record_step`](Self::record_step).
+    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on,
+    /// and no pending access. In addition those of [`record_step`](Self::record_step).
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         if std::mem::take(&mut self.fresh) {
             self.passes.record_clear(&self.gpu, cmd);
@@ -227,8 +229,9 @@ impl Generator {
         }
     }
 
-    /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before
-    /// it. Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore).
+    /// Reports that the last recorded step, which had this slot, was discarded instead of submitted: the state is
+    /// again that before the step. Earlier steps cannot be taken back, except by
+    /// [`record_restore`](Self::record_restore).
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(own) = self.slots.get_mut(slot.0 as usize) {
             own.timer.abandon();

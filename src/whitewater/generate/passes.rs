@@ -208,7 +208,8 @@ pub struct Buffers {
     buckets: Buffer,
     places: Buffer,
     motions: Buffer,
-    /// Surface normals; in a snapshot also its stages, once the normals have been used.
+    /// Surface normals. In a snapshot, they are later replaced by the numbers of whitewater particles that each fluid
+    /// particle emits at the moments to which it is traced back.
     normals: Buffer,
     /// Emission rate of each particle, relative to the maximum.
     rates: Buffer,
@@ -514,7 +515,7 @@ impl Passes {
             while first < fluid {
                 let others = [&Some(step.velocities), &step.ids];
                 let bound = Window::all(gpu, &step.positions, others, first);
-                // A stream that ends before the chunk has no particles in it: the count was clamped.
+                // If a stream ends before the chunk, the chunk has no particles: the count was clamped.
                 let Some((positions, [velocities, ids])) = bound else { break };
                 let chunk = self.chunk.min(fluid - first);
                 let own = [
