@@ -1,11 +1,12 @@
-//! Pass `back`: the surface of the back layer where the front layer covers it.
+//! Pass `back`: depth of the back layer, the farther of two layers of water, where the front layer covers it.
 //!
-//! Not in the thesis. It is one level coarser than the front layer's smoothing, with one sample per texel, because it
-//! is only seen through water. It joins the levels in the smoothing images, so every form of the smoothing processes
-//! it. Only tiles near a boundary that `thickness` has kept are computed. The nearest depth of each block of texels is
-//! found first, so that most spheres skip the texels.
-//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, depth of the back layer; for its levels both smoothing
-//! images, plan, each tile's work.
+//! Not in the thesis. This depth has half the resolution of the front layer's smoothing (one level coarser), with one
+//! sample per texel, because it is only seen through water. It is put into the smoothing images beside the front
+//! layer's levels, so every form of the smoothing processes it. Only tiles near a boundary (the depth that separates
+//! the two layers) are computed, if `thickness` has kept that boundary. The nearest boundary of each block of 16×16
+//! pixels is found first, so that most spheres need not be compared with each texel.
+//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, depth of the back layer; for its levels both
+//! smoothing images, plan, each tile's work.
 
 use ash::vk;
 
@@ -101,7 +102,7 @@ impl Back {
         Ok(())
     }
 
-    /// The smoothing resources are in the state in which `level` leaves them, before and after.
+    /// The smoothing resources in `into` are in the state in which pass `level` leaves them, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

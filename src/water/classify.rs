@@ -1,9 +1,11 @@
-//! Pass `classify`: surface foam by Weber number, once per simulation step (thesis Sec. 3.2; Listing A.14 culls
-//! hard where Sec. 3.2.1 lets a particle be both water and foam: here it is both).
+//! Pass `classify`: decides by Weber number which particles are surface foam, once per simulation step (thesis
+//! Sec. 3.2). A particle can be partly water and partly foam, as in Sec. 3.2.1 of the thesis; in its Listing A.14 it
+//! is one or the other.
 //!
-//! State is stored by particle id in a hash table. Each step writes a new table from the previous one, so particles may
-//! be reordered, appear and vanish, and the result does not depend on their order. A table larger than one binding is
-//! split into parts, each its own hash table; each step processes them one after the other.
+//! The state of each particle (foam and age) is stored by particle id in a hash table. Each step writes a new table
+//! from the previous one, so particles may be reordered, appear and vanish, and the result does not depend on their
+//! order. A table larger than one binding is split into parts, each its own hash table; each step processes the parts
+//! one after the other.
 //! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 use crate::gpu::memory::MemoryLocation;
@@ -30,10 +32,11 @@ pub const ROW: u64 = 20;
 const MOST_CHUNK: u32 = 1 << 21;
 /// Maximum bytes of a part: every device can bind this much, so a saved state fits any device.
 const MOST_PART: u64 = 1 << 27;
-/// Parts are multiples of this number of rows: 64 are 1280 bytes, a multiple of every device's offset
-/// alignment.
+/// If there are several parts, each has a multiple of this number of rows: 64 rows are 1280 bytes, a multiple of
+/// every device's offset alignment.
 const PART_UNIT: u64 = 64;
-/// Chunks are multiples of this number of particles, if there are several: the foam of 32 is 256 bytes.
+/// If there are several chunks of particles, each holds a multiple of this number: the foam of 32 particles is 256
+/// bytes, a multiple of every device's offset alignment.
 const CHUNK_UNIT: u32 = 32;
 /// Bytes of a particle's foam and age.
 const FOAM: u64 = 8;
@@ -107,7 +110,7 @@ struct Parts {
 impl Parts {
     /// The division for a number of particles and a maximum binding size.
     fn new(max_particles: u32, range: u32) -> Option<Self> {
-        // A load factor of two thirds keeps the searches short.
+        // At most two thirds of the rows are used, which keeps the searches in the hash table short.
         let rows = u64::from(max_particles) * 3 / 2 + 1;
         let whole = u64::from(range).min(MOST_PART) / ROW;
         let (rows, count) = if rows <= whole {

@@ -1,12 +1,13 @@
-//! Pass `cull`: the border between the host's particles and the library's (thesis Sec. 4.3).
+//! Pass `cull`: turns the host's particles into the library's list of visible spheres (thesis Sec. 4.3).
 //!
-//! Drops NaN and infinite particles, classifies low-density ones as spray, culls the rest against the frustum,
-//! and compacts the survivors to eye-space spheres of 16 bytes: small sprites from the front of the list, large
-//! ones from its back. Every later pass reads only that list, by indirect draws and dispatches. Unlike in the
-//! thesis the test runs on the GPU, and without packets each particle is tested.
+//! Drops particles with NaN or infinite positions, leaves out those of low density (they are spray), culls the rest
+//! against the frustum, and writes the survivors without gaps as eye-space spheres of 16 bytes: small sprites from
+//! the front of the list, large ones from its back. The passes that draw water read only this list, by indirect draws
+//! and dispatches. Unlike in the thesis the test runs on the GPU, and if the host gives no packets (groups of
+//! particles with a bounding box) each particle is tested.
 //!
-//! Particles beyond one storage-buffer range are processed in chunks, each with its own counts and its own part
-//! of the list.
+//! If the particles exceed the range of one storage-buffer binding they are processed in chunks, each with its own
+//! counts and its own part of the list.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -109,8 +110,8 @@ struct EndPush {
     most_groups: u32,
 }
 
-/// Number of particles of which a chunk holds a multiple: 16 spheres are 256 bytes, and so are 64 water shares, which
-/// exist with foam.
+/// A chunk's number of particles is a multiple of this, so that its part of each buffer begins at a multiple of 256
+/// bytes: 16 spheres are 256 bytes, and so are 64 water shares (one word per particle), which exist only with foam.
 pub fn chunk_unit(config: &Config) -> u32 {
     if config.surface_foam { 64 } else { 16 }
 }
@@ -148,7 +149,7 @@ fn goes_over_particles(config: &Config) -> bool {
         || config.light_map_size.is_some()
 }
 
-/// Bytes of a chunk's packet members: whole words, at offsets that every device can bind.
+/// Bytes of a chunk's bits for packet membership: a multiple of 256, so that every device can bind each chunk's part.
 fn member_bytes(chunk_size: u32) -> u64 {
     u64::from(chunk_size.div_ceil(8)).next_multiple_of(256)
 }
@@ -166,9 +167,10 @@ pub struct SphereList {
     /// Centre and radius of each sphere, followed by the shape of an ellipsoid (glsl/include/ellipsoid.glsl):
     /// small sprites from the front of each chunk's part, large ones from its back.
     pub spheres: Buffer,
-    /// The water share of each particle, if others are foam.
+    /// The fraction of each particle that is water; the rest is foam. `None` without foam.
     pub shares: Option<Buffer>,
-    /// One bit per host particle: whether it belongs to a packet. Used by passes that read the host's particles again.
+    /// One bit per host particle: whether it belongs to a packet. Used by passes that read the host's particles
+    /// again.
     pub members: Option<Buffer>,
     pub chunk_size: u32,
     pub chunks: u32,
@@ -223,7 +225,8 @@ impl SphereList {
         })
     }
 
-    /// The same, with shares if the configuration has foam, and members if passes need them.
+    /// A list for the host's particles: as [`new`](Self::new), with water shares if the configuration has foam, and
+    /// with packet members if later passes read the host's particles again.
     fn of_host(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
         let mut list = Self::new(gpu, config, name)?;
         if goes_over_particles(config) {
@@ -314,7 +317,8 @@ impl Cull {
         })
     }
 
-    /// Clears a list: sets its counts to 0, or to those of `count`.
+    /// Begins a list: sets its number of spheres to 0, and its number of particles to `count` or to that in
+    /// `host_count`.
     fn record_begin(
         &self,
         r: &Recording<'_>,
@@ -370,8 +374,8 @@ impl Cull {
         self.record_end(r, list)
     }
 
-    /// `small_limit` is the max size of small sprites in pixels. With `inside`, small ones need their centre on the
-    /// screen.
+    /// `small_limit` is the maximum size of small sprites in pixels. With `inside`, a sprite whose centre is not on
+    /// the screen counts as large, whatever its size.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -503,12 +507,13 @@ impl Cull {
     }
 }
 
-/// Number of particles for which every stream holds a value, at most `max_particles`.
+/// Number of particles for which every stream holds a value, limited to `max_particles`.
 pub fn most(particles: &Particles, max_particles: u32) -> u32 {
     streams(particles).map(capacity).fold(max_particles, u32::min)
 }
 
-/// Number of particles for which a stream holds a value of `bytes` bytes; the last one needs no full stride.
+/// Number of particles for which a stream holds a value of `bytes` bytes. After the last value the stream may end
+/// before a full stride.
 pub fn capacity((stream, bytes): (&Stream, u64)) -> u32 {
     match stream.size.saturating_sub(stream.offset).checked_sub(bytes) {
         Some(left) => u32::try_from(left / u64::from(stream.stride.max(4)) + 1).unwrap_or(u32::MAX),
@@ -550,7 +555,7 @@ fn streams(particles: &Particles) -> impl Iterator<Item = (&Stream, u64)> {
     all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
 }
 
-/// The bindable part of a stream from a particle on.
+/// The part of a stream that is bound: it begins at a given particle, and is as long as a binding may be.
 #[derive(Clone, Copy)]
 pub struct Window {
     pub resource: Resource,
@@ -561,7 +566,8 @@ pub struct Window {
 }
 
 impl Window {
-    /// `None` if the stream ends before the first particle: the count was clamped, and there is none.
+    /// `None` if the stream ends before the particle `first`. The number of particles was limited to what the streams
+    /// hold, so there is nothing to process then.
     pub fn new(gpu: &Gpu, stream: &Stream, first: u32) -> Option<Self> {
         let start = stream.offset + u64::from(first) * u64::from(stream.stride);
         let aligned = start - start % gpu.limits.min_storage_buffer_offset_alignment.max(4);
@@ -576,8 +582,8 @@ impl Window {
         })
     }
 
-    /// Windows of a stream and of optional ones. An absent stream is replaced by the first, which is bound and
-    /// not read. `None` if any ends before the first particle.
+    /// Windows of `stream` and of optional other streams. In place of an absent stream, `stream` is bound and not
+    /// read. `None` if any present stream ends before the particle `first`.
     pub fn all<const N: usize>(
         gpu: &Gpu,
         stream: &Stream,
@@ -599,7 +605,7 @@ impl Window {
 mod tests {
     use super::*;
 
-    /// Chunks are multiples of the unit and hold all particles; there are as few as the device can bind.
+    /// Each chunk holds a multiple of the unit, and together they hold all particles. No chunk is empty.
     #[test]
     fn any_number_of_particles_has_its_chunks() {
         let range = 1 << 27;

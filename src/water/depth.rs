@@ -1,8 +1,8 @@
 //! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
 //!
 //! It computes the exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a billboard by
-//! N_z·r, which is wrong off the axis and near the camera. Two paths give the same picture: sprites with MIN blending,
-//! and a compute shader with integer atomics on the same image.
+//! N_z·r, which is wrong off the axis and near the camera. Two paths give the same picture: sprites with MIN
+//! blending, and a compute shader with integer atomics on the same image.
 //! Reads: the list of `front`. Writes: depth, R32F, EMPTY where there is no water.
 
 use ash::vk;
@@ -134,7 +134,8 @@ impl Depth {
         matches!(self.path, Path::Raster { .. })
     }
 
-    /// Max size of small sprites in pixels: that of a point, or the largest that one invocation should process.
+    /// Maximum size in pixels of a small sprite: the largest that can be drawn as a point, or on the compute path the
+    /// largest that one invocation should process.
     pub fn point_limit(&self, gpu: &Gpu) -> f32 {
         match self.path {
             // The max point size, less the footprint's margin and the snapping.
@@ -187,7 +188,7 @@ impl Depth {
     }
 }
 
-/// Faster than sprites, on lavapipe at every size and on an H200 (docs/performance.md).
+/// The compute path is faster than sprites, on lavapipe at every size and on an H200 (docs/performance.md).
 pub const DEFAULT_SPLAT: Splat = Splat::Compute;
 
 /// Draws the sprites of all chunks inside a render pass: points, then quads.
@@ -221,7 +222,7 @@ pub fn draw_sprites(
     Ok(())
 }
 
-/// Dispatches the sprites of all chunks: one invocation per small one, one group per large one.
+/// Dispatches over the sprites of all chunks: one invocation per small sprite, one workgroup per large sprite.
 pub fn dispatch_sprites(
     r: &mut Recording<'_>,
     list: &SphereList,

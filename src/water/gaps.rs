@@ -1,15 +1,20 @@
-//! Pass `gaps`: the boundary between two layers of water with air between.
+//! Pass `gaps`: for each texel of the thickness the boundary between two layers of water: a depth in the air that
+//! lies between them.
 //!
-//! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its
-//! limitation, Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool. Each
-//! cell of 8×8 pixels has 256 depth slices of an eighth of a spacing, from its nearest sphere on: 32 spacings. The last slice holds all water farther away, so air in
-//! it is not found. Every sphere marks the
-//! slices that it fills; a run of unmarked slices between marked ones is air. Marks need no sorting: a cell is nine
-//! words, written with atomics, for any number of particles. Cells without air borrow that of one beside them. A texel of the thickness takes
-//! the first wide air behind the surface that it shows and before a body of water; its cells vote, with bilinear
-//! weights. So a drop before a crown before a pool has the crown behind it, and the crown beside the drop the
-//! pool. Where the layers touch, the water that `thickness` finds at the boundary merges them smoothly and
-//! removes it.
+//! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its limitation,
+//! Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool.
+//!
+//! In each cell of 8×8 pixels, depth is divided into 256 slices of an eighth of a spacing. They begin at the cell's
+//! nearest sphere and reach 32 spacings. Every sphere marks the slices that it fills; a run of unmarked slices
+//! between marked ones is air. Water beyond the 32 spacings counts as in the last slice, so air there is not found.
+//! Marks need no sorting: a cell is nine words, written with atomics, for any number of particles. A cell without air
+//! copies the air of a cell beside it.
+//!
+//! A texel of the thickness chooses the first wide air that lies behind the surface that the texel shows and in front
+//! of a body of water. The four cells around the texel vote with bilinear weights. If a drop flies in front of a
+//! crown of water in front of a pool, the boundary at the drop lies between drop and crown, and beside the drop
+//! between crown and pool. Where two layers touch, `thickness` finds water around the boundary; there `composite`
+//! merges them smoothly.
 //! Reads: the lists of `front` and `cull`, depth. Writes: boundaries, the farthest of each block of texels.
 
 use crate::gpu::memory::MemoryLocation;
@@ -60,12 +65,12 @@ pub struct Gaps {
     spread: Pipeline,
     texels: Pipeline,
     farthest: Pipeline,
-    /// Nearest depth of every cell, then its marks.
+    /// Nearest depths of all cells, then the marks of all cells.
     cells: Buffer,
-    /// Airs of every cell, as found and as dilated.
+    /// Runs of slices with air of every cell: as found, and after cells without air have copied those of a neighbour.
     found: Buffer,
     spread_out: Buffer,
-    /// Eye depth between the two layers of each thickness texel; EMPTY where there is only one.
+    /// Boundary of each thickness texel: an eye depth between its two layers; EMPTY where there is only one layer.
     pub boundaries: Buffer,
     /// Farthest boundary of each block of 16×16 pixels, for `thickness`.
     pub blocks: Buffer,
@@ -159,7 +164,8 @@ impl Gaps {
         Ok(())
     }
 
-    /// The nearest sphere of a cell is always among the visible ones. `reduce` has not yet cut the depth at the scene.
+    /// `front` is the list of the spheres that can be visible, which suffices for the nearest sphere of each cell;
+    /// `all` is the list of all spheres. `depth` still contains water behind the scene, which `reduce` removes later.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -1,11 +1,13 @@
-//! Pass `level`: repeats the reduction at coarser resolutions, for water so near that its iterations would exceed
-//! the cap. Each pixel shows the level that its distance selects, or blends two levels.
+//! Pass `level`: repeats pass `reduce` at coarser resolutions (levels of the smoothing), for water so near to the
+//! camera that smoothing it at the configured resolution would exceed the cap on iterations. Each pixel shows the
+//! level that its distance selects, or blends two levels.
 //!
 //! Not in the thesis, whose cap leaves near water rough. The next coarser level needs a quarter of the iterations for
-//! the same width. The levels share the smoothing images, also with those of the back layer (pass `back`). The tile
-//! list holds the tiles of all levels, so every form of the smoothing processes all of them in one dispatch or draw.
-//! Reads: depth, each tile's work. Writes: marks and list of the required tiles, the coarsest required level; for those
-//! tiles both smoothing images, plan, each tile's work.
+//! the same width. All levels, including those of the back layer (pass `back`), lie beside each other in the
+//! smoothing images. The tile list holds the tiles of all levels, so every form of the smoothing processes all of
+//! them in one dispatch or draw.
+//! Reads: depth, each tile's work. Writes: marks and list of the required tiles, the coarsest required level; for
+//! those tiles both smoothing images, plan, each tile's work.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -33,15 +35,18 @@ use crate::water::settings::{Rule, WaterSettings};
 pub const MOST_COARSENING: u32 = 3;
 /// Index of the back layer's first level.
 const BACK: usize = 4;
-/// Fraction of the maximum iterations at which the next coarser level begins to fade in; from twice that fraction on,
-/// only the coarser level is shown. Between the two, the smoothing is 6 to 8 texels wide. These are 3 to 4 texels of
-/// the coarser level, so it still resolves all detail that the smoothing leaves on the surface.
+/// Fraction of the maximum number of iterations at which the next coarser level begins to fade in. At twice this
+/// fraction and above, only the coarser level is shown. In between, the width of the smoothing is 6 to 8 texels of
+/// the finer level, and so 3 to 4 texels of the coarser one, which therefore resolves all detail that the smoothing
+/// leaves.
 const FADE: f32 = 0.25;
 
-/// Initial value of `Marked` (glsl/include/level.glsl): no groups in x, one in y and z, no tile, no level.
+/// Initial value of `Marked` (glsl/include/level.glsl): a dispatch of no groups in x and one in y and z, no marked
+/// tile, no coarser level needed.
 pub const NONE_MARKED: [u32; 5] = [0, 1, 1, 0, 0];
 
-/// Number of coarser levels of a configuration; 0 for the other rules, which keep the thesis' cap.
+/// Number of coarser levels of a configuration. It is 0 unless the rule is [`Rule::ConstantWidth`]: the other rules
+/// keep the thesis' cap.
 pub fn coarsening(config: &Config) -> u32 {
     if config.rule == Rule::ConstantWidth { config.coarsening } else { 0 }
 }
@@ -78,9 +83,9 @@ fn in_rows(sizes: &[(usize, vk::Extent2D)]) -> Placed {
     (extent, origins)
 }
 
-/// Places the levels, the largest first, where the image grows least: to the right of a placed one or at the
-/// left edge, and below one or at the top. `None` if a level does not fit in an image of at most `most` texels per
-/// side.
+/// Places the levels, the largest first, each where the image grows least. Candidates are the left edge and the right
+/// edges of the placed levels in x, the top and their bottom edges in y. `None` if a level does not fit in an image
+/// of at most `most` texels per side.
 fn anywhere(sizes: &[(usize, vk::Extent2D)], most: u32) -> Option<Placed> {
     let (mut extent, mut origins) = ([0; 2], [[0; 2]; 7]);
     let mut taken: Vec<[[u32; 2]; 2]> = Vec::new();
@@ -119,9 +124,9 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// Lays the levels out in rows: the first level in one row, the others beside each other up to its width. If these
-    /// rows are too high for the device's images, levels are placed wherever they fit; if they do not fit at all, the
-    /// layout exceeds the limit.
+    /// Lays the levels out in rows: the first level in one row, below it the others, beside each other in rows no
+    /// wider than the first. If the rows together are higher than `most` texels, levels are placed wherever they fit;
+    /// if they do not fit at all, the layout exceeds this limit.
     pub fn new(config: &Config, most: u32) -> Self {
         let first = reduced(config.extent, config.smoothing_level);
         let sizes: Vec<_> = levels(config)
@@ -225,7 +230,8 @@ impl Level {
         })
     }
 
-    /// Both smoothing images and the plan are in the state in which `reduce` wrote them, before and after.
+    /// Before and after, both smoothing images and the plan (iteration count and step of each pixel) are in the state
+    /// in which `reduce` wrote them.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -287,7 +293,8 @@ impl Level {
                     (9, Resource::buffer(&tiles.list)),
                 ],
             )?;
-            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound; the groups are visible (barrier).
+            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound; the groups are visible
+            // (barrier).
             unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.marked.handle, 0) };
         }
         gpu.barriers(
@@ -315,7 +322,7 @@ impl Level {
 mod tests {
     use super::*;
 
-    /// Checks that levels are separate by whole tiles, that the first is at the corner, and that none exceeds the
+    /// Checks that no two levels share a tile, that the first level is at the corner, and that none exceeds the
     /// device's limit.
     fn assert_placed(config: &Config, most: u32) {
         let atlas = Atlas::new(config, most);

@@ -63,7 +63,8 @@ pub(crate) fn smoothing_extent(config: &Config, limits: &vk::PhysicalDeviceLimit
     level::Atlas::within(config, limits).extent
 }
 
-/// Bytes of the largest buffer that is bound as a whole, besides the sums of thickness and the words of foam.
+/// Bytes of the largest buffer that is bound as a whole, apart from the compute path's sums of thickness
+/// ([`thickness_bytes`]) and its words of foam ([`foam_bytes`]).
 pub(crate) fn water_bytes(config: &Config) -> u64 {
     let gaps = if config.sheets > 1 { gaps::bytes_bound(config) } else { 0 };
     gaps.max(front::cell_bytes(config.extent)).max(split::list_bytes(config))
@@ -85,8 +86,8 @@ pub(crate) struct Recording<'a> {
     pub bubbles: Resource,
     /// The uniforms of shoreline and contact foam.
     pub shore: Resource,
-    /// Whether whitewater uses the paper's falloff behind the water's surface, or shapes, lives or sizes other
-    /// than the paper's.
+    /// Whether whitewater particles have shapes, lifetimes or sizes other than the paper's, or the paper's falloff
+    /// behind the water's surface.
     pub shaped: bool,
     /// Distances of the cross-fade from whitewater sprites to blobs; `None` without it.
     pub crossfade: Option<Resource>,
@@ -126,9 +127,10 @@ impl Recording<'_> {
 /// Other techniques whose passes are interleaved with the water's.
 #[derive(Clone, Copy)]
 pub(crate) struct Beside<'a> {
-    /// The light's maps, which use the counts of `cull`.
+    /// The maps rendered from the sun, which use the counts of `cull`.
     pub light: Option<&'a Light>,
-    /// Whitewater. Foam and blobs have to be drawn before tile classification, which also lists their tiles.
+    /// Whitewater (spray, foam and bubbles as particles of their own). It and the blobs of bubble foam have to be
+    /// drawn before `reduce`, so that the tiles in which they appear are listed too.
     pub whitewater: Option<(&'a Whitewater, Option<&'a WhitewaterParticles>)>,
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
     /// [`SpraySettings::strand_ratio`].
@@ -273,7 +275,7 @@ impl Water {
         };
         let shaped = self.shape.as_ref().map(|own| own.record(r, particles, &look)).transpose()?;
         let drawn = shaped.as_ref().unwrap_or(particles);
-        // The host's particles with what follows from their neighbours.
+        // The host's particles, with the surface foam and densities that `shape` has changed.
         let Particles { surface_foam, densities, .. } = *drawn;
         let particles = &Particles { surface_foam, densities, ..*particles };
         self.cull.record(r, drawn, self.depth.point_limit(r.gpu), self.depth.uses_points())?;

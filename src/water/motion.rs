@@ -3,14 +3,18 @@
 //! Not in the sources. A motion vector is the position of the visible point in this frame minus its position in the
 //! previous frame, in pixels of the frame (row 0 on top). For water and foam it contains the surface's own motion and
 //! the camera's. For the scene it contains only the camera's motion, at the scene's depth or, for the background, at
-//! infinity (only rotation). The surface's motion is the thickness-weighted mean velocity of the particles near it,
-//! fully within one radius behind the frontmost and fading out at three. It is not the motion of what is visible
-//! through the water. Sums are integers at the resolution of the thickness, for the nearest and the farthest surface in
-//! each texel, so that both sides of an outline keep their motion; a pixel takes the one of its own surface. Spray has
-//! no motion of its own: a pixel with droplets has the motion of the surface behind them.
+//! infinity (only rotation). A pixel with water has the motion of the front surface, not of what is visible through
+//! the water. It has the motion of foam if the foam's opacity is at least a half. Spray has no motion of its own: a
+//! pixel with droplets has the motion of the surface behind them.
 //!
-//! The format is RG32F: half floats would be wrong by a thirty-second of a pixel at a hundred pixels and by half a
-//! pixel at a thousand. A pixel has the motion of foam if the foam's opacity is at least a half.
+//! The surface's own motion is the mean velocity of the particles near it, weighted by the thickness that each adds.
+//! A particle counts fully if its depth differs from the surface's by at most one drawn radius, and not at all from
+//! three radii. Sums are integers at the resolution of the thickness, one set for the nearest and one for the
+//! farthest surface of each texel's pixels, so that both sides of an outline keep their motion: a pixel uses the set
+//! of its own surface.
+//!
+//! The format is RG32F: with half floats a vector of a hundred pixels could be wrong by a thirty-second of a pixel,
+//! one of a thousand pixels by half a pixel.
 //! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene depth.
 //! Writes: motion, RG32F, every pixel.
 
@@ -89,7 +93,7 @@ pub struct Motion {
     level: u32,
 }
 
-/// Number of surfaces distinguished per texel: one if a texel is a pixel.
+/// Number of surfaces with sums of their own in a texel: the nearest and the farthest, or one if a texel is a pixel.
 fn surfaces(level: u32) -> u32 {
     if level == 0 { 1 } else { 2 }
 }
@@ -104,8 +108,8 @@ fn sum_bytes(config: &Config, level: u32) -> u64 {
     32 * u64::from(surfaces(level)) * texels(config, level)
 }
 
-/// Number of halvings of the resolution: that of the thickness, or the next larger one at which the sums fit in one
-/// binding.
+/// Number of times that the resolution of the sums is halved: as often as the resolution of the thickness, or more
+/// often if the sums would not fit in one binding otherwise.
 fn level(gpu: &Gpu, config: &Config) -> u32 {
     let range = u64::from(gpu.limits.max_storage_buffer_range);
     (config.thickness_level..32).find(|level| sum_bytes(config, *level) <= range).unwrap_or(32)

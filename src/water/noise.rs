@@ -1,14 +1,15 @@
 //! Pass `noise`: the baseline's surface noise (van der Laan, Green, Sainz, I3D 2009, as described in the
 //! thesis, Sec. 2.5): detail finer than the particles, which moves with them.
 //!
-//! Each particle has one octave of gradient noise under a Gaussian, fixed to it by its id, which fades with its
-//! depth below the surface. The sum is a height on the front surface: `composite` turns its normals by it and,
-//! as the baseline's foam, adds grey by its magnitude (glsl/include/ripples.glsl).
+//! Each particle has one octave of gradient noise under a Gaussian. The particle's id selects its noise, which moves
+//! with the particle and fades with the particle's depth below the surface. The sum over the particles is a height on
+//! the front surface. `composite` turns the surface's normals by the slope of this height and, as the baseline's
+//! foam, adds grey in proportion to its magnitude (glsl/include/ripples.glsl).
 //!
-//! Choices where the description of the baseline leaves them open: the pattern is aligned with the world's
-//! axes; the surface is that of the unsmoothed spheres; the depth below it is that of a particle's nearest
-//! point, so that particles at the surface count fully; sums use fixed-point steps, so that the order does not
-//! matter. The noise has zero mean: a calm pool has as much of it as a fall.
+//! The description of the baseline leaves some choices open. Here the noise is aligned with the world's axes, and the
+//! surface is that of the unsmoothed spheres. The depth below it is that of a particle's nearest point, so particles
+//! at the surface count fully. Sums use fixed-point steps, so the order of the particles does not matter. The noise
+//! has a mean of zero and does not depend on motion: a calm pool has as much of it as a waterfall.
 //! Reads: the counts of `cull`, the host's particles, water depth. Writes: noise, R32F, 0 where there is no
 //! water.
 
@@ -119,7 +120,8 @@ impl Noise {
         &self.target.image
     }
 
-    /// `list` is the one of `cull`, read for its counts. `depth` is the water's depth, sampled by fragment shaders.
+    /// `list` is the list of `cull`, whose counts are read. `depth` is the water's depth, sampled by fragment
+    /// shaders.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

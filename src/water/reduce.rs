@@ -1,6 +1,7 @@
-//! Pass `reduce`: rejects water behind the scene, downsamples the depth to the resolution of the smoothing
-//! (nearest of each block, as the thesis' downsampling, Sec. 4.7), and computes each pixel's iteration count
-//! and step from the unsmoothed depth.
+//! Pass `reduce`: removes water behind the scene from the depth, and downsamples the depth to the resolution of the
+//! smoothing: to the nearest depth of each block of pixels, as in the thesis (Sec. 4.7), but in blocks of 4×4 pixels
+//! or more not to the depth of a single drop. From this unsmoothed depth it computes the plan: each pixel's number of
+//! smoothing iterations and their step size.
 //!
 //! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan, each tile's
 //! work; clears the work of the coarser levels' tiles and the counters of `level`.
@@ -32,7 +33,7 @@ pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 /// Depths that are reduced.
 pub struct Depths<'a> {
     pub water: &'a Image,
-    /// Depth of foam and spray; tiles with either are drawn too.
+    /// Depth of foam, and the image of spray: tiles with either are shaded too, even without water.
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
     /// Whitewater depth.

@@ -1,15 +1,16 @@
 //! Pass `shape`: replaces each particle's sphere by an ellipsoid (Yu and Turk, Reconstructing surfaces of
-//! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4): flat in sheets,
-//! elongated in streams, round inside, so that thin water is one body instead of a heap of balls.
+//! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4): flat in thin sheets
+//! of water, elongated in streams, round inside, so that thin water is one body instead of a heap of balls.
 //!
 //! Not in the thesis. Neighbours are found with a hashed grid, rebuilt each frame. The weighted covariance of
 //! the neighbours within reach is diagonalised by a fixed number of Jacobi rotations. An ellipsoid has its
-//! sphere's volume, so thickness stays in metres; the paper scales by a kernel constant. A sphere becomes an
-//! ellipsoid gradually with the weights of its neighbours; the paper keeps a sphere up to a number of neighbours.
+//! sphere's volume, so thickness stays in metres; the paper scales by a kernel constant. A sphere changes gradually
+//! to an ellipsoid as the sum of its neighbours' weights grows; in the paper the sphere is kept up to a number of
+//! neighbours and then replaced.
 //!
-//! The pass runs once per frame before `cull`, which reads the result instead of the host's positions. The result does
-//! not depend on the view. An optional last part makes particles with few neighbours spray without surface
-//! foam.
+//! The pass runs once per frame before `cull`, which reads the result instead of the host's positions. The result
+//! does not depend on the view. In an optional last part, particles with few neighbours lose their surface foam and
+//! get a density so low that they are spray.
 //! Reads: positions, surface foam, densities. Writes: the grid, shaped, foam, densities.
 
 use crate::gpu::memory::MemoryLocation;
@@ -144,14 +145,14 @@ pub struct ShapeSettings<'a> {
     pub spacing: f32,
 }
 
-/// What particles with few neighbours are.
+/// How particles with few neighbours lose their surface foam and become spray.
 #[derive(Clone, Copy)]
 pub struct Crowd {
     /// [`SurfaceFoamSettings::few_neighbours`](super::SurfaceFoamSettings::few_neighbours).
     pub foam: [f32; 2],
     /// [`SpraySettings::few_neighbours`](super::SpraySettings::few_neighbours).
     pub spray: [f32; 2],
-    /// Highest density of a particle without neighbours.
+    /// Density to which that of a particle without neighbours is limited.
     pub alone: f32,
 }
 
@@ -177,7 +178,7 @@ pub fn bytes_bound(config: &Config) -> u64 {
     }
 }
 
-/// Descriptor sets of the pass: its own, those of the scan, two per chunk, with foam or spray three.
+/// Number of descriptor sets of the pass: two, those of the scan, and per chunk two, or three with foam or spray.
 pub fn sets(config: &Config, chunks: u32) -> u32 {
     let each = 2 + u32::from(config.surface_foam || config.spray);
     if is_on(config) { 2 + scan::SETS + each * chunks } else { 0 }
@@ -205,7 +206,8 @@ pub struct Shape {
     /// Position and shape of each particle, in the host's order.
     pub shaped: Buffer,
     crowd: Pipeline,
-    /// Surface foam that the particles keep, and their densities, if the renderer draws foam and spray.
+    /// Surface foam of the particles after those with few neighbours have lost theirs, if the renderer draws foam;
+    /// and densities after the last part has lowered some, if it draws spray.
     foam: Option<Buffer>,
     densities: Option<Buffer>,
     many: u32,
@@ -244,8 +246,8 @@ impl Shape {
     }
 
     /// Returns the particles with `shaped`, which holds positions and shapes, in place of the host's positions, and
-    /// with the surface foam and densities that follow from their neighbours. The other streams are the host's. Compute
-    /// shaders can read all streams, vertex shaders all but the positions.
+    /// with surface foam and densities changed where a particle has few neighbours. The other streams are the host's.
+    /// Afterwards compute shaders can read all streams, vertex shaders all but the positions.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -326,8 +328,8 @@ impl Shape {
         Ok(Particles { positions, before: COMPUTE_READ, ..found })
     }
 
-    /// Returns the particles with the surface foam and the densities that follow from their neighbours, in place of
-    /// the host's where the settings ask for it.
+    /// Returns the particles with surface foam and densities changed where a particle has few neighbours; where the
+    /// settings do not ask for that, with the host's.
     fn record_crowd(
         &self,
         r: &Recording<'_>,
@@ -393,8 +395,8 @@ impl Shape {
         Ok(Particles { surface_foam, densities, ..*particles })
     }
 
-    /// Number of particles, or their maximum; 1 if the number is in the returned buffer. If the host knows the number,
-    /// any buffer can be bound.
+    /// Number of particles, or their maximum; 1 if the number is in the returned buffer. If the host knows the
+    /// number, any buffer can be bound.
     fn count_of(&self, particles: &Particles, most: u32) -> (u32, u32, Resource) {
         match particles.count {
             Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),

@@ -1,9 +1,10 @@
 //! Pass `smooth`: adaptive curvature flow (thesis Sec. 3.1 and 4.7; van der Laan et al. 2009).
 //!
-//! Two images are swapped with each iteration. Three forms do the same arithmetic on the same plan and give the same
-//! surface, in image `a`: one dispatch per iteration over the tiles with work left, several iterations per dispatch in
-//! shared memory, or the thesis' raster passes, ended by an occlusion query (in `smooth_query`). The GPU makes the
-//! decisions that the thesis makes on the CPU.
+//! Each iteration reads one of two images and writes the other. Each pixel's number of iterations and their step size
+//! (the plan) are known in advance. Three forms do the same arithmetic and give the same surface, in image `a`: one
+//! dispatch per iteration over the tiles that still have active pixels; several iterations per dispatch in shared
+//! memory; or the thesis' raster passes, ended by an occlusion query (in `smooth_query`). The GPU makes the decisions
+//! that the thesis makes on the CPU.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
@@ -149,16 +150,17 @@ impl Smooth {
         Ok(())
     }
 
-    /// One dispatch per iteration over the tiles with work left. A tile runs one iteration more than it needs, which
-    /// copies its pixels. Its result is then in both images, so neighbours can read either one in later iterations.
+    /// One dispatch per iteration over the tiles that still have active pixels. A tile runs one iteration more than
+    /// it needs: this one copies its pixels, so that its result is in both images, and neighbouring tiles can read
+    /// either image in later iterations.
     fn record_tiles(
         &self,
         r: &mut Recording<'_>,
         pipeline: &Pipeline,
         work: &Work<'_>,
     ) -> Result<(), Error> {
-        // One more than the max number of iterations, for the copies; even, so that the images end in their initial
-        // roles.
+        // One dispatch more than the max number of iterations, for the copies. The number is even, so that the result
+        // ends in image `a`.
         let dispatches = (self.iterations + 1).next_multiple_of(2).min(256);
         self.record_dispatches(r, pipeline, work, dispatches, |r, index| {
             let push = TilesPush { iteration: index + 1, columns: work.tiles.atlas.columns };
@@ -186,8 +188,8 @@ impl Smooth {
         })
     }
 
-    /// Dispatches that alternately read one image and write the other. `push` returns the constants of a
-    /// dispatch and its arguments.
+    /// Records dispatches that read one image and write the other, in turns. `push` returns the push constants of a
+    /// dispatch and the index of its indirect arguments.
     fn record_dispatches(
         &self,
         r: &mut Recording<'_>,

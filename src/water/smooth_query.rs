@@ -1,10 +1,10 @@
-//! Pass `smooth`, form Query: the thesis' raster passes, ended by an occlusion query every fifth iteration
-//! (Sec. 4.7, Listing A.11), decided on the GPU alone.
+//! Pass `smooth`, form Query: the thesis' raster passes, which end when an occlusion query every fifth iteration
+//! finds no active pixel (Sec. 4.7, Listing A.11). Here the GPU alone decides that.
 //!
-//! A block is five iterations and a copy back, so that the result is always in the same image. Its fifth iteration
-//! counts the pixels that are still active, with a separate draw without colour writes. One invocation converts the
-//! count to the predicate of the next block. How the predicate skips the block depends on the gate; a skipped block
-//! costs only its empty render passes.
+//! A block is five iterations and a copy back, so that the result is always in the same image. In the fifth iteration
+//! a separate draw without colour writes counts the pixels that are still active. One shader invocation converts the
+//! count to the predicate of the next block: 1 if the block runs, 0 if it is skipped. By which Vulkan mechanism the
+//! predicate skips the block is selected by the gate ([`Gate`]). A skipped block costs only its empty render passes.
 //! Reads: smoothing images, plan, tile list. Writes: smoothing images, query results, predicates.
 
 use crate::gpu::memory::MemoryLocation;
@@ -32,7 +32,8 @@ use crate::water::settings::{Gate, Rule};
 
 /// Iterations per block: the thesis' query interval.
 pub const BLOCK: u32 = 5;
-/// Bytes per predicate, so that each can be bound, or used as a count or predicate, separately.
+/// Distance between two predicates in bytes: large enough to bind each of them, or to use it as a draw count, on its
+/// own.
 const PREDICATE_STRIDE: u64 = 256;
 
 #[repr(C)]
@@ -54,7 +55,7 @@ pub struct Query {
     copy: Pipeline,
     write_gate: Pipeline,
     pool: Owned<vk::QueryPool>,
-    /// Samples active in iterations 5, 10, …; 0 for blocks that did not run.
+    /// Number of pixels active in the fifth iteration of each block; 0 for blocks that did not run.
     pub results: Buffer,
     /// One word per block, [`PREDICATE_STRIDE`] apart.
     pub predicates: Buffer,
@@ -184,7 +185,7 @@ impl Query {
         }
     }
 
-    /// The images are in GENERAL before; both are sampled by fragment shaders after.
+    /// Before, both images are in the layout GENERAL; after, fragment shaders can sample both.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -194,8 +195,9 @@ impl Query {
         let Work { plan, tiles } = work;
         let (gpu, cmd) = (r.gpu, r.cmd);
         let by_host = r.read_back.is_some();
-        // All three pipelines have the same bindings and push constants. Only the gate in the vertex shader reads
-        // predicates in a shader; for the others the barrier must not include it.
+        // All three pipelines have the same bindings and push constants. Only with the gate VertexCull a shader reads
+        // the predicates; with the others the tile list stands in, because their barriers make the predicates visible
+        // to no shader.
         let shader_predicates = match self.gate {
             Gate::VertexCull => Resource::buffer(&self.predicates),
             Gate::DrawCount | Gate::Predicate => Resource::buffer(&tiles.list),
@@ -246,7 +248,8 @@ impl Query {
         }
         gpu.barriers(cmd, &[], &[buffer(self.predicates.handle, CLEAR, self.gate_use())]);
 
-        // If the host stops recording, no gate is needed, and the first predicate, which is always set, is used.
+        // If the host reads the queries and ends the recording itself, no gate is needed: every block uses the first
+        // predicate, which is always 1.
         let gate_of = |block| if by_host { 0 } else { block };
         for block in 0..self.blocks {
             for k in 0..BLOCK {
@@ -291,9 +294,9 @@ impl Query {
         Ok(())
     }
 
-    /// lavapipe up to 22.3 applies the count buffer of the last counted draw to every later indirect draw of the
-    /// command buffer. An empty draw with a count of one limits the damage: only a host's own multi-draws are then
-    /// wrong.
+    /// Works around a bug of lavapipe up to 22.3, which applies the count buffer of the last `drawIndirectCount` to
+    /// every later indirect draw of the command buffer. After an empty draw with a count of 1, only later indirect
+    /// draws of more than one command remain wrong, which the library does not record but a host may.
     fn forget_draw_count(&self, r: &Recording<'_>, image: &Image) {
         self.begin(r, image, 0);
         // SAFETY: inside a render pass; the copy's pipeline, set and constants are still bound;

@@ -1,10 +1,10 @@
-//! Pass `split`: sorts the tiles with water by whether they hold two layers, foam, and coarser smoothing
-//! levels.
+//! Pass `split`: sorts the tiles with water into eight lists, by whether they hold two layers of water, foam, and
+//! coarser smoothing levels.
 //!
-//! Not in the thesis. Shading two layers costs twice as much as shading one, and foam adds half. With a single shader a
-//! CPU, and partly a GPU, would pay that cost in every tile.
-//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the arguments of
-//! `composite`.
+//! Not in the thesis. Shading two layers costs twice as much as shading one, and foam adds another half. With a
+//! single shader for all tiles a CPU, and partly a GPU, would pay that cost in every tile.
+//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the arguments
+//! of `composite`.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -38,8 +38,8 @@ pub const DISPATCHES: u64 = 16 * KINDS as u64;
 pub struct Split {
     split: Pipeline,
     end: Pipeline,
-    /// Tiles of each kind: one layer, two, the same with foam, all these with coarser levels. Each list has
-    /// room for all tiles of the first level.
+    /// Tiles of each kind, in this order: one layer, two layers, one with foam, two with foam; then these four kinds
+    /// with coarser levels. Each list has room for all tiles of the first level.
     pub lists: Buffer,
     lengths: Buffer,
     /// Draws, then dispatches, one per kind.
@@ -105,7 +105,7 @@ impl Split {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let lengths = self.lengths.handle;
         let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
-        // Fragment shaders as well: `composite` binds it in place of missing boundaries.
+        // Fragment shaders read the lists too: `composite` binds them in place of missing boundaries.
         let readers = COMPUTE_READ.and(VERTEX_READ).and(FRAGMENT_READ);
         gpu.barriers(cmd, &[], &[buffer(lengths, COMPUTE_READ, COPY_WRITE)]);
         // SAFETY: outside a render pass; the frame before has read it (barrier).

@@ -1,16 +1,16 @@
 //! Pass `spray`: droplets of low-density particles, which are too few together to form a body of water (thesis
 //! Sec. 4.3 and 4.9.5).
 //!
-//! A particle's density says which part of the particle is spray. This part is drawn as droplets around the particle.
-//! Each droplet is a sprite that faces the camera and is stretched along its motion; `composite` lays the droplets over
-//! everything else. The thesis adds one sprite per particle to the picture, which shows as a disc near the camera.
-//! The sum of the optical depths does not depend on their order, because each droplet adds a whole number of
-//! fixed-point steps. A distant droplet is widened to 1.4 pixels, and its optical depth is lower in proportion. The
-//! steps are so fine that it still adds several; fractions of a step are rounded at random
+//! A particle's density says which fraction of the particle is spray. This fraction is drawn as droplets around the
+//! particle. Each droplet is a sprite that faces the camera and is stretched along its motion; `composite` lays the
+//! droplets over everything else. The thesis adds one sprite per particle to the picture, which shows as a disc near
+//! the camera. The sum of the optical depths does not depend on their order, because each droplet adds a whole number
+//! of fixed-point steps. A distant droplet is widened to 1.4 pixels, and its optical depth is lower in proportion.
+//! The steps are so fine that it still adds several; fractions of a step are rounded at random
 //! (glsl/include/whole_steps.glsl).
 //! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (or RG16F with
-//! coarser steps, if the device cannot blend RG32F): optical depth of the droplets in front of scene and water, and the
-//! sunlit part of it.
+//! coarser steps, if the device cannot blend RG32F): optical depth of the droplets in front of scene and water, and
+//! the sunlit part of it.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -129,8 +129,8 @@ impl Spray {
     }
 
     /// `shapes` are the shapes of the particles' spray, from pass `shape`; without them spray forms balls. `list` is
-    /// the list of `cull`, whose counts are read. `depth` is the water's depth; before and after, it is in the state in
-    /// which pass `depth` leaves it.
+    /// the list of `cull`, whose counts are read. `depth` is the water's depth; before and after, it is in the state
+    /// in which pass `depth` leaves it.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -1,5 +1,6 @@
-//! Shared by passes over the host's particles. It binds the streams that they read, chunk by chunk. For `surface_foam`,
-//! `spray` and `noise` it also builds the list of sprites for a draw or a dispatch.
+//! Code shared by the passes that read the host's particles again after `cull`. It binds the attribute streams of the
+//! particles chunk by chunk (a chunk is as many particles as fit in one storage-buffer binding). For `surface_foam`,
+//! `spray` and `noise` it also builds the list of sprites that a draw or a dispatch then processes.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -16,15 +17,15 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader::Shader;
 
-/// Maximum number of workgroups per chunk; if there are more particles an invocation processes several. With 64
-/// invocations each they fill the largest device. The CPU may not know the count, and more groups might be started for
-/// nothing.
+/// Maximum number of workgroups per chunk; if there are more particles an invocation processes several. This many
+/// groups of 64 invocations fill the largest device. More would be wasted if there are few particles, whose number
+/// the CPU may not know.
 const MOST_GROUPS: u32 = 4096;
 
 /// A dispatch over the particles, with one invocation each.
 pub struct Over<'a, const N: usize> {
     pub particles: &'a Particles,
-    /// Streams besides the positions; the window of an absent one has stride 0.
+    /// Attribute streams besides the positions. An absent stream is bound with a stride of 0.
     pub streams: [&'a Option<Stream>; N],
     /// Binding of the positions; the streams follow.
     pub binding: u32,
@@ -36,8 +37,8 @@ impl<const N: usize> Over<'_, N> {
         self.binding + 1 + N as u32
     }
 
-    /// Records one chunk of `list`. `own` are the other resources of the pass. `push` builds its constants from the
-    /// chunk's first particle, the positions and the streams.
+    /// Records the dispatch over one chunk of `list`. `own` are the other resources of the pass. `push` returns its
+    /// push constants, given the index of the chunk's first particle, the positions and the streams.
     pub fn record<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -75,9 +76,9 @@ pub struct Sprites {
 }
 
 impl Sprites {
-    /// `shader`, specialized by `constants`, lists the sprites. Its bindings are the frame's uniforms, positions,
-    /// streams, `Counts`, sprites, members, and those of the pass. `read` is the access of the reader: a draw's vertex
-    /// shader, or compute.
+    /// `shader`, specialized by `constants`, lists the sprites. Its bindings are, in this order, the frame's
+    /// uniforms, positions, streams, `Counts`, sprites, packet members, and those of the pass. `read` is how the
+    /// sprites are read afterwards: by a draw's vertex shader, or by compute.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -97,8 +98,8 @@ impl Sprites {
         })
     }
 
-    /// Lists the sprites. `list` is the one of `cull`, read for its counts, in the state [`LIST_USE`] before and after.
-    /// `own` and `push` have the meaning of [`Over::record`].
+    /// Records the dispatch that lists the sprites. `list` is the list of `cull`, whose counts are read; it is in the
+    /// state [`LIST_USE`] before and after. `own` and `push` have the meaning that they have in [`Over::record`].
     pub fn record<P: NoUninit, const N: usize>(
         &self,
         r: &Recording<'_>,
@@ -129,8 +130,8 @@ impl Sprites {
         Ok(())
     }
 
-    /// Draws the sprites inside a render pass; they are binding 1. `arguments` is the offset of the draw's arguments in
-    /// `Counts`.
+    /// Draws the sprites, which are binding 1, inside a render pass. `arguments` is the byte offset of the draw's
+    /// indirect arguments in `Counts`.
     pub fn draw(
         &self,
         r: &Recording<'_>,
@@ -151,9 +152,9 @@ impl Sprites {
         Ok(())
     }
 
-    /// Processes the sprites by a dispatch outside a render pass; `Counts` are binding 4. The number of groups is
-    /// exactly that of the sprites, because a CPU distributes groups to threads in advance: with empty groups at the
-    /// end, one thread would get all the work.
+    /// Processes the sprites by a dispatch outside a render pass; `Counts` are binding 4. There are exactly as many
+    /// groups as the sprites need, because a CPU distributes groups to its threads in advance: with many empty groups
+    /// at the end, one thread would get all the work.
     pub fn splat(
         &self,
         r: &Recording<'_>,

@@ -1,28 +1,30 @@
 //! Pass `surface_foam`: depth and thickness of surface foam (thesis Sec. 3.2, 4.6.2 and 4.8).
 //!
-//! Particles with foam are sprites stretched along their motion. Slow ones, and those that move towards the
-//! camera, change smoothly to discs (the thesis switches, which pops). A ray intersects a sprite's plane
-//! exactly. Thickness is in metres, as that of the water: the foam part of a particle is subtracted from its
-//! water.
+//! Particles with foam are drawn as sprites stretched along their motion. Slow sprites, and those that move towards
+//! the camera, change smoothly to discs (the thesis switches between the two, which pops). The intersection of a ray
+//! with a sprite's plane is exact. Thickness is in metres, as that of the water: the fraction of a particle that is
+//! foam is subtracted from its water.
 //!
-//! Nothing pops or flickers: a depth sprite has its full size before its foam becomes visible, no sprite is
-//! narrower than a texel can represent, finer noise fades, the front layer ends softly, and so do sprites that
-//! sink into the scene.
+//! Nothing pops or flickers: the sprite of a particle in the depth image has its full size before its foam becomes
+//! visible; no sprite is narrower than a texel can represent; noise finer than texels fades out; the front layer (the
+//! foam right behind the frontmost foam) ends softly, and so do sprites that sink into the scene.
 //!
-//! Depth and thickness have one resolution, a quarter by default (the thesis' depth is full): thickness is the
-//! visible quantity, and a finer depth only has more fragments, most of which lose. Outlines are those of the
-//! thickness, which ends softly; those of the scene are resolved per pixel (glsl/include/surface_foam_texels.glsl).
+//! Depth and thickness have the same resolution, a quarter by default (in the thesis the depth has full resolution).
+//! What is visible of foam is its thickness; a finer depth would only have more fragments, most of which fail the
+//! depth test. The outlines of foam are those of its thickness, which ends softly. The outlines of the scene in front
+//! of foam are resolved per pixel (glsl/include/surface_foam_texels.glsl).
 //!
-//! Two paths, as for the water's thickness: blended quads, and invocations with integer atomics. Sprites cover few
-//! texels, so a triangle's set-up costs as much as its fragments; a fragment behind the nearest depth is rejected by
-//! one read; foam behind the front layer, of which there usually is none, is summed separately. Both paths sum
-//! fixed-point steps, in any order. The foam's velocity is summed coarsely on the screen, for the lace that it advects.
+//! There are two paths, as for the water's thickness: blended quads, and compute invocations with integer atomics.
+//! The compute path saves time in three ways: it has no triangle set-up, which for sprites of few texels costs as
+//! much as their fragments; it rejects a fragment behind the nearest depth by one read; and it sums foam behind the
+//! front layer, of which there usually is none, separately. Both paths sum whole fixed-point steps, so the order does
+//! not matter. The foam's velocity is summed in a coarse grid on the screen; it carries the lace pattern along.
 //!
-//! Spray is not foam: with falling density pass `spray` replaces it.
-//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there is none;
-//! foam thickness, RGBA32F, in metres: the total, the front layer (right behind the frontmost foam), the sunlit part of
-//! that layer (per sprite; a mask applies per pixel), and the total weighted by `d / (d + s)`, with s one spacing and d
-//! the distance behind the point one spacing behind the frontmost foam.
+//! Spray is not foam: as a particle's density falls, its foam fades out and pass `spray` draws droplets instead.
+//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there is
+//! none; foam thickness, RGBA32F, in metres: the total, the front layer (right behind the frontmost foam), the sunlit
+//! part of that layer (per sprite; a mask applies per pixel), and the total weighted by `d / (d + s)`, with s one
+//! spacing and d the distance behind the point one spacing behind the frontmost foam.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -168,13 +170,15 @@ impl Blended {
     }
 }
 
-/// Whether sprites store their shadow; a screen-space mask is applied per pixel instead.
+/// Whether each sprite stores the visibility of the sun. If shadows come as a screen-space mask it does not, because
+/// the mask is applied per pixel.
 fn lit(config: &Config) -> bool {
     config.light_map_size.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
 }
 
-/// Words per texel of the compute path. The first two are depths as bits: that of the frontmost foam, or of the scene
-/// if no foam is in front of it; and that of the scene.
+/// Number of words per texel of the compute path. The first word is the depth of the frontmost foam, or of the scene
+/// if no foam is in front of it; the second is the depth of the scene (both as the bits of a float). The others are
+/// sums.
 pub fn words_of(config: &Config) -> u32 {
     if lit(config) { 6 } else { 5 }
 }
@@ -354,7 +358,8 @@ impl Foam {
         }
     }
 
-    /// [`words_of`] per texel, in the compute-read state after the pass; `None` on the raster path.
+    /// The buffer with [`words_of`] words per texel, which compute shaders can read after the pass; `None` on the
+    /// raster path.
     pub fn words(&self) -> Option<&Buffer> {
         match &self.path {
             Path::Raster(_) => None,

@@ -2,16 +2,17 @@
 //! A.15).
 //!
 //! The amplitude is such that a sprite's integral over its plane is the particle's volume (the thesis' unit is
-//! arbitrary). Absorption is then per metre, and the look does not depend on how many particles resolve the same water.
-//! The resolution is a quarter by default; `composite` upsamples with the weights of the surface. There are two paths:
-//! additive sprites, and fixed-point atomic sums, which are independent of the order.
+//! arbitrary). Absorption is then per metre, and the look does not depend on how many particles resolve the same
+//! water. The image has a quarter of the resolution by default; `composite` upsamples it with the weights with which
+//! it interpolates the surface. There are two paths: additive sprites, and fixed-point atomic sums, which do not
+//! depend on the order of the particles.
 //!
-//! Where `gaps` has found two layers, a second image holds the thickness of each, and that of a window of one spacing
-//! around the boundary: water in the window means that the layers are connected. Where all water belongs to one layer,
-//! the boundary is removed.
+//! Where `gaps` has found a boundary between two layers of water, a second image holds the thickness of each layer,
+//! and the thickness of the water in a window of depths, up to one spacing before and behind the boundary: water in
+//! the window means that the layers are connected. Where all water belongs to one layer, the boundary is removed.
 //!
-//! With foam there is a second channel, the water in front of the frontmost foam (the thesis decides this per
-//! particle, Listing A.14; here it is per fragment).
+//! With foam the image has a second channel: the thickness of the water in front of the frontmost foam. Whether water
+//! is in front of the foam is decided per fragment (in the thesis per particle, Listing A.14).
 //! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `surface_foam`. Writes: thickness,
 //! R32F or RG32F; sheets, RGBA32F (front, back, window, boundary as found); boundaries.
 
@@ -60,15 +61,15 @@ enum Path {
     },
 }
 
-/// Pipelines of the compute path for the front layer and the window.
+/// Pipelines of the compute path for the thickness of the front layer and of the window around the boundary.
 struct Apart {
     small: Pipeline,
     large: Pipeline,
     resolve: Pipeline,
 }
 
-/// Bytes of the compute path's sums: two words per texel for all water, with foam two for the water in front of
-/// it, and with two layers two each for the front one and the window.
+/// Bytes of the compute path's sums. Each sum has two words per texel: one sum of all water, with foam one of the
+/// water in front of the foam, and with two layers one of the front layer and one of the window around the boundary.
 pub fn sum_bytes(config: &Config) -> u64 {
     let size = reduced(config.extent, config.thickness_level);
     let sums = u64::from(config.surface_foam) + if config.sheets > 1 { 3 } else { 1 };
@@ -247,7 +248,7 @@ impl Thickness {
         // Without boundaries or foam these are not read, so any buffer or image can be bound.
         let boundaries =
             gaps.map_or(Resource::buffer(&list.counts), |gaps| Resource::buffer(&gaps.boundaries));
-        // Both passes use the same path, so on the compute path there are words.
+        // `surface_foam` uses the same path as this pass, so on the compute path it has words.
         let words = foam.and_then(Foam::words);
         let words = words.map_or(Resource::buffer(&list.counts), Resource::buffer);
         let foam = foam.map_or(r.scene_depth, |foam| {
@@ -315,7 +316,7 @@ impl Thickness {
                 dispatch_sprites(r, list, small, large, &bound)?;
                 if let Some(apart) = apart {
                     let Apart { small, large, .. } = &**apart;
-                    // Sums of their own, so no barrier is needed.
+                    // These write sums of their own, so no barrier is needed.
                     dispatch_sprites(r, list, small, large, &bound)?;
                 }
                 gpu.barriers(cmd, &[], &[buffer(sums.handle, COMPUTE_READ_WRITE, COMPUTE_READ)]);

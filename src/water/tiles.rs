@@ -1,8 +1,10 @@
-//! Pass `tiles`: the list of 16×16 tiles (of smoothing texels, all levels) that hold water, sorted by their
-//! iteration counts, and the arguments of every draw and dispatch over them.
+//! Pass `tiles`: lists the tiles that hold water, 16×16 texels of the smoothing images each, in all levels of the
+//! smoothing. It sorts them by their iteration counts, largest first, and writes the arguments of every draw and
+//! dispatch over them.
 //!
-//! Not in the thesis, which draws full-screen quads. Iteration counts are known in advance, so the tiles that are still
-//! active in iteration i are a prefix of the sorted list, and one counting sort gives the arguments of all iterations.
+//! Not in the thesis, which draws full-screen quads. Iteration counts are known in advance, so the tiles that are
+//! still active in iteration i are a prefix of the sorted list, and one counting sort gives the arguments of all
+//! iterations.
 //! Reads: each tile's work, levels. Writes: list, arguments.
 
 use crate::gpu::memory::MemoryLocation;
@@ -25,7 +27,8 @@ use crate::gpu::shader;
 pub const TILE: u32 = 16;
 /// Maximum number of workgroups over tiles; if there are more tiles, a group processes several.
 pub const MOST_GROUPS: u32 = 65_535;
-/// Arguments of 16 bytes: the draw of all tiles, 257 dispatches, the dispatch of all tiles.
+/// Bytes of all arguments, 16 each: the draw of all tiles, 257 dispatches for the iterations, the dispatch over all
+/// tiles.
 const ARGUMENTS: u64 = 16 * 259;
 /// Byte offset of the last arguments.
 pub const ALL_TILES: u64 = 16 * 258;
@@ -40,12 +43,12 @@ struct Push {
 /// The pass.
 pub struct Tiles {
     pipeline: Pipeline,
-    /// Maximum iterations + 1 of each tile, row by row; 0 without water.
+    /// For each tile, row by row, the largest iteration count of its pixels plus 1; 0 for a tile without water.
     pub work: Buffer,
     /// Indices of tiles with water, largest work first.
     pub list: Buffer,
-    /// `[0]`: a draw of all tiles (a strip of four vertices, one instance each). `[i]`: the dispatch of
-    /// iteration i, with the number of tiles in its fourth word.
+    /// `[0]`: a draw of all tiles (a strip of four vertices, one instance per tile). `[i]`: the dispatch of iteration
+    /// i, with the number of its tiles in the fourth word.
     pub arguments: Buffer,
     /// Layout of the levels.
     pub atlas: Atlas,

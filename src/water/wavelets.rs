@@ -11,9 +11,10 @@ use crate::error::Error;
 /// Waves that particles do not resolve. They tilt the normals of level water and focus its caustics, but do not
 /// displace it.
 ///
-/// 15 sines in three octaves of length, each octave with the same slope, in all directions. An octave fades out in the
-/// picture where its waves are smaller than a few pixels. All fade out between slopes of 45 and 78 degrees, and between
-/// thicknesses of two particle spacings and one.
+/// They are 15 sines in all directions, with lengths that span three octaves; each octave contributes the same slope.
+/// A sine fades out in the picture where its waves are shorter than a few pixels. All waves fade out where the
+/// water's surface is inclined by 45 to 78 degrees, and where the water is between two particle spacings and one
+/// thick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Wavelets {
