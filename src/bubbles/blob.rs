@@ -1,8 +1,9 @@
 //! A blob of foam: soap bubbles on a shell around a core (Huszár, Szécsi, Sec. 4.1), generated from a seed.
 //!
-//! Neighbours should be placed where their films and the wall between them meet at 120°, `|AB|² = r_A² + r_B² −
-//! r_A r_B`, as nearly as a shell can be packed: each bubble gets as much of the shell as a hexagon of that
-//! spacing covers, and bubbles that are too close push each other apart along it.
+//! The films of two neighbours A and B and the wall between them should meet at 120°. They do where the distance of
+//! the centres is `|AB|² = r_A² + r_B² − r_A r_B`. A shell cannot be packed exactly so, only nearly: its area is that
+//! of one hexagon of this spacing per bubble, and bubbles that are closer than that push each other apart along the
+//! shell.
 //!
 //! No transcendental function is used: a seed gives the same blob on every machine.
 
@@ -94,8 +95,8 @@ impl Blob {
         Self { bubbles }
     }
 
-    /// For each bubble the indices of the bubbles that it intersects, deepest first, one byte each; its own
-    /// index where there are fewer.
+    /// For each bubble, the indices of the bubbles that it intersects, one byte each, the deepest intersections
+    /// first. If there are fewer than [`NEIGHBOURS`], the bubble's own index fills the rest.
     pub(super) fn neighbours(&self) -> Vec<[u8; NEIGHBOURS]> {
         let depth = |a: &[f32; 4], b: &[f32; 4]| {
             let apart = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt();

@@ -1,8 +1,8 @@
-//! Pass `blobs`: lists the blobs on the screen, and for each tile its blobs from front to back.
+//! Pass `blobs`: lists the blobs on the screen, and for each screen tile its blobs from front to back.
 //!
 //! The paper draws a billboard per blob, and all billboards once per layer. Here each pixel iterates over the list of
-//! its tile. The lists share one buffer, with offsets from a prefix sum over depth slices, so that the farthest blobs
-//! are dropped when it is full.
+//! its tile. The lists of all tiles share one buffer, which holds the nearest depth slice of all tiles first. A
+//! prefix sum gives each slice of each tile its place. If the buffer is full, the farthest blobs are dropped.
 //! Reads: the host's streams. Writes: blobs, range, cells, spans, list.
 
 use crate::gpu::memory::MemoryLocation;
@@ -29,7 +29,7 @@ use crate::water::{Recording, Window, capacity, each_once};
 pub const TILE: u32 = 16;
 /// Slices of depth.
 pub const SLICES: u32 = 32;
-/// Average number of list entries per tile; usually fewer blobs lie behind each other.
+/// Room for list entries per tile, on average over all tiles; usually fewer blobs lie behind each other.
 const PLACES: u32 = 128;
 /// Bytes of a blob, and of the statistics of all blobs.
 const BLOB: u64 = 48;
@@ -37,7 +37,7 @@ const RANGE: u64 = 20;
 /// Word of the range with the number of used entries.
 const TAKEN: u32 = 4;
 
-/// Offsets and strides of the host's streams; the stride is 0 for an absent one.
+/// Offsets and strides of the host's streams, in words of 32 bits; an absent stream has a stride of 0.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
 pub struct Places {
@@ -90,7 +90,7 @@ pub fn buffers_of(blobs: &Blobs) -> Vec<vk::Buffer> {
     each_once(streams(blobs), blobs.count, None)
 }
 
-/// Bindings and offsets of balls, turns and ids; `None` if a stream ends before the first blob.
+/// Bindings and offsets of spheres (balls), rotations (turns) and ids; `None` if a stream ends before the first blob.
 pub fn windows(gpu: &Gpu, blobs: &Blobs) -> Option<([Resource; 3], Places)> {
     let balls = Window::new(gpu, &blobs.spheres, 0)?;
     let other = |stream: &Option<Stream>| match stream {
@@ -182,7 +182,7 @@ impl Lists {
         [&self.blobs, &self.range, cells, list, spans]
     }
 
-    /// Access to the blobs after the pass; compute shaders read everything else.
+    /// Access to the blobs after the pass. The pass's other buffers are read by compute shaders only.
     fn read(&self) -> Access {
         match self.config.sort {
             BubbleSort::Tiles => COMPUTE_READ,
@@ -198,7 +198,7 @@ impl Lists {
         }
     }
 
-    /// Number of blobs to draw, in the path that draws them.
+    /// Number of blobs, or their maximum number if only the GPU knows it.
     pub fn count(&self, gpu: &Gpu, blobs: Option<&Blobs>) -> u32 {
         blobs.and_then(|blobs| self.bound(gpu, blobs)).map_or(0, |(_, push)| push.most)
     }

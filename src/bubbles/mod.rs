@@ -97,7 +97,7 @@ pub(crate) fn bytes_bound(extent: vk::Extent2D, bubbles: &BubbleConfig) -> (u64,
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Bubbles {
-    /// Precomputed data; shared with the renderer before a `reconfigure` if it still fits.
+    /// Precomputed data. After a `reconfigure` it is that of the previous renderer, if it still fits.
     templates: Arc<Templates>,
     near: Option<near::Near>,
     lists: lists::Lists,
@@ -222,7 +222,7 @@ impl Bubbles {
         self.soap.image()
     }
 
-    /// Layers and maximum opacity of each pixel, and the number of words per pixel.
+    /// The buffer with the layers and the maximum opacity of each pixel, and its number of 32-bit words per pixel.
     pub fn layers(&self) -> (vk::Buffer, u32) {
         (self.peel.layers().handle, self.peel.words())
     }

@@ -1,10 +1,11 @@
 //! Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs, where Akinci et al. 2013 draw no
 //! foam.
 //!
-//! A histogram of the particles' distances gives the distance up to which there are enough slots for blobs. Up to that
-//! distance each particle becomes a blob; which slot it gets is arbitrary and not visible.
-//! Reads: the host's whitewater particles. Writes: distances of the cross-fade; spheres, orientations, ids and count of
-//! the blobs.
+//! A histogram of the distances of foam particles from the camera gives the distance up to which the buffer of blobs
+//! has room for all of them. Each foam particle nearer than that becomes a blob. Its place in the buffer is
+//! arbitrary, which is not visible.
+//! Reads: the host's whitewater particles. Writes: distances of the cross-fade; spheres, orientations, ids and count
+//! of the blobs.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -1,5 +1,5 @@
-//! Pass `peel`: finds the nearest blobs of each pixel, from front to back, and the combined opacity of all (Huszár,
-//! Szécsi, Sec. 5).
+//! Pass `peel`: finds the nearest blobs of each pixel, from front to back, and the maximum opacity of all its blobs
+//! (Huszár, Szécsi, Sec. 5).
 //!
 //! Reads: blobs and lists, scene depth, impostors. Writes: layers, bubble depth.
 
@@ -98,7 +98,7 @@ impl Peel {
         }
     }
 
-    /// Layers of each pixel, front to back, and the maximum opacity.
+    /// Layers of each pixel, front to back, and the maximum opacity of all its blobs.
     pub fn layers(&self) -> &Buffer {
         &self.targets.layers
     }

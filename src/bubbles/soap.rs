@@ -62,7 +62,8 @@ impl Soap {
         &self.image
     }
 
-    /// `water` are its depth and thickness, which fragment shaders sample before and after.
+    /// `water` holds depth and thickness of the water. Before and after, both images are in the state in which
+    /// fragment shaders sample them.
     pub fn record(
         &self,
         r: &Recording<'_>,

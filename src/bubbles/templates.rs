@@ -2,8 +2,8 @@
 //! 4.4).
 //!
 //! Reads: in `impostor`, the bubbles of the blobs. Writes: the table of the film's reflectance; the impostors' cube
-//! maps, which hold the distance of a blob's surface from its centre, or the index of the bubble there; the texture of
-//! small bubbles on the core.
+//! maps, which hold the distance of a blob's surface from its centre, or the index of the bubble there; the texture
+//! of small bubbles on the core.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -74,7 +74,8 @@ pub struct Templates {
     bubbles: Buffer,
     /// Neighbours that each bubble intersects.
     neighbours: Buffer,
-    /// Impostor maps: distance of the surface from the centre, or index of the bubble, one byte per texel.
+    /// Impostor maps, of which one is used: the distance of the surface from the blob's centre, or the index of the
+    /// outermost bubble, one byte per texel.
     distances: Image,
     ids: Buffer,
     /// Texture of small bubbles on the core.
@@ -101,7 +102,8 @@ impl Templates {
         let [distances, ids] = Self::edges(config);
         let bytes = 6 * u64::from(config.variants) * u64::from(ids).pow(2);
         let extent = vk::Extent2D { width: distances, height: distances };
-        // An image with exactly six layers would be a cube map.
+        // At least two variants, because an image with exactly six layers would become a cube map instead of an
+        // array.
         let layers = 6 * config.variants.max(2);
         let name = "bubbles/distances";
         let map = ImageDesc::new(name, extent, vk::Format::R32_SFLOAT, usage);

@@ -48,10 +48,10 @@ impl DistanceField {
         Err(Error::bad("DistanceField", why))
     }
 
-    /// The field of a mesh (three corners per triangle), on a grid with points `edge` apart and a margin of
-    /// `margin` around it. A point is inside by its winding number (Jacobson, Kavan, Sorkine-Hornung, Robust
-    /// Inside-Outside Segmentation using Generalized Winding Numbers, 2013), so the mesh may have holes and
-    /// intersect itself. The cost is points times triangles.
+    /// The field of a mesh (three corners per triangle), on a grid with points `edge` apart and a margin of `margin`
+    /// around the mesh. The winding number of a point decides whether it is inside (Jacobson, Kavan, Sorkine-Hornung,
+    /// Robust Inside-Outside Segmentation using Generalized Winding Numbers, 2013), so the mesh may have holes and
+    /// intersect itself. The time is proportional to the number of points times the number of triangles.
     ///
     /// # Errors
     /// No triangles, corners that are not finite, more than 1024 points in a row.

@@ -1,8 +1,9 @@
 //! Pass `heap`: blob dynamics on the GPU (Huszár, Szécsi, Sec. 6; the paper uses the CPU).
 //!
-//! A blob is a ball. It attracts near neighbours and repels nearer ones; it falls, rolls and rubs on solids. A torn-off
-//! blob splits in two, repeatedly. A step has several substeps, each of which finds neighbours with a hashed grid.
-//! Buckets are sorted by id, so the same blobs move identically in every run, in any order.
+//! A blob is a ball. It attracts near neighbours and repels nearer ones; it falls, rolls and rubs on solids. A blob
+//! that was torn off the others splits in two, repeatedly. A step has several substeps, each of which finds
+//! neighbours with a hashed grid. The blobs of a grid bucket are sorted by id, so the same blobs move identically in
+//! every run, whatever their order in the host's streams.
 //! Reads: the host's streams and solids. Writes: balls, turns, ids, velocities.
 
 mod field;
@@ -145,9 +146,9 @@ pub struct BlobSimulation {
 }
 
 impl BlobSimulation {
-    /// Creates pipelines and allocates memory: 140 to 144 bytes per slot, 4 per point of the field, and for each frame
-    /// in flight 48 per solid. There are 2^[`max_splits`](BlobSimulationConfig::max_splits) slots per blob. `field`
-    /// holds solids besides those of the steps.
+    /// Creates pipelines and allocates memory: 140 to 144 bytes per entry, with
+    /// 2^[`max_splits`](BlobSimulationConfig::max_splits) entries per blob; 4 bytes per point of the field; and 48
+    /// bytes per solid for each frame in flight. `field` holds solids in addition to those that each step gives.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -214,7 +215,7 @@ impl BlobSimulation {
         let slot = |_| {
             let size = size_of::<GpuSolid>() as u64 * u64::from(config.max_solids);
             Ok(HeapSlot {
-                // One set of ten bindings; the capacity for two sets is sixteen.
+                // One set of ten bindings: the capacity for one set would be eight, for two it is sixteen.
                 setting: Descriptors::new(gpu, 2)?,
                 descriptors: Descriptors::new(gpu, 4 + scan::SETS)?,
                 timer: Timer::new(gpu)?,
@@ -330,7 +331,8 @@ impl BlobSimulation {
     /// Records a step. It never submits, waits or allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command buffer.
+    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command
+    /// buffer.
     ///
     /// # Safety
     /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
@@ -452,8 +454,8 @@ impl BlobSimulation {
         Stream { buffer: self.buffers.spins.handle, ..self.velocities() }
     }
 
-    /// Maximum number of blobs, including the halves of split ones. `Config::bubbles` has to allow as many.
-    /// Unused slots are all zeros.
+    /// Number of entries in the streams of [`blobs`](Self::blobs): the maximum number of blobs, including the halves
+    /// of split ones. `Config::bubbles` has to allow as many. The spheres of unused entries are all zeros.
     pub fn count(&self) -> u32 {
         self.count << self.config.max_splits
     }
