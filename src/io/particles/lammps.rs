@@ -1,9 +1,10 @@
 //! Reads text dumps of LAMMPS and LIGGGHTS: `ITEM:` lines, each followed by its data. `ITEM: ATOMS` names the
 //! columns.
 //!
-//! Scaled positions (`xs ys zs`, `xsu ysu zsu`) are sums of the edges of the box, whose lines are `BOX BOUNDS` (both ends of
-//! each side), `BOX BOUNDS xy xz yz` (both ends of what encloses the tilted box, and the tilts) or `BOX BOUNDS abc origin`
-//! (any three edges, and the origin).
+//! Scaled positions (`xs ys zs`, `xsu ysu zsu`) are in units of the edges a, b, c of the box: position = origin + xs
+//! a + ys b + zs c. The box is described by three lines after `BOX BOUNDS` (both ends of each side), `BOX BOUNDS xy
+//! xz yz` (both ends of the upright box that encloses the tilted box, and the tilts) or `BOX BOUNDS abc origin` (any
+//! three edges, and the origin).
 
 use super::Format;
 use super::asked::Asked;
@@ -138,8 +139,9 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Gives one column of each axis the axis' name: the position as it is, else without the box's periods, else scaled, else
-/// both. Returns the axes that are scaled, with the names of their columns in the file.
+/// Renames one column of each axis to the axis (`x`): the position as it is (`x`), else without the box's periods
+/// (`xu`), else scaled (`xs`), else scaled and without the periods (`xsu`). Returns the axes that are scaled, with
+/// the names of their columns in the file.
 fn choose(names: &mut [String]) -> Vec<(usize, String)> {
     let mut scaled = Vec::new();
     for (i, axis) in AXES.into_iter().enumerate() {
@@ -173,7 +175,8 @@ enum Kind {
     None,
     /// Each line has both ends of a side.
     Straight,
-    /// Each line has both ends of what encloses the box along an axis, and a tilt: xy, xz, yz.
+    /// Each line has both ends, along an axis, of the upright box that encloses the tilted one, and a tilt: xy,
+    /// xz, yz.
     Tilted,
     /// Each line has an edge, and a coordinate of the origin.
     General,
@@ -245,7 +248,7 @@ impl Bounds {
     fn basis(&self, scaled: &[(usize, String)], names: &[String]) -> Result<Basis, ReadError> {
         let (origin, edges) = self.cell()?;
         let is_scaled = |axis: usize| scaled.iter().any(|(i, _)| *i == axis);
-        // A scaled axis needs the scales of all edges that reach along it.
+        // A position along a scaled axis needs the scaled coordinates of all edges that extend along that axis.
         for (axis, edge) in edges.iter().enumerate() {
             for (along, length) in edge.iter().enumerate() {
                 if *length != 0.0 && is_scaled(along) && !is_scaled(axis) {

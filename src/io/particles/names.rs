@@ -155,7 +155,8 @@ pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
         });
         suffixes.map(move |suffixes| suffixes.map(|suffix| format!("{base}{suffix}")))
     });
-    // `X_vel` and `x-coordinate` count, but short names with a suffix do not, because they have other meanings.
+    // An axis before a long name counts (`X_vel`, `x-coordinate`), before a short name it does not, because
+    // such names have other meanings.
     let long = names.iter().copied().filter(|base| base.len() > 2);
     let before = long.map(|base| ["x", "y", "z"].map(|axis| format!("{axis}{base}")));
     let own: &[[&str; 3]] = match position {

@@ -36,7 +36,7 @@ pub(super) struct One {
     pub(super) count: u64,
 }
 
-/// Min number of columns from which an array with 3 rows is taken as transposed particles.
+/// Min number of columns for which an array with 2 or 3 rows is taken as transposed particles.
 pub(super) const WIDE: u64 = 8;
 
 impl Header {

@@ -5,7 +5,7 @@
 //! and the values. Only the three known keys of the header are parsed. `descr` may be a list of fields,
 //! `[('pos', '<f4', (3,)), ...]`.
 //!
-//! A row is a particle. The array has shape (n, 3), or (3, n) in either order. Two columns are two-dimensional
+//! A row is a particle. The array has shape (n, 3) or (3, n), in C or Fortran order. Two columns are two-dimensional
 //! positions; the last three of six columns are velocities. In an array of shape (t, n, 3) the first dimension counts
 //! frames, which are read one by one: see `steps`.
 //!
@@ -49,10 +49,11 @@ impl Header {
         self.members.first().map_or(AttributeType::Other, |member| member.ty)
     }
 
-    /// The rows of an array. `vector` says that the number of components equals that of dimensions.
+    /// The rows of an array. `vector` says that the values are vectors with one component per dimension of
+    /// space.
     fn rowed(&self, name: &str, vector: bool) -> Result<Rowed, ReadError> {
         let rowed = self.in_rows(name, vector)?;
-        // The elements of such a frame are not contiguous.
+        // In Fortran order, the elements of one frame of several are not contiguous.
         let strided = self.frame.is_some() && self.fortran;
         Ok(Rowed { transposed: rowed.transposed || strided, ..rowed })
     }
@@ -85,8 +86,8 @@ impl Header {
         }
     }
 
-    /// Rows of the array's values, which begin after a header of this length, and warnings about it. `placed` says that
-    /// they are positions, whatever the name. `None` if the particles are not stored one after the other.
+    /// Rows of the array's values, which begin after a header of `header` bytes; the array seen as rows; and warnings
+    /// about the array. `placed` says that the values are positions, whatever the name.
     fn rows(
         &self,
         header: u64,
@@ -315,7 +316,7 @@ pub(super) fn times(input: &Input<'_>, zip: bool) -> Result<Vec<Option<f64>>, Re
         let mut raw = Vec::new();
         let all = file.by_ref().take(TIMES).read_to_end(&mut raw);
         let mut cursor = Cursor::new(&raw);
-        // Frames without times count as well.
+        // If the times cannot be read, the frames are listed without times.
         if let (Ok(_), Ok(header)) = (all, header(&mut cursor))
             && let Ok(columns) =
                 header.columns(&mut cursor, &name, false, &mut Table::new(&Asked::default()))
@@ -439,7 +440,8 @@ impl Chosen {
     }
 }
 
-/// Lists the arrays of a zip by their headers; an unreadable one is skipped.
+/// Lists the arrays of a zip by their headers, and chooses those to read; an array with an unreadable header is
+/// skipped.
 fn choose<R: Read + std::io::Seek>(
     archive: &mut zip::ZipArchive<R>,
     asked: &Asked,

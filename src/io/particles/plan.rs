@@ -15,7 +15,8 @@ const CHECKED: usize = 1 << 12;
 /// Particles read at a time to find their times.
 const PART: usize = 1 << 16;
 
-/// Columns that are stored together; they are read in parallel with other tracks.
+/// Columns that are stored together in a file. The tracks of a file are read side by side, a part of the
+/// particles at a time.
 pub(super) struct Track<'a> {
     /// Empty columns.
     pub(super) columns: Vec<Column>,
@@ -60,9 +61,9 @@ pub(super) struct Plan<'a> {
     warnings: Vec<String>,
     time: Option<f64>,
     format: Format,
-    /// Limit of what all tracks together may decompress to.
+    /// Max number of bytes that all tracks together may decompress to.
     limit: u64,
-    /// The time of the requested particles, if each particle has one.
+    /// Time of the requested frame, if each particle has a time; only particles with this time are read.
     only: Option<f64>,
 }
 
@@ -187,7 +188,7 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// The same, after the survey.
+    /// Starts a pass like [`start`](Self::start), after the survey.
     pub(super) fn again(&self) -> Result<Pass<'a>, ReadError> {
         let Pass { streams, left, survey, room } = self.start()?;
         Ok(Pass { streams, left, survey: survey.again(), room })

@@ -260,7 +260,8 @@ impl ElementRows {
         // A row without properties has no length, so its count could be anything.
         let left = if properties.is_empty() { 0 } else { element.count };
         if encoding == Encoding::Ascii {
-            // Each number takes at least two bytes with its space, so a false count ends here.
+            // Each number takes at least two bytes with its space, so a count that is too large for the file
+            // fails here.
             let numbers = left.saturating_mul(properties.len() as u64);
             let (least, there) = (numbers.saturating_mul(2).saturating_sub(1), text.left());
             if least > there {

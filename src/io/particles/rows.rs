@@ -160,7 +160,7 @@ impl Stream for RowStream<'_> {
 /// A file that consists of rows.
 pub(super) struct Layout {
     pub(super) rows: Rows,
-    /// The first field holds the positions, whatever its name.
+    /// Whether the first field holds the positions, whatever its name.
     pub(super) placed: bool,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,

@@ -80,8 +80,8 @@ impl<'a> Content<'a> {
         self.lines
     }
 
-    /// A part of the content after this number of lines, as content of its own. Of compressed content a copy
-    /// is kept in memory.
+    /// The content from byte `start` to byte `end`, as content of its own; `lines` lines of the file precede
+    /// it. Of compressed content, a decompressed copy is kept in memory.
     pub(super) fn part(&self, start: u64, end: u64, lines: u64) -> Result<Self, ReadError> {
         let (start, end) = (start.min(self.length), end.min(self.length));
         let part = if self.piece.packing == Packing::None {
@@ -111,8 +111,8 @@ impl<'a> Content<'a> {
         self.reach(None, start, end)
     }
 
-    /// A source of this content that is no longer needed, if it helps to [`reach`](Self::reach) another
-    /// position. This is so for compressed content.
+    /// Returns `source`, which is no longer needed, if it helps to [`reach`](Self::reach) a later position: if
+    /// the content is compressed.
     pub(super) fn spare(&self, source: Source<'a>) -> Option<Source<'a>> {
         Some(source).filter(|_| self.piece.packing != Packing::None)
     }
@@ -286,7 +286,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Fails if fewer than `count` bytes are known to be left.
+    /// Fails if it is known that fewer than `count` bytes are left.
     pub(super) fn require(&self, count: u64, what: &str) -> Result<(), ReadError> {
         let left = self.length.map_or(u64::MAX, |length| length.saturating_sub(self.at));
         if left < count { Err(truncated(what, self.at, count, left)) } else { Ok(()) }
