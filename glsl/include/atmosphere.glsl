@@ -1,10 +1,11 @@
-// A physically based clear sky: single scattering of the sun in a Rayleigh and Mie atmosphere (Nishita et al. 1993;
-// Rayleigh coefficient and layers of Bruneton and Neyret 2008), and a term for the light that scatters more often,
-// fitted to a Monte Carlo solution over ground of albedo 0.2: the irradiance of the sky on level ground is within 6 %
-// of it for suns above 30 degrees, 18 % in blue at 10 degrees. The three wavelengths are 645, 553 and 443 nm, which
-// give the colour of the spectral sky in Rec. 709 within 4 %. The coefficients are given at 550 nm and scale with the
-// wavelength to the power -4 (Rayleigh) and -1.3 (aerosol, Angstrom's exponent). The aerosol's optical depth to the
-// zenith is 0.1, that of a clear day; its single-scattering albedo is 0.9. Lengths in kilometres.
+// A physically based clear sky: single scattering of sunlight in a Rayleigh and Mie atmosphere (Nishita et al. 1993;
+// Rayleigh coefficient and layers of Bruneton and Neyret 2008), plus a term for light that scatters more than once.
+// That term is fitted to a Monte Carlo solution over ground of albedo 0.2: the sky's irradiance on level ground
+// differs from the solution by at most 6 % for suns above 30 degrees, and by 18 % in blue for a sun at 10 degrees.
+// The sky is computed at the wavelengths 645, 553 and 443 nm, which give the colour of the spectral sky in Rec. 709
+// within 4 %. The scattering coefficients are those at 550 nm, scaled with the wavelength to the power -4 (Rayleigh)
+// and -1.3 (aerosol, Angstrom's exponent). The aerosol's optical depth to the zenith by scattering is 0.1 at 550 nm,
+// that of a clear day; its single-scattering albedo is 0.9. Lengths are in kilometres.
 
 const float EARTH = 6360.0;
 const float TOP = 6420.0;
@@ -20,7 +21,9 @@ float leave_sphere(float height, float cosine, float radius) {
     return -b + sqrt(max(b * b - height * height + radius * radius, 0.0));
 }
 
-// Optical depth of both kinds from a point (its distance from the centre) towards a direction.
+// Density of air (x) and aerosol (y), relative to sea level, integrated in km from a point to the top of the
+// atmosphere. `height` is the point's distance from the Earth's centre, `cosine` that of the angle between the
+// direction and the zenith.
 vec2 optical_depth(float height, float cosine) {
     const int steps = 12;
     float span = leave_sphere(height, cosine, TOP) / float(steps * steps);
@@ -38,8 +41,8 @@ vec3 transmittance(vec2 depth) {
     return exp(-(RAYLEIGH * depth.x + (MIE + MIE_ABSORPTION) * depth.y));
 }
 
-// Radiance of the sky (without the sun's disc) in a direction with y up, for a sun of unit
-// irradiance; below the horizon the ground's colour under that sky.
+// Radiance of the sky (without the sun's disc) in a direction with y up, for a sun of unit irradiance. Below the
+// horizon it is the radiance of ground that this sun and sky light.
 vec3 sky_radiance(vec3 direction, vec3 sun) {
     const int steps = 24;
     float eye = EARTH + 0.05;

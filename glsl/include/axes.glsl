@@ -1,9 +1,10 @@
-// Shape of an ellipsoid: the symmetric matrix that maps the unit sphere times the particle's radius to it (Yu and Turk
-// 2013, Eq. 16, the inverse of G without 1/h). Six 16-bit numbers, whose steps move the surface by less than a 5000th
-// of the radius. Needs nothing.
+// Shape of an ellipsoid: the symmetric matrix that maps a sphere of the particle's radius to the ellipsoid (Yu and
+// Turk 2013, Eq. 16: the inverse of G without 1/h). It is stored as six 16-bit numbers, whose steps move the surface
+// by less than a 5000th of the radius. Needs nothing.
 
-// Limit of all elements: the longest axis of an ellipsoid of ratio 8 with the sphere's volume, flat or elongated, is
-// less.
+// Largest absolute value of an element. It suffices for ellipsoids with the sphere's volume whose longest half-axis
+// is at most 8 times the shortest: this half-axis is at most 4 radii if they are elongated, and less if they are
+// flat.
 const float MOST_AXIS = 4.0;
 
 uvec3 pack_axes(mat3 axes) {

@@ -1,18 +1,20 @@
 // Darkening of the scene under water (Lekner and Dorf 1988, "Why some things are darker when wet", with the water's
 // absorption; not in the thesis).
-// Needs frame.glsl, medium.glsl, and of shade.glsl a sheet and its ladder. Reads: nothing.
+// Needs frame.glsl, medium.glsl, `Sheet` of shade.glsl and CAST of sunlight.glsl. Reads: nothing.
 
-// Thicknesses in spacings between which water darkens the bed. A film darkens less: its particles lie apart, and full
-// darkening would print each as a disc.
+// Thickness of water, in particle spacings, from which on it starts to darken the bed (the scene's surface beneath),
+// and from which on it darkens the bed fully. The particles of a thinner film lie apart, and full darkening would
+// show each one as a dark disc.
 const vec2 FILM = vec2(0.5, 2.0);
 
-// Colour of the scene under a sheet of water, from its dry colour. The surface lets 1 - F of the incoming light in. Of
-// the light that the bed scatters, the share q = (1 - F)/n^2 leaves the water, and the surface reflects the rest back
-// to the bed. The bed's albedo A scatters part of that again, and so on: together q/(1 - A (1 - q)) leaves, which is 1
-// for white. The reflection of the view ray is part of the sheet's own reflection. Sunlight is absorbed along its
-// refracted path down, skylight along the mean path of an even sky. Light between two scatterings goes up and down
-// inside, mostly by total reflection and so at flat angles: five such mean paths. `over` applies the absorption on the
-// way to the eye.
+// Colour of the scene under a sheet (layer) of water, from its dry colour. The water's surface, of mean reflectance
+// F, lets 1 - F of the incoming light in. Of the light that the bed scatters, the share q = (1 - F)/n^2 leaves the
+// water, and the surface reflects the rest back to the bed. The bed scatters the part A (its albedo) of the rest
+// again, and so on. In total the bed's colour is multiplied by q/(1 - A (1 - q)), which is 1 for a white bed (A = 1).
+// Reflection of the view ray is not included here: it is part of the sheet's own reflection. Sunlight is absorbed
+// along its refracted path down, skylight along the mean path of an even sky. Light that goes up and down between two
+// scatterings at the bed is mostly totally reflected, so its path is flat: it counts as five mean paths of skylight.
+// `over` applies the absorption on the way from the bed to the eye.
 vec3 under_water(Sheet sheet, vec3 dry) {
     vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
     vec3 sky = exp(-extinction * (frame.bed.y * sheet.down));

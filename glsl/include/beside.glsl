@@ -1,12 +1,12 @@
 // Shading of pixels without water. Needs frame.glsl, surface_foam_texels.glsl. Reads: foam depth, spray, depth and intensity
 // of whitewater particles, depth of bubble foam.
 
-// 1: there may be shore foam; otherwise it is not read.
+// 1: there may be surface foam; 0: its image is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 layout(constant_id = 10) const uint SPRAY = 0;
 layout(constant_id = 20) const uint WHITEWATER = 0;
 layout(constant_id = 22) const uint SOAP = 0;
-// Width of the foam's texels. A constant, so that loops over them are unrolled.
+// Width of a foam texel in pixels. It is a constant, so that loops over texels are unrolled.
 layout(constant_id = 3) const uint FOAM_EDGE = 4;
 
 layout(set = 0, binding = 13) uniform sampler2D foam_depth;
@@ -20,8 +20,9 @@ bool spray_at(ivec2 pixel) {
         || SOAP == 1u && texelFetch(soap_depth, pixel, 0).x < EMPTY;
 }
 
-// Whether a block of side x side pixels may show foam, ignoring the scene. Its corner is a multiple of its side,
-// a power of two, so all pixels of half a texel share the same four texels.
+// Whether a block of `side` x `side` pixels may show surface foam; the scene may still hide this foam. `side` is a
+// power of two and `corner` a multiple of it. So all pixels in the same quarter of a foam texel are interpolated from
+// the same four texels, which are read once.
 bool foam_beside(ivec2 corner, int side) {
     int step = max(int(FOAM_EDGE) / 2, 1);
     vec4 z = vec4(EMPTY);

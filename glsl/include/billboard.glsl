@@ -1,4 +1,5 @@
-// Intersection of a blob with the ray of a pixel of its billboard. Needs nothing. Reads: scene depth, blobs, inputs of blob.glsl.
+// Intersection of a blob (a ball of soap bubbles) with the ray through a pixel of the blob's billboard. Needs
+// nothing. Reads: scene depth, blobs, inputs of blob.glsl.
 
 #include "frame.glsl"
 #include "bubbles.glsl"

@@ -1,4 +1,5 @@
-// A blob of bubbles on a ray (Huszar, Szecsi, Sec. 4.2, 4.3), in the blob's space: its bounding ball is the unit ball.
+// Intersection of a ray with a blob, a ball of soap bubbles (Huszar, Szecsi, Sec. 4.2, 4.3). All is in the blob's
+// space, in which its bounding ball is the unit ball.
 // Needs cube.glsl. Reads: bubbles, their neighbours, distances, ids.
 
 // 0: by the distance impostor, 1: by bubble ids.
@@ -14,7 +15,8 @@ layout(set = 0, binding = 8, std430) readonly buffer Bubbles { vec4 bubbles[]; }
 layout(set = 0, binding = 9) uniform sampler2DArray blob_distances;
 // Four texels per word.
 layout(set = 0, binding = 10, std430) readonly buffer BlobIds { uint blob_ids[]; };
-// For each bubble, the indices of sixteen bubbles that it intersects, a byte each; its own index if there are fewer.
+// For each bubble, the indices of sixteen bubbles that it intersects, a byte each. If there are fewer, its own index
+// fills the rest.
 layout(set = 0, binding = 13, std430) readonly buffer Neighbours { uvec4 neighbours[]; };
 
 const uint NO_BUBBLE = 0xffffffffu;
@@ -40,14 +42,15 @@ vec4 bubble_of(uint template_, uint id) {
     return bubbles[template_ * BUBBLES + id];
 }
 
-// Mean radius of a blob's bubbles as generated: hexagons cover a shell, and the bubbles stand out of it
-// (blob.rs).
+// Mean radius of the bubbles of a generated blob (blob.rs), in radii of its bounding ball. The bubbles' centres lie
+// on a shell, of which each bubble takes the area of a hexagon, and the bounding ball also contains the part of the
+// bubbles outside this shell.
 float mean_radius() {
     return 1.0 / (0.2625 * sqrt(float(BUBBLES)) + 1.45);
 }
 
-// Distance of the surface from the blob's centre in a direction, interpolated; across a cube edge, that of
-// the edge.
+// Distance of the blob's surface from its centre in a direction, interpolated within a face of the cube map. Between
+// a face's outermost texel centres and its edge the value of the outermost texels is used.
 float distance_at(uint template_, vec3 direction) {
     int size = textureSize(blob_distances, 0).x;
     vec3 place = cube_place(direction);
@@ -70,15 +73,16 @@ struct BlobHit {
     uint id;    // of the bubble; NO_BUBBLE if not known
 };
 
-// With bubble ids: tests the bubbles that are visible in the directions of points along the ray. The first
-// bubble that contains its point will do, unless a later point finds a nearer one before it is reached.
+// Intersection by the map of bubble ids. For each of several points along the ray, the map gives the bubble that is
+// visible from outside in the point's direction from the blob's centre, and the ray is tested against this bubble.
+// The nearest hit is kept; the search ends when the points have passed it.
 BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
     BlobHit hit = BlobHit(-1.0, -1.0, NO_BUBBLE);
     float step = (span.y - span.x) / float(STEPS);
     uint last = NO_BUBBLE;
     uint i = 0u;
-    // The condition is at the top of the loop: with it at the end, one driver takes values of the last lane's
-    // iteration.
+    // The loop tests its condition at the top. With the test at the end, one driver gives all lanes the values of the
+    // iteration in which the last lane ends.
     bool more = true;
     while (more) {
         float t = span.x + (float(i) + 0.5) * step;
@@ -99,7 +103,8 @@ uvec4 neighbours_of(uint template_, uint id) {
     return neighbours[template_ * BUBBLES + id];
 }
 
-// Tests the neighbours of the bubble found, because the maps locate an edge only to a texel.
+// Tests the neighbours of the bubble that was hit, and returns the nearest hit among them. The map of ids locates the
+// edge between two bubbles only to a texel, so the ray may hit a neighbour first.
 BlobHit among_neighbours(uint template_, vec3 origin, vec3 direction, BlobHit hit, float from) {
     BlobHit best = hit;
     uvec4 words = neighbours_of(template_, hit.id);
@@ -116,9 +121,10 @@ BlobHit among_neighbours(uint template_, vec3 origin, vec3 direction, BlobHit hi
     return best;
 }
 
-// With distances: the first point where the ray is inside the surface. The search takes uniform steps to the
-// point nearest to the centre, then regula falsi (Illinois variant) between two of them. The paper reverses
-// the ray so that its search (Szirmay-Kalos et al. 2005) ends on the near side; this one begins there.
+// Intersection by the map of distances: the first point where the ray enters the blob's surface. The search takes
+// uniform steps from the near side to a little beyond the ray's point nearest to the centre. When a step ends inside,
+// regula falsi (Illinois variant) refines between this step and the one before. The paper instead reverses the ray,
+// so that its search (Szirmay-Kalos et al. 2005) ends on the near side.
 BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span) {
     const uint COARSE = 8u;
     float middle = clamp(-dot(origin, direction), span.x, span.y);

@@ -3,7 +3,8 @@
 // Transmittance below which the light behind does not matter.
 const float HIDDEN = 1.0 / 256.0;
 
-// No layer. A layer holds the number of a blob and of its bubble.
+// Stands for no layer. A layer names what a ray meets: the number of a blob, and of a bubble in the blob (low 8
+// bits).
 const uint NO_LAYER = 0xffffffffu;
 
 uint layer_of(uint blob, uint bubble) {
@@ -43,7 +44,8 @@ BlobRay blob_ray(Blob blob, WorldRay ray, vec2 span) {
                    blob.ball.w * ray.scale, span * inverse);
 }
 
-// Opacity of the core behind the point where the ray leaves its bubble (Sec. 4.4).
+// Opacity of the blob's core, its opaque inside, behind the point `past` where the ray leaves the bubble that it hit
+// (Sec. 4.4).
 float core_opacity(vec3 past) {
     return 1.0 - smoothstep(bubbly.core.x, bubbly.core.y, length(past));
 }
@@ -72,7 +74,8 @@ Seen blob_seen(Blob blob, WorldRay world) {
     return seen;
 }
 
-// Corrects an approximate hit: returns the layer with the exact bubble at the pixel, and sets its exact depth.
+// Corrects an approximate hit: returns the layer with the bubble that is exactly at the pixel, and sets `depth` to
+// that bubble's exact depth.
 uint exact_layer(Blob blob, WorldRay world, uint layer, inout float depth) {
     vec2 span;
     in_blob(blob, world, span);

@@ -1,9 +1,9 @@
-// The depth that represents a block of pixels in the smoothing (thesis Sec. 4.7 scales the depth down). Needs
+// Reduction of a block of pixels to one depth, for the smoothing (thesis Sec. 4.7 scales the depth down). Needs
 // frame.glsl and the image `depth`.
 
-// The depth that represents a block of pixels: that of its nearest surface, unless that surface covers less than a
-// quarter of the block's water; then that of the surface behind. A drop would otherwise hide a texel of the pool from
-// the smoothing; it is drawn with its own shape anyway.
+// The depth that represents a block of pixels: the depth `nearest` of its nearest surface. If this surface covers
+// less than a quarter of the block's pixels with water, it is the depth of the next surface behind instead. Otherwise
+// a drop would hide a texel of the pool behind it from the smoothing; the drop is drawn with its own shape anyway.
 float block_depth(ivec2 first, ivec2 end, float nearest) {
     float second = EMPTY;
     int own = 0;

@@ -1,12 +1,13 @@
-// Shared by the passes of bubble foam. Needs frame.glsl. Reads: the block of bubble foam.
+// Uniforms, blobs and screen tiles, shared by the passes of bubble foam. Needs frame.glsl. Reads: the uniform block
+// of bubble foam.
 
 #include "quaternion.glsl"
 
 layout(set = 0, binding = 1, std140) uniform BubbleFrame {
     vec4 film;    // mean thickness in nm, variation, drainage; thickness of the film table's last row in nm
-    vec4 core;    // radii where it is opaque and where it ends; weights of the inverse normal and of the blob's own
+    vec4 core;    // radii where it is opaque and where it ends; weights of the inverse normal and of the blob's normal
     vec4 albedo;  // twice the core's albedo; strength of its pattern
-    vec4 mirror;  // factor of reflections; exponent of the highlight; 1: walls; 1: holes are plugged
+    vec4 mirror;  // factor of reflections; exponent of the highlight; z 1: walls are drawn; w 1: holes are plugged
     vec4 sun;     // irradiance on a surface that faces the sun, over 2 pi
     vec4 sun_mirror; // the sun's highlight; radius in pixels below which blobs merge
     uvec4 tiles;  // tiles across and down, depth slices, capacity of the lists
@@ -15,7 +16,7 @@ layout(set = 0, binding = 1, std140) uniform BubbleFrame {
 
 // A blob on the screen.
 struct Blob {
-    vec4 ball;      // position relative to the eye along the world's axes, radius; -1 for an invalid blob
+    vec4 ball;      // centre relative to the eye along the world's axes; radius, -1 for an invalid blob
     vec4 turn;      // quaternion from the world to the blob's space
     uint template_;
     uint id;

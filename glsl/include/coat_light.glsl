@@ -1,6 +1,7 @@
 // Light reflected by foam on the scene's water. Needs frame.glsl.
 
-// Full light; multiplied by 1 - `lost` where sunlight is missing.
+// Radiance of shoreline and contact foam in full sun. The values `..._lost` are the parts of it that are missing
+// where no sunlight arrives.
 struct CoatLight {
     vec4 shore;        // w: opacity
     vec3 shore_lost;

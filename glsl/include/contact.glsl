@@ -1,10 +1,11 @@
-// Contact foam: the closer the scene is behind the surface, the more foam (Lettier, Foam). Needs shore.glsl, and
-// shoreline.glsl for the web. Reads: the host's mask.
+// Contact foam: the closer the scene is behind the water's surface, the more foam (Lettier, Foam). Needs shore.glsl,
+// and shoreline.glsl for the web (the foam's texture). Reads: the host's mask.
 
 layout(set = 0, binding = 30) uniform sampler2D contact_mask;
 
-// Distance between the scene's point and the surface's on the same ray; large if there is no scene. The vertical
-// measure is also large for a ray that does not go down, because the scene behind is then not below.
+// Distance between the points at which a ray meets the water's surface and the scene. `shore.contact.w` chooses the
+// measure: 0 along the ray, 1 along the view axis, 2 vertical. The distance is large if there is no scene, and with
+// the vertical measure also if the ray does not go down, because then the scene is not below the surface.
 float contact_distance(vec3 ray, float z, float scene) {
     float far = scene > 0.0 ? scene - z : EMPTY;
     if (shore.contact.w == 0.0) {
@@ -18,7 +19,8 @@ float eased(float x) {
     return x * x / (2.0 * (x * x - x) + 1.0);
 }
 
-// The pattern at a point of the surface, 0 to 1, and its change per pixel to the right and down.
+// Pattern of contact foam at a point of the surface: its value, 0 to 1, and the change per pixel to the right and
+// down.
 vec3 pattern_at(vec2 pixel, vec2 p, mat2 across) {
     float scale = shore.contact_mask.x;
     float level = level_of(sqrt(abs(determinant(across))) * scale * shore.web.z);
@@ -32,7 +34,8 @@ vec3 pattern_at(vec2 pixel, vec2 p, mat2 across) {
     return pattern;
 }
 
-// Coverage of contact foam. `far` is the distance divided by the foam's depth.
+// Coverage of contact foam. `far` is the distance from the surface to the scene, divided by the distance at which the
+// foam ends.
 float contact_foam(float far, float pattern) {
     return eased((1.0 - clamp(far, 0.0, 1.0)) * mix(1.0, clamp(pattern, 0.0, 1.0), shore.contact.z));
 }

@@ -1,5 +1,6 @@
-// Normalised depths of a shadow map, between its nearest and farthest texel, and the Fourier basis of comparisons with
-// them (Annen et al. 2007, Sec. 3). Needs frame.glsl.
+// Convolution shadow maps: the depths of a shadow map, normalised to the range between its nearest and farthest
+// texel, and the Fourier basis in which comparisons with them are expanded (Annen et al. 2007, Sec. 3). Needs
+// frame.glsl.
 
 const float TWO_PI = 6.283185307;
 // No texel: the initial value of the span.
@@ -16,12 +17,13 @@ float along_light(float depth) {
         / (frame.shadow_linear.z * depth + frame.shadow_linear.w);
 }
 
-// The span stores the bits of the min depth and the inverted bits of the max.
+// The span of the map's depths stores the bits of the least depth in x, and the inverted bits of the greatest in y.
 bool span_holds(uvec4 span) {
     return span.x != NO_SPAN;
 }
 
-// 0 at the nearest texel, 1 - 4 ramps at the farthest. The series is periodic, so both ends keep a margin for its rise.
+// Normalised depth: 0 at the nearest texel, 1 - 4 r at the farthest, with the width r of the comparison's ramp
+// (`shadow_filter.w`). The Fourier series is periodic, so both ends of the range keep a margin for the ramp.
 float span_place(float depth, uvec4 span) {
     vec2 ends = vec2(along_light(uintBitsToFloat(span.x)), along_light(uintBitsToFloat(~span.y)));
     ends = frame.shadow_map.y > 0.0 ? ends : ends.yx;
@@ -35,8 +37,8 @@ float texel_place(float depth, uvec4 span) {
     return is_open(depth) ? 1.0 - 2.0 * frame.shadow_filter.w : span_place(depth, span);
 }
 
-// cos c_k t and sin c_k t of a page's two terms, c_k = (2k - 1) pi. Whole turns are removed, because sines in
-// shaders are precise only near 0.
+// cos c_k t and sin c_k t, with c_k = (2k - 1) pi, for the two terms k of a page (a part of the basis image). Whole
+// turns are removed from the angles, because sines in shaders are precise only near 0.
 vec4 waves(int page, float t) {
     vec2 turns = (vec2(0.5, 1.5) + 2.0 * float(page)) * t;
     vec2 angle = TWO_PI * (turns - round(turns));

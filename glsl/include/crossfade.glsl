@@ -10,7 +10,8 @@ uint ring_of(float distance_) {
     return distance_ < frame.whitewater.z ? min(uint(distance_ / frame.whitewater.z * float(RINGS)), RINGS - 1u) : RINGS;
 }
 
-// Fraction of a particle that its sprite shows: less for foam near the eye.
+// Fraction of a particle that is drawn as a sprite: for foam it falls from 1 at distance `far` to 0 at `near`, where
+// blobs replace the sprites.
 float kept_of(Whitewater p) {
     if (frame.whitewater.z > 0.0 && p.kind == FOAM) {
         float near = crossfade.near;

@@ -34,7 +34,7 @@ ivec3 cube_texel(vec3 d, int size) {
     return ivec3(clamp(ivec2(place.xy * float(size)), ivec2(0), ivec2(size - 1)), int(place.z));
 }
 
-// A world direction in axes with y up, given the world's up direction and x axis.
+// Components of a world direction in axes with y up: x along `east`, y along `up`, z along their cross product.
 vec3 standing(vec3 direction, vec3 east, vec3 up) {
     return vec3(dot(direction, east), dot(direction, up), dot(direction, cross(east, up)));
 }

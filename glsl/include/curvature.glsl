@@ -1,5 +1,6 @@
-// One step of curvature flow at a pixel (thesis Sec. 2.5.3 and 4.7, Listing A.13). z is the eye depth. Differences from
-// the thesis are described at each step. Needs nothing. `precise`: raster and compute forms must agree bit for bit.
+// One step of curvature flow at a pixel (thesis Sec. 2.5.3 and 4.7, Listing A.13). z is the eye depth. Differences
+// from the thesis are described at each step. `precise` makes the raster and compute forms agree bit for bit. Needs
+// nothing.
 
 struct Stencil {
     float z;          // centre
@@ -12,8 +13,8 @@ struct Derivatives {
     bool has_xy;
 };
 
-// Central differences. Nothing is smoothed across silhouettes: an axis with a one-sided difference over the
-// falloff has no derivatives.
+// Central differences. Nothing is smoothed across silhouettes: if the depth of either neighbour on an axis differs
+// from the centre's by more than `falloff`, the derivatives along this axis are 0.
 Derivatives derivatives(Stencil s, float falloff, bool mixed) {
     Derivatives z;
     vec4 off = abs(s.axis - s.z);
@@ -39,8 +40,9 @@ Derivatives derivatives(Stencil s, float falloff, bool mixed) {
     return z;
 }
 
-// The thesis' step (Sec. 2.5.3, Eqs. 2.10-2.16 with their misprints corrected; van der Laan et al. 2009;
-// without the mixed derivative, as in Listing A.13): z - epsilon 2H, c = (C_x, C_y).
+// The thesis' step (Sec. 2.5.3, Eqs. 2.10-2.16 with their misprints corrected; van der Laan et al. 2009; without the
+// mixed derivative, as in Listing A.13): returns z - epsilon 2H, where H is the mean curvature. c = (C_x, C_y) is the
+// world size of a pixel at depth 1.
 float source_step(Stencil s, vec2 c, float falloff, float epsilon) {
     Derivatives z = derivatives(s, falloff, false);
     precise float cx2 = c.x * c.x;
@@ -56,10 +58,11 @@ float source_step(Stencil s, vec2 c, float falloff, float epsilon) {
     return moved;
 }
 
-// Mean curvature flow of the surface P = (slope, -1) z from its two fundamental forms, so that the width smoothed along
-// the surface does not depend on distance, slant or position in the image. (The thesis' D omits the ray's slope, so it
-// is correct only on the optical axis, and planes drift away.) `g` is the signed slope per pixel, `kappa` the diffusion
-// in square pixels for a surface that faces the eye.
+// A step of mean curvature flow of the surface P = (slope, -1) z, where `slope` is that of the pixel's ray (xy /
+// depth). It uses the surface's two fundamental forms, so the width over which the surface is smoothed does not
+// depend on distance, slant or position in the image. (The thesis' D omits the ray's slope, so it is correct only on
+// the optical axis, and planes drift away.) `g` is the signed change of the ray's slope per pixel, `kappa` the
+// diffusion in square pixels for a surface that faces the eye.
 float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     Derivatives z = derivatives(s, falloff, true);
     precise float ww = 1.0 + slope.x * slope.x + slope.y * slope.y;

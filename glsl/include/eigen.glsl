@@ -4,7 +4,8 @@
 // Rotates the axes p and q so that a_pq becomes 0; r is the third axis.
 void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout float qr, inout vec3 p, inout vec3 q) {
     float d = qq - pp;
-    // The smaller of both angles. For a multiple of the identity it is 0, and not 0 / 0.
+    // Tangent of the smaller of the two angles that make a_pq 0. For a multiple of the identity it is 0, and not 0 /
+    // 0.
     float t = (d < 0.0 ? -2.0 : 2.0) * pq / max(abs(d) + sqrt(d * d + 4.0 * pq * pq), 1.0e-30);
     float c = inversesqrt(1.0 + t * t);
     float s = t * c;
@@ -19,8 +20,9 @@ void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout 
     p = turned;
 }
 
-// Eigenvalues, and eigenvectors as columns, of the symmetric matrix (xx, yy, zz), (yz, xz, xy). Three sweeps
-// bring the off-diagonal elements below single precision; the fourth is a reserve.
+// Eigenvalues, and eigenvectors as columns, of the symmetric matrix with the diagonal (xx, yy, zz) and the
+// off-diagonal elements (yz, xz, xy). Three sweeps bring the off-diagonal elements below single precision; the fourth
+// is a reserve.
 vec3 eigen(vec3 diagonal, vec3 off, out mat3 vectors) {
     vec3 x = vec3(1.0, 0.0, 0.0);
     vec3 y = vec3(0.0, 1.0, 0.0);

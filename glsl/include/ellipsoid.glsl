@@ -1,5 +1,6 @@
-// A drawn particle: its sphere, or an ellipsoid (Yu and Turk 2013), in perspective: footprint, exact intersection,
-// thickness sprite. In lists of ellipsoids the entry after a sphere's holds its shape. Needs frame.glsl, sphere.glsl.
+// A particle as it is drawn, as a sphere or an ellipsoid (Yu and Turk 2013), in perspective: its bounds on the
+// screen, exact intersection with a ray, and thickness sprite. In lists of ellipsoids each particle has two entries:
+// its sphere, then its shape (axes.glsl). Needs frame.glsl, sphere.glsl.
 
 #include "axes.glsl"
 
@@ -10,7 +11,7 @@ const uint ENTRIES = 1u + ELLIPSOIDS;
 
 struct Ellipsoid {
     vec4 sphere;  // eye-space centre; radius
-    mat3 axes;    // maps a sphere of that radius to the ellipsoid; like all below, for ellipsoids only
+    mat3 axes;    // maps a sphere of that radius to the ellipsoid; unused for spheres, as are the two below
     mat3 inverse; // maps the ellipsoid to that sphere
     vec3 centre;  // centre in that space
 };
@@ -29,13 +30,15 @@ Ellipsoid ellipsoid_of(vec4 sphere, vec4 shape) {
 #define ellipsoid_in(LIST, INDEX) \
     ellipsoid_of(LIST[ENTRIES * (INDEX)], LIST[ENTRIES * (INDEX) + ELLIPSOIDS])
 
-// Matrix B of the dual form: the distance from the centre of the tangent plane with unit normal n is sqrt(n.B
-// n).
+// Matrix B of the ellipsoid's dual form: the tangent plane with unit normal n has the distance sqrt(n.B n) from the
+// ellipsoid's centre.
 mat3 ellipsoid_dual(Ellipsoid e, float radius) {
     return (radius * radius) * (e.axes * e.axes);
 }
 
-// Like sphere_bounds: a plane through the eye, x = s depth, is tangent where (c_x - s depth)^2 = (1, s).B (1, s).
+// Bounds like those of sphere_bounds. The plane x = s depth through the eye is tangent to the ellipsoid if (c_x - s
+// d)^2 = (1, s).B (1, s), with the centre's x coordinate c_x and depth d, and the x and z elements of B. The same
+// holds for y.
 bool ellipsoid_bounds(Ellipsoid e, out vec4 bounds) {
     if (ELLIPSOIDS == 0u) {
         return sphere_bounds(e.sphere.xyz, e.sphere.w, bounds);
@@ -62,7 +65,8 @@ float ellipsoid_nearest(Ellipsoid e) {
     if (ELLIPSOIDS == 0u) {
         return -e.sphere.z - e.sphere.w;
     }
-    // Rounding must not put it behind a hit: tolerance 1.0e-5 of the root and of the depth.
+    // Rounding must not put this depth behind a hit on the ellipsoid, so it is less by 1.0e-5 of the root and of the
+    // depth.
     return -e.sphere.z * (1.0 - 1.0e-5) - 1.00001 * sqrt(ellipsoid_dual(e, e.sphere.w)[2].z);
 }
 
@@ -80,16 +84,16 @@ float ellipsoid_reach(Ellipsoid e) {
     return max(rows.x, max(rows.y, rows.z));
 }
 
-// The thickness sprite: an ellipse in the plane of the centre, the parallel projection of the ellipsoid along the ray
-// through its centre.
+// The thickness sprite: an ellipse in the plane through the ellipsoid's centre at constant depth. It is the parallel
+// projection of the ellipsoid to this plane, along the ray through the centre.
 struct Disc {
     vec3 conic;   // (xx, xy, yy) of the quadratic form rho^2
     vec2 reach;   // half of its bounding box
     float area;   // product of the half-axes
 };
 
-// The disc of an ellipsoid scaled by `scale`. No half-axis is less than a pixel; dividing the amplitude by
-// `area` keeps the volume.
+// The disc of an ellipsoid scaled by `scale`. Half-axes below a pixel are widened to one. The thickness at the centre
+// must be divided by `area`, so that the sprite keeps its volume.
 Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
     mat3 b = ellipsoid_dual(e, scale * e.sphere.w);
     float depth = -e.sphere.z;
@@ -122,7 +126,8 @@ Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
     return disc;
 }
 
-// rho^2 at the point where the ray meets the plane of the sprite's centre.
+// rho^2 at the point where the ray meets the sprite's plane; rho is the distance from the centre in half-axes, 1 at
+// the rim.
 float disc_rho2(vec2 slope, vec3 centre, vec3 conic) {
     vec2 off = slope * -centre.z - centre.xy;
     return off.x * (conic.x * off.x + 2.0 * conic.y * off.y) + conic.z * off.y * off.y;
