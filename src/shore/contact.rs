@@ -1,5 +1,5 @@
-//! Pass `contact`: foam on the particles' water around objects in it (Lettier, Foam). It needs the smoothed
-//! surface, so it runs after that; `shoreline` handles the host's surface.
+//! Pass `contact`: foam on the particles' water around objects in it (Lettier, Foam). It runs after the smoothing,
+//! because it needs the smoothed surface. Foam on the host's own water surface is part of pass `shoreline`.
 //!
 //! Reads: depth, smoothed, scene depth, web, mask. Writes: tiles that may contain foam, foam of their pixels.
 
@@ -27,7 +27,7 @@ impl Contact {
         Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
     }
 
-    /// Fragment shaders sample the water's layers before and after.
+    /// Before and after, the water's images are in the state in which fragment shaders sample them.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -65,7 +65,8 @@ impl Contact {
         ];
         r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
         self.pipeline.push(gpu, cmd, &tiles.places(r.extent));
-        // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible (`record_on_particles`).
+        // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible
+        // (`record_on_particles`).
         unsafe { gpu.device.cmd_dispatch_indirect(cmd, arguments.handle, CONTACT_DISPATCH) };
         let back = [
             &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED)[..],

@@ -1,10 +1,10 @@
 //! Pass `map`: distance to the shore on a grid that is fixed in the world, for shores without a mesh of their
 //! own. Not in the blog, whose author asks for it (*Semi-procedural foam shader*, Sec. II).
 //!
-//! The input are heights seen from above, of the host's meshes or image. Texels where they cross the water's level are
-//! seeds, and jump flooding finds the nearest seed of each texel (Rong, Tan, *Jump Flooding in GPU with Applications to
-//! Voronoi Diagram and Distance Transform*, 2006), with one extra jump of one texel at the end. If only a part has
-//! changed, only a window is updated.
+//! The input is the height of the land seen from above, from the host's meshes or image. Texels where it crosses the
+//! water's level are seeds, and jump flooding finds the nearest seed of each texel (Rong, Tan, *Jump Flooding in GPU
+//! with Applications to Voronoi Diagram and Distance Transform*, 2006), with one extra jump of one texel at the end.
+//! If only a part of the land has changed, only a rectangle of texels around it is updated.
 //! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, metres, negative in the water).
 
 use std::sync::Arc;
@@ -64,15 +64,15 @@ impl Default for ShoreMapConfig {
 pub struct Area {
     /// World up direction, unit length, the same as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
-    /// Centre along the two level axes: x and z for y up. It is snapped to whole texels, so a map that follows
-    /// a camera keeps its content.
+    /// Centre along the two horizontal axes: x and z for y up. The area is snapped to whole texels, so a map that
+    /// follows a camera keeps its content as long as the camera moves by less than a texel.
     pub center: [f32; 2],
     /// Side length in scene units, (0, 1e6].
     pub edge: f32,
     /// Height of the water along `up`, scene units, finite.
     pub level: f32,
-    /// Maximum distance from the shore that is computed, scene units, (0, edge]: the width of the foam, seawards or
-    /// inland.
+    /// Maximum distance from the shore that is computed, scene units, (0, edge]: the width of the foam seawards or
+    /// inland, whichever is larger.
     pub reach: f32,
 }
 
@@ -81,8 +81,8 @@ pub struct Area {
 pub enum Heights<'a> {
     /// Meshes, rendered from above. Land is wherever any mesh is above the water, including overhangs.
     Meshes(&'a [MapMesh]),
-    /// Heights along [`Area::up`] at the centres of an image's texels. Columns run along the first level axis,
-    /// rows along the second, over the snapped area ([`Area::corner`]). Any size, only sampled.
+    /// Heights along [`Area::up`] at the centres of an image's texels. The image covers the snapped area
+    /// ([`Area::corner`]); x runs along the first horizontal axis, y along the second. Any size, only sampled.
     Image(HostImage),
 }
 
@@ -103,10 +103,11 @@ pub struct ShoreMapStep<'a> {
     pub slot: Slot,
     /// The covered area.
     pub area: Area,
-    /// The land: all of it, also where it has not changed.
+    /// All of the land, including the parts that have not changed.
     pub heights: Heights<'a>,
-    /// The area that has changed since the last step: minimum and maximum corner along the level axes, scene units,
-    /// enclosing the old and the new position. `None` means everything, as if the area had changed.
+    /// Rectangle in which the land has changed since the last step: its minimum and maximum corner along the
+    /// horizontal axes, scene units. Around land that has moved, it encloses the old and the new position. `None`:
+    /// everything is computed again, as it also is if `area` has changed.
     pub changed: Option<[[f32; 2]; 2]>,
     /// Last use of the meshes' buffers before the step (layout ignored).
     pub before: Access,
@@ -358,8 +359,8 @@ impl ShoreMap {
     /// Records an update after land or water have changed. It never submits, waits or allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command buffer;
-    /// the next step has to update everything.
+    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command
+    /// buffer; the next step has to update everything.
     ///
     /// # Safety
     /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
@@ -389,8 +390,8 @@ impl ShoreMap {
             }
             None => Part::whole(size),
         };
-        // A changed height affects texels within the reach; texels that far away may have a new nearest seed, which may
-        // be as far again.
+        // A changed height affects the distances of texels within the reach. The nearest seed of such a texel may be
+        // as far away from it, so seeds are needed within twice the reach.
         let told = changed.grown(reach, size);
         let asked = told.grown(reach, size);
         let first_time = self.area.is_none();
@@ -446,7 +447,7 @@ impl ShoreMap {
             pipeline.push(gpu, cmd, &push(asked, 0));
             dispatch(asked);
         }
-        // The last jump covers twice the reach, followed by one jump of a texel.
+        // Jumps halve down to one texel, and all together cover the reach; one more jump of a texel follows.
         let farthest = (reach as u32 + 1).next_power_of_two() as i32 / 2;
         let jumps = std::iter::successors(Some(farthest.min(size as i32)), |jump| Some(jump / 2));
         let jumps: Vec<_> = jumps.take_while(|jump| *jump > 0).chain([1]).collect();
@@ -533,9 +534,9 @@ impl ShoreMap {
         })
     }
 
-    /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Beyond the reach only
-    /// the sign and a larger value are guaranteed. Transfer source; sampled by fragment and compute shaders
-    /// after a step.
+    /// Distance to the shore at each texel's centre, scene units, negative in the water, R32F. Where it exceeds the
+    /// reach, only the sign is right, and the absolute value is larger than the reach. The image has transfer-source
+    /// usage; after a step, fragment and compute shaders may sample it.
     pub fn distances(&self) -> vk::Image {
         self.grid.distances.handle
     }
@@ -614,7 +615,7 @@ impl Grid {
             let [east, north] = level_axes(up);
             let scale = 2.0 / area.edge;
             let corner = Vec2::from(corner);
-            // The range of heights above and below the water equals the width of the area.
+            // Depths 0 to 1 represent heights from one width of the area below the water to one width above it.
             let rows = [
                 (east * scale).extend(-corner.x * scale - 1.0),
                 (north * scale).extend(-corner.y * scale - 1.0),

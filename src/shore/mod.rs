@@ -121,7 +121,7 @@ impl Looks {
         own
     }
 
-    /// Adds noises in the four channels, with factors. Those of equal scale share a look-up.
+    /// Adds one noise for each of the four channels, with a factor each. Noises of equal scale share a look-up.
     fn add_noises(&mut self, noises: [(Noise, f32); 4]) {
         let first = self.count;
         for (channel, (noise, factor)) in noises.iter().enumerate() {
@@ -247,8 +247,8 @@ impl ShoreUniforms {
     }
 }
 
-/// Radiance of both kinds of foam in full light, for `composite`: RGB, then the lit share (contact foam) or the opacity
-/// (shoreline foam).
+/// Radiance of shoreline foam and of contact foam in full light, for `composite`: RGB, and as fourth component the
+/// opacity of shoreline foam, or the lit share of contact foam.
 pub(crate) fn colors(settings: &Settings) -> [Vec4; 2] {
     let (s, c) = (&settings.shore.shoreline, &settings.shore.contact);
     let light = Vec3::from(settings.light.irradiance) / std::f32::consts::PI;
@@ -314,7 +314,7 @@ pub(crate) fn surface_of(shore: &crate::contract::Shore) -> Option<&HostImage> {
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Shore {
-    /// Textures; shared with the renderer before a `reconfigure` if they still fit.
+    /// Textures. After a `reconfigure` they are those of the previous renderer, if they still fit.
     textures: Arc<Textures>,
     tiles: tiles::Tiles,
     shoreline: shoreline::Shore,
@@ -376,7 +376,8 @@ impl Shore {
         self.textures.edges()
     }
 
-    /// Passes `shore-tiles` and `shoreline`. `general` selects the general pipeline.
+    /// Passes `shore-tiles` and `shoreline`. `general` selects the pipelines without the limits of the usual case
+    /// (glsl/include/shore.glsl).
     pub fn record_shoreline(
         &self,
         r: &mut Recording<'_>,
@@ -406,14 +407,14 @@ impl Shore {
         Ok(())
     }
 
-    /// The foam image, with four channels: shoreline foam, contact foam on the host's surface, the fraction of sunlight
-    /// that is missing there, contact foam on the particles' water.
+    /// The foam image, with four channels: shoreline foam, contact foam on the host's surface, the fraction of
+    /// sunlight that is missing there, contact foam on the particles' water.
     pub fn image(&self) -> &Image {
         self.shoreline.image()
     }
 
-    /// Tiles with foam on the host's surface, and the draw of their quads; number of tiles per row of a frame,
-    /// and offset in the list.
+    /// The buffer of tile lists, the buffer with the arguments of the draw over runs of tiles with foam on the host's
+    /// surface, and two numbers: tiles per row of a frame, and the index in the first buffer at which the runs begin.
     pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, [u32; 2]) {
         let [list, arguments, _] = self.tiles.buffers();
         let [across, most] = self.tiles.places(extent);

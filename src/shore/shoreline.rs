@@ -1,12 +1,13 @@
 //! Pass `shoreline`: foam on the host's water surface, along shores (*Semi-procedural foam shader*) and around
 //! objects (Lettier, Foam).
 //!
-//! A pixel's foam depends only on its position on the surface: the pass needs the scene's depth and no mesh. A host's
-//! strip, if there is one, is drawn first. Then the tiles that may contain foam (`shore-tiles`) are processed, 2×2
-//! pixels at a time. `composite` gets the foam as runs of tiles.
+//! A pixel's foam depends only on its position on the surface: the pass needs the scene's depth and no mesh. If the
+//! host gives a strip (a mesh along the shore, with the shore coordinate at its vertices), it is drawn first. Then
+//! the tiles that may contain foam (`shore-tiles`) are processed, 2×2 pixels at a time. For `composite`, the tiles
+//! that have foam are merged into runs.
 //! Reads: tiles, scene depth, depth of the host's water surface, map of shore distances, strip, foam texture, noise,
-//! mask. Writes: foam, RGBA8 (shoreline foam, contact foam, blocked share of sunlight, 0 for pass `contact`); the runs
-//! and the arguments of their draw.
+//! mask. Writes: foam, RGBA8 (shoreline foam, contact foam, blocked share of sunlight, 0 for pass `contact`); the
+//! runs and the arguments of their draw.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -119,7 +120,7 @@ impl Shore {
         &self.target.image
     }
 
-    /// `general` selects the general pipeline.
+    /// `general` selects the pipelines without the limits of the usual case (glsl/include/shore.glsl).
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -213,7 +214,8 @@ impl Shore {
                 vertices: strip.triangles.vertices,
             };
             self.strip.push(gpu, cmd, &push);
-            // SAFETY: inside the render pass, pipeline and set are bound; the shader reads no vertex that is not there.
+            // SAFETY: inside the render pass, pipeline and set are bound; the shader reads no vertex that is not
+            // there.
             unsafe { gpu.device.cmd_draw(cmd, strip.triangles.drawn(), 1, 0, 0) };
             gpu.end_pass(cmd);
         }

@@ -1,5 +1,5 @@
-//! Pass `shore-tiles`: lists the screen tiles that may contain foam on the host's surface. Not in the sources:
-//! most of a picture has none, and this test is much cheaper than shading.
+//! Pass `shore-tiles`: lists the screen tiles that may contain foam on the host's surface. The sources have no such
+//! list. It saves time because most of a picture has no foam, and this test is much cheaper than shading.
 //!
 //! Reads: scene depth, depth of the host's water surface, map of shore distances; for pass `contact` also the
 //! particles' water depth. Writes: lists of tiles, and the indirect arguments of dispatches over them.
@@ -26,10 +26,11 @@ use crate::water::Recording;
 const LEVEL: u32 = 3;
 /// Maximum number of tiles per run (glsl/include/shore_runs.glsl).
 const LONGEST: u32 = 16;
-/// Number of lists: tiles that may contain shoreline foam, contact foam, both; runs of tiles with any; tiles
-/// that may contain contact foam on the particles' water.
+/// Number of lists. Three are of tiles that may contain only shoreline foam, only contact foam, or both on the host's
+/// surface. The fourth is of runs: neighbouring tiles of a row that have foam. The fifth is of tiles that may contain
+/// contact foam on the particles' water.
 const LISTS: u32 = 5;
-/// Arguments of an empty draw and of empty dispatches, with their tile counts (same file).
+/// Arguments of an empty draw and of five empty dispatches, with their tile counts (glsl/include/shore_lists.glsl).
 const NO_TILES: [[u32; 4]; 6] =
     [[4, 0, 0, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0]];
 /// Byte offset of the dispatch over the fourth list.
@@ -77,7 +78,7 @@ impl Lists {
 pub struct Tiles {
     /// Pipelines for most frames, and for the general case (glsl/include/shore.glsl).
     pipelines: [Pipeline; 2],
-    /// The same pipelines for the particles' water.
+    /// These two pipelines for the particles' water.
     on_particles: [Pipeline; 2],
     runs: Pipeline,
     /// Arguments of the draw of the tiles' quads and of the dispatches.
@@ -179,8 +180,8 @@ impl Tiles {
         Ok(())
     }
 
-    /// Lists the tiles that may contain contact foam on the particles' water, from its depth. List and dispatch
-    /// are readable afterwards.
+    /// Lists the tiles that may contain contact foam on the particles' water, from that water's `depth`. The list and
+    /// the arguments of its dispatch are readable afterwards.
     pub fn record_on_particles(
         &self,
         r: &mut Recording<'_>,
@@ -207,7 +208,7 @@ impl Tiles {
         Ok(())
     }
 
-    /// Merges the tiles that `shoreline` has marked to runs, for `composite`.
+    /// Merges the tiles that `shoreline` has marked as having foam into runs of up to 16 neighbours, for `composite`.
     pub fn record_runs(&self, r: &Recording<'_>) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let [list, arguments, marks] = self.buffers();
