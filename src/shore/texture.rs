@@ -1,8 +1,8 @@
 //! Textures of shoreline foam: the distance from a pattern, a foam texture, noise. All are seamless.
 //!
-//! Shoreline foam thresholds a picture. If the picture holds the distance to the nearest line of a pattern, lines
-//! become thinner and thicker as the threshold changes (*Semi-procedural foam shader*, Sec. V). Filters of picture
-//! editors stop at the border; these functions wrap around.
+//! Shoreline foam is where a picture exceeds a threshold. If the picture holds the distance to the nearest line of a
+//! pattern, lines become thinner and thicker as the threshold changes (*Semi-procedural foam shader*, Sec. V).
+//! Filters of picture editors stop at the picture's border; these functions wrap around.
 //!
 //! No transcendental function is used: a seed gives the same texture on every machine.
 
@@ -15,8 +15,8 @@ const NOWHERE: i64 = i64::MAX;
 /// repeating in both directions. Infinite everywhere if the pattern is empty.
 ///
 /// An exact Euclidean distance transform except for the rounding of the square root, in time linear in the number of
-/// texels (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012). The first pass runs along the
-/// columns. The second finds, in each row, the lower envelope of one parabola per column; the row is extended
+/// texels (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012). The first pass runs along
+/// the columns. The second finds, in each row, the lower envelope of one parabola per column; the row is extended
 /// periodically by half its width on both sides, because the picture repeats.
 ///
 /// `pattern` is `width` × `height` texels, row by row.
@@ -28,7 +28,7 @@ pub fn distance_transform(pattern: &[bool], width: usize, height: usize) -> Vec<
 }
 
 /// The inverted distance, as shoreline foam uses it: 1 on the pattern, falling linearly to 0 at `reach` texels.
-/// 0 everywhere if the pattern is empty; only the pattern if `reach` is not above 0.
+/// 0 everywhere if the pattern is empty; 1 on the pattern and 0 elsewhere if `reach` is not above 0.
 ///
 /// # Panics
 /// Those of [`distance_transform`].
@@ -68,8 +68,8 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
     for y in (1..2 * height).rev() {
         follow(y - 1, y);
     }
-    // Along the rows. For each parabola of the envelope: its apex, its height there, and the position from which it is
-    // the lowest.
+    // Along the rows. For each parabola of the envelope: the position of its apex, the height of its apex, and the
+    // position from which on it is the lowest.
     let mut envelope: Vec<(i64, i64, i64)> = Vec::with_capacity(2 * width);
     let half = width / 2;
     let mut squares = Vec::with_capacity(pattern.len());
@@ -114,8 +114,8 @@ const NOISE_CELLS: usize = 4;
 /// second derivative is continuous) with 4, 8, 16 and 32 cells per side, each octave with half the amplitude of
 /// the previous. `edge`² texels, row by row.
 ///
-/// In [−1, 1]: each channel has mean 0 and maximum absolute value 1 (a single texel is 0). A seed gives the
-/// same noise at every size, except for this normalisation.
+/// Each channel is normalised to mean 0 and maximum absolute value 1 (a single texel is 0). Except for this
+/// normalisation, a seed gives the same noise at every size.
 pub fn noise(edge: u32, seed: u32) -> Vec<[f32; 4]> {
     let mut random = Random::new(seed ^ 0x6e6f_6973);
     let octaves: Vec<Lattice<4>> =
@@ -192,17 +192,19 @@ impl<const N: usize> Lattice<N> {
     }
 }
 
-/// Number of texels per side at which the web is computed; smaller webs are means of about that many texels.
+/// Number of texels per side at which the web is computed. For a smaller web, a web of about this many texels per
+/// side is averaged.
 const FINE: u32 = 1024;
 
-/// A foam texture as the sea leaves it on a shore: filaments between round cells of very different sizes, thicker where
-/// they meet, some of them torn. `edge`² texels, row by row, seamless, the same at every size. It is meant to cover 5
-/// to 15 m: the largest cells are a fifth of the side length, filaments a five-hundredth.
+/// The web: a foam texture as the sea leaves it on a shore. Filaments run between round cells of very different
+/// sizes; they are thicker where they meet, and some are torn. The result is `edge`² texels, row by row, seamless,
+/// the same picture at every size. It is meant to cover 5 to 15 m: the largest cells are a fifth of the side length
+/// wide, filaments a five-hundredth.
 ///
-/// An exact [`distance_transform`], inverted: 1 on the filaments, which are a seventh of the area, and 0
-/// farthest from them. Values in between are remapped to uniform area, so that the effect of a threshold is
-/// known: outside the filaments the fraction 1 − t of the area is at t or above. Texels partly on filaments
-/// hold the mean. Neighbouring texels differ by at most 0.2 at 512 per side, and less at larger sizes.
+/// Values are an exact [`distance_transform`], inverted: 1 on the filaments, which are a seventh of the area, and 0
+/// farthest from them. In between, values are remapped so that each is equally frequent. The effect of a threshold t
+/// is thus known: of the area outside the filaments, the fraction 1 − t is at t or above. Texels partly on filaments
+/// hold the mean. At 512 texels per side, neighbouring texels differ by less than 0.2, at larger sizes by less.
 pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     let share = (FINE / edge.max(1)).max(1) as usize;
     let fine = edge as usize * share;
@@ -221,8 +223,8 @@ pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     means
 }
 
-/// 1 where a distance is 0. Elsewhere the share of larger distances among those above 0, plus half of the equal ones; 0
-/// for the largest.
+/// Maps squared distances to 0 to 1: 1 where the distance is 0. Elsewhere the value is the share of larger distances
+/// among all distances above 0, where equal ones count by half, rescaled so that the largest distance gets 0.
 fn by_area(squares: &[i64]) -> Vec<f32> {
     let most = squares.iter().copied().max().filter(|most| *most != NOWHERE).unwrap_or(0);
     let mut counts = vec![0_u32; most as usize + 1];
@@ -243,12 +245,13 @@ fn by_area(squares: &[i64]) -> Vec<f32> {
     squares.iter().map(|square| values.get(*square as usize).copied().unwrap_or(0.0)).collect()
 }
 
-/// Radii of the cells' cores relative to the side length: the largest, the smallest, and the ratio of
-/// successive ones.
+/// Radii of the cores, the discs around which cells form, relative to the texture's side length: the largest, the
+/// smallest, and the ratio of successive ones.
 const LARGEST: f32 = 0.09;
 const SMALLEST: f32 = 0.006;
 const NEXT: f32 = 0.95;
-/// Attempts to place the largest core; smaller ones get more, as there is room for more of them.
+/// Number of attempts to place a core of the largest radius. Smaller radii get more attempts, because there is room
+/// for more of them.
 const TRIES: f32 = 3.0;
 /// Maximum overlap of a core with a larger one, relative to its radius.
 const OVERLAP: f32 = 0.3;
@@ -259,18 +262,19 @@ const WIDTH: f32 = 0.0022;
 const WIDTH_VARIES: f32 = 0.6;
 /// Distance from a junction at which filaments begin to thicken, relative to the core's radius.
 const FILLET: f32 = 0.8;
-/// Share of filaments that are torn, minimum radius of both cores for that, and distance of the tear from a
-/// junction, relative to the smaller radius.
+/// Share of filaments that are torn; the radius of the smaller of the two cores from which this share applies (below,
+/// it falls in proportion to the radius); and the distance from a junction at which a torn filament ends, relative to
+/// the smaller radius.
 const TORN: f32 = 0.35;
 const TORN_RADIUS: f32 = 0.03;
 const TORN_LENGTH: f32 = 0.8;
-/// Distance from a junction at which filaments blend with those they meet, relative to the core's radius, and
-/// its maximum.
+/// Distance from a junction within which a filament's properties blend with those of the filaments that it meets,
+/// relative to the core's radius, and the maximum of this distance, relative to the side length.
 const BLEND: f32 = 0.5;
 const BLEND_MOST: f32 = 0.015;
 /// Tiles per side, each with a list of the cores that affect it.
 const TILES: usize = 64;
-/// Bound on the gradient of [`Cells::within`]: 2 or 3 from the distances, the rest from the warp.
+/// Upper bound of the gradient of [`Cells::within`]: the distances contribute 2 or 3, the warp the rest.
 const STEEP: f32 = 5.0;
 
 /// A disc, relative to the side length.
@@ -383,8 +387,8 @@ impl Cells {
         if bound > 0.0 {
             return bound;
         }
-        // Properties of the filament: those of the pair with the next cell, and near a third cell a blend with its
-        // pair.
+        // A filament belongs to a pair of cells: this one and the next. Near a third cell, its properties blend with
+        // those of the filament to the third cell.
         let reach = BLEND_MOST.min(BLEND * radius);
         let (mut torn, mut smaller, mut all) = (0.0, 0.0, 0.0);
         for i in near.iter().filter(|i| **i != own) {
@@ -411,7 +415,8 @@ impl Cells {
     }
 }
 
-/// The cores that are among the three nearest, or nearly the second-nearest, anywhere in a tile.
+/// The cores that, for any point of a tile, are among the three nearest or hardly farther away than the
+/// second-nearest.
 fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
     let distances: Vec<f32> = cores.iter().map(|core| core.distance(center)).collect();
     let mut nearest = [f32::INFINITY; 3];
@@ -419,7 +424,7 @@ fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
         let [first, second, third] = nearest;
         nearest = [first.min(*d), second.min(first.max(*d)), third.min(second.max(*d))];
     }
-    // Max distance of the tile's points from its centre, and so of the change of each distance.
+    // Max distance of the tile's points from its centre. A distance to a core changes by no more than that.
     let half = std::f32::consts::FRAC_1_SQRT_2 / TILES as f32;
     let most = nearest[2].max(nearest[1] + BLEND_MOST) + 2.0 * half;
     (0..).zip(&distances).filter(|(_, d)| **d <= most).map(|(i, _)| i).collect()
@@ -564,7 +569,7 @@ mod tests {
         for seed in 0..4 {
             let n = 1024;
             let pattern = Cells::new(seed).pattern(n);
-            // Number of texels in the pattern whose neighbour in the next column, or row, is not.
+            // Number of places where the pattern begins or ends between a column, or row, and the next.
             let ends = |at: &dyn Fn(usize, usize) -> usize, from: usize| {
                 let to = (from + 1) % n;
                 let count = (0..n).filter(|i| pattern[at(from, *i)] != pattern[at(to, *i)]).count();
@@ -613,7 +618,7 @@ mod tests {
                 let found = share(web.iter().filter(|v| f64::from(**v) >= t).count(), web.len());
                 let expected = filaments + (1.0 - filaments) * (1.0 - t);
                 let off = (found - expected).abs();
-                // All texels next to a filament have the same distance, so they pass a threshold together.
+                // All texels next to a filament have the same distance, so they pass the same thresholds.
                 assert!(
                     off < if t < 0.7 { 0.01 } else { tolerance },
                     "{edge} {t}: {found}, {expected}"
@@ -709,8 +714,8 @@ mod tests {
 
     #[test]
     fn channels_of_noise_are_independent() {
-        // The expected correlation of two independent channels is 0. Its expected square is the sum over octaves of the
-        // squared share of the variance over the number of gradients.
+        // The expected correlation of two independent channels is 0. Its expected square is the sum over octaves of
+        // s² / (2 n²), with s the octave's share of the variance and n its number of cells per side.
         let octaves = (0..OCTAVES).map(|i| (0.25_f64.powi(i as i32), NOISE_CELLS << i));
         let variance: f64 = octaves.clone().map(|(share, _)| share).sum();
         let expected: f64 =
@@ -735,7 +740,7 @@ mod tests {
             expected.sqrt()
         );
         assert!(mean.abs() < 4.0 * (expected / pairs).sqrt(), "{mean}");
-        // Gradients have unequal weights, so the tolerance is twice that.
+        // The gradients have unequal weights, so the tolerance is twice the expected square.
         assert!(square < 2.0 * expected, "{square}, {expected}");
     }
 

@@ -1,7 +1,7 @@
-//! Pass `web`: computes the textures of shoreline and contact foam with all mip levels, once. The foam texture can be
-//! computed again from an image of the host.
+//! Pass `web`: computes two textures of shoreline and contact foam with all mip levels, once: the foam texture,
+//! called web, and the noise. The web can be computed again from an image of the host.
 //!
-//! Reads: texels. Writes: the web (mean, mean of the square, slopes) and the noise, RGBA16F.
+//! Reads: texels. Writes: the web (mean, mean of the square, slope on each axis) and the noise, RGBA16F.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -107,8 +107,8 @@ impl Texture {
         [(0, Resource::buffer(&self.floats)), (1, Resource::buffer(&self.halves)), (2, image)]
     }
 
-    /// Records all levels and their copy to the image. `host` has the pipeline and set of the first level, if it comes
-    /// from the host.
+    /// Records the computation of all levels and their copy to the image. If the first level comes from an image of
+    /// the host, `host` holds the pipeline, the descriptor set and the part of the image for it.
     fn record(
         &self,
         gpu: &Gpu,
@@ -194,8 +194,8 @@ impl Textures {
         let web = texture::web(config.texture_size, config.seed);
         let noise = texture::noise(NOISE, config.seed);
         let repeat = vk::SamplerAddressMode::REPEAT;
-        // Mip levels are not interpolated: the detail that a level lacks is stored as a variance, so successive levels
-        // differ little.
+        // Mip levels are not interpolated. Each level also stores the variance of the detail that it lacks, so the
+        // foam computed from successive levels differs little.
         let sampler = vk::SamplerCreateInfo::default()
             .mag_filter(vk::Filter::LINEAR)
             .min_filter(vk::Filter::LINEAR)
