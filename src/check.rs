@@ -87,7 +87,7 @@ pub fn frame(
     Lens::new(&frame.camera)
 }
 
-/// Validates a host image; the names are those of its `before`, `after` and `rect`.
+/// Validates a host image. The three names are those of its fields `before`, `after` and `rect`, for the error.
 pub fn image([before, after, rect]: [&'static str; 3], image: &HostImage) -> Result<(), Error> {
     if image.before.layout == vk::ImageLayout::UNDEFINED {
         return Err(Error::bad(before, "UNDEFINED: its contents would be lost"));
@@ -261,8 +261,9 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     blobs.ids.map_or(Ok(()), |ids| ids.check("Frame.bubbles.ids", 4, count, most))
 }
 
-/// Validates a count and returns it, or 0 if only the GPU knows it. The fields are those of the count and its offset;
-/// `most` is the configured maximum and its name.
+/// Validates a particle count and returns it, or 0 if only the GPU knows it. `field` and `offset_field` are the names
+/// of the count and of its buffer offset for the error; `name` and `most` are the configured maximum's name and
+/// value.
 pub fn count(
     [field, offset_field]: [&'static str; 2],
     count: Count,
@@ -360,7 +361,8 @@ fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
     }
 }
 
-/// Validates a configuration by itself. [`DeviceSupport`](crate::DeviceSupport) says what the device lacks for it.
+/// Validates a configuration without looking at the device. [`DeviceSupport`](crate::DeviceSupport) tells what a
+/// device lacks for it.
 pub fn config(config: &Config) -> Result<(), Error> {
     let bad = |field, why: String| Err(Error::bad(field, why));
     if config.extent.width == 0 || config.extent.height == 0 {

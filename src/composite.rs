@@ -1,9 +1,9 @@
 //! Pass `composite`: combines the layers of all techniques and writes the output. (The only other pass that writes it
 //! is `lit`.)
 //!
-//! It covers only the tiles that hold water; pixels outside the fluid are not touched. Two paths have the same shading:
-//! one instance per tile in a render pass, and a compute shader that stores to the output. Thesis Sec. 3.2.3 and 4.9;
-//! glsl/include/shade.glsl has the differences.
+//! It shades only the screen tiles that hold water; pixels outside the fluid are not touched. Two paths shade alike:
+//! a render pass that draws one instance per tile, and a compute shader that stores to the output. It follows the
+//! thesis, Sec. 3.2.3 and 4.9; glsl/include/shade.glsl states the differences.
 
 use ash::vk;
 
@@ -25,8 +25,9 @@ use crate::water::split::{DISPATCHES, KINDS};
 use crate::water::{Recording, WaterLayers};
 use crate::whitewater::Whitewater;
 
-/// As fast as compute on lavapipe, and usable with outputs that do not support storing. On an H200, which
-/// rasterizes slowly, compute takes a fourteenth of the time (docs/performance.md).
+/// The raster path is as fast as the compute path on lavapipe, and also works with outputs that do not support
+/// storing. On an H200, which rasterizes slowly, the compute path takes a fourteenth of its time
+/// (docs/performance.md).
 const DEFAULT_SHADING: Shading = Shading::Raster;
 
 /// The path that a configuration uses.
@@ -34,7 +35,8 @@ pub fn way(config: &Config) -> Shading {
     config.composite.unwrap_or(DEFAULT_SHADING)
 }
 
-/// Formats that every device can blend. For others the shader reads the output and blends.
+/// Whether every device can blend this output format. For other formats the fragment shader reads the scene's colour
+/// and blends itself.
 fn blends(output: vk::Format) -> bool {
     use vk::Format as F;
     matches!(
@@ -74,8 +76,9 @@ pub struct Surroundings {
     pub environment: Resource,
 }
 
-/// A pipeline per kind of tile, in the order of the arguments of `split`; `None` for kinds that the
-/// configuration excludes.
+/// One pipeline for each kind of tile that pass `split` distinguishes (coarser smoothing levels or not, foam or not,
+/// one or two layers of water), in the order of its indirect arguments. `None` for kinds that the configuration
+/// excludes.
 type Pipelines = [Option<Pipeline>; KINDS as usize];
 
 enum Path {
@@ -184,7 +187,8 @@ impl Composite {
         }
     }
 
-    /// A framebuffer for the host's output if one is needed. It lives as long as the slot's frame.
+    /// A framebuffer for the host's output; only the raster path needs one. It is kept until the slot is recorded
+    /// again.
     pub fn framebuffer(
         &self,
         gpu: &Gpu,
@@ -199,8 +203,8 @@ impl Composite {
         }
     }
 
-    /// Fragment shaders sample all layers before and after; compute shaders also sample those of `whitewater` and
-    /// `bubbles`.
+    /// Before and after the pass all layers are in the state in which fragment shaders sample them; compute shaders
+    /// can also sample the layers of `whitewater` and `bubbles`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -317,7 +321,8 @@ impl Composite {
                     // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
                         if i > 0 || coat.is_some() {
-                            // The dispatches write disjoint tiles; this barrier only silences synchronization validation.
+                            // The dispatches write disjoint tiles; this barrier only silences synchronization
+                            // validation.
                             gpu.dependency(cmd, &written);
                         }
                         gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);

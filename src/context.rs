@@ -1,6 +1,6 @@
-//! State shared by the renderers, foam states, blob simulations, generators and shore maps of one device: the
-//! host's Vulkan objects, and pipelines, render passes and samplers that were created for one of them and serve
-//! all.
+//! State shared by the renderers, foam states, blob simulations, generators and shore maps of one device: the host's
+//! Vulkan objects, and pipelines, render passes and samplers, each of which is created for the first object that
+//! needs it and then serves all.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -23,8 +23,8 @@ use crate::gpu::requirements::DeviceSupport;
 /// all of them and kept for later use, for example when [`reconfigure`](crate::Renderer::reconfigure) switches back and
 /// forth.
 ///
-/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and everything created from
-/// it is destroyed, whichever is later. This has to happen before the host destroys its device.
+/// All clones are the same context. Its Vulkan objects are freed once the last clone is dropped and everything
+/// created from the context is destroyed. Both have to happen before the host destroys its device.
 #[derive(Clone)]
 pub struct Context {
     pub(crate) shared: Arc<Shared>,
@@ -48,7 +48,7 @@ impl Context {
         Ok(Self { shared, slots: host.frames_in_flight })
     }
 
-    /// The same context for objects with another number of frames in flight, 1 to 8.
+    /// A clone of this context; objects created from the clone have another number of frames in flight, 1 to 8.
     ///
     /// # Errors
     /// [`Error::BadInput`] for any other number.
@@ -292,7 +292,8 @@ impl<K, V> Default for Store<K, V> {
 }
 
 impl<K: Eq + Hash, V: Clone> Store<K, V> {
-    /// The key's value, created if there is none yet. The lock is held meanwhile, so that no key gets two values.
+    /// Returns the value of a key; if there is none yet, `make` creates it. The lock is held meanwhile, so that no
+    /// key gets two values.
     ///
     /// # Errors
     /// Those of `make`.

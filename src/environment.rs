@@ -1,5 +1,6 @@
-//! The environment that water reflects: an equirectangular image of the host, or the built-in sky, as a cube
-//! map with mips. [`record_environment`](crate::Renderer::record_environment) fills it once per environment.
+//! The environment that water reflects, as a cube map with mips.
+//! [`record_environment`](crate::Renderer::record_environment) fills the cube from an equirectangular image of the
+//! host or from the built-in sky, once for each environment.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -33,10 +34,10 @@ pub enum EnvironmentSource {
     Equirectangular(Equirectangular),
 }
 
-/// A clear sky: single scattering in air and thin haze (Nishita et al. 1993; optical depth of the haze 0.1;
-/// accurate to 4 % of the integral), plus a fitted term for multiple scattering. With the sun at 35° the sky
-/// gives a fifth of the light on level ground. Below the horizon grey ground fades in, completely from −0.12
-/// (the direction's component along up) on. The sun's disc is not included.
+/// A clear sky: single scattering in air and thin haze (Nishita et al. 1993; optical depth of the haze 0.1), plus a
+/// fitted term for multiple scattering. The single scattering is an integral, computed to an accuracy of 4 %. With
+/// the sun 35° above the horizon the sky gives a fifth of the light on level ground. Below the horizon grey ground
+/// fades in; in directions whose component along up is −0.12 or less it is complete. The sun's disc is not included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sky {
@@ -57,16 +58,17 @@ impl Default for Sky {
 
 /// An equirectangular image. Row 0 is up. For +y up its middle column looks along world −z and the column at three
 /// quarters of the width along +x; left and right edge meet along +z. For another up direction the image rotates with
-/// it: for z up the middle column looks along +y and x stays; for x up the column at three quarters looks along +y and
-/// the middle column along +z.
+/// it: for z up the middle column looks along +y and the one at three quarters still along +x; for x up the column at
+/// three quarters looks along +y and the middle column along +z.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Equirectangular {
     /// Linear radiance. The format has to support linear filtering.
     pub image: HostImage,
-    /// The same picture without the sun, if `image` contains the sun that [`Light`](crate::Light) describes. The
-    /// default `None` means that it does not. Diffuse light is gathered from this picture, so that the sun, which is
-    /// added with its shadows, is not counted twice. Reflections show `image`.
+    /// The same picture without the sun. It is needed if `image` contains the sun that [`Light`](crate::Light)
+    /// describes; `None`, the default, means that `image` does not. Diffuse light is gathered from the picture
+    /// without the sun, because the light of the sun is added separately, with its shadows, and would otherwise count
+    /// twice. Reflections show `image`.
     pub without_sun: Option<HostImage>,
     /// Factor on the radiance, [0, ∞), default 1. The product is clamped to 65 000.
     pub scale: f32,
@@ -163,13 +165,14 @@ pub struct Environment {
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
-    /// The cube without the sun, and a view of its faces, for [`Irradiance::Sampled`]. Its first level is sampled. It
-    /// has mips because SwiftShader fills the seams of a cube map when mips are blitted, but not when a compute shader
-    /// writes it.
+    /// The cube without the sun, and a view of its faces, for [`Irradiance::Sampled`]. Only its first mip is sampled.
+    /// It has the others because SwiftShader fills the seams of a cube map when mips are blitted, but not when a
+    /// compute shader writes the cube.
     sunless: Option<(Image, Owned<vk::ImageView>)>,
-    /// Whether the last recorded cube contains the sun and there is one without it.
+    /// Whether the host gave a separate picture without the sun for the environment that was recorded last.
     apart: bool,
-    /// View for explicit mip levels, without the last one: SwiftShader never writes its seams but filters across them.
+    /// View of the cube for look-ups at explicit mip levels. The last mip is left out: SwiftShader never writes its
+    /// seams, but filters across them.
     pub levels: Owned<vk::ImageView>,
     mips: u32,
     gather: Pipeline,

@@ -551,9 +551,9 @@ fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
     [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
 }
 
-/// Mean of `(1 − x^n)^m` over the unit disc, where x is the distance from the centre: `∫ 2x (1 − x^n)^m dx` from 0 to
-/// 1. For m = 1 it is 1 − 2/(n + 2). Otherwise it is summed numerically over s, with x = 1 − s³, because the
-/// integrand is smooth in s.
+/// Mean of `(1 − x^n)^m` over the unit disc, where x is the distance from the centre: `∫₀¹ 2x (1 − x^n)^m dx`. For
+/// m = 1 it is 1 − 2/(n + 2). Otherwise it is summed numerically over s, with x = 1 − s³, because the integrand is
+/// smooth in s.
 fn falloff_mean(n: f32, m: f32) -> f32 {
     let (n, m) = (f64::from(n), f64::from(m));
     if m == 1.0 {

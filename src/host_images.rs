@@ -1,4 +1,4 @@
-//! The host's images: their uses here, and one barrier each for acquiring and releasing them.
+//! How the passes use the host's images, and the barriers that acquire and release each of them.
 
 use ash::vk;
 
@@ -86,7 +86,7 @@ pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
     Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
 }
 
-/// Shadow resources of the sun; scene depth and frame uniforms are bound in place of unused ones.
+/// Resources for the sun's shadows. The scene's depth and the frame's uniforms are bound in place of unused ones.
 pub fn sunlight(
     frame: &Frame<'_>,
     (light, convolving, bubbles): (Option<&Light>, Option<&Convolving>, Option<&Bubbles>),

@@ -29,8 +29,8 @@ use crate::water::{Beside, Crowd, Recording, STREAM_USE, Water, buffers_of, shap
 use crate::whitewater::Whitewater;
 use crate::whitewater::streams::{self, Chunks};
 
-/// Offset of the smoothing levels in a slot's uniform buffer; 256 is the largest alignment that a device may
-/// require.
+/// Byte offset of the block of smoothing levels in a slot's uniform buffer. It is a multiple of 256, the largest
+/// offset alignment that a device may require.
 const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
 
 /// Offset of the uniforms of bubble foam.
@@ -46,11 +46,13 @@ struct SlotState {
     uniforms: Buffer,
     /// Framebuffer of the last recorded frame's output.
     framebuffer: Option<Owned<vk::Framebuffer>>,
-    /// Whether an environment was recorded with the slot since it was collected; its descriptor sets then have to stay.
+    /// Whether an environment was recorded with the slot since the slot was collected. The slot's descriptor sets
+    /// then have to stay.
     has_environment: bool,
 }
 
-/// Draws particle water into a host's frame. One per view. The crate documentation has the contract.
+/// Draws particle water into a host's frame. Each view has a renderer of its own. The crate documentation states the
+/// contract with the host.
 pub struct Renderer {
     gpu: Arc<Gpu>,
     config: Config,
@@ -58,7 +60,7 @@ pub struct Renderer {
     retired: RetireList,
     /// False after a resize failed half-way.
     whole: bool,
-    /// Whether the set-up was recorded: contents that are read before they are written.
+    /// Whether the set-up was recorded, which fills the resources that are read before they are written.
     set_up: bool,
     /// Whether an environment was recorded after it.
     surrounded: bool,
@@ -117,8 +119,8 @@ impl Renderer {
     }
 
     /// Records the initial contents of resources that are read before they are written, and the precomputed data of
-    /// bubble foam. Call it once before the first `record`, and again if `reconfigure` returns true. It leaves no
-    /// environment: call [`record_environment`](Self::record_environment) after it.
+    /// bubble foam and shoreline foam. Call it once before the first `record`, and again if `reconfigure` returns
+    /// true. It removes the environment: call [`record_environment`](Self::record_environment) after it.
     ///
     /// # Safety
     /// `cmd` is recording outside a render pass and is submitted before any `record`. It belongs to no slot: its work
@@ -135,17 +137,18 @@ impl Renderer {
         }
     }
 
-    /// Records an image of the host as the foam texture of shoreline and contact foam. It replaces the built-in
-    /// one until the next [`record_setup`](Self::record_setup). One channel, 1 where foam appears first and 0
-    /// where it appears last, seamless, any size; `rect` is the part that is used.
-    /// [`shore::texture::from_pattern`](crate::shore::texture::from_pattern) makes such an image from a
+    /// Records an image of the host as the foam texture of shoreline and contact foam. It replaces the built-in one
+    /// until the next [`record_setup`](Self::record_setup). The image has one channel, 1 where foam appears first and
+    /// 0 where it appears last, and its opposite edges have to fit together. It may have any size; `rect` is the part
+    /// that is used. [`shore::texture::from_pattern`](crate::shore::texture::from_pattern) makes such an image from a
     /// pattern.
     ///
     /// # Errors
     /// No [`Config::shore`], a bad image or slot; Vulkan errors.
     ///
     /// # Safety
-    /// Those of [`record_environment`](Self::record_environment); it counts as one of the four.
+    /// Those of [`record_environment`](Self::record_environment). It counts as one of the four environments that may
+    /// be recorded before the slot is collected.
     pub unsafe fn record_foam_texture(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -170,8 +173,8 @@ impl Renderer {
     /// [`Error::NotRecorded`] before the set-up; a bad slot or up direction; Vulkan errors.
     ///
     /// # Safety
-    /// Those of [`record`](Self::record), which may follow it in the same slot and command buffer. At most four are
-    /// recorded before the slot is collected.
+    /// Those of [`record`](Self::record), which may follow in the same slot and command buffer. At most four
+    /// environments are recorded before the slot is collected.
     pub unsafe fn record_environment(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -196,8 +199,9 @@ impl Renderer {
     /// barrier per host image. Every [`Error::BadInput`] is found before the first command.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, and [`Error::NotRecorded`] before the set-up or an environment, before any
-    /// command; after any other error discard the command buffer.
+    /// [`Error::BadInput`] names the bad field. [`Error::NotRecorded`] means that the set-up or an environment has
+    /// not been recorded. Both are returned before any command is recorded; after any other error discard the command
+    /// buffer.
     ///
     /// # Safety
     /// `cmd` is a primary command buffer of the host's queue family, recording, outside a render
@@ -213,8 +217,9 @@ impl Renderer {
         unsafe { self.record_frame(cmd, frame, None) }.map(|(recorded, _)| recorded)
     }
 
-    /// Like [`record`](Self::record), optionally with the smoothing ended by the host, which reads the queries back.
-    /// Also returns the command buffer that was recorded last.
+    /// Like [`record`](Self::record). With `read_back` the host reads the smoothing's occlusion queries back and
+    /// decides when the smoothing ends, for which the frame is split into several command buffers. Also returns the
+    /// last of them.
     pub(crate) unsafe fn record_frame<'a>(
         &'a mut self,
         cmd: vk::CommandBuffer,
@@ -428,9 +433,10 @@ impl Renderer {
     /// Reports that the slot's GPU work has finished. Frees objects that `resize` and `reconfigure` replaced, if no
     /// frame in flight uses them any more. Call it after waiting for the slot at the beginning of a frame.
     ///
-    /// The caller promises this; there is no parameter for a fence or a timeline value. The library sees no submission,
-    /// so it could not associate a fence or a value with one, and an engine that counts frames may have neither. A slot
-    /// that never finishes only costs memory. Work in flight with other slots is not affected.
+    /// The caller promises that the work has finished; there is no parameter for a fence or a timeline value. The
+    /// library sees no submission, so it could not associate a fence or a value with one, and an engine that counts
+    /// frames may have neither. A slot that never finishes only costs memory. Work in flight with other slots is not
+    /// affected.
     ///
     /// # Safety
     /// All GPU work that was recorded with the slot is complete, or will never be submitted.
@@ -497,7 +503,7 @@ impl Renderer {
     }
 
     /// Changes the configuration: creates the new objects and retires the old ones. Legal with frames in flight.
-    /// Returns true if the environment or the precomputed data of bubble foam was recreated. Then
+    /// Returns true if the environment or the precomputed data of bubble foam or shoreline foam was recreated. Then
     /// [`record_setup`](Self::record_setup) and, because the environment is empty,
     /// [`record_environment`](Self::record_environment) are due before the next record.
     ///
@@ -703,7 +709,8 @@ impl SlotState {
         })
     }
 
-    /// Number of descriptor sets: a few per pass, and those of the splats for every chunk of particles.
+    /// Number of descriptor sets of a slot: a few for each pass, and for passes over particles some for each chunk of
+    /// particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let whitewater =
             config.whitewater.map_or(0, |whitewater| Chunks::new(&gpu.limits, &whitewater).count);
@@ -717,7 +724,8 @@ impl SlotState {
             + whitewater_sets(&gpu.limits, config)
     }
 
-    /// Begins a frame. The slot's earlier work is complete, so its sets and framebuffer are freed.
+    /// Begins a frame. The slot's earlier work is complete, so its framebuffer is freed, and so are its descriptor
+    /// sets, unless an environment was just recorded with them.
     fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
         self.framebuffer = None;
         // This list only holds framebuffers: objects with memory are dropped by `collect`, which empties the deletion

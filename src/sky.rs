@@ -1,6 +1,7 @@
-//! The light of the built-in sky on the CPU, for [`Light::of`](crate::Light::of) and for the host's own scene.
+//! Computes the light of the built-in sky on the CPU, for [`Light::of`](crate::Light::of) and for the host's own
+//! scene.
 //!
-//! The same integral as in `glsl/include/atmosphere.glsl`, where comments explain it.
+//! It computes the same integral as `glsl/include/atmosphere.glsl`, whose comments explain it.
 
 use std::f32::consts::{PI, TAU};
 
@@ -20,8 +21,8 @@ const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 /// Columns and rows of the directions over which the sky's light is summed.
 const DIRECTIONS: (usize, usize) = (64, 32);
 
-/// Brightness of the highlight for a sun whose brightest channel has the irradiance of the default sky's sun
-/// outside the atmosphere.
+/// Radiance of the sun's highlight if the brightest channel of the sun at the ground has the irradiance that the
+/// default sky's sun has outside the atmosphere.
 const HIGHLIGHT: Vec3 = Vec3::new(4.0, 3.8, 3.4);
 
 impl Sky {
@@ -45,8 +46,8 @@ impl Sky {
         ((-(RAYLEIGH + MIE) * mass).exp() * self.intensity * risen).to_array()
     }
 
-    /// Irradiance of level ground from the sky without the sun, in the same unit. It sums over 2048 directions,
-    /// which takes some milliseconds.
+    /// Irradiance of level ground from the sky without the sun, linear RGB, in the unit of the output. It sums over
+    /// the 1024 directions above the horizon of a grid of 2048, which takes some milliseconds.
     pub fn sky_irradiance(&self) -> [f32; 3] {
         let sun = self.local_sun();
         let (width, height) = DIRECTIONS;
@@ -129,7 +130,8 @@ fn transmittance(depth: Vec2) -> Vec3 {
     (-(RAYLEIGH * depth.x + MIE_LOSS * MIE * depth.y)).exp()
 }
 
-/// Radiance from a direction, for a direction to the sun; both in axes east, up, north.
+/// Radiance that arrives from a direction, for a direction to the sun and an intensity of 1. Both directions are in
+/// the axes east, up, north.
 fn radiance(direction: Vec3, sun: Vec3) -> Vec3 {
     let eye = EARTH + 0.05;
     let d = Vec3::new(direction.x, direction.y.max(0.003), direction.z).normalize();
@@ -183,7 +185,8 @@ mod tests {
         }
     }
 
-    /// The default light equals that of the default sky, to 24 bits minus those lost in a sum of 2048.
+    /// The default light equals that of the default sky, to the 24 bits of a float minus those lost in a sum of 1024
+    /// terms.
     #[test]
     fn the_default_light_is_that_of_the_default_sky() {
         let (own, of) = (Light::default(), Light::of(&Sky::default()));

@@ -37,8 +37,8 @@ struct StateSlot {
     timer: Timer,
 }
 
-/// Surface-foam state of one body of water: foam phases by particle id. Views share it; each simulation step
-/// advances it once.
+/// State of the surface foam on one body of water: for each particle id its phase between water and foam. All views
+/// share it, and each simulation step advances it once.
 pub struct SurfaceFoamState {
     gpu: Arc<Gpu>,
     config: SurfaceFoamStateConfig,
@@ -48,12 +48,14 @@ pub struct SurfaceFoamState {
     odd: bool,
     /// Whether nothing was recorded yet, so that the tables are undefined.
     fresh: bool,
-    /// The last step, until it is abandoned: its slot, and whether it was the first.
+    /// Slot of the step recorded last, and whether that step was the first of all. `None` if there is no step that
+    /// could be abandoned.
     last: Option<(Slot, bool)>,
 }
 
 impl SurfaceFoamState {
-    /// Creates pipelines and allocates memory: 60 bytes per particle, and 8 for its foam.
+    /// Creates pipelines and allocates memory: per particle 60 bytes for its phase, and 8 for its foam amount and
+    /// age.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -146,8 +148,8 @@ impl SurfaceFoamState {
     /// configuration, and the sequence continues as if it had not been interrupted.
     ///
     /// # Safety
-    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on, and
-    /// no pending access. In addition those of [`record_step`](Self::record_step).
+    /// The buffer has transfer-destination usage, at least [`size`](Self::size) bytes after `offset` (a multiple of
+    /// 4), and no pending access. The conditions of [`record_step`](Self::record_step) hold too.
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         if std::mem::take(&mut self.fresh) {
             self.classify.record_clear(&self.gpu, cmd, self.odd);
@@ -164,10 +166,11 @@ impl SurfaceFoamState {
         self.classify.record_copy(&self.gpu, cmd, self.odd, (from, offset), false);
     }
 
-    /// Foam amount (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its order: for
-    /// [`Particles::surface_foam`](crate::Particles::surface_foam). The step leaves it ready to be read by shaders and
-    /// copies; the next step waits for frames recorded in between. [`Particles::before`](crate::Particles::before) and
-    /// `after` need not mention it. The buffer stays the same during the life of the state.
+    /// Foam amount (0 to 1) and age (seconds), two `f32` for each particle, in the order of the particles in the last
+    /// step: the input [`Particles::surface_foam`](crate::Particles::surface_foam). A step leaves this buffer ready
+    /// to be read by shaders and copies, and the next step waits for the frames that were recorded in between, so
+    /// [`Particles::before`](crate::Particles::before) and `after` need not cover it. The buffer stays the same
+    /// during the life of the state.
     pub fn foam(&self) -> Stream {
         let buffer = &self.classify.foam;
         Stream { buffer: buffer.handle, size: buffer.size, offset: 0, stride: 8 }
@@ -181,9 +184,9 @@ impl SurfaceFoamState {
         }
     }
 
-    /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before
-    /// it. Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore). This frees
-    /// nothing, so it promises nothing.
+    /// Reports that the last recorded step, with this slot, was discarded: the state reverts to the one before it.
+    /// Earlier steps cannot be reverted, except by [`record_restore`](Self::record_restore). The call frees nothing,
+    /// so it is safe even while GPU work is pending.
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();
