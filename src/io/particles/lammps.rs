@@ -1,10 +1,10 @@
 //! Reads text dumps of LAMMPS and LIGGGHTS: `ITEM:` lines, each followed by its data. `ITEM: ATOMS` names the
 //! columns.
 //!
-//! Scaled positions (`xs ys zs`, `xsu ysu zsu`) are in units of the edges a, b, c of the box: position = origin + xs
-//! a + ys b + zs c. The box is described by three lines after `BOX BOUNDS` (both ends of each side), `BOX BOUNDS xy
-//! xz yz` (both ends of the upright box that encloses the tilted box, and the tilts) or `BOX BOUNDS abc origin` (any
-//! three edges, and the origin).
+//! Scaled positions (`xs ys zs`, `xsu ysu zsu`) are in units of the edges a, b, c of the box: position = origin +
+//! xs·a + ys·b + zs·c. The box is described by three lines after `BOX BOUNDS` (both ends of each side), `BOX BOUNDS
+//! xy xz yz` (both ends of the upright box that encloses the tilted box, and the tilts) or `BOX BOUNDS abc origin`
+//! (any three edges, and the origin).
 
 use super::Format;
 use super::asked::Asked;

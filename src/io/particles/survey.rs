@@ -92,7 +92,7 @@ const SAMPLES: usize = 8192;
 /// Number of particles from which the origin is found.
 pub(super) const FIRST: usize = 1024;
 
-/// Min ratio of the positions' distance from the origin to their extent, from which an origin is subtracted. At this
+/// An origin is subtracted if the positions' distance from 0 is more than this multiple of their extent. At this
 /// ratio a step of 32-bit floats is 1/4000 of the extent.
 const FAR: f64 = 2000.0;
 
@@ -108,8 +108,8 @@ pub(super) const DOUBLED: f64 = 0.05;
 /// Max number of times that are distinguished.
 const STEPS: usize = 1 << 12;
 
-/// Counts repetitions of values. If there are many values, it counts only those whose hash begins with a number of
-/// zeros.
+/// Counts repetitions of values. If there are many values, it counts only those whose hash begins with `zeros`
+/// zero bits.
 #[derive(Debug, Default)]
 pub(super) struct Repeats {
     zeros: u32,
@@ -118,7 +118,7 @@ pub(super) struct Repeats {
 
 impl Repeats {
     fn add(&mut self, value: u64) {
-        // All bits influence the first ones (Fibonacci hashing).
+        // All bits of the value influence the first bits of the hash (Fibonacci hashing).
         let hash = value.wrapping_mul(0x9e37_79b9_7f4a_7c15);
         if hash.leading_zeros() >= self.zeros {
             self.count(hash);
@@ -290,7 +290,8 @@ impl Survey {
             let [x, y, z] = columns.vector(roles.positions, i);
             [x - a, y - b, z - c]
         });
-        // For ghosts each bit is a reason; the older ghost levels count from 1.
+        // Each bit of a ghost type is a reason to leave a particle out; the older ghost levels are numbers
+        // above 0 for ghosts.
         let kept: Option<Vec<bool>> = roles.ghosts.map(|column| {
             let bits = |i: usize| columns.f64(column, i) as i64;
             let name = columns.0.get(column).map_or("", |c| c.name.as_str());
@@ -376,7 +377,7 @@ impl Survey {
         self.numbers.share() > REPEATED_IDS + 1.2 * self.places.share()
     }
 
-    /// Removes attributes from a part (or from all) that the particles as a whole do not have.
+    /// Removes from a part (or from all particles) the attributes that are dropped for the file as a whole.
     pub(super) fn drop_from(&self, particles: &mut Particles) {
         if self.ids.is_some() || self.repeated_ids() {
             particles.ids = None;
@@ -447,7 +448,8 @@ impl Survey {
         let count = steps.different.len();
         let blocks = steps.changes + 1 == count && self.seen >= 2 * count;
         let several = match self.numbers.counts.is_empty() {
-            // A particle that occurs twice has different times.
+            // In several frames a particle occurs at most once per time, so ids repeat, but at most as often as
+            // there are times.
             false => self.numbers.share() > REPEATED_IDS && self.numbers.most() <= count,
             // Without ids: either the particles of a time, or the times of a particle, are adjacent in the file.
             true => {
@@ -504,7 +506,8 @@ pub(super) fn retain(particles: &mut Particles, kept: &[bool]) {
     particles.extras.iter_mut().for_each(|extra| some(&mut extra.values, kept));
 }
 
-/// Distance and extent of the positions along the axis where they are largest, and their centre.
+/// Of the positions: the largest distance from 0 and the largest extent along any axis, and the median of each
+/// axis.
 fn reach_of(samples: &[[f64; 3]]) -> Option<(f64, f64, [f64; 3])> {
     let (mut extent, mut reach, mut middle) = (0.0_f64, 0.0_f64, [0.0; 3]);
     for (axis, middle) in middle.iter_mut().enumerate() {

@@ -96,7 +96,8 @@ pub(super) fn joined(lines: Vec<Line>) -> Vec<Line> {
                 before.text.push(b' ');
                 before.text.extend(text);
                 before.next = line.next;
-                // Line numbers follow from the other lines' positions, so an empty line remains.
+                // The number of a line is its index in this list, so an empty line stays in place of the one
+                // that was joined.
                 all.push(Line { text: Vec::new(), start: line.start, next: line.next });
                 let count = all.len();
                 if count >= 2 {

@@ -25,7 +25,7 @@ use super::vtk_xml::{is_point, mesh_warning};
 
 pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>, ReadError> {
     let found = Reader::read(content, false, asked).map_err(|error| {
-        // A missing number shifts the lines that follow: report that number.
+        // A missing number shifts what follows. A second reading, which checks the values, reports that number.
         Reader::read(content, true, asked).err().unwrap_or(error)
     })?;
     let found_cells = (found.cells, found.cell, found.vertices);
@@ -352,7 +352,8 @@ impl<'a> Reader<'a> {
             }
             "VERTICES" | "LINES" | "POLYGONS" | "TRIANGLE_STRIPS" | "CELLS" => {
                 let (first, second) = (w.count(1, "a number of cells")?, w.count(2, "a size")?);
-                // From version 5.0 on this is the number of offsets, which is one more.
+                // From version 5.0 on, the first count is that of offsets, which is one more than that of
+                // cells.
                 let cells = first.saturating_sub(u64::from(self.version.0 >= 5));
                 match keyword.as_str() {
                     "VERTICES" => self.vertices = self.vertices.saturating_add(cells),
@@ -406,7 +407,8 @@ impl<'a> Reader<'a> {
                     _ => w.count(3, "a number of components")?,
                 };
                 let (name, ty) = (w.text(1, "a name")?, w.ty(2)?);
-                // Without this line the values follow directly, and may begin with bytes that look like white space.
+                // Without a `LOOKUP_TABLE` line the values follow directly. They may begin with bytes that look like
+                // white space, so nothing is consumed in that case.
                 let ahead = self.text.ahead(LOOKUP)?.trim_ascii_start();
                 if ahead.starts_with(b"LOOKUP_TABLE") {
                     self.keyword_line()?;
@@ -536,7 +538,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Skips values. `keep` says that they may be used, so that their position is stored.
+    /// Skips values. `keep` says that they may be used; text is then checked for numbers if `check` is set.
     fn values(
         &mut self,
         ty: AttributeType,
@@ -560,7 +562,8 @@ impl<'a> Reader<'a> {
         self.text.skip(bytes, what)
     }
 
-    /// Texts are one per line, or each follows its length; the top two bits of that give its size.
+    /// Skips texts. In ASCII there is one per line; in binary each follows its length, whose top two bits say
+    /// how many bytes the length takes.
     fn skip_texts(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         for _ in 0..count {
             if !self.binary {
@@ -595,7 +598,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Decodes %20 and %25 (space and percent sign) in a name.
+/// Decodes codes such as %20 (space) and %25 (percent sign) in a name.
 fn percent_decoded(name: &str) -> String {
     let mut out = Vec::with_capacity(name.len());
     let mut rest = name.as_bytes();

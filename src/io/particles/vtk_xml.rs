@@ -87,7 +87,7 @@ fn length(array: &Array<'_>) -> u64 {
     values / (array.components.max(1) as u64)
 }
 
-/// Adds the attributes of cells to those of points, if cells are particles. Returns how they are read.
+/// Adds the attributes of cells to those of points, if cells are particles. Returns the tracks that read them.
 fn join_cells<'a>(
     on_cells: OnCells<'a>,
     points: u64,
@@ -363,7 +363,8 @@ struct Reader<'h, 'a> {
     wide: bool,
     compression: Compression,
     appended: Option<Appended>,
-    /// Number of bytes that may still be decompressed. It is a total, because arrays may share data.
+    /// Number of bytes that may still be decompressed, in all arrays together, because several arrays may refer
+    /// to the same data.
     budget: u64,
 }
 
@@ -513,7 +514,8 @@ impl<'a> Reader<'_, 'a> {
         Ok(true)
     }
 
-    /// The first of `count` values of an array. An error in them does not concern the particles.
+    /// The first of `count` values of an array. The result of an error is `None`, because these values do not
+    /// concern the particles.
     fn peek(&mut self, array: &Node<'_, '_>, count: u64) -> Option<Vec<f64>> {
         let budget = self.budget;
         let (name, _, ty) = self.described(array).ok()?;

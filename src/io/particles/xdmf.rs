@@ -3,8 +3,8 @@
 //! A `Grid` has a `Geometry` with points, and `Attribute`s at nodes. The grids of a temporal collection are
 //! frames, those of a spatial one are parts of a frame. A grid without points takes those of the first grid,
 //! because writers of time series omit them. A `DataItem` holds its values inline, in an array of an HDF5
-//! file beside it (`file.h5:/path`), or refers to another item. Attributes of cells are read if these are the points, see
-//! `cells`.
+//! file beside it (`file.h5:/path`), or refers to another item. Attributes of cells are read if the cells are the
+//! points, see `cells`.
 
 use std::path::Path;
 

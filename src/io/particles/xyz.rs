@@ -5,8 +5,9 @@
 //! the numbers, with `#` or without, names the columns.
 //!
 //! A first line with a single number is the count, as in chemistry. The next line is then a comment, which
-//! may name the columns (`Properties=species:S:1:pos:R:3`, extended XYZ). Otherwise the first of four or more
-//! columns, or a column of words, is the element.
+//! may name the columns (`Properties=species:S:1:pos:R:3`, extended XYZ). Without names, the first column is
+//! taken as the element and not as a position if it holds words or, in a file with a count and four or more
+//! columns, integers.
 
 use super::Format;
 use super::asked::Asked;
@@ -168,7 +169,7 @@ pub(super) struct Basis {
 }
 
 impl Basis {
-    /// Replaces the last values of the columns of axes, where these are scaled.
+    /// Replaces the last value of each scaled axis' column by the position.
     fn apply(&self, axes: &[Option<usize>; 3], columns: &mut [Column]) {
         let last = |axis: &Option<usize>| {
             let data = &columns.get((*axis)?)?.data;
@@ -230,7 +231,8 @@ pub(super) fn rows<'a>(
     Table { columns, about, rows: Box::new(rows) }
 }
 
-/// Reads the rows of zones. `zone` is the column that counts them, if there are several, and whether it is used.
+/// Reads the rows of zones. `zone` is `Some` if there are several zones; it then holds the name of the column
+/// that counts them, if that column is used.
 pub(super) fn rows_of_zones<'a>(
     text: Text<'a>,
     number: u64,
@@ -272,10 +274,10 @@ fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
     }
 }
 
-/// Number of lines from which it is decided whether the first column is a particle number.
+/// Min number of lines for which the first column may be taken as a particle number.
 const COUNTED: usize = 8;
 
-/// Whether the first column counts the lines from 0 or 1, and more columns follow.
+/// Whether the first column counts the lines from 0 or 1, and at least three more columns follow.
 pub(super) fn counts(lines: &[Line], at: u64, first: impl Fn(&[u8]) -> Option<f64>) -> bool {
     let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
     let rows: Vec<&Line> = rows.collect();
