@@ -1,8 +1,8 @@
-//! Writes files under a temporary name in the same folder, then renames them. Ctrl-C removes them; the next run
-//! that writes the same file removes what a killed run has left.
+//! Writes files under a temporary name in the same folder, then renames them. Ctrl-C removes temporary files. What a
+//! killed run has left is removed by the next run that writes the same file.
 //!
-//! An unnamed file (O_TMPFILE) would leave nothing behind, but it can only be linked to a name that is free, so it
-//! could not replace an existing picture, and not all file systems support it.
+//! An unnamed file (O_TMPFILE) would leave nothing behind. But it can only get a name that is free, so it could not
+//! replace an existing picture, and not all file systems support it.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -15,7 +15,7 @@ use whitewater::io::particles::WriteFormat;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::out;
 
-/// Existing temporary files, which Ctrl-C has to remove. The lock is held during a rename.
+/// Existing temporary files, which Ctrl-C has to remove. The lock is also held while a file gets its final name.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn temporary() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -39,7 +39,8 @@ pub fn at_end() -> Outcome<()> {
 
 /// Installs the handler: Ctrl-C and SIGTERM remove unfinished files and end the program with code 130.
 pub fn clean_up_on_interrupt() {
-    // If no handler can be installed, the default one applies: a partial file may remain, and nothing else is lost.
+    // If the handler cannot be installed, Ctrl-C ends the program without it: a partial file may remain, and nothing
+    // else is lost.
     let _ = ctrlc::set_handler(|| {
         if let Err(failure) = at_end() {
             out::note(format_args!("{}", failure.message));
@@ -49,14 +50,15 @@ pub fn clean_up_on_interrupt() {
             let _ = std::fs::remove_file(file);
         }
         out::note(format_args!("interrupted; finished files are kept"));
-        // The lock is still held, so no other thread renames or creates a file. Output is complete: `out` flushes each
-        // time, and another thread may hold standard output.
+        // The lock is still held, so no other thread renames or creates a file. Standard output needs no flush here,
+        // because `out` flushes after each write; and a flush could wait, because another thread may hold standard
+        // output.
         end(130);
     });
 }
 
-/// Ends the process immediately. Drivers' threads may still run; an ordinary exit would destroy data of the driver and
-/// the layers while they use it.
+/// Ends the process immediately. Threads of the driver may still run, and an ordinary exit would destroy data of the
+/// driver and the validation layers while these threads use it.
 fn end(code: i32) -> ! {
     #[cfg(unix)]
     // SAFETY: it ends this process, and nothing runs after it.
@@ -77,15 +79,15 @@ impl Guard {
         sweep(path, &name);
         let process = std::process::id();
         let mut files = temporary();
-        // A name is taken if another run with the same process number uses it: a killed one, or one on another machine.
+        // A name may be in use by another run with the same process number: a killed one, or one on another machine.
         for number in 0..100 {
             let path = path.with_file_name(format!(".{name}.{process}.{number}.tmp"));
             let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
                 opened => opened?,
             };
-            // Until the lock is taken another run may mistake the file for a leftover. On a file system without locks
-            // no run removes leftovers.
+            // Until the lock is taken, another run may mistake the file for a leftover and remove it. On a file
+            // system without locks no run removes leftovers.
             let locked = !matches!(FileExt::try_lock(&file), Err(TryLockError::WouldBlock));
             if locked && path.exists() {
                 files.push(path.clone());
@@ -378,7 +380,7 @@ mod tests {
     fn only_leftovers_of_the_same_file_are_swept() {
         let folder = tempfile::tempdir().unwrap();
         let leftovers = [".a.txt.1.0.tmp", ".a.txt.4194304.3.tmp"];
-        // A temporary file of another file, one of another format, and one in use.
+        // A name that no temporary file has, a temporary file of another file, and one that is in use.
         let others = [".a.txt.notes.tmp", ".b.txt.1.0.tmp", ".a.txt.2.0.tmp"];
         for name in leftovers.iter().chain(&others) {
             std::fs::write(folder.path().join(name), "half").unwrap();

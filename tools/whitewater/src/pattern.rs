@@ -121,7 +121,7 @@ fn of_picture(path: &Path, args: &PatternArgs) -> Outcome<Layers> {
     Ok(layers)
 }
 
-/// Texture from a user's picture: size and unchanged values, 0 where the picture is transparent.
+/// Texture from a user's picture: its size, and the luminance of its unchanged values, 0 where it is transparent.
 pub fn values(path: &Path) -> Outcome<([u32; 2], Vec<f32>)> {
     let picture = picture::read(path)?;
     let size = [picture.width as u32, picture.height as u32];
@@ -138,7 +138,8 @@ fn over(picture: &Layers, ground: f32) -> Vec<f32> {
     light.into_iter().zip(alpha).map(one).collect()
 }
 
-/// Luminance from the existing channels: red, green and blue, or `Y`, or the mean of all channels but alpha.
+/// Luminance from the channels that the picture has: red, green and blue, otherwise `Y`, otherwise the mean of all
+/// channels except alpha.
 fn luminance(picture: &Layers) -> Vec<f32> {
     let color = |name: &str| match name {
         "R" => 0.2126,

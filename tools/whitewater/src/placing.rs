@@ -42,7 +42,7 @@ impl Up {
         }
     }
 
-    /// Rotates a vector of the files so that this axis becomes y. There is no reflection.
+    /// Rotates a vector of the files so that this axis becomes y. It is a pure rotation, without a reflection.
     pub fn turn<T: Neg<Output = T>>(self, [x, y, z]: [T; 3]) -> [T; 3] {
         match self {
             Self::Y => [x, y, z],
@@ -94,8 +94,8 @@ impl Placing {
         }
     }
 
-    /// A point of the scene minus the offset, for a point that is given as in the files. `None` if the unchanged point
-    /// is nearer to the water.
+    /// Subtracts the offset, turned and scaled like the particles, from a point near particles that lie far from the
+    /// origin in the files. `None` if the unchanged point is nearer to the origin, where the water is after the move.
     pub fn moved(&self, point: [f32; 3]) -> Option<[f32; 3]> {
         let origin = self.up.turn(self.origin.map(|c| c * f64::from(self.scale)));
         let moved: [f64; 3] = std::array::from_fn(|i| f64::from(point[i]) - origin[i]);
@@ -126,11 +126,11 @@ impl Placing {
 
 /// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
-/// Max squared Froude number, v² / (g · extent), that is plausible. Water after a fall through its own height has 2, a
-/// jet under pressure a few times as much; if the unit is really a hundredth or a thousandth of a metre, the number is
-/// far larger.
+/// Max plausible squared Froude number, v² / (g · extent), with the speed v of fast water and the water's extent.
+/// Water after a fall through its own height has 2, a jet under pressure a few times as much. If the unit of the file
+/// is really a centimetre or a millimetre, the number is far larger.
 const FASTEST: f32 = 40.0;
-/// Extents in metres above and below which the user is asked for the unit, if the speed gives no hint.
+/// If the speed gives no hint, the user is asked for the unit if the extent is above `LARGE` or below `TINY`, metres.
 const LARGE: f32 = 200.0;
 const TINY: f32 = 0.005;
 
@@ -140,7 +140,7 @@ pub fn fastest(particles: &Particles) -> Option<f32> {
     quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
 }
 
-/// The unit in brackets after the names of positions, if it is not metres.
+/// The unit that stands in brackets after the names of the position attributes, if it is not metres.
 pub fn named(particles: &Particles) -> Option<Unit> {
     let (_, names) = particles.meanings.iter().find(|(m, _)| *m == Meaning::Position)?;
     let unit = |name: &String| {
@@ -160,14 +160,14 @@ pub fn named_hint(particles: &Particles) -> Option<String> {
     ))
 }
 
-/// A message if the extent in metres is implausible. `fastest` is the speed that nearly all particles stay below, if
-/// known.
+/// A message if the water's extent in metres is implausible. `fastest` is the speed that nearly all particles stay
+/// below, if it is known.
 pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
     let spans = format!("the water spans {} metres", crate::looks::round(extent));
     let froude = fastest.map(|speed| speed * speed / (GRAVITY * extent));
     match froude {
         Some(number) if number.is_finite() && number > FASTEST => {
-            // In a unit of this many metres the number is multiplied by as much.
+            // Read in a unit of this many metres, the squared Froude number is multiplied by this number of metres.
             let off = |unit: &Unit| (number * unit.metres()).ln().abs();
             let units = [Unit::Mm, Unit::Cm];
             let unit = units.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
@@ -191,7 +191,7 @@ pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// A dam of half a metre in metres, millimetres and centimetres, one of a kilometre, a cup, and water at rest.
+    /// A dam of 1.3 metres, in metres, millimetres and centimetres; a lake, a cup, a jet, and water at rest.
     #[test]
     fn units_that_cannot_be_are_told() {
         assert_eq!(hint(1.3, Some(3.5)), None);
@@ -220,7 +220,8 @@ mod tests {
         assert_eq!(found, [[1.5, 2.0, -3.0], [129.5, 2.0, 61.0], [-4094.5, 2.0, 61.0]]);
     }
 
-    /// A camera position near particles far from the origin may be given in either coordinates.
+    /// If the particles are far from the origin, a camera position near them may be given in the files' coordinates
+    /// or in those of the moved particles.
     #[test]
     fn a_point_far_out_is_moved_with_the_particles() {
         let far = Placing { up: Up::Z, scale: 0.5, origin: [4096.0, 1024.0, 64.0] };

@@ -12,10 +12,12 @@ use crate::placing;
 use crate::reader::{Has, Reader};
 use crate::surface_foam;
 
-/// Number of probed frames. Water that flows in and comes to rest differs from frame to frame, so a few are not enough.
+/// Number of probed frames. Water that flows in and comes to rest differs from frame to frame, so two or three would
+/// not be enough.
 const PROBES: usize = 16;
 
-/// A few frames of the whole sequence, from which the look is found. They do not depend on the range that a job draws.
+/// A few frames of the whole sequence, from which the look is found. They do not depend on which range of frames a
+/// run draws.
 pub struct Probes {
     pub frames: Vec<Particles>,
     pub numbers: Vec<u64>,
@@ -73,8 +75,9 @@ impl Probes {
         Ok(Self { frames, numbers, fps, first, own })
     }
 
-    /// A message about the effect on foam, if no probed frame has velocities, or the files have velocities but no ids.
-    /// Velocities that were found from the positions count. The caller asks for it only if foam is wanted.
+    /// A message about what missing attributes mean for foam: if no probed frame has velocities (those that were
+    /// found from the positions count), or if the files have velocities but no ids. The caller asks for it only if
+    /// foam is wanted.
     pub fn missing(&self, files: usize) -> Option<String> {
         let velocities = self.frames.iter().any(|frame| frame.velocities.is_some());
         let Has { velocities: own, ids, .. } = self.own;
@@ -118,7 +121,8 @@ impl Probes {
         self.frames.iter().filter_map(|f| Bounds::of_bulk(&f.positions)).reduce(|a, b| a.union(&b))
     }
 
-    /// Rest density in the unit of the file: 1000 if that fits, otherwise the density that most particles have.
+    /// Rest density in the unit of the file: 1000 if the median of the densities is near it, otherwise their 0.9
+    /// quantile.
     pub fn rest_density(&self) -> Option<f32> {
         self.rest_density_of((0, 1))
     }

@@ -10,8 +10,8 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::out;
 
-/// Time after which a running step is reported. It is reported again after ten times as long, then whenever the time
-/// has doubled.
+/// Time after which a running step is first reported. It is reported again when it has run ten times as long, and
+/// then each time that its running time has doubled.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// The current step.

@@ -20,19 +20,21 @@ pub const DIAMETERS: [&str; 3] = ["diameter", "diam", "d"];
 
 /// A name of radii, and of distances from an axis or a point.
 pub const UNSURE: &str = "r";
-/// Range of the median radius in particle spacings in which values of that name are taken as radii. Particles that touch
-/// have 0.5; smoothing lengths and loose particles are near it, distances are not.
+/// Values of an attribute called `r` are taken as radii if their median, in particle spacings, is in this range.
+/// Particles that touch have a radius of 0.5; smoothing lengths and loose particles are near that, distances are not.
 const FITTING: [f64; 2] = [0.2, 1.1];
-/// Share of values that are distances, from which on all are, and the tolerance of each.
+/// If more than this share of the values equal the particles' distances from a point or an axis, within this relative
+/// tolerance, the attribute holds distances.
 const DISTANCES: (f64, f64) = (0.9, 1.0e-3);
 
 /// Ratio of radii below which particles are drawn alike: twice the volume.
 const ALIKE: f32 = 1.26;
-/// Quantile of the radii that becomes the common radius, if the number of particles grows by no more than [`MOST`];
-/// otherwise a larger one.
+/// Quantile of the radii that becomes the common radius. If splitting larger particles to it would multiply their
+/// number by more than [`MOST`], the common radius is larger.
 const BASE: f64 = 0.05;
 const MOST: usize = 8;
-/// A particle fills a cube whose edge is twice its radius; a ball of this many radii has the same volume.
+/// A particle stands for the water in a cube whose edge is twice its radius. A ball with a radius of this many
+/// particle radii has the same volume.
 const BALL: f32 = 1.2407;
 
 /// Whether an attribute is taken as radii.
@@ -52,8 +54,8 @@ fn is_size(value: f64) -> bool {
     value.is_finite() && value > 0.0
 }
 
-/// Whether an attribute that is called only `r` holds radii, or why not; `None` without one, or if another attribute has
-/// the radii.
+/// Whether an attribute that is called only `r` holds radii (`Ok`), or why not (`Err`). `None` if there is no such
+/// attribute, or if another one holds the radii.
 pub fn unsure(particles: &Particles) -> Option<Result<(), String>> {
     let extra = find(particles, UNSURE)?;
     if of(particles).is_some() {
@@ -163,7 +165,7 @@ impl Split {
         Some(Self { base, most })
     }
 
-    /// Splits the particles of a frame; returns their previous number if any was split.
+    /// Splits the large particles of a frame. Returns the number of particles before, if any was split.
     pub fn apply(&self, particles: &mut Particles) -> Option<usize> {
         let radii = of(particles)?;
         let count = radii.len();
@@ -212,14 +214,15 @@ fn copies(radius: f32, base: f32) -> u32 {
     }
 }
 
-/// Point `k` of `count` points that fill the unit ball evenly: spirals by the golden angle.
+/// Point `k` of `count` points that fill the unit ball evenly. They spiral around the axis by the golden angle.
 fn even(k: u32, count: u32) -> Vec3 {
     let part = (k as f32 + 0.5) / count as f32;
-    // Another irrational step for the height than for the distance, so that each shell has all directions.
+    // The height has an irrational step that is unrelated to the distance, so that each shell has all directions.
     let height = 1.0 - 2.0 * (0.5 + k as f32 * 0.754_877_7).fract();
     let around = k as f32 * PI * (3.0 - 5.0_f32.sqrt());
     let level = (1.0 - height * height).max(0.0).sqrt();
-    // The point is in the middle of its part, so the copies do not extend beyond the particle.
+    // The factor moves each point towards the middle of the part of the ball that it stands for, so the copies do not
+    // extend beyond the particle.
     part.cbrt() * 0.85 * Vec3::new(level * around.cos(), height, level * around.sin())
 }
 
@@ -311,7 +314,8 @@ mod tests {
         assert!(told.contains("found none above 0"), "{told}");
     }
 
-    /// A particle with twice the radius becomes eight with its volume, which stay the same from frame to frame.
+    /// A particle of twice the common radius becomes eight that have its volume together. Their offsets are the same
+    /// in every frame.
     #[test]
     fn large_particles_become_several() {
         let radii: Vec<f32> = (0..100).map(|i| if i % 10 == 9 { 0.2 } else { 0.1 }).collect();
@@ -337,7 +341,7 @@ mod tests {
         assert!((2000..=8000).contains(&many.positions.len()), "{}", many.positions.len());
     }
 
-    /// The points fill the ball: each half and each eighth of the volume holds as many.
+    /// The points fill the ball: all halves of its volume hold equally many, and so do all eighths.
     #[test]
     fn copies_are_even() {
         let all: Vec<Vec3> = (0..512).map(|k| even(k, 512) / 0.85).collect();

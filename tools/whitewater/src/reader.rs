@@ -20,10 +20,10 @@ use crate::surface_foam::quantile;
 /// Frames per second if no rate can be found.
 pub const DEFAULT_FPS: f32 = 30.0;
 
-/// Max displacement between frames as a part of the water's size. A particle that moves farther is taken for another
-/// one with the same id or index.
+/// Max displacement of a particle between frames, as a part of the water's size. If it moves farther, another
+/// particle is assumed to have taken its id or index.
 const FAR: f32 = 0.25;
-/// Min difference of two times in seconds; smaller values are no seconds.
+/// Min difference of the times of two frames, seconds; numbers with a smaller difference are not taken for seconds.
 const LEAST: f32 = 1.0e-4;
 /// Number of particles from which the water's size is estimated.
 const LOOKED_AT: usize = 4096;
@@ -43,7 +43,7 @@ pub struct Reader<'a> {
     fluids: &'a Fluids,
     /// The attribute that the user named as radii.
     radius: Option<&'a str>,
-    /// Whether an attribute `r` holds radii, or why not; determined by the first frame that was read.
+    /// Whether an attribute `r` holds radii (`Ok`), or why not (`Err`); determined by the first frame that was read.
     unsure: OnceCell<Option<Result<(), String>>>,
     /// Min, median and max radius in the first frame that was read.
     pub radii: Option<[f32; 3]>,
@@ -54,7 +54,7 @@ pub struct Reader<'a> {
     last: Option<Known>,
     /// Whether any velocities were estimated.
     pub found_velocities: bool,
-    /// Attributes that frames of the sequence have; a frame without one gets a warning.
+    /// Attributes that some frames of the sequence have; a frame that lacks one of them gets a warning.
     pub expected: Has,
     /// Attributes of the frames read so far.
     pub seen: Has,
@@ -106,7 +106,8 @@ impl<'a> Reader<'a> {
         {
             self.neighbour(frame.number);
             let known = self.last.take();
-            // Positions as in the file, so that later frames do not depend on the range that a job draws.
+            // Without the estimated attributes, so that the next frame does not depend on which frames were read
+            // before.
             self.last = Some(Known {
                 number: frame.number,
                 positions: particles.positions.clone(),
@@ -133,7 +134,8 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Frames per second from times in the first files, or from times in their names unless these are step numbers.
+    /// Frames per second from the times stored in the first two files, or from times in their names, unless those are
+    /// step numbers.
     pub fn rate(&self) -> Option<f32> {
         let [a, b, ..] = self.all else { return None };
         let [first, second] = [a, b].map(|frame| self.as_it_is(frame).ok()?.time.or(frame.time));
@@ -209,8 +211,8 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Makes the previous frame, or for the first frame the next one, the last that was read. If it cannot be read, the
-    /// error is reported when it is drawn.
+    /// Sets `last` to the frame before this number or, for the first frame, to the next one. If that frame cannot be
+    /// read, the error is reported when it is drawn.
     fn neighbour(&mut self, number: u64) {
         let before = self.all.iter().filter(|frame| frame.number < number).max_by_key(|f| f.number);
         let after = self.all.iter().filter(|frame| frame.number > number).min_by_key(|f| f.number);
@@ -280,7 +282,8 @@ impl Has {
     }
 }
 
-/// Ids of the neighbouring frame, if particles are in the same order in both: nearly all have moved little.
+/// Ids of the neighbouring frame, if the particles are in the same order in both frames. They are if nearly all
+/// particles with the same index have moved little.
 fn ids_by_place(now: &Particles, known: &Known) -> Option<Vec<u32>> {
     let ids = known.ids.as_ref().filter(|ids| ids.len() == now.positions.len())?;
     let most = FAR * size(&now.positions)?;
@@ -289,9 +292,9 @@ fn ids_by_place(now: &Particles, known: &Known) -> Option<Vec<u32>> {
     (10 * near > 9 * ids.len()).then(|| ids.clone())
 }
 
-/// Velocities from the positions now and `seconds` ago. Particles are matched by id or, if neither frame has ids and
-/// the counts are equal, by index. A new particle is at rest. `None` if most particles are new or move implausibly far,
-/// which means that the order differs from file to file.
+/// Velocities from the positions in this frame and in another one, `seconds` earlier. Particles are matched by id or,
+/// if neither frame has ids and the counts are equal, by index. A new particle is at rest. `None` if most particles
+/// are new or move implausibly far, which means that the order differs from file to file.
 fn velocities(now: &Particles, known: &Known, seconds: f32) -> Option<Vec<[f32; 3]>> {
     let before: Vec<Option<[f32; 3]>> = match (&now.ids, &known.ids) {
         (Some(ids), Some(before)) => {
@@ -322,7 +325,7 @@ fn size(positions: &[[f32; 3]]) -> Option<f32> {
     let count = positions.len();
     let step = (count / LOOKED_AT).max(1);
     let apart = |i: usize| {
-        // The pair is far apart in the file's order, which often is an order in space.
+        // The two are far apart in the file, because particles that are close in a file often are close in space.
         let other = (i + count / 2 + i * 7919) % count;
         Vec3::from(positions[i]).distance(Vec3::from(positions[other]))
     };

@@ -228,8 +228,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let several = fluids.settings(&look.settings, &own_densities)?;
     let mut look = Look { fluids: several, bubbles: foam, shores, ..look };
     if fluids.drawn() > 1 {
-        // At the surface between two liquids light leaves into the other liquid, not into air; refraction and
-        // reflection as into air would make the other one look as through rough glass.
+        // At the surface between two liquids light passes into the other liquid, not into air. With the refraction
+        // and reflection of a surface to air, the other liquid would look as if seen through rough glass.
         look.file.water.leave_straight();
     }
     let mut session = Session::new(&args.draw, checked, look, steps)?;
@@ -291,7 +291,7 @@ fn draw(
     ))
 }
 
-/// Warnings about frames; each is printed once if it differs only in its numbers.
+/// Warnings about frames. Of warnings that differ only in their numbers, the first is printed.
 #[derive(Default)]
 struct Warnings(Vec<Warning>);
 
@@ -315,7 +315,7 @@ impl Warnings {
         Some(format!("{file}: {text}"))
     }
 
-    /// A summary of the warnings that were not repeated, with the number of frames.
+    /// One line for each warning that came up in several frames, with the number of these frames.
     fn again(&self, total: usize) -> Vec<String> {
         let repeated = self.0.iter().filter(|warning| warning.frames > 1);
         let line = |Warning { file, text, frames, .. }: &Warning| {
@@ -326,8 +326,9 @@ impl Warnings {
     }
 }
 
-/// Runs the foam simulation over the frames before the first drawn one, from the start of the sequence, so that the
-/// result does not depend on the range that a job draws. Frames that cannot be read are skipped.
+/// Runs the foam simulation over the frames before `frame` that it has not reached yet, from the start of the
+/// sequence, so that the result does not depend on which range of frames is drawn. Frames that cannot be read are
+/// skipped.
 fn remember(
     reader: &mut Reader<'_>,
     session: &mut Session<'_>,

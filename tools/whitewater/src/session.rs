@@ -46,7 +46,7 @@ pub struct Look {
     pub scene: Scene,
     /// Whether only water, foam and spray are drawn, over transparency.
     pub matte: bool,
-    /// If set, all pictures show this frame, each from the camera of its own frame number.
+    /// If set, all pictures show the particles of this frame, each from the camera of the picture's own frame number.
     pub still: Option<u64>,
     /// Settings of foam formation; `None` if no water foams.
     pub foam: Option<WeberSettings>,
@@ -70,7 +70,7 @@ pub struct Look {
     pub rate: Option<f32>,
     /// Frames per second of a film.
     pub film: f32,
-    /// Number of particles of the fullest probed frame; the first renderer has room for that many.
+    /// Number of particles of the probed frame that has the most; the first renderer has room for that many.
     pub fullest: usize,
 }
 
@@ -95,7 +95,8 @@ pub struct Session<'a> {
     look: Look,
     /// The frame whose scene is on the device.
     staged: u64,
-    /// A device without a renderer. Either this or `headless` is set, or neither after an error.
+    /// The device while it has no renderer. Either this or `headless` (a device with a renderer) is set; after an
+    /// error neither is.
     device: Option<Device>,
     headless: Option<Headless>,
     memory: Memory,
@@ -144,7 +145,7 @@ pub fn has_motion((targets, wanted): &(Vec<Target<Output>>, Vec<&'static str>)) 
     wanted.contains(&layers::MOTION) && targets.iter().any(exr)
 }
 
-/// The environment of the arguments. `sun` is the default direction to the sun for the sky.
+/// The environment that the arguments ask for. `sun` is the direction to the sky's sun if they give none.
 pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environment> {
     match args.environment.as_str() {
         "sky" => Environment::sky(args.sun.or(sun)),
@@ -160,17 +161,17 @@ pub fn noise(args: &DrawArgs) -> SurfaceNoiseSettings {
     }
 }
 
-/// Warm-up of surface foam: number and length (in seconds) of steps with the first frame of a sequence, before it is
-/// drawn. Together they are longer than foam takes to form.
+/// Warm-up of surface foam: number and length (in seconds) of simulation steps with the first frame of a sequence,
+/// before that frame is drawn. Together these steps are longer than foam takes to form.
 const WARM_UP: u32 = 8;
 const WARM_STEP: f32 = 0.1;
-/// Warm-up of emitted whitewater: number and length (in seconds) of steps with the first frame. It is short, because
-/// spray would fly out of a wave that stands still.
+/// Warm-up of emitted whitewater: number and length (in seconds) of simulation steps with the first frame. The
+/// warm-up is short, because meanwhile the wave stands still and spray would fly out of it.
 const PRE_ROLL: u32 = 8;
 const PRE_STEP: f32 = 1.0 / 30.0;
 pub const PRE_ROLLED: f32 = PRE_ROLL as f32 * PRE_STEP;
 
-/// Estimated densities for a file without densities, in the unit of the rest density, if spray is drawn.
+/// Estimated densities, in the unit of the rest density. `None` if the file has densities, or if no spray is drawn.
 pub fn guessed_densities(
     spray: bool,
     particles: &Particles,
@@ -290,8 +291,9 @@ impl<'a> Session<'a> {
         number as f64 / f64::from(self.look.fps.unwrap_or(f32::INFINITY))
     }
 
-    /// Draws the frames of a scene that has no particles. If there are several, those whose files all exist are skipped
-    /// unless `--overwrite` is given. In the progress line of a drawn frame, `word` stands before the time.
+    /// Draws the frames of a scene that has no particles. If there are several frames, those whose output files all
+    /// exist are skipped unless `--overwrite` is given. In the progress line of a drawn frame, `word` stands before
+    /// the time.
     pub fn frames_without_particles(
         &mut self,
         frames: &[u64],
@@ -316,14 +318,14 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Advances the foam simulation by a frame that is not drawn. [`make_room`](Self::make_room) has to be called
+    /// Advances the foam simulation to a frame that is not drawn. [`make_room`](Self::make_room) has to be called
     /// before.
     pub fn pass(&mut self, number: u64, particles: &Particles) -> Outcome<()> {
         self.step(number, "", particles, false)
     }
 
-    /// Number of emitted whitewater particles in the last drawn frame; `None` if none are emitted. Warns once if there
-    /// was no room for more.
+    /// Number of emitted whitewater particles in the last drawn frame; `None` if whitewater is not emitted by the
+    /// program. Warns once if particles were lost for lack of room.
     pub fn made(&mut self) -> Outcome<Option<u32>> {
         let (Some((_, most)), Some(headless)) = (&self.making, &mut self.headless) else {
             return Ok(None);
@@ -349,7 +351,7 @@ impl<'a> Session<'a> {
         (self.look.foam.is_some() || made) && self.look.fps.is_some()
     }
 
-    /// Number of the last simulated frame; `None` before the first one since the foam simulation started.
+    /// Number of the last simulated frame; `None` if the foam simulation has just started and no frame was simulated.
     pub fn passed(&self) -> Option<u64> {
         self.memory.passed
     }
@@ -443,8 +445,8 @@ impl<'a> Session<'a> {
                     let dt = number.saturating_sub(last) as f32 / fps;
                     headless.generate(dt, content as u32, settings, *most)
                 }
-                // Warm-up: a short time with this frame held. For a single frame, whitewater of a whole lifetime is
-                // emitted first.
+                // Warm-up: the simulation runs for a short time while the water stays in this frame. For a single
+                // frame, the whitewater of a whole lifetime is emitted first.
                 (fps, _) => {
                     if fps.is_none() {
                         headless.generate_snapshot(content as u32, settings, *most)?;
@@ -459,7 +461,8 @@ impl<'a> Session<'a> {
                 times.passes(number, headless.step_timings(Stepped::Generate));
             }
         } else {
-            // Without velocities nothing is emitted, and particles of the previous frame do not belong to this one.
+            // Without velocities nothing is emitted, and the whitewater of the previous frame does not belong to this
+            // one.
             headless.hide_generated();
         }
         if let Some((Blobs { motion: Some(motion), .. }, _)) = &self.look.bubbles {
@@ -550,8 +553,8 @@ impl<'a> Session<'a> {
         times.step("write", number, || self.write(number, &layers))
     }
 
-    /// Writes the emitted whitewater particles. Remaining lifetimes are relative to the longest lifetime, so that a
-    /// reader gets the same ages.
+    /// Writes the emitted whitewater particles. Remaining lifetimes are written relative to the longest lifetime, so
+    /// that a program that reads the file finds the same ages.
     fn write_made(&mut self, number: u64) -> Outcome<()> {
         let times = self.times.clone();
         let (Some(keep), Some((settings, _)), Some(headless)) =

@@ -1,5 +1,6 @@
-//! Surroundings of the water, near and far: a terrace over the sea, a studio, a shore, a laboratory. All sizes
-//! are relative to the width of the water, so a beaker and a lake get the same picture; nothing is metric.
+//! Surroundings of the water, near and far: a terrace over the sea, a studio, a shore, a laboratory. All sizes are
+//! relative to the width of the water, so a beaker and a lake get the same picture. A length that is called metres
+//! here is a sixth of the water's longer side.
 
 use std::f32::consts::TAU;
 
@@ -35,7 +36,7 @@ impl Place {
     }
 }
 
-/// Length in metres that procedural surfaces assume for the longer side of the water.
+/// Length in metres that surroundings and procedural surfaces assume for the longer side of the water.
 const METRES: f32 = 6.0;
 
 pub fn material(base_color: [f32; 3], roughness: f32, pattern: Pattern) -> Material {
@@ -88,7 +89,8 @@ impl Builder {
     }
 }
 
-/// In metres: height of the terrace above the sea, distance that it extends around the basin, height of its parapet.
+/// In metres: height of the terrace above the sea, distance by which it extends beyond the basin, and height of its
+/// parapet.
 const CLIFF: f32 = 11.0;
 const REACH: f32 = 3.6;
 const PARAPET: f32 = 0.46;
@@ -106,7 +108,7 @@ fn terrace(scene: &mut Scene, place: &Place) {
     if let Some(ground) = &mut scene.ground {
         ground.reach = Some(reach * m);
     }
-    // The terrace has the slabs of the basin, because each further pattern costs a pipeline.
+    // The terrace has the same pattern of slabs as the basin, because each further pattern costs a pipeline.
     let slabs = Pattern::Stone { course: b.wide };
     let blocks = Pattern::Blocks { course: 0.155 * m };
     let wall = material([0.45, 0.41, 0.345], 0.9, blocks);
@@ -125,7 +127,8 @@ fn terrace(scene: &mut Scene, place: &Place) {
     put(&mut b, "terrace", vec3(near, -0.1, back.y), vec3(back.x, 0.0, far.y), 2.0, &paving);
     let (thick, over, slab) = (0.34, 0.035, 0.07);
     let inner = far - 0.06;
-    // The inner faces have small cells, because lighting falls off under the coping and at the foot.
+    // The inner faces are made of small cells, because under the coping and at the foot the light, which is found for
+    // each vertex, falls off quickly.
     let face = inner + 0.02;
     put(&mut b, "parapet", vec3(near, -0.1, inner.y), vec3(face.x, PARAPET, face.y), 0.15, &wall);
     put(&mut b, "parapet", vec3(inner.x, -0.1, near), vec3(face.x, PARAPET, inner.y), 0.15, &wall);
@@ -228,7 +231,7 @@ fn headland(
     mesh
 }
 
-/// A floor that fades into the backdrop by haze, without a seam, like a cyclorama.
+/// A floor that haze fades into the backdrop without a seam, as in a photographer's studio (a cyclorama).
 fn studio(scene: &mut Scene, place: &Place) {
     scene.haze = Some(4.5 * place.wide());
 }

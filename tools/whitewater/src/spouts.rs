@@ -1,5 +1,5 @@
-//! Detects spouts: places in mid-air where a solver emits water. Files hold only the water, and a jet that begins as a
-//! flat face in the air looks cut off, so a channel is drawn around it.
+//! Detects spouts: places in mid-air where a solver emits water. Files hold only the water, and a jet that begins in
+//! the air as a flat face looks cut off, so a channel is drawn around the start of the jet.
 
 use glam::{Mat3, Quat, Vec2, Vec3};
 use whitewater::headless::scene::{Material, Mesh};
@@ -8,15 +8,17 @@ use crate::cells::Cells;
 
 /// Min number of particles of a mouth.
 const FEW: usize = 12;
-/// Size of the cylinder behind a particle of the mouth that holds no other particle: length and radius in spacings.
+/// A particle belongs to the mouth of a spout only if a cylinder behind it holds no other particle. These are the
+/// cylinder's length and radius in spacings.
 const BEHIND: f32 = 2.5;
 const BESIDE: f32 = 1.2;
 /// Max difference between the velocities of neighbours, relative to their speed.
 const ALIKE: f32 = 0.1;
-/// Max sine of a jet's slope; the upper face of falling water would look like a mouth as well.
+/// Max sine of the angle between a jet and the horizontal. Without this limit the upper face of falling water would
+/// count as a mouth.
 const STEEP: f32 = 0.5;
-/// Max distance of a mouth's particles from its plane, in spacings, and the min part of its rectangle that they fill (a
-/// circle fills 0.79).
+/// Max distance of a mouth's particles from the mouth's plane, in spacings, and the min part of its bounding
+/// rectangle that they fill (a circle fills 0.79).
 const FLAT: f32 = 0.8;
 const FULL: f32 = 0.55;
 
@@ -25,14 +27,15 @@ const FULL: f32 = 0.55;
 pub struct Spout {
     /// Centre of its mouth.
     pub mouth: Vec3,
-    /// A right-handed frame: to the right across the jet, upwards across it, and along it.
+    /// Right-handed coordinate axes: to the right across the jet, upwards across it, and along it.
     pub frame: Mat3,
     /// Half of the mouth's width and height.
     pub half: Vec2,
 }
 
-/// Finds the spouts among a frame's particles: flat faces above `floor`, of water that moves out of them uniformly and
-/// has none behind it. Water slower than after a fall through a spacing counts as at rest.
+/// Finds the spouts among a frame's particles. A spout is a flat face above `floor` from which water moves away with
+/// a uniform velocity, and behind which there is no water. Water that is slower than after a fall through a spacing
+/// is left out.
 pub fn find(
     positions: &[[f32; 3]],
     velocities: &[[f32; 3]],
@@ -114,7 +117,8 @@ fn spout(
 }
 
 impl Spout {
-    /// A channel with thick walls around the spout, on a pier on the floor at distance `back` behind the mouth.
+    /// A channel with thick walls around the spout. It extends back from the mouth by `back`, to a pier that stands
+    /// on the floor.
     pub fn meshes(&self, spacing: f32, floor: f32, back: f32, stone: &Material) -> Vec<Mesh> {
         let wall = (0.25 * self.half.min_element()).max(0.7 * spacing);
         let turn = Quat::from_mat3(&self.frame).to_array();
@@ -124,7 +128,7 @@ impl Spout {
             Mesh { name: name.into(), ..mesh }
         };
         let Vec2 { x, y } = self.half + 0.25 * spacing;
-        // The lip is in front of the plane that hides the start of the water.
+        // The lip of the channel is in front of the box that fills the channel and hides the start of the water.
         let (lip, hidden) = (0.9 * spacing, 0.3 * spacing);
         let long = 0.5 * (back + lip);
         let middle = lip - long;

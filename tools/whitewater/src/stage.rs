@@ -18,7 +18,7 @@ pub fn read(path: &Path) -> Outcome<Scene> {
     Scene::load(path).map_err(|error| Failure::input(format!("{error}; mend the file")))
 }
 
-/// Materials of the ground, of the inside of a basin and of its walls, for water of this length.
+/// Materials of the ground, of the inside of a basin and of its walls, for water whose longest side is `longest`.
 fn materials(set: SetArg, longest: f32) -> [Material; 3] {
     let of = material;
     let tiles = |part: f32| Pattern::Tiles { size: round_length(longest / part), band: None };
@@ -79,7 +79,7 @@ pub fn paving_under(bounds: &Bounds) -> Scene {
 fn extent(bounds: &Bounds, set: SetArg) -> Scene {
     let longest = bounds.size().max_element().max(f32::MIN_POSITIVE);
     let [_, material, _] = materials(set, longest);
-    // A sheet just below the ground, hidden by it, that sets the scene's size.
+    // A sheet just below the ground, which hides it. Its only purpose is to give the scene its size.
     let y = bounds.min.y - 1.0e-3 * longest;
     let corner = |x: f32, z: f32| {
         let at = bounds.center() + longest * glam::Vec3::new(x, 0.0, z);
@@ -112,13 +112,13 @@ struct Side {
     reach: f32,
 }
 
-/// Thickness of the outermost layer in spacings: particles are pressed out by up to this.
+/// Thickness of the outermost layer of particles in spacings; within it, some are pressed farther out than others.
 const LAYER: f32 = 0.9;
-/// Distance from freely running water to the end of the box, as a part of the water's width.
+/// Distance from the end of freely running water to the wall of the box, as a part of the water's width.
 const FREE: f32 = 0.3;
 
-/// Sides of the box in which the particles stand or run; `None` if fewer than two sides hold them. Most solvers' walls
-/// are in no file, and water without walls looks like fog.
+/// Sides of the box in which the particles stand or run; `None` if fewer than two sides hold the water. The box is
+/// found from the particles, because most solvers write no walls to a file, and water without walls looks like fog.
 fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side; 4]> {
     let side = |axis: usize, sign: f32| {
         let all = frames.iter().copied().flatten();
@@ -126,8 +126,8 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
         places.sort_unstable_by(f32::total_cmp);
         // Strays are excluded.
         let last = *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;
-        // The median of the outermost layer, because particles at the floor are pressed farther out and would leave a
-        // gap above. The next layer, one spacing inwards, is excluded.
+        // The wall is at the median of the outermost layer. Particles at the floor are pressed farther out; a wall at
+        // their place would leave a gap above them. The next layer, one spacing inwards, does not count.
         let layer = &places[places.partition_point(|p| *p < last - LAYER * spacing)..];
         let at = sign * *layer.get(layer.len() / 2)?;
         let touches = |p: &&[f32; 3]| sign * (p[axis] - at) > -1.5 * spacing;
@@ -135,11 +135,12 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
             let mut touching: Vec<f32> =
                 frames.iter().copied().flatten().filter(touches).map(|p| p[1]).collect();
             touching.sort_unstable_by(|a, b| b.total_cmp(a));
-            // Drops do not count as a sheet: above this height there is less than a row of particles per frame.
+            // Drops are left out: above the returned height less than a row of particles per frame touches the side.
             let rows = (bounds.size()[2 - axis] / spacing + 1.5) * frames.len() as f32;
             touching.get(rows as usize).copied().unwrap_or(bounds.min.y)
         };
-        // The max over frames: a dam or a run-up wave in one frame is too few particles among all frames.
+        // The max over frames, because the particles of a dam or a run-up wave in one frame are too few among all
+        // frames.
         let each = frames.iter().map(|frame| reach(std::slice::from_ref(frame)));
         let reach = each.fold(reach(frames), f32::max);
         let across = 2 - axis;
@@ -159,7 +160,8 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
                 heights.push(bin.1);
             }
         }
-        // If the water touches half of a side, it is held there; otherwise it still runs and the wall is farther away.
+        // If the water touches at least half of a side, a wall holds it there; otherwise it still runs, and the wall
+        // is farther away.
         let share = held.iter().filter(|held| **held).count() as f32 / count as f32;
         heights.sort_unstable_by(f32::total_cmp);
         let free = |low: f32| low + sign * FREE * bounds.size().x.max(bounds.size().z);
@@ -174,9 +176,9 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
     (held >= 2).then_some(sides.map(|(side, _)| side))
 }
 
-/// A basin around water that stands in a box: low walls towards the camera, high ones behind; all walls are low if the
-/// camera orbits. Panes of glass hold water that leans higher, and `spouts` are built where jets begin. `None` if no
-/// box holds the particles.
+/// A basin around water that stands in a box: low walls towards the camera, high ones behind; all walls are low if
+/// the camera orbits. Panes of glass on the walls hold water that stands higher than them, and channels are built
+/// around the `spouts`. `None` if no box holds the particles.
 pub fn basin_round(
     frames: &[&[[f32; 3]]],
     bounds: &Bounds,
@@ -212,7 +214,7 @@ pub fn basin_round(
         true => (slabs([0.47, 0.435, 0.375], 0.8), slabs([0.245, 0.227, 0.2], 0.8)),
         false => (stone.clone(), stone.clone()),
     };
-    // Faces that other objects hide are left out, because the lighting of each vertex takes rays.
+    // Faces that other objects hide are left out, because the lighting of each vertex costs rays.
     let cuboid = |name: &str, from: Vec3, to: Vec3, material: &Material, hidden: &[usize]| {
         let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
         let turn = [0.0, 0.0, 0.0, 1.0];
@@ -233,7 +235,8 @@ pub fn basin_round(
     // Walls behind standing water (not splashes) are as high as the water.
     let stands = sides.iter().filter(|side| !towards_eye(side)).map(|side| side.level + thick);
     let stands = stands.fold(floor, f32::max);
-    // Other walls have a limited height, so that they neither hide the water nor shade it.
+    // Walls other than those behind standing water have a limited height, so that they neither hide the water nor
+    // shade it.
     let top_of = |near: bool| {
         let most = if near { 0.12 } else { 0.2 };
         let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
@@ -263,8 +266,8 @@ pub fn basin_round(
         let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
         meshes.push(cuboid("basin lining", from, to, &tiles, &[2, 3, outside]));
         let outer = inner + side.sign * thick;
-        // The wall ends inside the slab: vertices inside a solid take the light of their neighbours,
-        // so no dark edge is visible.
+        // The wall ends inside the slab on top of it. There its upper vertices take the light of their neighbours, so
+        // no dark edge is visible.
         let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
         let mut mesh = masonry::dressed(from, to, 0.3 * lining, stone.clone(), &[2, 3]);
         mesh.name = "basin wall".into();
@@ -316,7 +319,8 @@ pub fn basin_round(
                     true,
                 ),
             ] {
-                // Level edges end before the upright ones at the corners, because the inside of a solid is dark.
+                // At the corners the level edges of the glass end before the upright ones: a vertex inside a solid
+                // would be dark.
                 let (mut from, to) =
                     wall(inner, outer, high, if ends { edge } else { -0.1 * edge });
                 from.y = low;
@@ -370,8 +374,8 @@ pub fn basin_round(
     Some(scene)
 }
 
-/// Degrees from the direction towards the camera to the sun: in front of the water, so that the visible faces are lit,
-/// and far enough to the side to show its relief.
+/// Horizontal angle in degrees between the directions from the water to the camera and to the sun. The sun is in
+/// front of the water, so that the visible faces are lit, and far enough to the side to show the water's relief.
 const SUN_ASIDE: f32 = 72.0;
 
 /// Direction to a high sun, on the side of the box face that the camera sees more of.
@@ -391,13 +395,13 @@ pub fn exposure(set: SetArg) -> f32 {
     if set == SetArg::Pool { 0.3 } else { 0.0 }
 }
 
-/// The light of a set, if it has its own. `towards_eye` is the direction from the water.
+/// The light of a set, if it has its own. `towards_eye` is the direction from the water to the camera.
 pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
     let key = side_light(towards_eye);
     let grey = |from: f32, to: f32, d: Vec3| Vec3::splat(from + (to - from) * (0.5 + 0.5 * d.y));
     Ok(match set {
         // A soft box in a dark room below a grey ceiling: the floor fades into the dark, and the water is bright in
-        // front of it.
+        // front of the dark.
         SetArg::Studio => {
             let room = |d: Vec3| {
                 let [up, over] = [d.y / 0.2, (d.y - 0.35) / 0.45].map(|t| t.clamp(0.0, 1.0));
@@ -425,7 +429,7 @@ pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
     })
 }
 
-/// Rounds a length to 1, 2 or 5 times a power of ten, usual sizes of slabs.
+/// Rounds a length to 1, 2 or 5 times a power of ten, which are usual sizes of slabs.
 fn round_length(rough: f32) -> f32 {
     let power = 10.0_f32.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|n| n * power);
@@ -496,7 +500,7 @@ mod tests {
         assert!(basin(&[[0.0; 3]]).is_none());
     }
 
-    /// If a few particles at the floor are pressed out, there is no gap between the water above and its wall.
+    /// If a few particles at the floor are pressed outwards, no gap opens between the wall and the water above them.
     #[test]
     fn walls_touch_most_of_the_water() {
         let right = |points: &[[f32; 3]]| {
@@ -547,7 +551,7 @@ mod tests {
             panes.map(top).collect()
         };
         assert!(edges(&block(false)).is_empty(), "the walls hold it");
-        // A sheet up to a height of 2 on all of the wall towards the camera, then a row up to that height.
+        // `rows` rows of particles on all of the wall towards the camera, the highest at a height of 2.
         let on_wall = |rows: usize| {
             let at = |i: usize| [1.9, 2.0 - 0.1 * (i / 30) as f32, 0.1 * (i % 30) as f32];
             let mut all = block(false);
@@ -563,7 +567,7 @@ mod tests {
         assert!(edges(&on_wall(1)).is_empty(), "drops");
     }
 
-    /// A dam that stands in only one frame, the first or another, stands between panes of its height.
+    /// If a high dam stands in only one frame, the first or another, panes as high as the dam hold it.
     #[test]
     fn panes_hold_the_dam_that_falls() {
         let dam: Vec<_> =

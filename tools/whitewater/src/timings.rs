@@ -26,12 +26,13 @@ struct Record {
     adapter: String,
     driver: String,
     steps: Vec<Step>,
-    /// For each frame: its number, the start of its submission (microseconds since the start), and its passes.
+    /// For each frame: its number, the start of its submission (microseconds since the program started), and its
+    /// passes.
     frames: Vec<(u64, f64, Vec<Timing>)>,
 }
 
-/// A shared handle of the measurements. All clones write to one record, so that the Ctrl-C handler can save it before
-/// the program ends.
+/// A shared handle of the measurements. All clones write to one record, so the Ctrl-C handler, which has a clone, can
+/// save the measurements before the program ends.
 #[derive(Clone)]
 pub struct Times {
     record: Arc<Mutex<Record>>,
@@ -74,7 +75,8 @@ impl Times {
         self.record().began.elapsed().as_secs_f64() * 1.0e6
     }
 
-    /// Records the passes of a frame, or of a simulation step; they belong to the step that was recorded last.
+    /// Records the passes of a frame or of a simulation step. They start with the step of the program that was
+    /// recorded last.
     pub fn passes(&self, frame: u64, passes: Vec<Timing>) {
         if passes.is_empty() {
             return;

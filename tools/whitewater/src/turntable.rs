@@ -10,7 +10,8 @@ use crate::failure::{Failure, Outcome};
 #[derive(Clone, Copy)]
 pub struct Turning {
     turntable: Turntable,
-    /// Number of the first frame, and the number of frame numbers from it to one step behind the last frame.
+    /// Number of the first frame, and the length of an automatic orbit in frame numbers: from the first frame to one
+    /// step after the last one.
     first: u64,
     span: f32,
 }

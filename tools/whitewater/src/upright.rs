@@ -14,15 +14,16 @@ const COLUMN: f32 = 3.0;
 const NEAR: f32 = 2.0;
 /// Max thickness in spacings of a single layer.
 const LAYER: f32 = 0.6;
-/// Min excess of columns that touch the lower end over columns that touch the upper end, for the lower end to be a
-/// floor.
+/// Min value of [`Axis::open`] for the lower end to be a floor: the share of the columns of water that touch the
+/// lower end, minus the share that touch the upper end.
 const OPEN: f32 = 0.35;
-/// Min mean velocity along an axis, relative to the root mean square speed, for the water to move up or down as a
-/// whole.
+/// Min mean velocity along an axis, relative to the root mean square speed, from which the water counts as moving
+/// along the axis as a whole.
 const MOVES: f32 = 0.1;
 /// The same for water that falls as a whole.
 const FALLS: f32 = 0.25;
-/// Min excess (as [`OPEN`]) of water that falls as a whole; little of its surface is open.
+/// Min difference of [`Axis::open`] between two axes for water that falls as a whole. It is small, because such water
+/// has little open surface.
 const SOME: f32 = 0.03;
 
 /// Evidence for an axis as the up axis.
@@ -84,8 +85,8 @@ pub struct Found {
 }
 
 /// Detects the up axis from frames of a sequence in the files' coordinates: water lies on a floor, is open above, and
-/// moves down as a whole. Only y and z are candidates, in both directions, because a dam often breaks along x. `None`
-/// if the evidence is missing or ambiguous; callers then assume y.
+/// moves down as a whole. Only y, -y, z and -z are candidates. x is none, because dams often break along x and then
+/// move like falling water. `None` if the evidence is missing or ambiguous; callers then assume y.
 pub fn find(frames: &[Particles]) -> Option<Found> {
     let across = flat(frames);
     let of = |frames: &[Particles]| {
@@ -94,7 +95,8 @@ pub fn find(frames: &[Particles]) -> Option<Found> {
     };
     let axes = of(frames)?;
     let by_frames = || {
-        // Water that sinks from frame to frame lies on no common floor; then a majority of single frames decides.
+        // Water that sinks from frame to frame lies on no common floor. Then each frame is looked at by itself, and
+        // the majority decides.
         if frames.len() < 2 {
             return None;
         }
@@ -116,14 +118,15 @@ pub fn find(frames: &[Particles]) -> Option<Found> {
     other(&axes).or_else(by_frames).or_else(usual)
 }
 
-/// Whether the up axis is another than y, among y and z or the only one of them.
+/// The up axis, if the evidence shows that it is z, -y or -z. `axes` is the evidence for y and z, or for one of them.
 fn other(axes: &[Axis]) -> Option<Found> {
     if let [y, z] = axes {
         if z.lies() && z.open - y.open >= OPEN {
             return Some(z.found(true));
         }
-        // Water against a wall looks like water on a floor, but it moves away from the wall, and down towards the
-        // floor. A block that has just begun to fall has almost no open surface.
+        // `from_wall`: water that leans on a wall looks like water on a floor, and motion decides, because it moves
+        // away from the wall and down towards the floor. `falls`: a block that has just begun to fall has almost no
+        // open surface.
         let from_wall = z.lies() && z.moves < -MOVES && y.moves > MOVES;
         let falls = z.moves < -FALLS && y.moves.abs() < MOVES && z.open - y.open > SOME;
         if from_wall || falls {
@@ -141,7 +144,8 @@ fn other(axes: &[Axis]) -> Option<Found> {
     })
 }
 
-/// The axis perpendicular to a single layer of all particles in all frames: the particles are two-dimensional.
+/// If all particles of all frames form a single layer, that is, if they are two-dimensional, the axis perpendicular
+/// to the layer.
 pub fn flat(frames: &[Particles]) -> Option<usize> {
     let mut found = [true; 3];
     for frame in frames {
@@ -199,7 +203,8 @@ mod tests {
 
     const SPACING: f32 = 0.05;
 
-    /// Water on a floor whose surface slopes away from a wall, with velocities: along, across and up.
+    /// Water on a floor, with a surface that slopes down from a wall. `turn` converts coordinates along the dam,
+    /// across it and upwards to those of a file. With `moves` the water has velocities.
     fn dam(turn: impl Fn([f32; 3]) -> [f32; 3], moves: bool) -> Particles {
         let cells =
             (0..40).flat_map(|x| (0..12).flat_map(move |y| (0..20).map(move |z| (x, y, z))));
@@ -240,7 +245,7 @@ mod tests {
         assert!(is_z(&[dam(z_up, true)]).is_some());
         assert_eq!(is_z(&[dam(y_up, false)]), None);
         assert_eq!(is_z(&[dam(y_up, true)]), None);
-        // The dam breaks along the axis that could be the up axis; the motion decides.
+        // The dam breaks along the other axis that could be the up axis; the motion decides.
         let z_up = |[x, y, z]: [f32; 3]| [y, x, z];
         let y_up = |[x, y, z]: [f32; 3]| [y, z, x];
         assert!(is_z(&[dam(z_up, true)]).is_some());
@@ -272,7 +277,7 @@ mod tests {
         assert_eq!(is_z(&[]), None);
     }
 
-    /// A dam in every orientation: what its motion and its open side show, and what they leave ambiguous.
+    /// A dam in every orientation: which up axis its motion and its open side show, and when they leave it open.
     #[test]
     fn water_that_hangs_is_turned() {
         let up = |particles: Particles| find(&[particles]).map(|found| (found.up, found.sure));
@@ -286,7 +291,7 @@ mod tests {
                 assert_eq!(up(dam(way, true)).map(|found| found.0), Some(up_axis), "{side}");
             }
         }
-        // With x up nothing is detected: x is no candidate, and no other axis is found.
+        // With x up no axis is detected except perhaps y, the default: x is no candidate.
         let side = |[x, y, z]: [f32; 3]| Up::X.turn_back([y, z, x]);
         assert!(up(dam(side, true)).is_none_or(|found| found.0 == Up::Y));
         // A jet that rises from a floor is not a fall towards a lid.

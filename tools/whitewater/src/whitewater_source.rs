@@ -34,7 +34,8 @@ pub struct Files {
     placing: Placing,
     /// The longest remaining lifetime; `None` if no file stores lifetimes.
     life: Option<f32>,
-    /// Mean number of particles of each kind in a column that holds any; `None` if there are none of that kind.
+    /// Mean number of particles of each kind (foam, spray, bubbles) in a vertical column that holds any of that kind;
+    /// `None` if there are none.
     columns: [Option<f32>; 3],
     /// Max number of particles in a frame.
     most: usize,
@@ -53,8 +54,8 @@ struct Drawn {
     spacing: f32,
 }
 
-/// The whitewater particles of a frame, in opened files. They are read and uploaded part by part, so that only a part
-/// is in memory: nothing else needs them, since camera and light are found from the water.
+/// The whitewater particles of a frame, in opened files. They are read and uploaded part by part, so that only one
+/// part is in memory. That is possible because camera and light are found from the water's particles alone.
 pub struct Reading {
     files: Vec<(Parts<'static>, Option<u32>)>,
     placing: Placing,
@@ -78,11 +79,12 @@ fn kind_of(number: u32) -> usize {
     usize::try_from(number).ok().filter(|kind| *kind < KINDS).unwrap_or(0)
 }
 
-/// A radius is divided by 1 to this number, chosen per particle (Akinci et al. 2013, Sec. 2.1: 5). With five
-/// sizes, single particles stand out.
+/// The radius of each particle is divided by a whole number from 1 to this one, chosen per particle. (Akinci et al.
+/// 2013, Sec. 2.1, have 5; with only five sizes single particles stand out.)
 pub const VARIETY: u32 = 8;
-/// Mean thickness that one foam particle adds to a column, if its radius is the column's width: its disc, with the mean
-/// squared size and the mean shape (1 - x^2.25).
+/// Mean thickness that one foam particle adds to a column, if its radius is the column's width: the area π of its
+/// disc, times the mean of its squared size (1 to 1 / [`VARIETY`]), times the mean of its profile 1 - x^2.25 over the
+/// disc, where x is the distance from the centre relative to the radius.
 const SHARE: f32 = {
     let (mut squares, mut i) = (0.0, 1);
     while i <= VARIETY {
@@ -91,22 +93,25 @@ const SHARE: f32 = {
     }
     PI * squares / VARIETY as f32 * (1.0 - 2.0 / 4.25)
 };
-/// Opacity of a column with the mean number of particles, if they are spread evenly and the radius is within its
-/// limits. A few randomly placed particles leave gaps and hide less on average.
+/// Wanted opacity of a column with the mean number of particles. It is reached if they are spread evenly and the
+/// radius is within its limits; a few randomly placed particles leave gaps and hide less on average.
 const HIDDEN: f32 = 0.8;
-/// `half` for few particles: the centre of a single one has an opacity of 1 / 1.12, as a drop of white water.
+/// [`Sizes::half`] for few particles: the centre of a single particle, with a thickness of 1, then has an opacity of
+/// 1 / (1 + 0.12), like a drop of white water.
 const FEW: f32 = 0.12;
-/// Copies are drawn if a column that holds any foam or spray has fewer particles than the first number. The second is
-/// the max number of copies of a particle, the third the max number of all drawn particles.
+/// Each particle is drawn as several copies if a column that holds any foam (or any spray) has on average fewer
+/// particles than the first number. The second number is the max number of copies of a particle, the third the max
+/// number of all drawn particles.
 const COPIES: (f32, u32, usize) = (100.0, 24, 3_000_000);
-/// Max distance of copies from their particle in spacings, for foam, spray and bubbles; for foam a third of that
-/// vertically.
+/// Max distance of copies from their particle, in spacings, for foam, spray and bubbles. The vertical distance of
+/// foam is at most a third of its number here.
 const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
-/// Min and max radius in spacings: the shadow search does not resolve smaller spheres, and larger ones look like balls.
+/// Min and max radius in spacings. The search for shadows does not resolve smaller spheres, and larger ones are seen
+/// as single balls.
 const RADII: [f32; 2] = [0.1, 0.14];
 
-/// Size and opacity of whitewater particles. Files hold ten thousand or ten million particles for the same splash;
-/// Akinci's constants are for millions, and would turn a few into a haze.
+/// Size and opacity of whitewater particles. For the same splash a file may hold ten thousand or ten million
+/// particles. Akinci's constants are for millions; ten thousand would look like a haze with them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
     /// Radii of foam, spray and bubbles.
@@ -116,11 +121,12 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Size and opacity from the mean number of particles in a column of one spacing squared that holds any. A column
-    /// of `n` particles with a radius of `r` spacings has the thickness `SHARE n r^2`. The radius is chosen within
-    /// [`RADII`] so that the mean column has the opacity [`HIDDEN`] with `half` = [`FEW`]. If even the min radius gives
-    /// more, `half` rises to keep that opacity, up to the source's 3; more particles are then more opaque. Only foam
-    /// and spray count, because bubbles are seen through water.
+    /// Size and opacity from `columns`, the mean number of particles in a column, one spacing squared, that holds
+    /// any. A column of `n` particles with a radius of `r` spacings has the thickness `SHARE n r^2`. The radius is
+    /// chosen within [`RADII`] so that the mean column has the opacity [`HIDDEN`] with `half` = [`FEW`]. If even the
+    /// min radius gives more opacity than that, `half` rises, at most to the source's 3, so that the opacity is
+    /// [`HIDDEN`] again; with still more particles the opacity is higher. For `half` only foam and spray count,
+    /// because bubbles are seen through water.
     pub fn of_columns(columns: [Option<f32>; 3], spacing: f32) -> Self {
         let WhitewaterSettings { half_intensity_thickness: most, exponent, .. } =
             WhitewaterSettings::of_spacing(spacing);
@@ -179,8 +185,8 @@ impl Columns {
 }
 
 impl Files {
-    /// Finds the files; `None` if none are named. `single` is set if one frame is drawn; its file may have any number.
-    /// `spacing` is the water's.
+    /// Finds the files; `None` if none are named. `single` is the number of the only frame, if there is one; a single
+    /// file then belongs to it, whatever number is in its name. `spacing` is the water's.
     pub fn find(
         named: &[Whitewater],
         placing: Placing,
@@ -210,7 +216,7 @@ impl Files {
         Ok(Some(files))
     }
 
-    /// Reads some frames of the whole sequence, so that the results do not depend on the range that a job draws.
+    /// Reads some frames of the whole sequence, so that the results do not depend on which range of frames is drawn.
     fn look(&mut self, spacing: f32) {
         let step = self.frames.len().div_ceil(PROBES).max(1);
         let (mut longest, mut columns, mut here) = (None, Columns::default(), 0);
@@ -275,7 +281,7 @@ impl Files {
         self.drawn.map_or(1, |drawn| drawn.copies)
     }
 
-    /// A message if some frames have no file with their number. Fails if none has one.
+    /// A message if some frames have no whitewater file with their number. Fails if no frame has one.
     pub fn missing(&self, frames: &[u64]) -> Outcome<Option<String>> {
         let without = frames.iter().filter(|frame| !self.frames.contains_key(frame));
         let without: Vec<_> = without.collect();
@@ -382,8 +388,8 @@ impl Part {
         part
     }
 
-    /// Adds the copies around each particle; the first stays in its place. Their offsets depend on the particle's id,
-    /// or on its index if it has none.
+    /// Replaces each particle by its copies. The first copy is at the particle's place, the others lie around it.
+    /// Their offsets depend on the particle's id, or on its index if it has none.
     fn scatter(&mut self, drawn: &Drawn, first: u32) {
         let copies = drawn.copies as usize;
         if copies < 2 {
@@ -394,7 +400,7 @@ impl Part {
         for (i, &p) in self.positions.iter().enumerate() {
             positions.push(p);
             let kind = kind_of(self.kinds[i]);
-            // The distances are uniform, so that the copies are denser in the middle than in a uniform ball.
+            // The distances are uniformly distributed, so the copies are denser near the particle than farther away.
             let reach = SCATTER[kind] * drawn.spacing;
             let high = if kind == 0 { reach / 3.0 } else { reach };
             // Multiplying by the golden ratio's bits spreads the seeds of consecutive ids.
@@ -418,7 +424,8 @@ impl Part {
     }
 }
 
-/// Number of drawn particles for each particle, from the sparser of foam and spray.
+/// Number of drawn particles for each particle of a file, from the sparser kind of foam and spray. `most` is the
+/// number of particles in the fullest frame.
 fn copies(columns: [Option<f32>; KINDS], most: usize) -> u32 {
     let (wanted, copies, all) = COPIES;
     let fewest = columns.into_iter().take(2).flatten().fold(f32::INFINITY, f32::min);
@@ -475,8 +482,8 @@ mod tests {
         power / (half + power)
     }
 
-    /// The same patch of 40 by 40 columns, resolved by a thousand to ten million particles. With the library's
-    /// constants, ten thousand would have a hundredth of the opacity or less.
+    /// The same patch of foam, 40 by 40 columns, made of a thousand to ten million particles. With the library's
+    /// constants, ten thousand particles would have a hundredth of the opacity or less.
     #[test]
     fn ten_thousand_and_ten_million_read_as_foam() {
         let of = |n: f32, spacing: f32| {
@@ -504,7 +511,7 @@ mod tests {
         assert!(hidden(1.0e4 / 1600.0, 0.15, 3.0) < 0.02, "as the source's numbers have it");
         // The result does not depend on the unit.
         assert!((of(30.0, 0.02).1 - of(30.0, 5.0).1).abs() < 1.0e-6);
-        // Sparse spray and dense foam have different radii; the radius of a missing kind is arbitrary.
+        // Sparse spray and dense foam get different radii. Which radius a missing kind gets does not matter.
         let Sizes { radii, .. } = Sizes::of_columns([Some(200.0), Some(2.0), None], 1.0);
         assert_eq!(radii, [RADII[0], RADII[1], RADII[1]]);
     }
@@ -580,8 +587,8 @@ mod tests {
         assert_eq!(counted(&mut columns, None, Up::Y), [Some(4.0 / 3.0), Some(1.0), None]);
         let mut columns = Columns::default();
         assert_eq!(counted(&mut columns, Some(2), Up::Y), [None, None, Some(5.0 / 3.0)]);
-        // In z-up files the second axis is horizontal: four of five particles are at y = 0 (one has no z), in four
-        // columns with the rest.
+        // In z-up files x and y are horizontal, so the particle without a z counts: four of the six particles are at
+        // y = 0, in three columns, and the other two are in a column each.
         let mut columns = Columns::default();
         assert_eq!(counted(&mut columns, Some(0), Up::Z)[0], Some(6.0 / 5.0));
         // Two files of one frame count in the same columns.
