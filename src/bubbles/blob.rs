@@ -18,7 +18,7 @@ pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
 const CANDIDATES: u32 = 8;
 /// Iterations of the repulsion between bubbles.
 const ROUNDS: u32 = 40;
-/// Relative variation of radii, and offset of a centre from the shell, in radii.
+/// Greatest relative deviation of a radius from the mean, and of a bubble's centre from the shell, in its radii.
 const SPREAD: f64 = 0.3;
 const OFF_SHELL: f64 = 0.15;
 

@@ -130,7 +130,7 @@ impl Impostor {
     }
 }
 
-/// How the nearest blobs of a pixel are found. Both give the same picture.
+/// How the nearest blobs of a pixel are found. Both ways give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum BubbleSort {

@@ -359,12 +359,12 @@ impl ShoreMap {
     /// Records an update after land or water have changed. It never submits, waits or allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command
-    /// buffer; the next step has to update everything.
+    /// [`Error::BadInput`], which names the field, before the first command is recorded. After any other error,
+    /// discard the command buffer; the next step then updates everything.
     ///
     /// # Safety
-    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
-    /// before the frames that show them.
+    /// The conditions of [`Renderer::record`](crate::Renderer::record) hold. Steps are submitted in the order in
+    /// which they were recorded, before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,

@@ -178,7 +178,8 @@ pub struct ShorelineSettings {
     pub wave_slope: f32,
     /// Offset b of the waves, [-100, 100], default -0.75.
     pub wave_offset: f32,
-    /// Lower limit of the waves, [-100, 100]. `None` (default): no limit. The blog's first steps use 0.
+    /// Lower limit of the waves' term `sin(…) + a·v + b + n₃`, [-100, 100]. `None` (default): no limit. The blog's
+    /// first steps use 0.
     pub floor: Option<f32>,
     /// Weight of the waves in the mix, [0, 100], default 0.34.
     pub wave_weight: f32,

@@ -106,7 +106,8 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
     squares
 }
 
-/// Number of octaves of [`noise`], and number of cells per side of the first; each further octave has twice as many.
+/// Number of octaves of [`noise`], and number of cells per side of the first octave. Each further octave has twice as
+/// many cells per side as the one before.
 const OCTAVES: u32 = 4;
 const NOISE_CELLS: usize = 4;
 

@@ -260,10 +260,10 @@ impl BlobSimulation {
     /// largest radius, which sizes the grid cells.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command.
+    /// [`Error::BadInput`], which names the field, before the first command is recorded.
     ///
     /// # Safety
-    /// Those of [`record_step`](Self::record_step).
+    /// The conditions of [`record_step`](Self::record_step) hold.
     pub unsafe fn record_set(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -331,12 +331,12 @@ impl BlobSimulation {
     /// Records a step. It never submits, waits or allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command
-    /// buffer.
+    /// [`Error::BadInput`], which names the field, before the first command is recorded. After any other error,
+    /// discard the command buffer.
     ///
     /// # Safety
-    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
-    /// before the frames that show them.
+    /// The conditions of [`Renderer::record`](crate::Renderer::record) hold. Steps are submitted in the order in
+    /// which they were recorded, before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,

@@ -80,12 +80,12 @@ impl Generator {
     /// allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the
-    /// command buffer and call [`abandon`](Self::abandon).
+    /// [`Error::BadInput`], which names the field, before the first command is recorded. After any other error,
+    /// discard the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
-    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
-    /// before the frames that show them.
+    /// The conditions of [`Renderer::record`](crate::Renderer::record) hold. Steps are submitted in the order in
+    /// which they were recorded, before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -100,7 +100,7 @@ impl Generator {
     /// has no effect. Steps may follow.
     ///
     /// # Errors
-    /// Those of [`record_step`](Self::record_step).
+    /// The errors of [`record_step`](Self::record_step).
     ///
     /// # Safety
     /// As [`record_step`](Self::record_step).
@@ -138,7 +138,7 @@ impl Generator {
     /// Records a reset to no whitewater particles.
     ///
     /// # Safety
-    /// Those of [`record_step`](Self::record_step).
+    /// The conditions of [`record_step`](Self::record_step) hold.
     pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
         self.fresh = false;
         self.passes.record_clear(&self.gpu, cmd);
@@ -204,7 +204,7 @@ impl Generator {
     ///
     /// # Safety
     /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on,
-    /// and no pending access. In addition those of [`record_step`](Self::record_step).
+    /// and no pending access. The conditions of [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         if std::mem::take(&mut self.fresh) {
             self.passes.record_clear(&self.gpu, cmd);

@@ -213,9 +213,9 @@ pub struct Buffers {
     normals: Buffer,
     /// Emission rate of each particle, relative to the maximum.
     rates: Buffer,
-    /// Potentials in the order of the step's particles: trapped air, wave crest, energy, neighbours.
+    /// Potentials in the order of the step's particles: trapped air, wave crest, energy, number of neighbours.
     pub potentials: Buffer,
-    /// Number of whitewater particles that each fluid particle emits, then its exclusive prefix sum.
+    /// Number of whitewater particles that each fluid particle emits, later replaced by its exclusive prefix sum.
     wanted: Buffer,
     pub particles: Buffer,
     pub drifts: Buffer,
