@@ -1,7 +1,8 @@
 #version 460
-// Pass `blobs`: lists of blobs per tile and depth slice, front to back (the paper draws a billboard for each blob).
-// Three dispatches: blobs to eye space, with their depth range; counts per cell; entries. Between the last two the
-// counts become exclusive prefix sums, and after the last one inclusive ones.
+// Pass `blobs`: lists the blobs (balls of soap bubbles) in each cell, a depth slice of a screen tile, front to back
+// (the paper draws a billboard for each blob). Three dispatches: the first transforms the blobs to eye space and
+// finds their depth range, the second counts the blobs in each cell, the third enters them. Between the second and
+// the third the counts are replaced by their exclusive prefix sums, which the third turns into inclusive ones.
 // Reads: the host's streams, count. Writes: blobs, range, cells, spans, list.
 
 #include "frame.glsl"
@@ -48,9 +49,9 @@ vec4 turn_of(uint index) {
     return turned_back(q);
 }
 
-// Factor on a blob's radius by its distance, so that no blob is smaller than the limit. Of the blobs farther away, a
-// random subset is kept and enlarged so that the mean coverage stays the same (Cook et al. 2007). Blobs shrink before
-// they vanish; the mean of the squares includes that.
+// Factor on a blob's radius. Blobs that would be smaller on the screen than a limit are replaced by a random subset
+// of them, enlarged so that the mean coverage stays the same (Cook et al. 2007). Blobs shrink before they vanish from
+// the subset; the mean of the squared factors includes that.
 float merged(float radius, float distance_, uint id) {
     const float FADES = 0.5; // range of the fade, relative to the kept fraction
     float pixels = radius / max(distance_ * frame.texel.x, 1.0e-20);

@@ -1,6 +1,6 @@
 #version 460
-// Pass `cast`: shadow map of the blobs: distance along the light to the first blob, taken as a ball. Blob shadows are
-// grey, unlike the water's, because a core is opaque.
+// Pass `cast`: shadow map of the blobs: distance along the light to the first blob, taken as a ball. Shadows of blobs
+// are grey, unlike those of water, because a blob's core is opaque.
 // Reads: blobs. Writes: the map, by atomics.
 
 #include "frame.glsl"
@@ -13,8 +13,8 @@ layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 4, r32ui) uniform uimage2D front;
 layout(push_constant, std430) uniform Push { uint most; } push;
 
-// Radius within which a blob casts a shadow: the films outside let light through, and must not lie in their own
-// core's shadow.
+// Radius within which a blob casts a shadow, relative to its own: the films farther out let light through, and must
+// not lie in the shadow of their own core.
 const float CORE = 0.78;
 
 void main() {

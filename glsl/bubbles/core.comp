@@ -14,7 +14,8 @@ layout(push_constant, std430) uniform Push {
     uint seed;
 } push;
 
-// Vector to the nearest feature point (cells of size 1), and the distance to the second nearest minus that.
+// Vector from the nearest feature point (one per cell of size 1) to p, and the distance to the second nearest point
+// minus that to the nearest.
 vec4 nearest_point(vec3 p, uint seed) {
     ivec3 cell = ivec3(floor(p));
     vec3 best = vec3(0.0);
@@ -54,6 +55,6 @@ void main() {
         cells *= 2.1;
         part *= 0.6;
     }
-    // Subtract the mean of the added values, a fifth.
+    // The mean of the values added above, a fifth, is subtracted.
     imageStore(core, texel, vec4(lean, clamp(brightness - 0.2, 0.2, 1.8)));
 }

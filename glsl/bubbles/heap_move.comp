@@ -1,8 +1,8 @@
 #version 460
-// Pass `heap`, move: forces on a blob and its motion (Huszar, Szecsi, Sec. 6; theirs runs on the CPU). Forces are
-// attraction of near neighbours, repulsion of nearer ones, gravity and solids. Forces derive from a potential, so the
-// energy of a closed system decreases from step to step; they begin and end continuously. A blob with too little around
-// it splits in two, one of which shrinks as the other grows.
+// Pass `heap`, move: forces on a blob and its motion (Huszar, Szecsi, Sec. 6; theirs runs on the CPU). The forces are
+// attraction of near neighbours, repulsion of nearer ones, gravity and the push of solids. They derive from a
+// potential and are damped, so the energy of a closed system decreases from step to step; they begin and end
+// continuously. A blob with too few neighbours splits into two halves: one shrinks from the whole as the other grows.
 // Reads: heaped, buckets, solids, field. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "heap.glsl"
@@ -76,7 +76,8 @@ vec4 solid_at(Solid solid, vec3 place) {
     return vec4(turned(solid.turn, n), beside > 0.0 ? beside : most);
 }
 
-// The same for the distance field: interpolated value and gradient. There is no solid outside its box.
+// Like solid_at, for the distance field: xyz is the direction of its gradient, w its value, both interpolated. There
+// is no solid outside its box.
 vec4 field_at(vec3 place) {
     vec3 at = (place - push.field.xyz) / push.field.w;
     vec3 last = vec3(push.field_size.xyz) - 1.0;
@@ -99,7 +100,8 @@ vec4 field_at(vec3 place) {
     return vec4(steep > 0.0 ? sum.xyz / steep : vec3(0.0, 1.0, 0.0), sum.w);
 }
 
-// A solid pushes in proportion to the penetration; friction is proportional to that.
+// Changes the speed and spin of a blob that touches a solid. The solid pushes in proportion to the penetration;
+// friction is at most proportional to the push.
 void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     float deep = push.solid.x * ball.w - solid.w;
     if (deep <= 0.0) {
@@ -120,8 +122,8 @@ void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     spin += ROUND / ball.w * cross(-n, change);
 }
 
-// Surroundings of a blob: volume of the touching neighbours, direction towards neighbours and solids, direction out of
-// the last solid.
+// Surroundings of a blob: volume of the touching neighbours; `lean`, the direction towards neighbours and solids;
+// `ground`, the direction out of the last solid touched.
 struct Company {
     float volume;
     vec3 lean;
@@ -150,8 +152,8 @@ void lies_on(inout Company company, Heaped own, vec4 solid) {
     }
 }
 
-// Direction in which the other half of a blob grows: random by its id, next to the neighbours, so that clumps form, and
-// not into solids.
+// Direction from a blob to the other half that grows beside it: random by the blob's id, but beside the neighbours,
+// so that clumps form, and not into solids.
 vec3 way_apart(Heaped own, Company company) {
     uint number = pcg(floatBitsToUint(own.drift.w) ^ 0x70617274u);
     float up = float(number >> 8) / 8388608.0 - 1.0;
@@ -160,14 +162,14 @@ vec3 way_apart(Heaped own, Company company) {
     float far = length(company.lean);
     vec3 to = far > 0.0 ? company.lean / far : vec3(0.0);
     vec3 across = any_ - dot(any_, to) * to;
-    // At about 65 degrees from that direction, so that three blobs of one size touch each other.
+    // At about 65 degrees from the direction to the neighbours, so that three blobs of one size touch each other.
     vec3 way = across / max(length(across), 0.01) + 0.45 * to;
     way -= 2.0 * min(dot(way, company.ground), 0.0) * company.ground;
     return way / max(length(way), 0.01);
 }
 
-// A blob with too few neighbours for some time splits, as often as there are entries for its halves. Returns its
-// radius.
+// A blob that has had too few neighbours for some time splits, at most as often as there are entries for its halves.
+// Returns the blob's radius.
 float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec3 spin) {
     float dt = push.solid.z;
     Growth growth = growths[index];
@@ -238,7 +240,7 @@ void main() {
         lies_on(company, own, solid);
         touch(solid, own.ball, speed, spin);
     }
-    // Limit the distance per step, so that it does not pass through anything.
+    // The distance per step is limited, so that a blob does not pass through anything.
     float most = own.ball.w / dt;
     speed *= min(most / max(length(speed), 1.0e-20), 1.0);
     uint index = floatBitsToUint(own.spin.w);

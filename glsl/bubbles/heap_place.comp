@@ -1,6 +1,6 @@
 #version 460
-// Pass `heap`, grid: counts the blobs of each bucket, then enters them. Between the two dispatches the counts become
-// exclusive prefix sums, and after the second inclusive ones.
+// Pass `heap`, grid: the first dispatch counts the blobs of each bucket, the second enters them. Between the two the
+// counts are replaced by their exclusive prefix sums, which the second turns into inclusive ones.
 // Reads: balls. Writes: buckets, order.
 
 #include "heap.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `heap`, set: initial blobs from the host, at rest or with its velocities. Invalid blobs and the slots of future
-// halves get radius 0.
+// Pass `heap`, set: initial blobs from the host, at rest or with the host's velocities. Invalid blobs, and entries
+// for the halves of blobs that may split later, get radius 0.
 // Reads: the host's streams. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "growth.glsl"

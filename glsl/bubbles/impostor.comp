@@ -1,7 +1,7 @@
 #version 460
-// Pass `impostor`: cube maps of the blobs' outermost surface, once per renderer (Huszar, Szecsi, Sec. 4.2, 4.3): all
-// six faces of all blobs in one dispatch (the paper uses a geometry shader). Two maps: distance from the centre, and
-// index of the bubble.
+// Pass `impostor`: cube maps of the outermost surface of each different blob, once per renderer (Huszar, Szecsi, Sec.
+// 4.2, 4.3): all six faces of all blobs in one dispatch (the paper uses a geometry shader). There are two maps per
+// blob: distance of the surface from the centre, and index of the bubble there.
 // Reads: bubbles. Writes: distances (R32F), ids (bytes).
 
 #include "cube.glsl"
@@ -19,7 +19,8 @@ layout(push_constant, std430) uniform Push {
     uint size;  // texels per edge of a face
 } push;
 
-// Distance of the surface in a direction, and its bubble; without a surface, the bubble nearest to the direction.
+// Distance of the surface from the centre in a direction, and the bubble there. If no bubble lies in this direction,
+// the distance is 0 and the bubble is the one nearest to the direction.
 float outermost(vec3 direction, uint first, out uint id) {
     float best = 0.0;
     float nearest = -2.0;

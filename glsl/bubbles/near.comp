@@ -1,8 +1,8 @@
 #version 460
 // Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs: a particle's blob grows as its sprite
 // shrinks. (Akinci et al. 2013 draw no foam near the camera; blobs by Huszar, Szecsi.) Two dispatches over the
-// particles: the first builds a histogram of their distances; the second writes the blobs nearer than the distance up
-// to which there are enough slots.
+// particles: the first builds a histogram of their distances; the second writes blobs for the particles nearer than a
+// distance, chosen so that there are enough slots for them.
 // Reads: positions, kinds, radii, ages, ids, particle counts, cross-fade distances. Writes: histogram (first); count,
 // spheres, orientations and ids of the blobs (second).
 

@@ -1,6 +1,7 @@
 #version 460
-// Pass `near`, between its dispatches: the distance up to which there are enough slots. If there are too few, the
-// cross-fade moves nearer for all particles, so that no blob is cut off half-way.
+// Pass `near`, between its two dispatches over the particles: finds the distance up to which there are enough slots
+// for blobs. If there are too few for the configured distance, the cross-fade from blobs to sprites moves nearer for
+// all particles, so that no blob is cut off half-way.
 // Reads: histogram. Writes: cross-fade distances.
 
 #include "frame.glsl"

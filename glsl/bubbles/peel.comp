@@ -1,7 +1,8 @@
 #version 460
-// Pass `peel` by tiles: the nearest blobs of each pixel, and the maximum opacity of all (Huszar, Szecsi, Sec. 5, draw
-// all blobs once per layer and once more). Here one pass suffices: a pixel iterates over its tile's blobs slice by
-// slice from the front, keeps the nearest, and stops when no farther blob can change the result.
+// Pass `peel` by tiles: the nearest blobs of each pixel, and the maximum opacity of all blobs (Huszar, Szecsi, Sec.
+// 5, draw all blobs once per layer, and once more for the opacity). Here one pass suffices: a pixel visits its tile's
+// blobs depth slice by depth slice from the front, keeps the nearest, and stops when no farther blob can change the
+// result.
 // Reads: blobs, range, cells, spans, list, scene depth, inputs of blob.glsl. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"
@@ -45,7 +46,7 @@ void main() {
     uvec2 span = spans[tile.y * bubbly.tiles.x + tile.x];
     uint slice = span.x;
     bool done = span.x >= span.y;
-    // Loops have their condition at the end, because lavapipe runs the code after a break once more.
+    // Loops end by a flag and not by `break`, because lavapipe runs the code after a break once more.
     while (!done) {
         uint cell = cell_of(slice, tile);
         uint place = cell > 0u ? min(cells[cell - 1u], bubbly.tiles.w) : 0u;
@@ -81,7 +82,7 @@ void main() {
         for (uint i = 0u; i < LAYERS; ++i) {
             behind *= 1.0 - opacities[i];
         }
-        // No layer still to come could fill a visible hole.
+        // True if no farther blob can fill a visible hole between the layers.
         bool hidden = min(through, behind) < HIDDEN || bubbly.mirror.w < 0.5;
         bool full = depths[LAYERS - 1u] <= begin && hidden;
         done = slice >= span.y || full || begin >= scene;

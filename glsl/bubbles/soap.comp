@@ -1,7 +1,8 @@
 #version 460
-// Pass `soap`: shades the blobs of a pixel, front to back (Huszar, Szecsi, Sec. 4.4 and 5). Each layer composites front
-// film, wall, core and back film. Water in front of a layer attenuates it and adds its own light in proportion to the
-// layer's opacity, so the background behind all layers keeps its value, in water or not.
+// Pass `soap`: shades the blobs of a pixel, front to back (Huszar, Szecsi, Sec. 4.4 and 5). Each layer composites a
+// bubble's front film, the wall to the next bubble, the blob's core and the back film. Water in front of a layer
+// attenuates the layer and adds its own light in proportion to the layer's opacity, so the background behind all
+// layers keeps its value, in water or not.
 // Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, inputs of blob.glsl and
 // sunlight.glsl. Writes: bubbles (RGBA16F), premultiplied.
 
@@ -62,9 +63,9 @@ vec3 to_world(Look look, vec3 v) {
     return turned(turned_back(look.blob.turn), v);
 }
 
-// Light that a film sends to the eye; `back` is the fraction that it withholds of the light from behind. The
-// radius of the sphere in pixels widens the cone of a pixel. `open` is the fraction of the surroundings that
-// is environment; the rest is foam.
+// Light that a film sends to the eye; `back` is the fraction of the light from behind that it withholds. The smaller
+// `radius` is, the bubble's radius in pixels, the wider is the cone of directions that a pixel reflects. `open` is
+// the fraction of the surroundings that is environment; the rest is foam with the light `foam`.
 vec3 film_light(Look look, vec3 normal, float radius, float thickness, float open, vec3 foam, out vec3 back) {
     vec3 n = to_world(look, normal);
     float cosine = dot(n, look.seen);
@@ -78,7 +79,7 @@ vec3 film_light(Look look, vec3 normal, float radius, float thickness, float ope
     return bubbly.mirror.x * back * mix(foam, light, open);
 }
 
-// Light of the core at a point, seen behind a bubble with this normal.
+// Light of the core where the ray leaves a bubble (`past`); `normal` is that of the bubble in front.
 vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     vec3 at = normalize(mix(normalize(past), -normal, bubbly.core.z));
     vec4 pattern = textureLod(core_map, octahedral_texture_place(at, textureSize(core_map, 0)), 0.0);
@@ -86,10 +87,10 @@ vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     vec3 n = normalize(mix(normal, round_, bubbly.core.w) + shown * pattern.xyz);
     n = to_world(look, n);
     vec3 sky = textureLod(irradiance, octahedral_texture_place(n, textureSize(irradiance, 0)), 0.0).rgb;
-    // Foam scatters light: it is lit also where it is turned away a little.
+    // Foam scatters light, so it is lit also where it is turned a little away from the sun.
     float facing = dot(n, mat3(frame.world) * frame.sun_direction.xyz);
     vec3 light = sky + bubbly.sun.rgb * look.sun * max((facing + 0.4) / 1.4, 0.0);
-    // It is darker between bubbles. Where they are too small to be seen, it has the mean brightness.
+    // The core is darker between bubbles. Where bubbles are too small to be seen, it has the mean brightness.
     float crease = mix(0.81, mix(0.77, 1.07, smoothstep(0.6, 1.0, length(past))), fine);
     return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
 }
@@ -120,8 +121,8 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
     return other;
 }
 
-// Light of a blob's layer, and its transmittance `through`. `opacity` is that of the core, as in pass `peel`, and
-// behind a wall.
+// Light of a blob's layer, its transmittance `through`, and the light `body` of its core. `opacity`: x is that of the
+// core as in pass `peel`; y is that of the core if the ray goes on in the next bubble behind a wall.
 vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 opacity) {
     BlobRay ray = look.ray;
     vec2 way = ray.span;
@@ -154,8 +155,8 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
         float b = distance_at(which, round_ + other) - distance_at(which, round_ - other);
         normal = normalize(round_ - (a * side + b * other) / (2.0 * 0.03 * 0.03 * length(met)));
     }
-    // Bubbles too small to be seen are shaded as a rough white ball, and a ball that is too small as the mean over its
-    // visible side, instead of one point.
+    // Bubbles too small to be seen are shaded as one rough white ball. If the ball is too small too, its normal is
+    // the mean over its visible side, which points to the eye, instead of the normal at one point.
     float pixels = radius * look.pixels;
     float fine = smoothstep(0.7, 3.0, pixels);
     vec3 ball = normalize(mix(-ray.direction, round_, smoothstep(0.7, 3.0, look.pixels)));
@@ -281,8 +282,8 @@ void main() {
         more = open && i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
     }
     float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
-    // Holes between the layers get the opacity of the layers themselves (Sec. 5), or that of blobs behind them, if
-    // `peel` evaluated them. The comparison allows for half precision, in which opacities were blended.
+    // Holes between the layers get the opacity of the layers themselves (Sec. 5), or that of more opaque blobs behind
+    // them, if `peel` evaluated those. The comparison allows for half precision, in which opacities were blended.
     most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
     float plug = bubbly.mirror.w > 0.5 ? max(most - covered, 0.0) : 0.0;
     color += through_medium(plug * body, vec3(plug), metres).rgb;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `grid`: counts the particles in each bucket. It needs velocities because particles with an invalid velocity are
-// dropped.
+// Pass `grid`: counts the fluid particles in each bucket of the grid that finds neighbours. It needs velocities
+// because particles with an invalid velocity are dropped.
 // Reads: number of particles, positions, velocities. Writes: bucket counts; clears the potentials and the number of
 // whitewater particles to emit.
 

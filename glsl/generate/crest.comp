@@ -16,12 +16,13 @@ layout(set = 0, binding = 7, std430) writeonly buffer Wanted { uint wanted[]; };
 // Fraction of the max emission rate, in the grid's order.
 layout(set = 0, binding = 8, std430) writeonly buffer Rates { float rates[]; };
 
-// Cosine of the angle to the normal within which a crest moves.
+// A particle may be in a wave crest if the cosine of the angle between its velocity and its surface normal is at
+// least this.
 const float ALONG = 0.6;
 // Max number of whitewater particles per fluid particle and step.
 const float MOST_MADE = 64.0;
 
-// Curvature from convex neighbours only: those below the tangent plane.
+// Curvature of the surface from convex neighbours only, which are those below the tangent plane.
 uint bend(vec3 position, vec3 normal) {
     uint sum = 0u;
     for (int c = 0; c < 27; ++c) {

@@ -1,7 +1,8 @@
 #version 460
-// Pass `emit`: new whitewater particles, in a cylinder along the path of each fluid particle in the step (Ihmsen et al.
-// 2012, Sec. 3.2). They take the free slots in the order of the fluid's particles. In a snapshot they are placed within
-// a spacing of the particle, with the age of their stage.
+// Pass `emit`: new whitewater particles, in a cylinder along the path of each fluid particle in the step (Ihmsen et
+// al. 2012, Sec. 3.2). They take the free slots in the order of the fluid's particles. For a snapshot (a single frame
+// without steps before it) they are placed within a spacing of the fluid particle and get an age: the time since the
+// moment (stage) at which a steady flow would have emitted them.
 // Reads: the grid, normals or stages, number of particles to emit (exclusive prefix sum), free slots. Writes:
 // whitewater particles.
 
@@ -50,7 +51,7 @@ void visit(uint i) {
     axes_of(ahead, x, y);
     uint seed = step_seed();
     uint id = places[i].id;
-    // The particle that emits it counts as a neighbour, as in later steps.
+    // The emitting fluid particle counts as a neighbour of the new particle, as it will in later steps.
     uint kind = kind_of(uint(uintBitsToFloat(normals[i].w)) + 1u);
     // In a snapshot, the first random numbers are used by the stages.
     uint random = SNAPSHOT == 0u ? 1u : 32u;
@@ -71,7 +72,7 @@ void visit(uint i) {
         uint slot = order < counts.free ? free_slots[order] : counts.high + beyond;
         float radius = 0.5 * push.spacing * sqrt(uniform_of(seed, id, 4u * k + random));
         float along = way * uniform_of(seed, id, 4u * k + random + 1u);
-        // Shifted by half a turn: sines are exact only near 0.
+        // The angle is shifted by half a turn, because sines are exact only near 0; the minus below shifts it back.
         float turn = 6.28318531 * (uniform_of(seed, id, 4u * k + random + 2u) - 0.5);
         vec3 off = -radius * (cos(turn) * x + sin(turn) * y);
         float age = 0.0;

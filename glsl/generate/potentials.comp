@@ -15,8 +15,8 @@ layout(set = 0, binding = 5, std430) writeonly buffer Normals { vec4 normals[]; 
 // In the order of the step: trapped air, wave crest, energy, number of neighbours.
 layout(set = 0, binding = 6, std430) writeonly buffer Potentials { vec4 potentials[]; };
 
-// Min length of the neighbours' weighted mean vector, per sum of weights, of a particle at the surface: it is 0.3 on a
-// flat surface and 0 inside.
+// A particle is at the surface if the weighted mean of the vectors from its neighbours to it, in units of the support
+// radius, is longer than this. The mean's length is 0.3 on a flat surface and 0 inside.
 const float AT_SURFACE = 0.15;
 
 void visit(uint i) {

@@ -1,7 +1,7 @@
 #version 460
-// Pass `trace`, snapshots only: number of whitewater particles that a steady flow would have left at each water
-// particle, from the emission along the path of its water. Ihmsen et al. 2012 simulate sequences only; a single frame
-// only has its own flow.
+// Pass `trace`, only for a snapshot (a single frame): number of whitewater particles that a steady flow would have
+// left at each water particle. The water's path is followed backwards through the velocities of this one frame, and
+// the emission along it is summed. (Ihmsen et al. 2012 simulate sequences only.)
 // Reads: the grid, emission rates. Writes: stages (in place of normals), number of particles to emit.
 
 #include "random.glsl"

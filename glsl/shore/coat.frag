@@ -1,5 +1,5 @@
 #version 460
-// Pass `composite`, raster: foam on the scene's water. Particle water is drawn over it afterwards.
+// Pass `composite`, raster: foam on the scene's own water surface. Water of particles is drawn over it afterwards.
 // Reads: shoreline and contact foam; scene colour, if the output cannot be blended. Writes: output.
 
 #include "frame.glsl"

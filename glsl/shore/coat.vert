@@ -1,5 +1,6 @@
 #version 460
-// Pass `composite`, raster: one quad per run of tiles with foam on the scene's water.
+// Pass `composite`, raster: one quad per run (adjacent 8x8 tiles of a row) with foam on the scene's own water
+// surface.
 // Reads: list. Writes: its corners, values that are constant over it.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `contact`: foam on the particles' water around objects (Lettier, Foam), on the smoothed surface.
-// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, for pixels that have some. `composite`
-// evaluates the sunlight on it, because the host's surface behind may be lit differently.
+// Pass `contact`: foam around objects (Lettier, Foam) on the water of particles, placed on its smoothed surface.
+// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, for pixels that have some.
+// `composite` evaluates the sunlight on this foam, because the host's water surface behind it may be lit differently.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -30,7 +30,7 @@ void main() {
     vec2 pixel = vec2(texel) + 0.5;
     float scene = scene_of(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
-    // The smoothed surface differs by less than the border's threshold.
+    // The smoothed surface is at most `frame.surface.w` behind the unsmoothed one, so this distance is a lower bound.
     float near = contact_distance(ray, front + frame.surface.w, scene) * shore.contact.y;
     bool go = front < EMPTY && scene > 0.0 && near < 1.0;
     for (; go; go = false) {

@@ -20,8 +20,8 @@ void main() {
     }
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
     vec2 own = 1.0 / vec2(textureSize(depth, 0));
-    // Min distance of an object in the water behind the water's front; the smoothed surface differs from that by less
-    // than the border's threshold.
+    // Least depth difference between the water's front and the scene behind it. The smoothed surface differs from the
+    // front by less than `frame.surface.w`, which is subtracted below.
     vec4 least = vec4(EMPTY);
     for (int i = 0; i < FOURS; ++i) {
         vec2 four = four_of(first, i);

@@ -1,6 +1,7 @@
 #version 460
-// Pass `map`, distances: distance from each texel to a segment of the shore line, one texel long, at its seed; negative
-// in the water.
+// Pass `map`, distances: in metres, from each texel of the map to the shore line at the texel's seed, the nearest
+// point of the line that is known. There the line is taken as a straight segment of one texel's length. Distances are
+// negative in the water.
 // Reads: seeds, heights. Writes: distances.
 
 #include "shore_map.glsl"
@@ -10,7 +11,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 1, std430) readonly buffer Seeds { uint seeds[]; };
 layout(set = 0, binding = 2, r32f) uniform writeonly image2D distances;
 
-// Gradient of the height at a point, from the four texels around.
+// Gradient of the height at a point, from the four texels around it.
 vec2 rise_at(vec2 place) {
     // Keep all four texels inside the map.
     ivec2 base = clamp(ivec2(floor(place - 0.5)), ivec2(0), ivec2(push.size - 2));

@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, heights: a host mesh from above; the highest point of each texel is kept.
+// Pass `map`, heights: a host mesh drawn from above; the depth test keeps the highest point in each texel.
 // Reads: the host's vertices. Writes: positions in the map, heights as depths.
 
 layout(set = 0, binding = 0, std430) readonly buffer Positions { float positions[]; };
@@ -28,7 +28,7 @@ vec4 vertex_at(uint i) {
 
 void main() {
     uint own = uint(gl_VertexIndex);
-    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw another
+    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw a different
     // triangle.
     bool there = true;
     vec4 vertex = vec4(0.0);
@@ -40,7 +40,7 @@ void main() {
         there = there && known && all(lessThan(abs(other), vec4(1.0e18)));
         vertex = corner == own ? other : vertex;
     }
-    // Heights are clamped to the range: an island's peak stays land.
+    // Heights are clamped to the range of the map, so that a peak above it stays land.
     vec3 place = vec3(dot(push.east, vertex), dot(push.north, vertex), clamp(dot(push.height, vertex), 0.0, 1.0));
     gl_Position = there ? vec4(place, 1.0) : vec4(0.0, 0.0, -1.0, 1.0);
 }

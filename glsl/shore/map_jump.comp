@@ -1,5 +1,6 @@
 #version 460
-// Pass `map`, one jump: the nearest seed of nine texels at this jump's distance (Rong, Tan 2006).
+// Pass `map`, one step of jump flooding (Rong, Tan 2006): each texel takes the nearest of nine seeds (points of the
+// shore line), its own and those of the eight texels that are `jump` texels away along rows, columns and diagonals.
 // Reads: one image of seeds. Writes: the other.
 
 #include "shore_map.glsl"
@@ -23,8 +24,8 @@ void main() {
         uint seed = inside ? before[at.y * push.size + at.x] : NONE;
         vec2 to = place_of(seed) - own;
         float square = seed == NONE ? 1.0e29 : dot(to, to);
-        // If two seeds are equally near, the one with the lower value wins, so that the order of the nine does not
-        // matter.
+        // If two seeds are equally near, the one with the lower value wins, so that the order of the nine texels does
+        // not matter.
         bool better = square < nearest || square == nearest && seed < best;
         best = better ? seed : best;
         nearest = better ? square : nearest;

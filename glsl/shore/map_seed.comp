@@ -1,5 +1,6 @@
 #version 460
-// Pass `map`, seeds: nearest crossing of the shore line with the segments from a texel to its four neighbours.
+// Pass `map`, seeds: for each texel, the nearest point at which the shore line crosses a segment from the texel's
+// centre to one of the centres of its four neighbours.
 // Reads: heights. Writes: seeds.
 
 #include "shore_map.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `shoreline`: foam on the host's water surface: along shores by the distance map or the ground's slope (blog),
-// and around objects (Lettier, Foam). Differs from both: no mesh; fractional coverage of a pixel instead of clipping.
+// Pass `shoreline`: foam on the host's water surface: along shores, by the map of distances or by the slope of the
+// ground (blog), and around objects (Lettier, Foam). Differs from both sources: there is no mesh, and a pixel may be
+// covered in part, where the sources clip.
 // Reads: lists of tiles, scene depth, surface depth, noise, foam texture, map, mask, inputs of sunlight.glsl. Writes:
 // shoreline foam, contact foam, blocked share of sunlight.
 
@@ -28,13 +29,14 @@ layout(constant_id = 1) const uint PARTS = 3;
 #include "shore_light.glsl"
 #include "shore_place.glsl"
 
-// v from the water's depth alone: the distance to the shore that the slope of the bed implies. If the surface is seen
+// The shore coordinate v (0 at the sea's edge of the foam, 1 at the shore line, 2 inland) without a map: by the
+// distance to the shore that follows from the depth and the slope of the bed at the pixel. If the surface is seen
 // from below, the scene behind it is no bed; v is then 0, far from the shore.
 float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     vec3 places[3];
     places[0] = ray * scene;
     for (int i = 1; i < 3; ++i) {
-        // Of two neighbours, the one whose depth is nearer to the pixel's.
+        // Of the two neighbouring pixels on an axis, takes the one whose depth is nearer to the pixel's own.
         vec2 to = i == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
         float best = EMPTY;
         for (int k = -1; k < 2; k += 2) {
@@ -83,7 +85,7 @@ bool shaded(uvec2 texel, bool listed, float device, Mixed mixed, float v, float 
     }
     bool foams = line + amount > 0.0;
     if (foams) {
-        // With a strip, its foam is already in the image.
+        // With a strip (a mesh of the host along the shore), the strip's foam is already in the image.
         float strip = PARTS == 2u ? imageLoad(foam, ivec2(texel)).x : 0.0;
         imageStore(foam, ivec2(texel), vec4(max(line, strip), amount, sun_lost(ray * z, pixel), 0.0));
     }

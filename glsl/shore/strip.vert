@@ -1,5 +1,6 @@
 #version 460
-// Pass `shoreline`: the host's strip of foam, whose vertices have a position and v (blog, Sec. IV).
+// Pass `shoreline`: the host's strip, a mesh along the shore whose vertices have a position and the shore coordinate
+// v, 0 at the sea's edge of the foam to 2 inland (blog, Sec. IV).
 // Reads: the host's streams. Writes: eye position, v.
 
 #include "frame.glsl"
@@ -34,7 +35,7 @@ vec4 vertex_at(uint i) {
 
 void main() {
     uint own = uint(gl_VertexIndex);
-    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw another
+    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw a different
     // triangle.
     bool there = true;
     vec4 vertex = vec4(0.0);

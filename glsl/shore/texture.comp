@@ -1,6 +1,7 @@
 #version 460
-// Pass `web`: one mip level of the foam texture or the noise as half floats, for a copy to its image. The foam texture
-// has the mean, the mean square (whose variance stands for detail finer than a pixel) and the slopes. Not in the blog.
+// Pass `web`: computes one mip level of the texture of shoreline foam (the web) or of its noise as half floats, which
+// are then copied to an image. A texel of the web has the mean coverage, the mean of its square, and the slopes; mean
+// and square give the variance, which stands for detail finer than a pixel. Not in the blog.
 // Reads: texels of the host, or 32-bit floats, or the previous level. Writes: the level.
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -26,7 +27,8 @@ vec4 before_at(uvec2 at) {
     return vec4(unpackHalf2x16(halves[word]), unpackHalf2x16(halves[word + 1u]));
 }
 
-// Bilinear, or the mean over the texels covered if the image is larger. The image repeats.
+// The host's image at a texel of this level: bilinear, or, if the image has more texels, the mean over those that the
+// texel covers. The image repeats.
 float host_at(ivec2 at) {
     vec2 step = push.part.zw / float(push.size);
     ivec2 taps = max(ivec2(ceil(step)), ivec2(1));
@@ -71,7 +73,8 @@ void main() {
     } else {
         ivec2 own = ivec2(at);
         float web = web_of(own);
-        // Difference over two texels, per whole image, because the image repeats.
+        // The slope is a difference over two texels, converted to a change per width of the image. The image repeats,
+        // so its edges have neighbours too.
         vec2 slope = vec2(web_of(own + ivec2(1, 0)) - web_of(own - ivec2(1, 0)),
                           web_of(own + ivec2(0, 1)) - web_of(own - ivec2(0, 1)));
         value = vec4(web, web * web, 0.5 * float(push.size) * slope);

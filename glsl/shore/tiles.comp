@@ -1,6 +1,7 @@
 #version 460
-// Pass `shore-tiles`: lists the 8x8 tiles that may contain foam on the host's surface, by kind, with the dispatches
-// over them. Not in the sources: most of a picture has none, and the test is much cheaper than shading.
+// Pass `shore-tiles`: lists the 8x8 tiles that may contain foam on the host's water surface, in one list each for
+// shoreline foam, contact foam and both, with the dispatches over the lists. Not in the sources: most of a picture
+// has no such foam, and this test is much cheaper than shading.
 // Reads: scene depth, surface depth, map of shore distances. Writes: lists, arguments.
 
 #include "frame.glsl"
@@ -13,20 +14,21 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 const float NONE = -3.0e38;
 
-// The scene's device depths are compared directly, negated if necessary so that nearer depths are greater. This saves
-// work per texel.
+// Limits of the scene's device depth. Device depths are compared without conversion to eye depth, which saves work
+// per texel. They are negated if necessary, so that nearer depths are greater.
 struct Range {
     vec4 seen;    // the surface is hidden where the scene's depth is greater
     vec4 contact; // no contact foam where it is less
 };
 
-// Converts the reciprocal of an eye depth to such a depth.
+// Converts the reciprocal of an eye depth to a device depth that is greater if it is nearer.
 vec4 device(vec4 reciprocal) {
     return abs(frame.depth.x) * reciprocal - (frame.depth.x < 0.0 ? -frame.depth.y : frame.depth.y);
 }
 
-// The range, from the bounds of the reciprocal eye depth of the surface in a tile. `part` is the fraction of a metre
-// along the view that counts as near. The range has a margin for rounding, because pixels are tested again.
+// The range for a tile. `least` and `most` bound the reciprocal eye depth of the surface in the tile. `part` is the
+// factor with which distances along the view count for contact foam. The range has a margin for rounding; pixels are
+// tested again.
 Range range_of(vec4 least, vec4 most, vec4 part) {
     const float SPARE = 1.0e-5;
     float ulps = 2.5e-7 * (1.0 + abs(frame.depth.y));
@@ -38,12 +40,12 @@ Range range_of(vec4 least, vec4 most, vec4 part) {
     return range;
 }
 
-// Reciprocal of the level's eye depth on a ray; 0 if the ray misses it.
+// Reciprocal of the eye depth at which a ray meets the level water surface; 0 if the ray misses it.
 float level_on(vec3 ray) {
     return shore.height.w == 0.0 ? 0.0 : max(-dot(shore.height.xyz, ray) / shore.height.w, 0.0);
 }
 
-// Range for a surface that need not be level, at four pixels from `first` on.
+// The range for a surface that need not be level, at 2x2 pixels whose first one is `first`.
 Range range_at_four(vec2 first) {
     vec4 own, part;
     for (int i = 0; i < 4; ++i) {
@@ -79,7 +81,8 @@ void main() {
     high = clamp((high - shore.map.xy) * shore.map.z, vec2(-1.0), vec2(shore.map.w + 1.0));
     bool over = all(lessThan(low, vec2(shore.map.w))) && all(greaterThan(high, vec2(0.0)));
     vec2 middle = clamp(0.5 * (low + high), vec2(0.0), vec2(max(shore.map.w - 1.0, 0.0)));
-    // The nearest texel's centre is less than 1 away, the four around a point less than 1.5.
+    // Bound in metres on how much distances in the tile differ from the one read at `middle`: half the tile's
+    // diagonal, 1 texel to the centre of the nearest texel, and 1.5 texels to the four texels around a point.
     float off = (0.5 * length(high - low) + 2.5) / max(shore.map.z, 1.0e-9);
     float distance = texelFetch(map, ivec2(middle), 0).x;
     bool band = over && (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0;
@@ -93,8 +96,9 @@ void main() {
     Range range = range_of(vec4(least), vec4(most), vec4(part));
     float side = sign(frame.depth.x);
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
-    // Greatest depth that does not hide the surface; for a surface that need not be level, relative to the depth at
-    // which contact foam begins. This may include texels outside the picture: pixels are tested again.
+    // The greatest, so nearest, scene depth that does not hide the surface. For a surface that need not be level, it
+    // is relative to the depth at which contact foam begins. Texels outside the picture may be included, because
+    // pixels are tested again.
     vec4 nearest = vec4(NONE);
     for (int row = 0; row < (asked ? HALF : 0); ++row) {
         for (int column = 0; column < HALF; ++column) {

@@ -1,6 +1,6 @@
 #version 460
-// Pass `splat`, first part: clears all pixels and stores the depths of scene and fluid, which particles read many times
-// (Akinci et al. 2013, passes 1 and 2); computes the dispatches over the particles.
+// Pass `splat`, first part: clears all pixels and stores the depths of scene and fluid, which particles read many
+// times (Akinci et al. 2013, passes 1 and 2). It also computes the arguments of the dispatches over the particles.
 // Reads: scene depth, water depth, depth of the host's own fluid, count. Writes: words, arguments.
 
 #include "frame.glsl"

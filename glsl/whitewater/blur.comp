@@ -1,6 +1,6 @@
 #version 460
-// Pass `blur`: removes the sampling noise of light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along rows and
-// then along columns, not across depth gaps.
+// Pass `blur`: blurs the light and shadow of whitewater, to remove their sampling noise (Akinci et al. 2013, Sec.
+// 2.5; pass 7): first along rows, then along columns, but not across gaps in depth.
 // Reads: tiles with foam, foam depth, foam normal with its search radius, light and shadow. Writes: light and shadow,
 // blurred.
 
@@ -8,8 +8,8 @@
 #include "whitewater_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 1: each pixel of a 4x4 block holds a part of the samples, and all are combined, however small the particles and
-// whatever lies between them.
+// 1: each pixel of a 4x4 block has only a sixteenth of the samples, so the blur must combine at least such a block.
+// It then reaches 4 pixels or more, across depth gaps up to the width of 8 pixels, however small the particles are.
 layout(constant_id = 1) const uint FAST = 0;
 const float BLOCK = FAST == 1u ? 4.0 : 0.0;
 layout(set = 0, binding = 1) uniform sampler2D occluders;
@@ -18,8 +18,9 @@ layout(set = 0, binding = 3) uniform sampler2D radiance;
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D blurred;
 layout(push_constant, std430) uniform Push { ivec2 step; } push;
 
-// Max number of pixels read on each side. A wider blur reads every n-th pixel, with the smallest odd n that suffices:
-// an odd step visits all positions of the 4x4 blocks, and at least eleven values per side represent a Gaussian.
+// Max number of pixels read on each side. A wider blur reads only every n-th pixel, with the smallest odd n that
+// suffices. With an odd n all positions in the 4x4 blocks are read, and at least eleven values per side remain,
+// enough for a Gaussian.
 const int MOST = 32;
 
 void main() {
@@ -36,7 +37,7 @@ void main() {
     float search = texelFetch(normals, pixel, 0).w;
     float first = search * (frame.whitewater_search.x + frame.whitewater_search.y);
     float radius = max(frame.whitewater_color.w * 0.5 * first * frame.extent.y, BLOCK);
-    // Two radii of the particle.
+    // The depth gap that ends the blur: two radii of the particle.
     float gap = max(2.0 * search / abs(frame.projection.y), 2.0 * BLOCK * abs(frame.slope.y)) * depth;
     // Number of pixels before and after this one.
     int at = pixel.x * push.step.x + pixel.y * push.step.y;

@@ -1,9 +1,10 @@
 #version 460
-// Pass `radiance`: ambient occlusion and environment light of the foam of each pixel (Akinci et al. 2013, Sec. 2.4;
-// pass 6). Occlusion is sampled in one sphere per pass, each larger, with points that all pixels share. Not in the
-// paper: the sun's light and shadows, and the normal of particles smaller than a pixel. A pixel's centre hits an
-// arbitrary point of such a sphere, and shading by its normal makes far foam look like salt and pepper. Instead the
-// normal is the direction in which the same samples find open space, so that a plume is lit as one body.
+// Pass `radiance`: ambient occlusion and environment light of the whitewater in each pixel (Akinci et al. 2013, Sec.
+// 2.4; pass 6). Occlusion is sampled at points in several spheres around the visible point, each larger than the one
+// before; all pixels share these points. Not in the paper: the sun's light and shadows, and the normal of particles
+// smaller than a pixel. A pixel's centre hits an arbitrary point of such a particle's sphere, and shading by the
+// normal there makes far foam look like salt and pepper. Instead the normal is the direction in which the samples of
+// the occlusion find open space, so that a plume is lit as one body.
 // Reads: tiles with foam, depths of foam, fluid and scene, foam intensity, foam normal, points, irradiance,
 // environment, inputs of sunlight.glsl. Writes: foam normal, foam radiance.
 
@@ -20,10 +21,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // 1: look up the environment in the directions of the points, as in the paper; 0: look it up once,
 // prefiltered.
 layout(constant_id = 0) const uint SAMPLED = 0;
-// 1: each pixel of a 4x4 block uses a sixteenth of the points, and `blur` combines them. Each sixteenth by
-// itself finds half of a half space hidden, whatever its slope, because isolated foam gets no help from its
-// neighbours' points. The number of points does not depend on the size of the spheres, so that foam does not
-// change with the distance.
+// 1: each pixel of a 4x4 block uses a sixteenth of the points, and `blur` combines the pixels. A sixteenth consists
+// of pairs of opposite points, so an occluder that fills half of the sphere hides half of the points, whatever its
+// slope. Isolated foam needs that, because it gets no help from its neighbours' points. The number of points does not
+// depend on the size of the spheres, so that foam does not change with the distance.
 layout(constant_id = 1) const uint FAST = 0;
 // Number of points of all sixteen pixels together.
 const float FAST_SAMPLES = 320.0;
@@ -39,11 +40,12 @@ layout(set = 0, binding = 5) uniform samplerCube environment;
 // rgb: light; a: shadow.
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D radiance;
 
-// Weight of the direction to the eye, which is added to the open direction because haze has none.
+// Weight of the direction to the eye, which is added to the open direction: in haze no direction is more open than
+// others.
 const float TO_EYE = 0.02;
 
-// x: occlusion of a sample, at most 1, without occluders that are too far before it. y: the same with
-// occluders at any distance.
+// Occlusion of a point of a sphere. x: from 0 to 1; an occluder counts less the farther it is in front of the point,
+// and not at all from the distance `reach` on. y: the same with occluders at any distance counted fully.
 vec2 hidden(vec4 there, float depth, float reach) {
     vec3 opacity = vec3(there.y, frame.whitewater_opacity.xy);
     vec3 before = depth - there.xzw;
@@ -65,9 +67,9 @@ vec4 point_of(uint i) {
 uvec2 samples_of(float pixels, ivec2 pixel, uint pass) {
     if (FAST == 1u) {
         uint count = 2u * max(uint(min(frame.whitewater_samples.y, FAST_SAMPLES)) / 32u, 1u);
-        // Each pixel uses a run of the sequence in each pass, and each run fills the sphere. The runs of neighbouring
-        // pixels, and those of a pixel's passes, are far apart in the sequence, so that three spheres have three times
-        // the points.
+        // For each sphere (pass) a pixel uses a run of the sequence of points, and each run fills the sphere. The
+        // runs of neighbouring pixels, and those of a pixel's spheres, are far apart in the sequence, so that three
+        // spheres together have three times the points.
         uvec2 p = uvec2(pixel);
         uint x = p.x ^ p.y;
         uint run = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
@@ -83,9 +85,9 @@ float search_of(float foam, uint pass) {
     return foam * (frame.whitewater_search.x + frame.whitewater_search.y * float(pass));
 }
 
-// Light of the environment over the hemisphere of a normal, weighted by the cosine; it is 1/2 if the environment is 1
-// everywhere. With FAST, a pixel has few directions, so the sum is divided by twice the sum of their cosines instead
-// of their number: then it is exactly 1/2.
+// Light of the environment over the hemisphere of a normal, weighted by the cosine; 1/2 if the environment is 1
+// everywhere. With FAST, a pixel has few directions, so the sum is divided by twice the sum of their cosines, and not
+// by their number: then the result is exactly 1/2.
 vec3 gathered(vec3 normal, uvec2 run) {
     if (SAMPLED == 0u) {
         vec2 at = octahedral_texture_place(normal, textureSize(irradiance, 0));
@@ -150,8 +152,8 @@ void main() {
     if (told < 1.0) {
         imageStore(normals, pixel, vec4(normal, with.w));
     }
-    // The environment does not contain the sun. Foam scatters light: it is lit also where it is turned away a
-    // little.
+    // The environment does not contain the sun. Foam scatters light, so it is lit also where it is turned a little
+    // away from the sun.
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.whitewater_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
     // The environment is looked up in the directions of the first sphere's points, even if there are no passes.

@@ -1,7 +1,8 @@
 #version 460
-// Pass `splat`: depth of the frontmost whitewater particle and thickness of all (Akinci et al. 2013, Sec. 2.1 and 2.2;
-// passes 3 and 4), one invocation per particle. Unlike the water's depth, this depth is not smoothed, which would
-// weaken the occlusion. The second dispatch writes the frontmost particle's attributes: search radius and normal.
+// Pass `splat`: depth of the frontmost whitewater particle and thickness of all (Akinci et al. 2013, Sec. 2.1 and
+// 2.2; passes 3 and 4), one invocation per particle. Unlike the water's depth, this depth is not smoothed, because
+// smoothing would weaken the occlusion. The second dispatch writes the attributes of the frontmost particle: normal,
+// and the radius in which occlusion is searched.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
@@ -18,8 +19,8 @@ layout(constant_id = 0) const uint FRONTMOST = 0;
 #include "whitewater_push.glsl"
 #include "whitewater_streams.glsl"
 
-// Two entries per pixel. One declaration serves whole reads and atomics on words, because a driver may take two
-// declarations for different memory.
+// Two entries per pixel. Reads of entries and atomics on words use one declaration, because a driver may assume that
+// two declarations are different memory.
 layout(set = 0, binding = 6, std430) buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
 
@@ -38,7 +39,7 @@ void splat(ivec2 pixel, Sprite s) {
     float depth = -p.centre.z - w * p.radius;
     uint bits = floatBitsToUint(depth);
     uint at = words_of(pixel);
-    // The value may be outdated when it is used: then the atomic has no effect, or the next particle does it.
+    // The depth read here may be outdated when it is compared; then the atomic minimum has no effect.
     uvec4 head = words[at / 4u];
     uint front = head[FRONT];
     if (FRONTMOST == 1u) {

@@ -1,7 +1,7 @@
 #version 460
-// Pass `splat` in one dispatch, with 64-bit atomics (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4): the depth
-// of the frontmost particle and, in the lower bits of the word, its attributes. The result is that of the two
-// dispatches of splat.comp.
+// Pass `splat` in one dispatch, with 64-bit atomics (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4). The upper
+// half of a word is the depth of a particle, the lower half its attributes, so one minimum finds both for the
+// frontmost. The result is that of the two dispatches of splat.comp.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
 
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -19,8 +19,8 @@ layout(local_size_x = 64) in;
 #include "whitewater_push.glsl"
 #include "whitewater_streams.glsl"
 
-// The words of whitewater_words.glsl. One declaration for both reads and atomics, because a driver may take two
-// declarations for different memory.
+// The words of whitewater_words.glsl. Reads and atomics use one declaration, because a driver may assume that two
+// declarations are different memory.
 struct Pixel {
     uint64_t front; // depth of the frontmost in the high word, its attributes in the low word
     uint scene;

@@ -1,7 +1,7 @@
 #version 460
 // Pass `splat` by quads, second draw (Akinci et al. 2013, Sec. 2.2; pass 4): thickness, by additive blending.
-// Reads: words. Writes: thickness in front of the fluid, behind it, and the latter times its distance behind the
-// fluid's surface.
+// Reads: words. Writes: thickness in front of the fluid, behind it, and the latter weighted by its distance behind
+// the fluid's surface.
 
 #include "frame.glsl"
 #include "falloff.glsl"
@@ -15,6 +15,6 @@ void main() {
     Met m = meet();
     float amount = whitewater_amount(m.p, m.f, m.rr);
     vec3 all = whitewater_shares(amount, m.depth, uintBitsToFloat(words[m.at + FLUID]));
-    // Whole steps, as in the compute path: up to 256, sums are exact in any order.
+    // Thicknesses are rounded to whole steps, as in the compute path: sums up to 256 are exact in any order.
     shares = vec4(floor(all * STEPS + 0.5) / STEPS, 0.0);
 }

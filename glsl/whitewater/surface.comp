@@ -1,7 +1,7 @@
 #version 460
-// Pass `radiance`, first part: replaces the fluid's depth by the smoothed surface, because the bumps of its spheres
-// would occlude foam. `splat` uses the spheres, which exist before the smoothing and its tiles. Not in the paper, whose
-// fluid surface is given.
+// Pass `radiance`, first part: replaces the fluid's depth by that of the smoothed surface, because the bumps of the
+// fluid's spheres would occlude foam. `splat` uses the spheres, which exist before the smoothing and its tiles. Not
+// in the paper, whose fluid surface is given.
 // Reads: depth, smoothed, levels, depths of foam, fluid and scene. Writes: depth of the fluid.
 
 #include "frame.glsl"
