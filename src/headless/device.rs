@@ -253,7 +253,7 @@ fn make_instance(
 }
 
 /// A Vulkan 1.2 device with a queue family for graphics and compute, whose name contains `options.name` if that
-/// is given. A discrete GPU is preferred to an integrated one, that to a virtual one, and that to others.
+/// is given. Discrete GPUs are preferred, then integrated ones, then virtual ones, then other devices.
 fn choose(
     instance: &ash::Instance,
     options: &DeviceOptions,

@@ -46,8 +46,8 @@ impl Headless {
         })
     }
 
-    /// Sets an equirectangular image as environment: linear RGBA, row 0 up. `scale` and `turn` are those of
-    /// [`Equirectangular`].
+    /// Sets an equirectangular image as environment: linear RGBA, row 0 up. `scale` multiplies its radiance,
+    /// and `turn` rotates it around up, in radians, see [`Equirectangular`].
     ///
     /// # Errors
     /// A picture above the device's image size limit, no memory; Vulkan errors.

@@ -149,7 +149,7 @@ impl Headless {
     }
 
     /// Number of whitewater particles shown after the last [`generate`](Self::generate), and total number of
-    /// those not emitted for lack of slots.
+    /// those that were not emitted because all `max_particles` slots were taken.
     ///
     /// # Errors
     /// No memory; Vulkan errors.

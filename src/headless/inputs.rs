@@ -360,7 +360,8 @@ impl Headless {
     }
 
     /// Uploads the motion of the particles uploaded last: velocities, for foam, spray and motion vectors, and `ids`
-    /// that identify particles from frame to frame, so that noise in foam and droplets stay attached to their particle.
+    /// that identify particles from frame to frame, so that the noise in foam, and droplets, stay attached to their
+    /// particles.
     ///
     /// # Errors
     /// A number of velocities or ids that differs from that of positions, no memory.

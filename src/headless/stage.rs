@@ -62,9 +62,9 @@ impl Headless {
         self.set_up_scene(scene, antialias, None)
     }
 
-    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time). Only
-    /// parts and the sea may move. Moving parts keep their baked light, and the sun's shadow map is
-    /// redrawn. If only the sea moves, nothing is uploaded or redrawn here.
+    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time). Only meshes in
+    /// [`Scene::motions`] and the sea may move. Moving parts keep their baked light, and the sun's shadow map
+    /// is redrawn. If only the sea moves, nothing is uploaded or redrawn here.
     ///
     /// # Errors
     /// Those of [`scene`](Self::scene).

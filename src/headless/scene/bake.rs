@@ -123,8 +123,8 @@ impl Baked {
     }
 }
 
-/// Distance from its centre to which the ground extends, and the range over which it fades, in diagonals of
-/// the scene.
+/// Lengths in diagonals of the scene: the distance from its centre to which the ground extends, and the
+/// distances at which the ground begins and ends to fade.
 pub const GROUND_REACH: f32 = 60.0;
 pub const GROUND_FADE: [f32; 2] = [6.0, 45.0];
 
@@ -158,7 +158,8 @@ pub fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
             let (i, j) = (t[i] as usize, t[j] as usize);
             let (p, q) = (vertices[i], vertices[j]);
-            // Height of a circle's arc over its chord: an eighth of the chord times the turn of the normal.
+            // Height of a circle's arc over its chord: an eighth of the chord times the turn of the normal in
+            // radians.
             let turn = Vec3::from(q.normal) - Vec3::from(p.normal);
             let bulge = (0.125 * turn.dot(q.at() - p.at())).max(0.0);
             vertices[i].bulge = p.bulge.max(bulge);

@@ -1,6 +1,6 @@
 //! Reads glTF 2.0: triangles, base colours and base-colour textures. The reader is our own, because the gltf
 //! crate (1.4) panics on some damaged files, for example on a component type that does not fit its use, and
-//! ignores data outside their buffer. The `image` crate decodes images.
+//! does not report data that lie outside their buffer. The `image` crate decodes images.
 
 use std::collections::HashMap;
 use std::path::Path;

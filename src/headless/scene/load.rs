@@ -235,8 +235,8 @@ impl Scene {
             }
             let outside = material(&part.material, &part.name)?;
             let (centre, half) = (Vec3::from(part.centre), Vec3::from(part.half));
-            // A face belongs to the inside of the basin if it lies within the basin's bounds and faces their
-            // centre.
+            // A face belongs to the inside of the basin if it lies within the basin's bounds and faces the
+            // centre of these bounds.
             let inner = |face: usize| {
                 let normal = FACES[face];
                 let at = centre + normal * half;

@@ -39,10 +39,10 @@ pub struct Scene {
     pub sea: Option<Sea>,
     /// Time of the frame in seconds, which moves the sea.
     pub time: f64,
-    /// Distant opaque meshes that close the picture: lawns, hedges, trees, a room's walls. They are lit by sun
-    /// and sky at their vertices, without subdivision; a few rays per vertex find how much of the sky and the
-    /// sun is visible there. They cast no shadow on [`meshes`](Self::meshes) or water and reflect no light to
-    /// them. [`bounds`](Self::bounds), shadow map and ground ignore them. They are static.
+    /// Distant opaque meshes around the scene: lawns, hedges, trees, a room's walls. They are lit by sun and
+    /// sky at their vertices, without subdivision; a few rays per vertex find how much of the sky and the sun
+    /// is visible there. They cast no shadow on [`meshes`](Self::meshes) or water and reflect no light to them.
+    /// [`bounds`](Self::bounds), shadow map and ground ignore them. They are static.
     pub backdrop: Vec<Mesh>,
     /// Distance over which air reduces the contrast of [`ground`](Self::ground) and
     /// [`backdrop`](Self::backdrop) to 1/e, towards the environment's colour at the horizon. World units, (0,
@@ -100,7 +100,7 @@ pub struct Viewpoint {
 pub struct SunLight {
     /// World direction to the sun; any length but zero.
     pub direction: [f32; 3],
-    /// Irradiance on a surface that faces it, linear RGB, [0, ∞), in the unit of the output.
+    /// Irradiance on a surface that faces the sun, linear RGB, [0, ∞), in the unit of the output.
     pub color: [f32; 3],
 }
 

@@ -149,8 +149,8 @@ impl Sea {
         })
     }
 
-    /// For each wave: x and y are the factors with which the two components of `unrest` in `sea.glsl` shift its
-    /// phase, in radians; they grow with the wave's index, to shorter waves. z is the variance of the slopes of this
+    /// For each wave: x and y multiply the two components of `unrest` in `sea.glsl`, and the sum of the products
+    /// shifts the wave's phase, in radians; shorter waves are shifted more. z is the variance of the slopes of this
     /// wave and all shorter ones.
     pub(super) fn shifts_of(waves: &[[f32; 4]; WAVES]) -> [[f32; 4]; WAVES] {
         std::array::from_fn(|i| {

@@ -193,7 +193,8 @@ fn each(
     Ok(())
 }
 
-/// Name of a column of cells' values. Ghosts are marked by other bits in cells than in points.
+/// Name of a column of cells' values. That of ghosts gets a suffix, because ghosts are marked by other bits in
+/// cells than in points.
 pub(super) fn column_name(name: &str) -> String {
     match names::is_ghost(name) {
         true => format!("{name}{}", names::OF_CELLS),

@@ -1,10 +1,10 @@
 //! Binary arrays of VTK XML: raw or base64, compressed in blocks or uncompressed.
 //!
-//! A header of `UInt32` or `UInt64` words comes before the values. Without compression it is the number of
-//! bytes. With compression it is the number of blocks, the size of a block, the size of a smaller last block
-//! (or 0), and the compressed size of each block. In base64, the header of compressed data is encoded
-//! separately, with its own padding. The list of compressed sizes is not kept in memory: a second source
-//! reads it again beside the blocks.
+//! A header of `UInt32` or `UInt64` words comes before the values. Without compression, the header is the
+//! number of bytes. With compression, it is the number of blocks, the size of a block, the size of a smaller
+//! last block (or 0), and the compressed size of each block. In base64, the header of compressed data is
+//! encoded separately, with its own padding. The list of compressed sizes is not kept in memory: a second
+//! source reads it again beside the blocks.
 
 use base64::Engine;
 use base64::engine::general_purpose::{STANDARD, STANDARD_NO_PAD};

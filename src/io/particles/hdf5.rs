@@ -730,7 +730,7 @@ struct Found {
     frames: Frames,
 }
 
-/// The frames of a file without a known convention, or by the names of its groups.
+/// The frames of a file that is not VTKHDF, found by its arrays and by the names of its groups.
 fn of_others(root: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
     let (mut found, mut looked, mut seen) = (Vec::new(), 0, Vec::new());
     search(root, ("", 0), &mut looked, &mut found, &mut seen, limit)?;

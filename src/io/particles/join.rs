@@ -8,7 +8,7 @@ use super::{Meaning, Particles};
 /// Appends the particles of another file.
 pub(super) fn append(to: &mut Particles, mut other: Particles) {
     let (first, second) = (to.positions.len(), other.positions.len());
-    // A file without particles, which a process writes that has none, does not say which attributes particles
+    // A process without particles writes a file without any, which does not say which attributes particles
     // have.
     if second == 0 || first == 0 {
         let mut warnings = std::mem::take(&mut to.warnings);

@@ -17,7 +17,7 @@ use super::table::Table;
 use super::text::Text;
 use super::xyz::{self, Basis};
 
-/// Beginnings of such a file. A unit or a time may precede the step number.
+/// Beginnings of a dump. A unit or a time may precede the step number.
 pub(super) const STARTS: [&[u8]; 3] = [b"ITEM: TIMESTEP", b"ITEM: UNITS", b"ITEM: TIME"];
 
 /// Max number of lines before the atoms.

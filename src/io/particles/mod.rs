@@ -13,7 +13,7 @@
 //! | PVTU, PVTP, VTM: their pieces, as one frame; PVD, `.series`: see [`sequence`] | yes | |
 //! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points, their data, data of vertex cells | VTU, appended raw, zlib |
 //! | PLY: ASCII, binary little and big endian | vertices | binary little endian |
-//! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders, structured, (n, 3) and (3, n) | yes | NPZ |
+//! | NPY, NPZ: integers and floats of 1 to 8 bytes, both byte orders, structured, (n, 3) and (3, n) | yes | NPZ |
 //! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), Tecplot, XYZ text, extended XYZ, XYZ raw `f32` triples | yes | |
 //! | JSON: arrays, objects of arrays, arrays of objects, lines | yes | |
 //! | dumps of LAMMPS and LIGGGHTS, text; positions also scaled, in a box of any shape | yes | |

@@ -30,10 +30,10 @@ const START: u64 = 1 << 16;
 ///
 /// This limit holds for all formats except JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ arrays in Fortran order, NPZ
 /// in gzip or with a compression other than deflate, and VTK XML whose texts contain references (`&#32;`) or CDATA.
-/// Files of these kinds are read as a whole (see [`in_memory`](Self::in_memory)). Only such VTK XML is read in parts,
-/// but its header is as long as the file. In VTK files, an attribute of cells is held as a whole if the cells are in
-/// another order than the points. Because each attribute of a VTK file has a place of its own in the file, gzip
-/// content is decompressed once per attribute.
+/// Files of these kinds are read as a whole (see [`in_memory`](Self::in_memory)), except such VTK XML, which is read
+/// in parts, but whose header is as long as the file. In VTK files, an attribute of cells is held as a whole if the
+/// cells are in another order than the points. Because each attribute of a VTK file has a place of its own in the
+/// file, gzip content is decompressed once per attribute.
 pub struct Parts<'a> {
     about: Particles,
     total: usize,

@@ -15,7 +15,7 @@ const CHECKED: usize = 1 << 12;
 /// Particles read at a time to find their times.
 const PART: usize = 1 << 16;
 
-/// Columns that are stored together in a file. The tracks of a file are read side by side, a part of the
+/// Columns that are stored together in a file. The tracks of a file can be read side by side, a part of the
 /// particles at a time.
 pub(super) struct Track<'a> {
     /// Empty columns.

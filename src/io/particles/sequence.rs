@@ -613,8 +613,8 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
         // The last number that differs between files. `None` if the names do not have equally many numbers;
         // then the last number of each name counts.
         let run = (0..runs).rev().find(differs).filter(|_| same);
-        // A hash or the seconds of an hour may follow the number: then the last number gives another order than
-        // all numbers together.
+        // A hash or the seconds of an hour may follow the frame's number. Then the files, which are sorted by
+        // all numbers in their names, are not in the order of the last one.
         let values = |run: usize| numbers.iter().map(move |n| n.get(run).map(|n| n.value));
         let sorted = |run: usize| values(run).is_sorted();
         let single = |run: usize| {

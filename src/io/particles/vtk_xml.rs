@@ -430,7 +430,8 @@ impl<'a> Reader<'_, 'a> {
         if 2 * more > types.len() { (cells, "cells") } else { (0, "") }
     }
 
-    /// Finds the attributes of a piece's cells, and whether the cells are its points; false if the head lacks a text.
+    /// Finds the attributes of a piece's cells, and whether the cells are its points; false if the head lacks a text
+    /// that cannot be read in place.
     fn cells(
         &mut self,
         piece: &Node<'_, '_>,

@@ -1,8 +1,8 @@
 //! Reads XYZ: one line of numbers per particle, or raw little-endian `f32` triples without a header.
 //!
-//! The first three numbers of a line are the position; spaces, tabs, commas and semicolons separate. Empty
-//! lines, and lines that begin with `#`, `%` or `//`, are skipped. A line of names (`x y z vx vy vz`) before
-//! the numbers, with `#` or without, names the columns.
+//! The first three numbers of a line are the position; spaces, tabs, commas and semicolons separate the
+//! numbers. Empty lines, and lines that begin with `#`, `%` or `//`, are skipped. A line of names (`x y z vx vy
+//! vz`) before the numbers, with `#` or without, names the columns.
 //!
 //! A first line with a single number is the count, as in chemistry. The next line is then a comment, which
 //! may name the columns (`Properties=species:S:1:pos:R:3`, extended XYZ). Without names, the first column is

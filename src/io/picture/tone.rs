@@ -39,7 +39,7 @@ pub enum Tone {
 }
 
 impl Tone {
-    /// Maps a colour. Negative and NaN input counts as 0, infinite input as the largest number.
+    /// Maps a colour. Negative and NaN input counts as 0, input above 1e9 as 1e9.
     pub fn map(self, c: [f32; 3]) -> [f32; 3] {
         match self {
             Self::Linear => c.map(light),

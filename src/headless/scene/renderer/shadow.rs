@@ -130,7 +130,7 @@ impl SunView {
         let up = if direction.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
         let view = Mat4::look_to_rh(Vec3::ZERO, -direction, up);
         let (low, high) = scene.bounds_in(view).unwrap_or((Vec3::splat(-1.0), Vec3::ONE));
-        // Texels are square, with a margin at the border for the filter; the border is lit.
+        // Texels are square. A margin around the scene stays empty, and thus lit, for the filter at the border.
         let size = (high - low).truncate().max_element().max(1e-4);
         let half = Vec2::splat(0.5 * size * (1.0 + 16.0 / SIZE as f32));
         let centre = (0.5 * (low + high)).truncate();

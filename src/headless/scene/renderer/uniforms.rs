@@ -76,7 +76,8 @@ pub struct Surroundings {
 
 impl Surroundings {
     /// # Errors
-    /// A sun with an invalid direction or colour, haze or a metre of 0 or less, an invalid sea.
+    /// A sun with an invalid direction or colour, a `haze` or `metre` that is not above 0, `clouds` outside [0,
+    /// 1], a `splashed` that is not finite, an invalid sea.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let SunLight { direction, color } = scene.sun;
         let Some(to_sun) = Vec3::from(direction).try_normalize() else {
