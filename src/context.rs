@@ -20,8 +20,8 @@ use crate::gpu::requirements::DeviceSupport;
 
 /// State shared by all objects of one device: [`Renderer`](crate::Renderer)s, a
 /// [`SurfaceFoamState`](crate::SurfaceFoamState) and so on are created from a context. A pipeline is created once for
-/// all of them and kept for later use, for example when [`reconfigure`](crate::Renderer::reconfigure) switches back and
-/// forth.
+/// all of them and kept for later use, for example when [`reconfigure`](crate::Renderer::reconfigure) switches back
+/// and forth.
 ///
 /// All clones are the same context. Its Vulkan objects are freed once the last clone is dropped and everything
 /// created from the context is destroyed. Both have to happen before the host destroys its device.
@@ -265,7 +265,8 @@ impl Shared {
 impl Drop for Shared {
     fn drop(&mut self) {
         // SAFETY: all users of these objects are destroyed, so the GPU has finished with them (an object that is only
-        // dropped keeps its context alive); the device is alive, as `Context::new` requires. Null handles are allowed.
+        // dropped keeps its context alive); the device is alive, as `Context::new` requires. Null handles are
+        // allowed.
         unsafe {
             for made in self.pipelines.take() {
                 self.device.destroy_pipeline(made.handle, None);

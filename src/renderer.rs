@@ -420,9 +420,9 @@ impl Renderer {
         Ok((recorded, cmd))
     }
 
-    /// Times of the slot's last finished frame, pass by pass; empty before the first. It never waits: while a frame is
-    /// still running, it returns the times of the previous one. Best read after the slot's fence and before its next
-    /// record.
+    /// Times of the slot's last finished frame, pass by pass; empty before the first. It never waits: while a frame
+    /// is still running, it returns the times of the previous one. Best read after the slot's fence and before its
+    /// next record.
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),

@@ -86,14 +86,14 @@ impl Sky {
 
 impl Light {
     /// The light of the built-in sky for water, foam and spray. Use it together with an environment of the same
-    /// [`Sky`]. It takes some milliseconds, once per sky. With the default sky, white foam in the sun has a radiance of
-    /// about 5: expose by about 0.2, or lower [`Sky::intensity`].
+    /// [`Sky`]. It takes some milliseconds, once per sky. With the default sky, white foam in the sun has a radiance
+    /// of about 5: expose by about 0.2, or lower [`Sky::intensity`].
     pub fn of(sky: &Sky) -> Self {
         let (sun, above) = (Vec3::from(sky.sun_irradiance()), Vec3::from(sky.sky_irradiance()));
         let height = sky.local_sun().y.max(0.0);
         let reference = Sky::default().intensity;
-        // Irradiance in the shade: light of the sky, light that sunlit ground reflects, and light that the surrounding
-        // foam scatters, which has lost its colour.
+        // Irradiance in the shade: light of the sky, light that sunlit ground reflects, and light that the
+        // surrounding foam scatters, which has lost its colour.
         let grey = 0.5 * (above + above.dot(LUMINANCE));
         Self {
             direction: sky.sun,

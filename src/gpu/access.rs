@@ -37,8 +37,8 @@ impl Access {
         }
     }
 
-    /// The same stages, with contents discarded: for the first write in a frame, which has to wait for the last
-    /// use in the previous frame and overwrites the whole image.
+    /// This use with the image's contents discarded, as the state before the first write in a frame that overwrites
+    /// the whole image. The write has to wait for the last use in the previous frame, but needs none of its contents.
     pub const fn discarded(self) -> Self {
         // Only execution must be ordered after reads; after writes the access mask is needed too.
         Self { stage: self.stage, access: self.access, layout: Layout::UNDEFINED }
@@ -112,7 +112,8 @@ pub const DEPTH_ATTACHMENT: Access = Access::new(
     ),
     Layout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
 );
-/// Written by a clear or fill. ALL_TRANSFER, not CLEAR: layers before 1.3.240 book fills as copies.
+/// Written by a clear or fill. The stage is ALL_TRANSFER and not CLEAR, because validation layers before 1.3.240
+/// treat a fill as a copy.
 pub const CLEAR: Access =
     Access::new(Stage::ALL_TRANSFER, Mask::TRANSFER_WRITE, Layout::TRANSFER_DST_OPTIMAL);
 /// Source of a copy or blit.
@@ -193,21 +194,22 @@ impl Gpu {
     /// Records one dependency, with the functions that the device has.
     pub fn dependency(&self, cmd: vk::CommandBuffer, info: &vk::DependencyInfo<'_>) {
         match self.synchronization {
-            // SAFETY: cmd is recording outside a render pass (contract); the handles live in their owners, which outlive
-            // the slot (retire list).
+            // SAFETY: cmd is recording outside a render pass (contract); the handles live in their owners, which
+            // outlive the slot (retire list).
             Synchronization::Second { barrier, .. } => unsafe { barrier(cmd, info) },
             // SAFETY: as above.
             Synchronization::First => unsafe { self.first_dependency(cmd, info) },
         }
     }
 
-    /// The same with Vulkan 1.0, which has one pair of stage masks for all barriers of a call: each barrier also waits
-    /// for the stages of the others, never for fewer.
+    /// Records a dependency with the function of Vulkan 1.0. It has one pair of stage masks for all barriers of a
+    /// call, so each barrier also waits for the stages of the others; none waits for fewer stages than its own.
     ///
     /// # Safety
     /// Those of `vkCmdPipelineBarrier2`.
     unsafe fn first_dependency(&self, cmd: vk::CommandBuffer, info: &vk::DependencyInfo<'_>) {
-        // SAFETY: pointers and counts belong together, as set by ash's builders; without elements the pointer is null.
+        // SAFETY: pointers and counts belong together, as set by ash's builders; without elements the pointer is
+        // null.
         let (all, buffers, images) = unsafe {
             (
                 slice(info.p_memory_barriers, info.memory_barrier_count),
@@ -291,7 +293,8 @@ unsafe fn slice<'a, T>(pointer: *const T, count: u32) -> &'a [T] {
     }
 }
 
-/// Stage flags of Vulkan 1.0: the low half is the same, and each flag of the high half is a part of an older one.
+/// Converts stage flags of synchronization2 to those of Vulkan 1.0. The low 32 flags are the same; each of the high
+/// 32 is a part of an older flag, which replaces it. Without any flag the result is `nothing`.
 fn first_stage(stage: Stage, nothing: vk::PipelineStageFlags) -> vk::PipelineStageFlags {
     type First = vk::PipelineStageFlags;
     let mut first = First::from_raw(stage.as_raw() as u32);
@@ -313,7 +316,7 @@ fn first_stage(stage: Stage, nothing: vk::PipelineStageFlags) -> vk::PipelineSta
     if first.is_empty() { nothing } else { first }
 }
 
-/// The same for access flags.
+/// Converts access flags of synchronization2 to those of Vulkan 1.0.
 fn first_access(access: Mask) -> vk::AccessFlags {
     type First = vk::AccessFlags;
     let mut first = First::from_raw(access.as_raw() as u32);
@@ -336,7 +339,7 @@ fn first_access(access: Mask) -> vk::AccessFlags {
 mod tests {
     use super::*;
 
-    /// Each use of the table has stages that fit its accesses in Vulkan 1.0, and no access is lost.
+    /// Converted to Vulkan 1.0, each use of the table has stages that fit its accesses, and loses no access.
     #[test]
     fn vulkan_1_0_has_every_use() {
         use vk::{AccessFlags as A, PipelineStageFlags as S};

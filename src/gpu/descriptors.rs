@@ -1,5 +1,6 @@
-//! Descriptor sets, per slot: each slot has a pool that is reset when its next frame begins. They are ordinary sets and
-//! not push descriptors, because not every device has those, and GPU-assisted validation reports false errors on them.
+//! Descriptor sets, per slot: each slot has a pool that is reset when its next frame begins. They are ordinary sets
+//! and not push descriptors, because not every device has those, and GPU-assisted validation reports false errors on
+//! them.
 
 use ash::vk;
 
@@ -45,14 +46,14 @@ const EACH: [(vk::DescriptorType, u32); 4] = [
 /// One slot's pool.
 pub struct Descriptors {
     pool: Owned<vk::DescriptorPool>,
-    /// Capacity, and the use so far of sets and of each type. Drivers may allocate beyond the capacity, and validation
-    /// layers do not report that.
+    /// Capacity of the pool in sets, and the numbers of sets and of descriptors of each type taken so far. They are
+    /// counted because drivers may allocate beyond the capacity and validation layers do not report that.
     #[cfg(debug_assertions)]
     taken: (u32, [std::sync::atomic::AtomicU32; 1 + EACH.len()]),
 }
 
 impl Descriptors {
-    /// Room for `sets` sets of up to eight bindings each.
+    /// A pool with room for `sets` sets, which together have at most `sets` times the descriptors of [`EACH`].
     pub fn new(gpu: &Gpu, sets: u32) -> Result<Self, Error> {
         let sizes =
             EACH.map(|(ty, each)| vk::DescriptorPoolSize { ty, descriptor_count: sets * each });

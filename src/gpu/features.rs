@@ -6,7 +6,8 @@ use ash::vk;
 
 use crate::contract::EnabledFeatures;
 
-/// The structures for [`EnabledFeatures`], to be chained into `VkDeviceCreateInfo`; see [`EnabledFeatures::device_features`].
+/// Vulkan feature structures in which the features of an [`EnabledFeatures`] are enabled, to be chained into
+/// `VkDeviceCreateInfo`. [`EnabledFeatures::device_features`] makes them.
 pub struct DeviceFeatures {
     core: vk::PhysicalDeviceFeatures,
     vulkan12: vk::PhysicalDeviceVulkan12Features<'static>,
@@ -23,8 +24,8 @@ unsafe impl Sync for DeviceFeatures {}
 impl DeviceFeatures {
     /// Adds everything that is enabled to the create info: `pEnabledFeatures`, and in the `pNext` chain
     /// VkPhysicalDeviceVulkan12Features and the structures of extensions. A host that chains one of these structures
-    /// itself, or single ones instead of VkPhysicalDeviceVulkan12Features, fills its own with
-    /// [`EnabledFeatures::set_core`] and the similar functions.
+    /// itself, or the single-feature structures that VkPhysicalDeviceVulkan12Features combines, does not call this.
+    /// It fills its own structures with [`EnabledFeatures::set_core`] and the similar functions.
     pub fn chain<'a>(&'a mut self, info: vk::DeviceCreateInfo<'a>) -> vk::DeviceCreateInfo<'a> {
         let mut info = info.enabled_features(&self.core).push_next(&mut self.vulkan12);
         if self.synchronization2.synchronization2 == vk::TRUE {
@@ -38,7 +39,8 @@ impl DeviceFeatures {
 }
 
 impl EnabledFeatures {
-    /// The structures that enable these features, for example [`DeviceSupport::optional`](crate::DeviceSupport), on a device.
+    /// The structures that enable these features on a device, for example those in
+    /// [`DeviceSupport::optional`](crate::DeviceSupport).
     ///
     /// ```
     /// use ash::vk;
@@ -76,7 +78,7 @@ impl EnabledFeatures {
         names
     }
 
-    /// Enables the needed features in the host's own structure. It disables none.
+    /// Enables these features in the host's own `VkPhysicalDeviceFeatures`. It disables none.
     pub fn set_core(&self, features: &mut vk::PhysicalDeviceFeatures) {
         for (wanted, feature) in [
             (self.large_points, &mut features.large_points),
@@ -91,18 +93,19 @@ impl EnabledFeatures {
         }
     }
 
-    /// The same for `VkPhysicalDeviceVulkan12Features`.
+    /// Enables these features in the host's own `VkPhysicalDeviceVulkan12Features`.
     pub fn set_vulkan12(&self, features: &mut vk::PhysicalDeviceVulkan12Features<'_>) {
         turn_on(self.draw_indirect_count, &mut features.draw_indirect_count);
         turn_on(self.buffer_int64_atomics, &mut features.shader_buffer_int64_atomics);
     }
 
-    /// The same for hosts that use VkPhysicalDeviceVulkan13Features instead of single structures.
+    /// Enables these features in the host's own VkPhysicalDeviceVulkan13Features, for hosts that use it instead of
+    /// the structures of its single features.
     pub fn set_vulkan13(&self, features: &mut vk::PhysicalDeviceVulkan13Features<'_>) {
         turn_on(self.synchronization2, &mut features.synchronization2);
     }
 
-    /// The same for the structure of synchronization2.
+    /// Enables the feature synchronization2 in the host's own structure.
     pub fn set_synchronization2(
         &self,
         features: &mut vk::PhysicalDeviceSynchronization2Features<'_>,
@@ -110,7 +113,7 @@ impl EnabledFeatures {
         turn_on(self.synchronization2, &mut features.synchronization2);
     }
 
-    /// The same for the structure of conditional rendering.
+    /// Enables the feature conditional rendering in the host's own structure.
     pub fn set_conditional_rendering(
         &self,
         features: &mut vk::PhysicalDeviceConditionalRenderingFeaturesEXT<'_>,

@@ -1,7 +1,7 @@
-//! Deletion queue. A dropped object is not freed at once, because the GPU may still use it: its handles go to
-//! the graveyard, and [`Gpu::bury`] frees them when the caller knows that the GPU is done. A constructor that
-//! fails half-way therefore leaks nothing, and a renderer that is simply dropped leaks safely, with its
-//! graveyard.
+//! Deletion queue. A dropped object is not freed at once, because the GPU may still use it: its handles go to the
+//! graveyard, and [`Gpu::bury`] frees them when the caller knows that the GPU is done. So a constructor that fails
+//! half-way leaks nothing. A renderer that is dropped without `destroy` leaks its objects together with the
+//! graveyard, which is safe.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -75,7 +75,8 @@ impl<T: Copy> Drop for Owned<T> {
 /// Frees an object and everything queued, at once.
 #[cfg(feature = "headless")]
 pub trait Destroy: Sized {
-    /// Drops the object and empties the deletion queue. The GPU must have finished with both.
+    /// Drops the object and empties the deletion queue. The GPU must have finished with the object and with
+    /// everything in the queue.
     fn destroy(self, gpu: &Gpu) {
         drop(self);
         gpu.bury();

@@ -1,5 +1,5 @@
-//! Device limits that the shaders need, counted from their SPIR-V. Some exceed what every Vulkan device
-//! guarantees.
+//! Device limits that the shaders need, counted from their SPIR-V. Some needs exceed the values that every Vulkan
+//! device guarantees.
 
 use ash::vk::{self, DescriptorType as Kind};
 
@@ -43,8 +43,8 @@ impl Limit {
     }
 }
 
-/// The limits that one shader needs. Pipelines here have one set, and no two shaders of a pipeline together come near
-/// the limits for a whole set.
+/// The limits that one shader needs. Limits for a whole descriptor set are not counted: each pipeline has one set,
+/// and its shaders together do not come near them.
 fn needs(shader: &Shader) -> [Limit; 14] {
     let count = |kind| shader.bindings.iter().filter(|(_, own)| *own == kind).count() as u32;
     let (samplers, buffers) = (count(Kind::COMBINED_IMAGE_SAMPLER), count(Kind::STORAGE_BUFFER));

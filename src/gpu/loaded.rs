@@ -1,5 +1,6 @@
-//! Checks that the host's function tables contain every function that is called: ash fills functions that a
-//! loader does not know, such as all of Vulkan 1.3 on a 1.2 instance, with ones that panic.
+//! Checks that the host's function tables contain every function that the library calls. For functions that the
+//! loader does not know, such as all of Vulkan 1.3 on a 1.2 instance, ash puts stand-ins into the tables, which
+//! panic.
 
 use std::ffi::{CStr, c_void};
 use std::ptr::null;
@@ -10,8 +11,8 @@ use crate::contract::Host;
 use crate::error::Error;
 use crate::gpu::access::Synchronization;
 
-/// Returns an error for the first function above Vulkan 1.0 that would panic; otherwise how barriers are recorded. A
-/// device without all functions of 1.0 is invalid anyway.
+/// Returns an error that names the first missing function, or else the functions with which barriers and timestamps
+/// are recorded. Functions of Vulkan 1.0 are not checked, because a device without all of them is invalid.
 pub fn check(host: &Host<'_>) -> Result<Synchronization, Error> {
     let (device, enabled) = (host.device, host.enabled);
     if !of_instance(host.instance) {
@@ -68,7 +69,8 @@ fn find(host: &Host<'_>, name: &CStr) -> *const c_void {
     found.map_or(null(), |function| function as *const c_void)
 }
 
-/// The Vulkan version that a device can be created for, limited by the instance's if that is below 1.3.
+/// The Vulkan version that a device can be created for: that of the physical device, but at most 1.2 if the instance
+/// was created for a version below 1.3.
 pub fn api_version(instance: &ash::Instance, properties: &vk::PhysicalDeviceProperties) -> u32 {
     let none = ash::InstanceFnV1_3::load(|_| null());
     let own = instance.fp_v1_3();
@@ -80,8 +82,8 @@ pub fn api_version(instance: &ash::Instance, properties: &vk::PhysicalDeviceProp
     }
 }
 
-/// Whether the device was created for Vulkan 1.3, as far as that can be detected: some drivers provide the functions of
-/// their own version with any instance.
+/// Whether the device was created for Vulkan 1.3, as far as that can be detected: some drivers provide the functions
+/// of their own version with any instance.
 pub fn is_1_3(device: &ash::Device) -> bool {
     let none = ash::DeviceFnV1_3::load(|_| null());
     device.fp_v1_3().get_device_buffer_memory_requirements as usize

@@ -29,13 +29,14 @@ use crate::context::{Context, Shared};
 use crate::error::{Error, VkContext};
 use graveyard::{Grave, Graveyard, Owned};
 
-/// The device for one object, such as a renderer: shared objects of its context, and the deletion queue for its own.
+/// The device as one object, such as a renderer, uses it: the Vulkan objects that its context shares, and a deletion
+/// queue for the Vulkan objects of its own.
 pub struct Gpu {
     /// Number of slots, as in `Context::frames_in_flight`.
     pub slots: u32,
     graveyard: Graveyard,
-    /// Released only by `destroy`: the GPU may still use an object that is simply dropped, and the objects of its
-    /// context.
+    /// The context's shared objects. Only `destroy` releases this reference: if a renderer is dropped without
+    /// `destroy`, the GPU may still use the renderer's objects and those of its context.
     shared: ManuallyDrop<Arc<Shared>>,
 }
 
@@ -94,8 +95,8 @@ impl Gpu {
 }
 
 impl Gpu {
-    /// Frees everything in the deletion queue and releases the context. It must be the last call, and the GPU must have
-    /// finished with everything.
+    /// Frees everything in the deletion queue and releases the context. It must be the last call, and the GPU must
+    /// have finished with everything.
     pub fn destroy(self: Arc<Self>) {
         self.bury();
         // There is no other owner, because all possible ones were dropped before.

@@ -1,5 +1,5 @@
-//! Render passes of one subpass, and their framebuffers. Every attachment is in one layout before,
-//! in and after its pass: layout transitions happen only where they are written.
+//! Render passes of one subpass, and their framebuffers. Every attachment has the same layout before, in and after
+//! its pass, so layouts change only at explicit barriers.
 
 use ash::vk;
 
@@ -22,7 +22,8 @@ pub struct Attachment {
     pub store: vk::AttachmentStoreOp,
 }
 
-/// Attachments of a pass. Views and clear values are in the same order, without missing attachments.
+/// Attachments of a pass. The views of a framebuffer and the clear values are in the order of these fields; fields
+/// that are `None` are skipped.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct Attachments {
     /// Colour attachment in COLOR_ATTACHMENT_OPTIMAL.
@@ -90,7 +91,7 @@ impl Gpu {
         Ok(pass)
     }
 
-    /// A render pass with one or two colour attachments, whose contents are kept.
+    /// A render pass with one or two colour attachments, whose contents are stored at its end.
     pub fn color_pass(
         &self,
         name: &str,
@@ -137,7 +138,8 @@ impl Gpu {
         Ok(self.own(framebuffer, Grave::Framebuffer))
     }
 
-    /// Begins a colour pass over an area, sets viewport and scissor to it, and clears all attachments to one value.
+    /// Begins a colour pass over an area, and sets viewport and scissor to this area. `clear` is the value of all
+    /// attachments that the pass clears.
     pub fn begin_pass(
         &self,
         cmd: vk::CommandBuffer,
@@ -150,7 +152,8 @@ impl Gpu {
         self.begin_pass_with(cmd, pass, framebuffer, area, &[clear, clear]);
     }
 
-    /// The same for any pass.
+    /// Begins a pass with any attachments over an area, and sets viewport and scissor to this area. `clears` has a
+    /// value for each attachment.
     pub fn begin_pass_with(
         &self,
         cmd: vk::CommandBuffer,

@@ -80,8 +80,8 @@ impl GraphicsKey {
     }
 }
 
-/// Parameters of a graphics pipeline. All have no vertex input, no depth test, and dynamic viewport and
-/// scissor.
+/// Parameters of a graphics pipeline. These pipelines read no vertex buffers, their viewport and scissor are dynamic,
+/// and only [`Pipeline::tested`] can give them a depth test.
 pub struct Graphics<'a> {
     /// Vertex shader.
     pub vertex: Shader,
@@ -161,7 +161,7 @@ impl Pipeline {
         Self::tested(gpu, desc, None)
     }
 
-    /// A graphics pipeline with a depth test and depth writes.
+    /// A graphics pipeline, owned by the context, with a depth test and depth writes if `passes` gives a comparison.
     pub fn tested(
         gpu: &Gpu,
         desc: &Graphics<'_>,
@@ -173,7 +173,8 @@ impl Pipeline {
         })
     }
 
-    /// A graphics pipeline with any state, not shared; its stages and layout are filled in here.
+    /// A graphics pipeline with any state. It is owned by the caller, not by the context. Shader stages and layout of
+    /// `state` are filled in here.
     #[cfg(feature = "headless")]
     pub fn from_state(
         gpu: &Gpu,

@@ -96,16 +96,17 @@ pub fn requirements() -> Requirements {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct DeviceSupport {
-    /// Vulkan version of the device, at most that of the instance where this can be found: 1.0 if the instance is
-    /// 1.0, where newer versions cannot be queried, 1.2 if it is 1.1 or 1.2.
+    /// Vulkan version that can be used on the device. The version of the instance limits it, as far as that can be
+    /// detected: it is 1.0 on an instance of 1.0, which cannot query newer versions, and at most 1.2 on an instance
+    /// of 1.1 or 1.2.
     pub api_version: u32,
     /// R32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments: needed by the raster splats.
     pub blend_floats: bool,
     /// R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments, and the latter
     /// two storing without a format qualifier: needed by foam.
     pub foam_floats: bool,
-    /// R8G8B8A8_SNORM and R16G16B16A16_SFLOAT support storing without a format qualifier and linear filtering:
-    /// needed by filtered shadow maps of 8 and of 16 bits.
+    /// Whether R8G8B8A8_SNORM (first) and R16G16B16A16_SFLOAT (second) support storing without a format qualifier and
+    /// linear filtering: needed by filtered shadow maps of 8 and of 16 bits.
     pub basis: [bool; 2],
     /// R32G32_SFLOAT supports storing without a format qualifier: needed by motion vectors.
     pub motion_floats: bool,
@@ -118,7 +119,8 @@ pub struct DeviceSupport {
     pub optional: EnabledFeatures,
     /// Limits.
     pub limits: vk::PhysicalDeviceLimits,
-    /// A device of Vulkan 1.2 that supports `shaderStorageImageWriteWithoutFormat`, which the host did not enable.
+    /// Whether this is a device of Vulkan 1.2 that supports `shaderStorageImageWriteWithoutFormat`, but whose host
+    /// did not enable it.
     not_enabled: bool,
 }
 
@@ -219,8 +221,8 @@ impl DeviceSupport {
         }
     }
 
-    /// Support on a device whose host creates its instance for this Vulkan version and enables exactly these features.
-    /// Below Vulkan 1.3 formats support storing only with
+    /// Support on a device whose host creates its instance for this Vulkan version and enables exactly these
+    /// features. Below Vulkan 1.3 formats support storing only with
     /// [`storage_image_write_without_format`](EnabledFeatures::storage_image_write_without_format).
     #[must_use]
     pub fn with_enabled(mut self, api_version: u32, enabled: EnabledFeatures) -> Self {
@@ -232,7 +234,7 @@ impl DeviceSupport {
         self
     }
 
-    /// The same for a device of Vulkan 1.2 with these features enabled.
+    /// Support on a device of Vulkan 1.2 whose host enables these features.
     pub(crate) fn before_1_3(mut self, enabled: &EnabledFeatures) -> Self {
         if !enabled.storage_image_write_without_format {
             self.not_enabled = self.optional.storage_image_write_without_format;
@@ -439,8 +441,9 @@ fn named(extent: vk::Extent2D) -> String {
     format!("{}x{}", extent.width, extent.height)
 }
 
-/// Buffers that grow with the extent and are bound as a whole: field, bytes, remedy. Tile lists are omitted:
-/// with one word per tile no image is large enough for them to matter.
+/// Buffers that grow with the extent and are bound as a whole. For each: the field of the configuration that it
+/// belongs to, its size in bytes, and the remedy for the error message. Tile lists are omitted: with one word per
+/// tile they stay below the limit in images of any size.
 fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'static str)> {
     let fewer = "a smaller extent, or a higher Config.thickness_level";
     let sums = (config.thickness_splat.unwrap_or(DEFAULT_SPLAT) == Splat::Compute)

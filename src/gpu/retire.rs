@@ -1,5 +1,5 @@
-//! Objects that were replaced while frames that use them may still be in flight. Each waits until every slot
-//! that was recorded before its replacement has come back, and is dropped then.
+//! A list of replaced objects that frames in flight may still use. Each object waits until every slot that was in
+//! flight when the object was replaced has finished, and is then dropped.
 
 /// The retire list, with the slots that are in flight.
 #[derive(Default)]
@@ -15,7 +15,8 @@ impl RetireList {
         self.out |= 1 << slot;
     }
 
-    /// Keeps the object until the slots in flight have come back; drops it at once if none is.
+    /// Keeps the object until all slots that are now in flight have finished. If none is in flight the object is
+    /// dropped at once.
     pub fn retire(&mut self, object: impl Send + Sync + 'static) {
         if self.out != 0 {
             self.waiting.push((self.out, Box::new(object)));

@@ -56,8 +56,10 @@ impl Scan {
         })
     }
 
-    /// Replaces the first `count` of `most` values by their exclusive prefix sum. `count` is the index of a word of the
-    /// counts; `None` takes all values. Values and counts are in a compute state before and after.
+    /// Replaces values by their exclusive prefix sum. `count` is the index of the word in `counts` that holds how
+    /// many of the `most` values take part, from the first on; with `None` all do. `total` is the index of the word
+    /// in `counts` that receives their sum. Before and after, both buffers are in the state in which compute shaders
+    /// use them.
     pub fn record(
         &self,
         (gpu, cmd, descriptors): (&Gpu, vk::CommandBuffer, &Descriptors),

@@ -1,5 +1,5 @@
-//! One timestamp scope per pass and slot. The name of a scope is the stem of its pass; it is also
-//! the debug label. Results are read without waiting.
+//! GPU timestamps: in each slot, one scope for each pass. The name of a scope is that of its pass, and also its debug
+//! label. Results are read without waiting for the GPU.
 
 use std::ffi::CStr;
 

@@ -1,10 +1,11 @@
 //! Pass `caustics`: sunlight focused and spread by the water's surface (caustics mapping, Shah, Konttinen,
 //! Pattanaik 2007, with one photon per texel instead of a mesh).
 //!
-//! The front of the light map is smoothed with the same width as the water on the screen. Each texel's light is
-//! refracted there and added, with integer atomics, to the texel where it leaves the water again. Light that the host's
-//! scene blocks, by its shadow map, is left out.
-//! Reads: front, thickness, shadow map. Writes: caustics, R32F, light relative to that without water.
+//! The light map's front, the first water surface as seen from the sun, is smoothed with the same width as the water
+//! on the screen. At this surface the sunlight of each texel is refracted, and added, with integer atomics, to the
+//! texel of the map where it leaves the water again. Sunlight that the host's scene blocks, according to its shadow
+//! map, is left out.
+//! Reads: front, thickness, shadow map. Writes: caustics, R32F, sunlight relative to that without water.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

@@ -1,21 +1,22 @@
-//! Pass `convolution`: the host's shadow map as filtered images of a Fourier basis, from which shaders
-//! reconstruct the comparison with their own depth (Annen, Mertens, Bekaert, Seidel, Kautz, *Convolution Shadow
-//! Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
+//! Pass `convolution`: converts the host's shadow map to filtered images of a Fourier basis. Shaders that compare a
+//! depth of their own with the map reconstruct the filtered result of the comparison from these images (Annen,
+//! Mertens, Bekaert, Seidel, Kautz, *Convolution Shadow Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
 //!
 //! Differences, and their reasons:
-//! - Depths are normalised between the nearest and the farthest texel of the map, found on the GPU. Any
-//!   projection works, infinite ones too, and the series rises as steeply as the scene allows. Empty texels
-//!   count as behind. The series is periodic, so both ends keep a margin.
-//! - Terms are damped by exp(−α((k − ½)/M)²), with k − ½ instead of k: a Gaussian of the step, which keeps its
-//!   height with few terms.
-//! - The reconstruction is steepened around one half (and clipped, which hides ringing). It is offset by the part of
-//!   its rise that keeps a point lit that touches its occluder.
+//! - Depths are normalised between the nearest and the farthest texel of the map, which the GPU finds. So any
+//!   projection works, infinite ones too, and the transition from light to shadow is as short as the scene's depth
+//!   range allows. Empty texels count as behind everything. The series is periodic, so both ends of the range keep a
+//!   margin.
+//! - The k-th of M terms is damped by exp(−α((k − ½)/M)²), where the paper has k in place of k − ½. This convolves
+//!   the step with a Gaussian, so it keeps its height with few terms.
+//! - The reconstructed result is steepened around one half, and clipped to 0 to 1, which hides ringing. It is shifted
+//!   by a part of its rise (`ShadowFilter::offset`), so that a point that touches its occluder stays lit.
 //! - The map is averaged to the size of the library's images first, then box-filtered: no mips.
-//! - The pages of the basis lie side by side in one image, not in an array, so that any image can be bound if there are
-//!   none.
+//! - The pages of the basis, with two terms each, lie side by side in one image, not in an array, so that any other
+//!   image can be bound in its place if the pass is off.
 //!
-//! Reads: the host's shadow map. Writes: min and max of its depths; the basis, RGBA8 signed or RGBA16F, with cosine and
-//! sine of two terms per page, in two rows of pages that have a border of one texel.
+//! Reads: the host's shadow map. Writes: min and max of its depths; the basis, RGBA8 signed or RGBA16F, with cosine
+//! and sine of two terms per page, in two rows of pages that have a border of one texel.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -35,26 +36,28 @@ use crate::gpu::shader;
 use crate::water::Recording;
 use crate::water::settings::{ShadowFilter, Shadows};
 
-/// Side length in texels of the block that a group of the first part reads.
+/// Side length, in texels of the shadow map, of the block that a workgroup reads when the pass finds the depth range.
 const SPAN_BLOCK: u32 = 128;
-/// Bytes of the span.
+/// Bytes of the span, which holds the least and the greatest depth of the map.
 const SPAN: u64 = 16;
-/// Format of a page, whole and filtered along one axis: every device can store and sample it.
+/// Format of a page before filtering, and after filtering along one axis. Every device can store and sample this
+/// format.
 const PAGE: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
 /// Access by shading passes, and by the vertex shader of spray.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
-/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
+/// Last uses of the basis in a frame, for which the next frame waits: those of [`AFTER`], or a copy of the layer by
+/// the host.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 /// Configuration of convolution shadow maps ([`Shadows::Convolution`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Convolution {
-    /// Number of terms of the series: 4, 8 or 16 (default). Shadow is complete at a distance behind its occluder of 23,
-    /// 9 or 4 % of the depth range of the map.
+    /// Number of terms of the Fourier series: 4, 8 or 16 (default). A point is fully in shadow if it lies behind its
+    /// occluder by at least 23 % of the map's depth range with 4 terms, 9 % with 8, or 4 % with 16.
     pub terms: u32,
-    /// Max side length of the images in texels, 16 to 4096 (default 1024). A larger map is averaged over whole blocks
-    /// of its texels; its size may change from frame to frame.
+    /// Maximum side length of the filtered images in texels, 16 to 4096 (default 1024). A larger shadow map is
+    /// reduced by averaging blocks of its texels. The size of the shadow map may change from frame to frame.
     pub texels: u32,
     /// Bits per value: 8 (default) or 16, which changes the picture by a few thousandths. The images take
     /// 2·`terms`·`bits`/8 + 16 bytes per texel.
@@ -102,7 +105,8 @@ impl Convolution {
         vk::Extent2D { width: self.terms / 4 * self.page(), height: 2 * self.page() }
     }
 
-    /// Texels of the map per texel of the image along an axis, and the size of the image.
+    /// Returns how many texels of the shadow map a texel of the filtered image covers along each axis, and the size
+    /// of the filtered image.
     fn size(&self, map: vk::Extent2D) -> (u32, vk::Extent2D) {
         let edge = map.width.max(map.height).div_ceil(self.texels).max(1);
         let (width, height) = (map.width.div_ceil(edge), map.height.div_ceil(edge));
@@ -159,7 +163,7 @@ fn weights(terms: u32, settings: &ShadowFilter) -> impl Iterator<Item = f32> + u
     })
 }
 
-/// Position from which the steepened series is 1; its first maximum if it never is.
+/// Position at which the steepened series first reaches 1, or its first maximum if it does not reach 1.
 fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     const STEPS: u32 = 256;
     // The first maximum is not beyond this, for every damping in range.
@@ -179,9 +183,10 @@ fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     most
 }
 
-/// Coefficients of (a z + b) / (c z + d), which maps device depth to a depth that is linear along the light:
-/// the depth of a perspective projection, z itself for a parallel one or for one whose depth also depends on
-/// the position. It increases away from the light.
+/// Coefficients a, b, c, d of (a z + b) / (c z + d), which maps the map's device depth z to a depth that is linear
+/// along the light and increases away from it. For a perspective projection the result is linear in the distance
+/// along its axis. For a parallel projection, or one whose depth also depends on the position in the map, it is z or,
+/// with reversed depth, −z.
 fn linear(shadow: &Shadow, nearer: f32) -> [f32; 4] {
     let clip = shadow.clip();
     let (z, w) = (clip.row(2), clip.row(3));
@@ -342,7 +347,8 @@ mod tests {
         0.5 + settings.scale * sum
     }
 
-    /// By default the light is complete from the end of the ramp to the end of the period; a steeper ramp is shorter.
+    /// With the default settings the reconstructed light is 1 from the end of the ramp until one ramp before the end
+    /// of the period. A larger `scale` makes the ramp shorter.
     #[test]
     fn the_ramp_ends_where_the_light_is_whole() {
         for terms in [4, 8, 16] {

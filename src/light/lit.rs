@@ -1,8 +1,8 @@
-//! Pass `lit`: the host's scene with the shadows and caustics of water and foam. It is written to an image, from which
-//! the fluid refracts it, and to the output.
+//! Pass `lit`: applies the shadows and caustics of water and foam to the host's scene. The result is written to an
+//! image, which pass `composite` samples for the view through the water, and to the output.
 //!
-//! If the scene is the output image itself, this pass replaces the copy of the scene. The sun's share of a pixel's
-//! light is unknown, so that of level ground is used ([`Light`](crate::Light)).
+//! If the scene is the output image itself, this pass replaces the copy of the scene. Which share of a pixel's light
+//! comes from the sun is unknown, so the share on level ground is used ([`Light`](crate::Light)).
 //! Reads: scene colour and depth, the light's maps, caustics. Writes: lit scene; the whole output.
 
 use ash::vk;

@@ -2,9 +2,9 @@
 //!
 //! Every particle is drawn, independent of the camera, directly from the host's streams, without a list. Particles in
 //! culled packets are included, because they cast shadows into the view.
-//! Reads: the counts and the members of `cull`, the host's particles. Writes: front, R32F, distance in metres along the
-//! light to the first surface; thickness, RGBA32F, of water and of foam in metres along the light, and both multiplied
-//! by their position.
+//! Reads: the counts and the members of `cull` (which particles are in a packet), the host's particles. Writes:
+//! front, R32F, position of the first surface along the light, in metres; thickness, RGBA32F, of water and of foam
+//! along the light in metres, then each of the two multiplied by its position along the light.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -25,7 +25,8 @@ use crate::water::{self, Recording, SphereList, Window};
 
 /// Access by compute, by shading passes, and by the vertex shader of spray.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
-/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
+/// Last uses of a map in a frame, for which the next frame waits: those of [`AFTER`], or a copy of the layer by the
+/// host.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 #[repr(C)]

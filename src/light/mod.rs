@@ -1,8 +1,8 @@
-//! Effects of water and foam on sunlight: coloured shadows of water, shadows of foam, caustics (the thesis'
-//! future work). One pass per file: [`maps`] splats all particles as the sun sees them, [`whitewater`] the
-//! whitewater, [`caustics`] traces the refracted light, [`lit`] applies both to the host's scene. Foam, spray
-//! and highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
-//! shadow map.
+//! Effects of water and foam on sunlight: coloured shadows of water, shadows of foam, caustics (the thesis' future
+//! work). One pass per file: [`maps`] draws all particles of the water as the sun sees them, [`whitewater`] the
+//! whitewater particles, [`caustics`] traces the refracted light, [`lit`] applies shadows and caustics to the host's
+//! scene. Shaders of foam, spray and highlights read the maps directly (glsl/include/sunlight.glsl). [`convolution`]
+//! filters the host's shadow map.
 
 mod caustics;
 mod convolution;
