@@ -1,6 +1,6 @@
 #version 460
-// Pass `scene`: irradiance of the environment without the sun as nine spherical harmonics (Ramamoorthi and
-// Hanrahan 2001), from the mip of 8×8 texels a face.
+// Pass `scene`: computes the irradiance of the environment without the sun, as nine spherical harmonics (Ramamoorthi
+// and Hanrahan 2001), from the mip level with 8×8 texels per face.
 // Reads: environment. Writes: nine coefficients, the cosine lobe already in them.
 
 #include "cube.glsl"
@@ -28,7 +28,7 @@ void main() {
         vec3 d = cube_direction(texel, SIZE);
         float weight = pow(1.0 + dot(uv, uv), -1.5);
         vec3 c = textureLod(environment, d, max(lod, 0.0)).rgb;
-        // The baked light already contains how much the ground hides.
+        // Where ground or backdrop hide the sky's lower half, it is left out: light from them is baked per vertex.
         c *= scene.sun_direction.w > 0.5 ? smoothstep(-0.1, 0.1, d.y) : 1.0;
         float y[9] = float[9](
             0.282095,

@@ -34,12 +34,12 @@ float noise(vec2 p, int seed) {
     return 2.0 * mix(y.x, y.y, f.x) - 1.0;
 }
 
-// Amplitude of a wave with this frequency after filtering with a footprint of this width.
+// Amplitude of a wave with this frequency after filtering with a footprint of this width, relative to before.
 float kept(float width, float frequency) {
     return 1.0 - smoothstep(0.25, 0.9, width * frequency);
 }
 
-// Octaves of noise; each fades out as the footprint grows beyond it.
+// Sum of octaves of noise. An octave fades out as the width of the footprint grows beyond its cells.
 float octaves(vec3 p, float frequency, int count, float width) {
     float sum = 0.0;
     float amplitude = 0.5;

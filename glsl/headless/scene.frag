@@ -1,9 +1,9 @@
 #version 460
 // Pass `scene`: shades opaque meshes under sky and sun. Materials are Lambert and GGX (Walter et al. 2007, visibility
-// of Hammon 2017). The sun is visible by a shadow map; the sky's irradiance, from spherical harmonics, is multiplied by
-// its baked visibility; light from other surfaces is baked per vertex. Patterns are procedural in the mesh's own frame,
-// and filtered by the footprint of the pixel: lines by the exact fraction that they cover, noise by omitting octaves
-// that are too fine.
+// of Hammon 2017). The visibility of the sun comes from a shadow map. The sky's irradiance, from spherical harmonics,
+// is multiplied by the baked visibility of the sky. Light from other surfaces is baked per vertex. Patterns are
+// procedural in the mesh's own frame, and filtered by the footprint of the pixel: lines by the exact fraction that
+// they cover, noise by omitting octaves that are too fine.
 // Reads: shadow map, environment, irradiance, texture. Writes: scene colour.
 
 #include "../headless/scene.glsl"
@@ -40,8 +40,8 @@ layout(push_constant, std430) uniform Push {
     vec4 turn;      // rotation of the mesh's frame (quaternion)
     vec4 origin;    // origin of the mesh's frame (world)
     vec4 color;     // base colour, roughness
-    vec4 pattern;   // size, height of the tiles' band (m) or of the beach above the sea; z: 1 for the backdrop,
-                    // whose visibility of the sun is baked; w: 1 for stone in blocks
+    vec4 pattern;   // size, or height of the beach above the sea (m); height of the tiles' band (m);
+                    // 1 for the backdrop, whose visibility of the sun is baked; 1 for stone in blocks
 } push;
 
 layout(location = 0) in vec3 position;
@@ -69,7 +69,7 @@ vec3 turn(vec3 v) {
     return v + 2.0 * cross(q, cross(q, v) + push.turn.w * v);
 }
 
-// Fraction of the footprint covered by lines of this width at the integers.
+// Fraction of a footprint around x that is covered by lines of this width, one centred on each integer.
 float lines(float x, float width, float footprint) {
     footprint = max(footprint, 1.0e-4);
     vec2 ends = x + 0.5 * width + vec2(-0.5, 0.5) * footprint;
@@ -186,8 +186,8 @@ Surface sand(vec3 p, float width) {
     return s;
 }
 
-// How wet what was splashed on is at a place, metres: 0 dry, 1 under a film of water. Patches, ever fewer with the
-// distance from the basin, and single splashes.
+// How wet the paving is at a place in the world: 0 dry, 1 under a film of water. There are wet patches, fewer the
+// farther they are from the basin that splashes, and single splashes.
 float wetness(vec3 at, float width) {
     vec4 box = scene.splashed;
     vec2 out_of = max(max(box.xy - at.xz, at.xz - box.zw), 0.0);
@@ -210,12 +210,12 @@ float wetness(vec3 at, float width) {
     return wet;
 }
 
-// Wets a stone: light is lost to reflections from within the film (Lekner and Dorf 1988, of a film of water: 0.07 of the
-// light is reflected going in, 0.47 of the diffuse light coming out), and films are smooth.
+// Wets a stone. It gets darker, because light is reflected back inside the film of water (Lekner and Dorf 1988: 0.07
+// of the light is reflected going in, 0.47 of the diffuse light coming out), and shinier, because a film is smooth.
 Surface wetted(Surface s, float wet, float level) {
     vec3 under = 0.93 * 0.53 * s.albedo / (1.0 - 0.47 * s.albedo);
     float damp = min(1.1 * wet, 0.75);
-    // From edges it runs off.
+    // Water runs off from edges.
     float film = smoothstep(0.55, 1.0, wet) * smoothstep(0.96, 0.99, level);
     s.albedo = mix(s.albedo, under, damp);
     s.roughness = mix(mix(s.roughness, 0.5, damp), 0.16, film);
@@ -240,8 +240,8 @@ Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
     float large = octaves(p, 0.22, 4, width);
     float cloud = octaves(p + 9.0 * seed, 6.0, 3, width);
     float grain = octaves(p, 90.0, 2, width);
-    // Some were laid later, or come from another bed; veins and beds run through each its own way; what dripped and was
-    // trodden in stays as stains, and dirt in the joints and beside them.
+    // Some slabs were laid later, or come from another bed of rock. Veins run through each slab in its own direction.
+    // Drips and trodden dirt leave stains, and there is dirt in the joints and beside them.
     float other = step(0.84, hash(slab + ivec3(0, 0, 10)));
     float turn = 6.28 * hash(slab + ivec3(0, 0, 21));
     vec2 along = vec2(cos(turn) * p.x + sin(turn) * p.z, cos(turn) * p.z - sin(turn) * p.x);
@@ -349,7 +349,7 @@ Surface ripples(vec3 p, float width) {
     return s;
 }
 
-// Sand up to a height above the sea, then grass, and rock where it is steep; weed and stones on the sea bed.
+// Sand up to a height above the sea, then grass, and rock where it is steep; weed on the sea bed.
 Surface island(vec3 p, vec3 n, float width, float height) {
     float beach = push.pattern.x;
     Surface s = sand(p, width);
@@ -394,15 +394,15 @@ vec2 tap(int i) {
     return sqrt((float(i) + 0.5) / float(TAPS)) * vec2(cos(turn), sin(turn));
 }
 
-// Visibility of the sun: a 5×5 tent filter with nine bilinear comparisons (Castaño 2013, as in The Witness),
-// about as wide as the sun's penumbra a metre behind an edge. It is smooth and needs no noise.
-// Behind thin clouds a part of the sun's light comes from a glow around the disc, whose penumbra is several times as
-// wide. The penumbra's width follows from the mean distance of the blockers (Fernando 2005).
+// Visibility of the sun: a 5×5 tent filter with nine bilinear comparisons (Castaño 2013, as in The Witness), about as
+// wide as the sun's penumbra a metre behind an edge. It is smooth and needs no noise. Behind thin clouds a part of
+// the sun's light comes from a glow around the disc. The penumbra of this glow is several times as wide; its width
+// follows from the mean distance of the blockers (Fernando 2005).
 float sunlight(vec3 at, vec3 facing) {
     float slope = 1.0 - max(dot(facing, scene.sun_direction.xyz), 0.0);
     vec3 lifted = at + facing * scene.shadow_texel.z * (1.0 + 2.5 * slope);
     vec4 s = scene.shadow * vec4(lifted, 1.0);
-    // Beyond all shadow casters the depth ends; the border is lit.
+    // The depth of the shadow map ends behind the last caster, so depths are clamped to it. Its border is lit.
     float depth = min(s.z, 1.0);
     vec2 uv = s.xy / scene.shadow_texel.xy;
     vec2 middle = s.xy;
@@ -461,7 +461,7 @@ float sunlight(vec3 at, vec3 facing) {
     return lit;
 }
 
-// Irradiance on the sea at a point: sun, and a fraction of the sky.
+// Irradiance on the sea at a point: the sun's, and the given fraction of the sky's.
 vec3 lava_light(vec2 place, float sky_seen) {
     vec3 at = vec3(place.x, scene.sea.x, place.y);
     vec3 up = vec3(0.0, 1.0, 0.0);
@@ -498,7 +498,7 @@ void main() {
     vec3 step_x = scene.air.y * unturn(px);
     vec3 step_y = scene.air.y * unturn(py);
     vec3 footprint3 = abs(step_x) + abs(step_y);
-    // Between the short and the long axis of the footprint, a compromise between noise and blur.
+    // A width between the short and the long axis of the footprint is a compromise between noise and blur.
     float width = 1.2 * sqrt(length(step_x) * length(step_y));
     vec3 axis = abs(unturn(face));
 
@@ -553,7 +553,8 @@ void main() {
     float n_v = max(dot(n, v), 1.0e-3);
     vec3 sun = vec3(0.0);
     if (n_l > 0.0) {
-        // Measured from the smooth surface that the facets approximate, so that facets do not shadow one another.
+        // The shadow is looked up at the smooth surface that the facets approximate, so that facets do not shadow one
+        // another.
         bool backdrop = push.pattern.z > 0.5;
         vec3 lifted = position + n * 1.5 * (backdrop ? 0.0 : max(around.w, 0.0));
         sun = scene.sun_color.rgb * n_l * sunlight(lifted, face);

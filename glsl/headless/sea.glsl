@@ -19,7 +19,7 @@ layout(constant_id = 3) const uint SEA = 0;
 
 const float REFRACTION = 1.333;
 const float MIRRORED = 0.02037; // reflectance at normal incidence
-const float FINER = 0.2;           // variance of slopes of ripples too short for the sum of waves, over that of the sum
+const float FINER = 0.2;           // variance of slopes: ripples too short for the sum of waves, relative to the sum
 const float CLOUDED = 0.256;       // mean opacity of the clouds of sky.frag
 const float SKY_PATH = 1.2;        // mean path of skylight per metre of depth under water
 
@@ -56,8 +56,8 @@ float shown(vec2 wave, Place place, float deviation) {
     return exp(-0.5 * deviation * deviation * (x * x + y * y));
 }
 
-// A sum of few sines looks like a lattice. Slow sines, each displaced by those before, shift the phase of
-// each wave differently.
+// A sum of few sines looks like a lattice. Therefore slow sines, each displaced by the ones before it, shift the
+// phase of each wave by another amount.
 vec2 unrest(vec2 at) {
     vec2 q = at / scene.sea.y;
     vec2 way = vec2(0.94, 0.34);
@@ -143,14 +143,15 @@ Surf surf() {
     return s;
 }
 
-// Sideways displacement by the waves of what lies `depth` under water. Patterns move with it; edges do not.
+// Apparent sideways displacement, by refraction at the waves, of what lies `depth` under water. Patterns move with
+// it; edges do not.
 vec3 wobble(Surf s, float depth) {
     vec2 aside = (1.0 - 1.0 / REFRACTION) * depth * s.slope;
     return vec3(aside.x, 0.0, aside.y);
 }
 
-// Transmittance of hazy air over a distance. Over the sea salt and smoke scatter more than the air itself, by the
-// wavelength to the power of -1.3 (atmosphere.glsl), so blue light is lost first.
+// Transmittance of hazy air over a distance. Over the sea salt and smoke scatter more than the air itself. Their
+// scattering is proportional to the wavelength to the power of -1.3 (atmosphere.glsl), so blue light is lost first.
 vec3 clear_air(float distant) {
     // `mix` instead of a conditional: if a specialization constant chooses between vectors, lavapipe
     // 22.3 selects only the first component.
@@ -158,7 +159,7 @@ vec3 clear_air(float distant) {
     return exp(-distant * scene.air.x * rate);
 }
 
-// Droplets low over the sea make a bright band above the horizon. `up`: the sine of the height.
+// Droplets low over the sea make a bright band above the horizon. `up`: the sine of the angle above the horizon.
 vec3 with_band(vec3 sky, float up) {
     vec3 bright = scene.sun_color.rgb * vec3(0.124, 0.144, 0.170);
     return mix(sky, max(bright, sky), min(scene.air.z, 1.0) * 0.8 * exp(-max(up, 0.0) / 0.07));
@@ -190,7 +191,7 @@ vec3 extinction() {
     return scene.absorption.rgb + scene.scattering.rgb;
 }
 
-// Caustics: brightness by how the waves converge a bundle of the sun's rays; mean about 1.
+// Caustics: brightness of the ground, by how the waves converge a bundle of the sun's rays; its mean is about 1.
 float caustics(vec3 at, float depth) {
     vec3 ray = pixel_ray();
     if (ray.y >= 0.0) {
@@ -207,7 +208,7 @@ float caustics(vec3 at, float depth) {
     for (int i = 0; i < WAVES; ++i) {
         vec4 wave = scene.waves[i];
         float square = dot(wave.xy, wave.xy);
-        // The sun's disc, and being far beyond the focus, blur the caustics.
+        // The sun's disc blurs the caustics, and so does a bed far beyond the focus of the waves.
         float focus = bent * wave.z * square;
         float blurred = exp(-4.0e-6 * depth * depth * square) / (1.0 + 28.0 * focus * focus);
         // The shortest waves are faded out: the last few would look like a lattice.
@@ -231,10 +232,13 @@ vec3 sky_under(float depth) {
     return exp(-extinction() * depth * SKY_PATH);
 }
 
-// Mean slope of the facets that are seen from a direction, over that of the surface itself, and the variance of the
-// slopes along the line of sight. Of a normal distribution with the covariance C the facet of slope z is seen by
-// t + z·e, with t the tangent of the eye's height and e the level direction to it: the mean of z times that over the
-// mean of that is C e / s · F(a) / (a F(a) + f(a)), with s² = e·C e, a = t / s and F, f the normal distribution.
+// Slopes of the normals of the facets that are seen from a direction: in xy their mean minus the slope of the
+// surface's normal n, in z the variance of slopes along the line of sight. The slope m of a facet's normal relative
+// to the surface's is normally distributed with the covariance C. The facet is seen in proportion to max(t + m·e, 0),
+// with t the tangent of the eye's height over the surface and e the level direction to the eye. The mean of m with
+// this weight is
+// C e / s · F(a) / (a F(a) + f(a)), with s² = e·C e, a = t / s, and F and f the standard normal distribution and its
+// density.
 vec3 seen_slope(vec3 hidden, vec3 n, vec3 v) {
     vec2 e = normalize(v.xz + vec2(1.0e-6, 0.0));
     vec2 spread = vec2(dot(hidden.xz, e), dot(hidden.zy, e));
@@ -242,7 +246,7 @@ vec3 seen_slope(vec3 hidden, vec3 n, vec3 v) {
     float s = sqrt(max(variance, 1.0e-12));
     float sine = clamp(dot(n, v), 0.0, 1.0);
     float a = min(sine / (sqrt(max(1.0 - sine * sine, 1.0e-6)) * s), 12.0);
-    // Page 1977.
+    // Approximation of F by Page (1977).
     float below = 0.5 + 0.5 * tanh(0.79788 * (a + 0.044715 * a * a * a));
     float at = 0.39894 * exp(-0.5 * a * a);
     return vec3(spread / s * below / (a * below + at), variance);
@@ -281,7 +285,8 @@ vec3 glint(vec2 slope, vec3 hidden, vec3 v) {
 // Water over a surface `depth` below its own.
 vec3 water(vec3 under, float depth, Surf s) {
     vec3 v = -normalize(s.ray);
-    // Slopes that turn away more than the line of sight rises are hidden by the crest before them.
+    // A slope that turns away from the eye by more than the line of sight rises is hidden by the crest before it, so
+    // slopes are limited.
     vec2 e = normalize(v.xz + vec2(1.0e-6, 0.0));
     float rises = v.y / max(length(v.xz), 1.0e-3);
     float open = rises - dot(s.slope, e);
@@ -374,11 +379,11 @@ vec3 lava(Place place, vec3 lit) {
     return glow + 0.035 * max(heat.y, 0.1) * (1.0 - heat.x) * lit / PI;
 }
 
-// The sea over what lies `depth` below its level. `lit`: irradiance on it, used for lava.
+// Colour of the sea over what lies `depth` below its level. `lit`: irradiance on the sea, used for lava.
 vec3 sea_over(vec3 under, float depth, vec3 lit, Surf s) {
     vec3 c = SEA == WATER ? water(under, depth, s) : lava(s.place, lit);
-    // Far away the sea fades into the sky at the horizon: through hazy air as all does, in clear air earlier than the
-    // ground, because it has less detail.
+    // Far away the sea fades into the sky at the horizon: in hazy air as everything does, in clear air at a shorter
+    // distance than the ground, because the sea has less detail.
     vec3 horizon = textureLod(environment, normalize(vec3(s.ray.x, 0.02 * length(s.ray.xz), s.ray.z)), 2.0).rgb;
     float distant = distance(s.place.at, scene.eye.xz);
     float away = distant / scene.ground.w;

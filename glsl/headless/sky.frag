@@ -1,7 +1,7 @@
 #version 460
-// Pass `scene`: the sky where there is no mesh: the displayed environment along the pixel's ray. The sun's disc is
-// added for the built-in sky, which omits it because it would be a few texels of huge radiance. A sea extends to the
-// horizon, and has no floor where there is no mesh.
+// Pass `scene`: draws the sky where there is no mesh: the displayed environment along the pixel's ray. The sun's disc
+// is added for the built-in sky, whose image omits it because it would be a few texels of huge radiance. A sea
+// extends to the horizon, and has no floor where there is no mesh.
 // Reads: environment, displayed environment, irradiance. Writes: scene colour.
 
 #include "../headless/scene.glsl"
@@ -37,7 +37,7 @@ void main() {
         float thick = smoothstep(0.42, 1.0, 0.55 * fibres + 0.55 * patchy);
         c = with_band(with_clouds(c, d.y, thick), d.y);
     }
-    // From the chord: acos of a cosine near 1 is imprecise in 32 bits.
+    // The angle to the sun, from the chord between the unit vectors: acos of a cosine near 1 is imprecise in 32 bits.
     float angle = 2.0 * asin(min(0.5 * length(d - scene.sun_direction.xyz), 1.0));
     const float radius = 0.00465; // 0.533 degrees across
     float edge = max(fwidth(angle), 1.0e-5);
