@@ -3,8 +3,7 @@
 // Transmittance below which the light behind does not matter.
 const float HIDDEN = 1.0 / 256.0;
 
-// Stands for no layer. A layer names what a ray meets: the number of a blob, and of a bubble in the blob (low 8
-// bits).
+// No layer. A layer names what a ray meets: the number of a blob, and of a bubble in this blob (low 8 bits).
 const uint NO_LAYER = 0xffffffffu;
 
 uint layer_of(uint blob, uint bubble) {

@@ -4,8 +4,7 @@
 // Rotates the axes p and q so that a_pq becomes 0; r is the third axis.
 void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout float qr, inout vec3 p, inout vec3 q) {
     float d = qq - pp;
-    // Tangent of the smaller of the two angles that make a_pq 0. For a multiple of the identity it is 0, and not 0 /
-    // 0.
+    // Tangent of the smaller of the two angles that make a_pq 0. It is 0, not 0 / 0, for a multiple of the identity.
     float t = (d < 0.0 ? -2.0 : 2.0) * pq / max(abs(d) + sqrt(d * d + 4.0 * pq * pq), 1.0e-30);
     float c = inversesqrt(1.0 + t * t);
     float s = t * c;

@@ -1,17 +1,20 @@
-// End of the ray that the front surface refracts (Wyman 2005, "An Approximate Image-Space Approach for Interactive
-// Refraction"; not in the thesis): on the scene where it is under the water, or behind the water's far surface where
-// air follows. Differs: the far surface is the front one offset by the thickness, with the slopes of both; the scene
-// is found by a screen-space march.
-// Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness,
+// What the view ray meets after the water's front surface has refracted it (Wyman 2005, "An Approximate Image-Space
+// Approach for Interactive Refraction"; not in the thesis). If the water touches the scene, the ray ends on the
+// scene. If air follows behind the water, the far surface refracts the ray once more. Differs from Wyman: the far
+// surface is the front surface moved back by the thickness, and its slope is the sum of the front surface's and the
+// thickness' slopes; the scene behind is found by a screen-space march.
+// Needs frame.glsl, surface.glsl, march.glsl, `Sheet` and `fresnel` of shade.glsl, and `scene_at`. Reads: thickness,
 // scene colour and depth, environment.
 
-// Weight of what rays that leave the far surface meet. Water in the air has ripples finer than its particles, so
-// the rest of the light comes straight through. With weight 1 there are saturated blots on every crown and drop.
+// Weight of the light from the directions into which the far surface bends rays. Water in the air has ripples finer
+// than its particles, so the other half of the light comes straight through. With weight 1, every crown of a splash
+// and every drop would have saturated blots.
 const float BENT = 0.5;
-// Factor of that weight in front of more water, because many bent rays hit that water instead of the sky.
+// Factor on BENT for a sheet (layer of water) in front of more water, because many bent rays hit the water behind
+// instead of the sky.
 const float BENT_BEFORE = 0.5;
-// Deflection of a ray by a sheet in front of more water, over the slope of the sheet's thickness. A prism has n - 1 = 0.33.
-// It is smaller here because most of the slope is noise of the particles.
+// Angle by which a sheet in front of more water deflects a ray, divided by the slope of the sheet's thickness. For a
+// prism this ratio is n - 1 = 0.33. It is smaller here because most of the slope is noise of the particles.
 const float PRISM = 0.08;
 
 // Light that enters the front sheet from behind.
@@ -34,8 +37,8 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
-// The same for the front sheet alone, without what lies behind the air. Texels that show another surface get the mean
-// of the others.
+// Slope per pixel of the front sheet's thickness alone, without the water behind the air. Texels in which `front` is
+// not in front of the boundary show another surface; they get the mean thickness of the other texels.
 vec2 sheet_slope(vec2 pixel, float front) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 middle = ivec2(floor(h + 0.5));
@@ -66,18 +69,19 @@ vec3 into_water(Sheet sheet) {
     return ratio * (sheet.normal * facing - v) - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
 }
 
-// Offset from a pixel to where the refracted ray meets the scene under the sheet: false position between a length at
-// which the ray is before the scene and one at which it is behind it. (Fixed-point iteration jumps between floor and
-// wall where they meet.) The first length reaches the depth of the scene straight behind the pixel; each step at most
-// doubles the length. Objects in front of the water are skipped.
+// Offset in pixels from a pixel to the point where its refracted ray meets the scene under the sheet. False position
+// finds the ray's length, between a length at which the ray is still before the scene and one at which it is behind.
+// (Fixed-point iteration would jump between floor and wall where these meet.) The first length tried reaches the
+// depth of the scene straight behind the pixel. While no length behind the scene is known, each step at most doubles
+// the length. Objects in front of the water are ignored.
 const int BED_LOOKS = 5;
-// Part of an interval that each step leaves at either end.
+// Part of the interval between both lengths that each step leaves at either end.
 const float BED_ENDS = 0.1;
 vec2 bed_offset(Sheet sheet, vec2 pixel) {
     vec3 inside = into_water(sheet);
     float z = -sheet.at.z;
     float along = max(-inside.z, FLATTEST);
-    // Length, and depth of the scene there relative to the ray.
+    // Length of the ray, and how much deeper than the ray's end the scene is there.
     vec2 before = vec2(0.0, max(met_depth(pixel) - z, 0.0));
     vec2 beyond = vec2(-1.0);
     float far = before.y / along;
@@ -107,9 +111,9 @@ vec2 prism_offset(vec2 pixel, float front, float beyond) {
     return PRISM * slope * max(beyond - front, 0.0) / (frame.texel.xy * max(beyond, front));
 }
 
-// behind: scene colour with the front surface's refraction alone. covers: the sheet is the front one of two. pool: how far
-// the other one touches the scene, 0 to 1. With 1 the exit ray sees `behind`, which includes that water; the march would
-// find the dry scene.
+// `behind`: the scene's colour as refracted by the front surface alone. `covers`: the sheet is the front one of two.
+// `pool`: how far the back sheet touches the scene, 0 to 1. With 1 the ray that leaves the front sheet shows
+// `behind`, which includes the water of the back sheet, because a march would find the dry scene.
 Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers, float pool) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);
@@ -141,22 +145,23 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
     float square = 1.0 - (1.0 - inner * inner) / (ratio * ratio);
     bool total = square <= 0.0;
     float outer = sqrt(max(square, 0.0));
-    // What the far surface throws back into the sheet. It is all of the light where the refracted ray vanishes, so the two
-    // meet without an edge.
+    // Share of the light that the far surface reflects back into the sheet. It rises to 1 at the angle beyond which
+    // total reflection leaves no refracted ray, so both cases meet without an edge.
     vec3 inward = normalize(inside + 2.0 * inner * n);
     float thrown = fresnel(outer);
     vec3 along = total ? inward : normalize(inside / ratio + n * (inner / ratio - outer));
 
     Met met = march(from, along, pool < 1.0 && !total ? int(EXIT) : 0);
     met.share *= 1.0 - pool;
-    // A ray that leaves downwards and meets no visible scene counts as unrefracted.
+    // A ray that leaves the sheet downwards and meets no visible scene counts as not refracted.
     float bent = BENT * mix(1.0, BENT_BEFORE, pool);
     vec3 world = mat3(frame.world) * along;
     float sky = bent * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     met.share *= bent;
     vec3 back = mat3(frame.world) * inward;
     float back_sky = bent * smoothstep(-0.3, 0.0, dot(back, frame.up.xyz));
-    // The far surface of a film is parallel to its front one, and water on the scene has no air behind it.
+    // Weight of the far surface. It is 0 for a thin film, whose two surfaces are parallel, and for water that touches
+    // the scene and so has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);
     vec3 seen = (1.0 - met.share - sky) * behind;
     for (bool any = met.share > 0.0; any; any = false) {

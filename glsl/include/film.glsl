@@ -1,7 +1,7 @@
 // Thin-film interference of a soap film in air: its reflectance (Airy). Needs nothing.
 
-// Reflection of an interface. Exact: both polarizations separately. Schlick: his approximation of their mean. The
-// source: 1 - cos.
+// How the reflectance of one face of the film is computed. EXACT: Fresnel's equations for both polarizations
+// separately. SCHLICK: Schlick's approximation of their mean. SOURCE: 1 - cos, as in the paper.
 const uint FRESNEL_EXACT = 0u;
 const uint FRESNEL_SCHLICK = 1u;
 const uint FRESNEL_SOURCE = 2u;
@@ -28,8 +28,8 @@ vec2 film_face(float cosine, float n, uint kind) {
     return vec2(mix(normal * normal, 1.0, square * square * out_of));
 }
 
-// sin^2 of half the phase between the light from the two faces of a film. Evaluated by its series over a quarter of a
-// turn, because devices guarantee sines only to 2^-11.
+// sin^2 of half the phase difference between the light reflected by the two faces of a film. The sine is evaluated by
+// its series within a quarter of a turn, because devices guarantee their own sine only to 2^-11.
 float film_phase(float cosine, float n, float thickness, float wavelength) {
     float turns = 2.0 * n * thickness * film_refracted(cosine, n) / wavelength;
     float x = 3.14159265 * (turns - floor(turns + 0.5));
@@ -39,7 +39,7 @@ float film_phase(float cosine, float n, float thickness, float wavelength) {
     return sine * sine;
 }
 
-// Reflectance for unpolarized light, at most 1. The paper's form can exceed that and is clamped.
+// Reflectance of the film for unpolarized light, at most 1. The paper's formula can exceed 1 and is clamped.
 float film_reflectance(float cosine, float n, float thickness, float wavelength, uint kind) {
     float phase = film_phase(cosine, n, thickness, wavelength);
     vec2 face = film_face(cosine, n, kind);

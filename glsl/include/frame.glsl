@@ -1,5 +1,5 @@
-// Values of the frame (src/frame.rs writes them). Pixel coordinates have their centres at +0.5
-// and row 0 on top; eye space looks down -z; depth is the positive eye depth.
+// Values of the frame (src/frame.rs writes them). Pixel centres lie at +0.5, and row 0 is the top row. Eye space
+// looks down -z. Depth is the positive eye depth.
 // Reads: the frame's block.
 
 const float EMPTY = 1.0e10;
@@ -31,7 +31,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 ambient;       // w: 1 = the thesis' composite
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // amplitude, cells per second; relief; thickness below which foam fades
-    vec4 foam_pattern;  // strength of the pattern, of the lace; cells of the lace in metres; half the pattern's period in seconds
+    vec4 foam_pattern;  // strength of the pattern; of the lace; width of the lace's cells in metres; half the pattern's period in seconds
     vec4 foam_octaves;  // spacings per cell of the first octave; origins of the two phases in the noise; strength of shape lighting
     vec4 foam_phases;   // weights of the two phases; displacement of each relative to half a period, -1 to 1
     vec4 foam_back;     // radiance of thin foam; w: quantum of the thickness
@@ -45,7 +45,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     mat4 to_light;      // eye -> the light's maps: place in them 0 to 1, metres along the light
     vec4 shadow_map;    // bias in metres; 1, or -1 where depth is reversed
     vec4 shadow_rect;   // first texel and size of the part of the shadow map or mask
-    vec4 light_map;     // side length of the maps in texels, of a texel in metres; smoothing in metres
+    vec4 light_map;     // side length of the maps in texels; of a texel in metres; smoothing in metres
     vec4 shade;         // shade relative to sunlight; foam's extinction of sunlight
     vec4 lit_color;     // as scene_color and its origin, for the image that `lit` reads
     vec4 lit_origin;
@@ -74,7 +74,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 shore_color;   // radiance of shoreline foam; its opacity
     vec4 contact_color; // radiance of contact foam; its lit share
     vec4 up;            // world, unit length; w: 1/n of the water
-    vec4 bed;           // share of upward light that leaves the water; path of sky and sun light per metre of depth; 1/n, or 0: dry
+    vec4 bed;           // share of upward light that leaves the water; path of skylight, of sunlight, per metre of depth; 1/n, or 0: dry
     vec4 bed_light;     // pi over the irradiance; transmittance of sunlight relative to skylight
     vec4 wavelets[15];  // wave vector in the world, cycles per metre; phase in cycles
 } frame;

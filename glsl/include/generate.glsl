@@ -1,6 +1,6 @@
 // Shared by the passes that emit whitewater (spray, foam, bubbles) from a fluid (Ihmsen, Akinci, Akinci, Teschner,
-// Unified spray, foam and bubbles for particle-based fluids, 2012).
-// Sums over neighbours use fixed-point steps: their order does not matter.
+// Unified spray, foam and bubbles for particle-based fluids, 2012). Sums over neighbours are in fixed-point steps, so
+// the order of their terms does not matter.
 
 layout(push_constant, std430) uniform Push {
     float spacing;       // of the fluid's particles

@@ -1,5 +1,6 @@
-// Moments of a snapshot, spread over the longest lifetime of foam, at which the water on its way to a particle is
-// evaluated; denser towards the present. Needs generate.glsl, random.glsl.
+// For a snapshot (a single frame of the fluid): moments in the past at which the water that has since flowed to a
+// particle is evaluated. They span the longest lifetime of foam and lie denser towards the present. Needs
+// generate.glsl, random.glsl.
 
 const uint STAGES = 15u;
 // Most whitewater particles per moment: six bits.

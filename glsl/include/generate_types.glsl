@@ -11,7 +11,7 @@ struct GenerateCounts {
 
 #include "place.glsl"
 
-// And its number in the step.
+// Its velocity, and its number in the step.
 struct Motion {
     vec3 velocity;
     uint number;

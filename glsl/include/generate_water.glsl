@@ -1,10 +1,11 @@
-// The water at a point: the mean of the particles around it. Needs neighbours.glsl, and rate_of(j): the emission rate
-// of water particle j relative to the maximum, 0 to 1. Reads: the grid.
+// The water at a point: weighted means of the velocity and emission rate of the particles around it. Needs
+// neighbours.glsl, and rate_of(j): the emission rate of water particle j relative to the maximum, 0 to 1. Reads: the
+// grid.
 
 struct Water {
     vec3 velocity;   // 0 without water
     float rate;      // likewise
-    uint neighbours; // number of its neighbours that are present
+    uint neighbours; // number of particles within the support
     bool any;
 };
 

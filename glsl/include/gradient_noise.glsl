@@ -6,12 +6,13 @@ vec3 noise_phase(uint id) {
     return vec3(h) * (1.0 / 16777216.0);
 }
 
-// Factors of a lattice point's coordinates in its hash: primes of xxHash. The combined products are mixed once,
-// instead of three look-ups in a permutation table (Perlin 2002), which takes few multiplications.
+// Factors of a lattice point's coordinates in its hash: primes of xxHash. The products are combined and then mixed
+// once, which takes few multiplications. (Perlin 2002 has three look-ups in a permutation table instead.)
 const uvec3 LATTICE = uvec3(0x9E3779B1u, 0x85EBCA77u, 0xC2B2AE3Du);
 
-// Gradient along one of the twelve directions to the edges of a cube. With selections instead of branches, which
-// SwiftShader took minutes and gigabytes to compile within loops.
+// Dot product of `off` with one of the twelve directions from a cube's centre to its edges, which the hash selects.
+// It uses selections instead of branches, because SwiftShader took minutes and gigabytes to compile branches within
+// loops.
 float lattice_gradient(uint joined, vec3 off) {
     uint h = ((joined ^ (joined >> 15)) * 0x27D4EB2Fu) >> 28;
     float u = mix(off.y, off.x, h < 8u);

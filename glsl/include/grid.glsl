@@ -1,5 +1,6 @@
-// Particles by grid cell, in a hash table (Teschner et al. 2003). Cells are as wide as the particles' support. The list
-// is sorted by bucket. Needs random.glsl, place.glsl and the requirements of cells.glsl.
+// Particles by grid cell, in a hash table (Teschner et al. 2003). Cells are as wide as the support (the radius within
+// which particles are neighbours). The list of particles is sorted by bucket. Needs random.glsl, place.glsl and the
+// requirements of cells.glsl.
 // Reads: the grid (ends of the buckets, places).
 //
 //     for (int c = 0; c < 27; ++c) {
@@ -12,8 +13,8 @@
 layout(set = 0, binding = 1, std430) readonly buffer Ends { uint ends[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Places { Place places[]; };
 
-// Max number of particles that are read per bucket: particles heaped on one spot must not hang a device. Water has
-// eight per cell of two spacings.
+// Max number of particles that are read per bucket, so that particles heaped on one spot cannot hang a device. Water
+// has eight particles in a cell that is two spacings wide.
 const uint MOST_IN_BUCKET = 256u;
 
 #include "cells.glsl"

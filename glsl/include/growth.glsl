@@ -1,4 +1,5 @@
-// Growth and shrinking of a blob that is one half of a split one. Needs nothing.
+// Growth or shrinking of a blob that is one half of a split blob: one half shrinks to its goal, the other grows from
+// nothing. Needs nothing.
 
 struct Growth {
     float goal;   // final radius after the halves have separated

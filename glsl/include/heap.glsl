@@ -1,7 +1,7 @@
 // Shared by the passes of the blob simulation (Huszar, Szecsi, Sec. 6). Needs nothing.
 
-// Max number of blobs that are visited in a bucket, those with the lowest ids: blobs heaped on one spot must not hang a
-// device.
+// Max number of blobs that are visited in a bucket, so that blobs heaped on one spot cannot hang a device. Those with
+// the lowest ids are visited.
 const uint MOST_IN_BUCKET = 128u;
 
 // A blob, stored beside the others of its bucket.

@@ -1,24 +1,25 @@
-// The thickness kernel: N_z exp(-2 rho^2), N_z = sqrt(1 - rho^2) (thesis Listing A.15; Eq. 3.4
-// lacks the square). Its integral over the unit disc is pi J, J = 0.3400030. Needs frame.glsl.
+// The kernel of a particle's thickness sprite: N_z exp(-2 rho^2), N_z = sqrt(1 - rho^2) (thesis Listing A.15; Eq. 3.4
+// lacks the square), where rho is the distance from the sprite's centre in half-axes. Its integral over the unit disc
+// is pi J, J = 0.3400030. Needs frame.glsl.
 
-// Fixed-point steps per amplitude (frame.particle.w) of a particle that is all water, in the compute path: 2^24, the
-// resolution of a float. If a half-axis of 0.01 texels is enlarged to 1 texel, the amplitude is divided by 10000, which
-// leaves 1700 steps.
+// Fixed-point steps of the compute path per amplitude of a thickness sprite, frame.particle.w (that of a particle
+// that is all water): 2^24, the resolution of a float. If a sprite with a half-axis of 0.01 texels is enlarged to 1
+// texel, its amplitude is divided by 10000, which leaves 1700 steps.
 const float UNITS = 16777216.0;
 
 float thickness_kernel(float rho2) {
     return rho2 > 1.0 ? 0.0 : sqrt(1.0 - rho2) * exp(-2.0 * rho2);
 }
 
-// rho^2 at the point where the ray meets the plane of the sprite's centre.
+// rho^2 at the point where the ray meets the plane of constant depth through the sprite's centre.
 float thickness_rho2(vec2 slope, vec3 centre, float inverse_axis) {
     vec2 off = (slope * -centre.z - centre.xy) * inverse_axis;
     return dot(off, off);
 }
 
-// Half-axis with which a sprite at a depth is drawn, and the factor by which its amplitude is divided. A sprite
-// with a half-axis below one pixel gets one of a pixel and keeps its volume, so that far water neither sparkles nor
-// vanishes between pixel centres.
+// Half-axis with which a sprite at a depth is drawn; `widened` is the factor by which its amplitude is then divided.
+// A half-axis below one pixel is enlarged to one pixel while the sprite keeps its volume. So far water does not
+// sparkle, and no sprite vanishes between pixel centres.
 float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
     float least = depth * max(abs(slope.x), abs(slope.y));
     float drawn = max(axis, least);
@@ -31,17 +32,19 @@ float metres(uvec2 sum) {
     return (float(sum.y) * 4294967296.0 + float(sum.x)) * (frame.particle.w / UNITS);
 }
 
-// Value of the window without a boundary: more than enough water for one sheet.
+// Water in the window (see sheet_shares) where there is no boundary: more than enough for a single layer of water.
 const float ONE_SHEET = 1.0e6;
 
-// Whether a texel keeps its boundary: where there is water on both sides, and where the scene hides the boundary at the
-// texel's centre, because the water may be visible beside that.
+// Whether a texel keeps its boundary, the depth that separates two layers of water. It does if there is water on both
+// sides of the boundary, or if the scene hides the boundary at the texel's centre, because other pixels of the texel
+// may show the water behind it.
 bool keeps_boundary(float boundary, float front, float back, float scene) {
     return boundary < EMPTY && (front > 0.0 && back > 0.0 || scene > 0.0 && scene < boundary);
 }
 
-// Shares with which a sprite at a depth adds to the front sheet, the back sheet and the window between them.
-// Water in the window means that both are one sheet.
+// Shares of a thickness sprite at depth z that belong to the front sheet (layer of water), to the back sheet, and to
+// the window, which is the range within a spacing of the boundary between both. Water in the window means that the
+// two sheets are one.
 vec3 sheet_shares(float z, float boundary) {
     if (boundary >= EMPTY) {
         return vec3(1.0, 0.0, ONE_SHEET);

@@ -1,45 +1,52 @@
-// Lace: bubbles of different sizes that tear thin foam open, so that it forms threads between them. A power diagram of
-// spheres of three sizes (Worley 1996 has distances to points), warped by the slope of a gradient noise, in world
-// space, evaluated per pixel, and advected with the foam as in pattern.glsl. Not in the thesis, whose thin foam is a
-// veil. Needs frame.glsl, gradient_noise.glsl, surface_foam_drift.glsl. Reads: drift.
+// Lace: bubbles of different sizes that tear thin foam open, so that it forms threads between them. The pattern is a
+// power diagram of spheres of three sizes (Worley 1996 uses distances to points), warped by the slope of a gradient
+// noise. It is defined in world space, evaluated per pixel, and moves with the foam as in pattern.glsl. Not in the
+// thesis, whose thin foam is a veil. Needs frame.glsl, gradient_noise.glsl, surface_foam_drift.glsl. Reads: drift.
 
 layout(set = 0, binding = 33, std430) readonly buffer Drift { int drift[]; };
 
-// Min and max radius in cells, and max distance of a centre from the centre of its cell. Eight cells hold all bubbles
-// that reach a point: 0.5 + 0.5 - 0.3 is the max radius.
+// Min and max radius of a bubble in cells, and max distance of its centre from the centre of its cell on each axis.
+// All bubbles that contain a point have their centres in the eight cells nearest to the point: the centre of any
+// other cell is at least 1 away on some axis, its bubble's centre at least 1 - 0.3, which is the max radius.
 const vec2 BUBBLE_RADII = vec2(0.5, 0.7);
 const float BUBBLE_STRAY = 0.3;
-// Large, medium and small bubbles: size of their cells, offset of the cells, weight.
+// For large, medium and small bubbles: width of a cell relative to that of large bubbles, offset of the cells, and
+// weight in the sum.
 const vec3 BUBBLE_CELLS = vec3(1.0, 0.4, 0.16);
 const vec3 BUBBLE_BEGIN = vec3(0.0, 31.7, 77.3);
 const vec3 BUBBLE_PART = vec3(0.42, 0.34, 0.24);
-// Mean of their sum, used where cells are less than 1.5 pixels wide.
+// Mean of `bubbles_at`, which is used instead where cells are less than 1.5 pixels wide.
 const float BUBBLE_MEAN = 0.232;
-// Width of a noise cell in cells of the large bubbles, displacement by the noise's slope in the same unit, and weight
-// of the noise itself.
+// The noise that warps the bubbles: width of its cells, and displacement per slope of 1, both in cells of the large
+// bubbles; and weight with which the noise itself is added to the amount that closes a point.
 const float DRAWN_CELL = 2.6;
 const float DRAWN = 0.3;
 const float RAGGED = 0.3;
-// Median of the amount that closes a point.
+// Median of the amount of foam that closes a point.
 const float CLOSES = 0.22;
-// Amount of foam for a coverage of 1/2, and scale of the logistic function that maps coverage to amount. Between
-// coverages of 0.1 and 0.9 the mean coverage is off by at most 0.02.
+// For a wanted coverage c the amount of foam is COVERS.x + COVERS.y ln(c / (1 - c)). For c from 0.1 to 0.9 the mean
+// coverage over the pattern differs from c by at most 0.02.
 const vec2 COVERS = vec2(0.33, 0.127);
-// Half the width over which a thread ends: min value, and value per cell of a pixel.
+// Half the range of amounts of foam over which the edge of a thread fades: its min value, and its value times the
+// width of a large bubble's cell in pixels; the larger of both counts.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
-// The same for the other half of a thread's opacity: single bubbles at its edge.
+// Min value of that range for one half of a thread's opacity. This half fades more softly, like single bubbles at the
+// thread's edge.
 const float EDGE_ENDS = 0.16;
 
-// Foam that has just closed over a bubble is thin, so that bubbles show in it: its opacity is lower by SHEER. With an
-// amount greater by CLOSED it is opaque.
+// Foam that has just closed over a bubble is thin, so that bubbles show in it: where the amount of foam just closes a
+// point, the opacity is lower by SHEER. Where the amount is greater by CLOSED, it is not lower.
 const float SHEER = 0.45;
 const float CLOSED = 0.45;
 
-// Period of the cells, centred on the world's origin, so that single precision resolves their fractions.
+// The pattern repeats after this many cells, centred on the world's origin, so that single precision resolves
+// positions within a cell.
 const float LACE_WRAP = 65536.0;
 
-// How far a point lies inside a bubble, beyond the wall to the next: 0 on walls and between all bubbles, 1 at
-// the centre of the largest bubble if it is alone.
+// How far a point lies inside its bubble: the difference between the two largest powers of bubbles at the point,
+// relative to the square of the max radius. The power is max(r^2 - d^2, 0) for a bubble of radius r at distance d.
+// The result is 0 on the wall between two bubbles and outside all bubbles, and 1 at the centre of a bubble of max
+// radius that no other one overlaps.
 float bubbles_at(vec3 p) {
     p -= 0.5;
     vec3 cell = floor(p);
@@ -61,8 +68,8 @@ float bubbles_at(vec3 p) {
     return (deepest.x - deepest.y) / (BUBBLE_RADII.y * BUBBLE_RADII.y);
 }
 
-// Amount of foam that closes a point given in cells of the large bubbles, which are `pixels` wide: small on a
-// thread, largest at the centre of a hole.
+// Amount of foam that it takes to close a point: small on a thread, largest at the centre of a hole. `place` is the
+// point in cells of the large bubbles; these cells are `pixels` wide.
 float lace_at(vec3 place, float pixels) {
     vec4 noise = gradient_noise_slope(place / DRAWN_CELL);
     place += DRAWN * noise.xyz;
@@ -90,8 +97,9 @@ vec3 drift_at(vec2 pixel) {
     return sum.x > 0.0 ? sum.yzw * (frame.particle.y / (DRIFT_STEPS * sum.x)) : vec3(0.0);
 }
 
-// Coverage of a pixel by threads, where smooth foam would cover `hidden`. The point is in cells that are
-// `pixels` wide; foam carries it by `way` cells in half a period. Two phases are blended as in the pattern.
+// Coverage of a pixel by threads, where smooth foam would have the coverage `hidden`. `place` is the pixel's point in
+// cells of the large bubbles, which are `pixels` wide; the foam moves by `way` cells in half a period. Two phases are
+// blended as in pattern.glsl.
 float laced(float hidden, vec3 place, vec3 way, float pixels) {
     float much = COVERS.x + COVERS.y * log(max(hidden, 1.0e-6) / max(1.0 - hidden, 1.0e-6));
     float ends = max(THREAD_ENDS.x, THREAD_ENDS.y / pixels);

@@ -1,6 +1,8 @@
-// The resolutions of the smoothing. A pixel selects one by its distance: up to four of the front layer, each half of
-// the one before, and up to three of the back layer, from the second on. All lie in the smoothing images and the plan,
-// separated by whole tiles. Needs frame.glsl. Reads: levels.
+// The levels of the smoothing, which are resolutions of the smoothed depth. A pixel selects a level by its distance
+// from the eye. The front layer of water has up to four levels, each with half the resolution of the one before. The
+// back layer has up to three, with the resolutions of the front layer's second to fourth level. All levels lie next
+// to each other in the smoothing images and in the image of the plan (iterations per texel), separated by whole
+// tiles. Needs frame.glsl. Reads: levels.
 
 struct Level {
     ivec4 rect;  // in the images: first texel, size; 0 if unused
@@ -14,8 +16,8 @@ const uint BACK = 4u; // the first level of the back sheet
 layout(set = 0, binding = 7, std140) uniform Levels {
     Level level[7];
     ivec4 atlas; // size of the images; tiles per row; number of levels coarser than the first
-    // Iterations of the first level at depth 1 on the axis, divided by a quarter of the limit; (C_x / C_y)^2;
-    // falloff; 0.
+    // x: square of the smoothing width in texels of the first level at depth 1, divided by a quarter of the iteration
+    // limit (see nearness); y: (C_x / C_y)^2; z: depth falloff; w: 0.
     vec4 near;
 } levels;
 
@@ -39,21 +41,21 @@ uint level_of(ivec2 texel) {
     return own;
 }
 
-// Off the axis the surface is foreshortened, and pixels that are wider than high lie closer to each other in
-// y: more and smaller steps keep the smoothing stable.
+// Factor on the number of iterations. Away from the optical axis the surface is foreshortened, and pixels that are
+// wider than high lie closer to each other in y: there more and smaller steps keep the smoothing stable.
 float foreshortened(vec2 slope) {
     return 1.0 + slope.x * slope.x + (1.0 + slope.y * slope.y) * levels.near.y;
 }
 
-// Iterations of the first level at a depth, divided by a quarter of the limit. From 1 on the next level fades
-// in, from 2 on it is alone, and at 4 the one after it begins: each coarser level needs a quarter of the
-// iterations.
+// Iterations that the first level needs at a depth, divided by a quarter of the iteration limit. From 1 to 2 the
+// second level fades in, from 2 to 4 only the second level shows, and from 4 on the third fades in, because each
+// level needs a quarter of the iterations of the level before.
 float nearness(float z, vec2 slope) {
     return levels.near.x * foreshortened(slope) / (z * z);
 }
 
-// The level at a point, and how far the next one has faded in. It depends on distance and not on time, so that a frame
-// does not depend on previous frames.
+// The level that shows at a point of this nearness, and `fade`, how far the next level has faded in. The fade depends
+// on distance and not on time, so that a frame does not depend on previous frames.
 uint shown_level(float near, out float fade) {
     float doubled = log2(max(near, 1.0));
     float level = floor(0.5 * doubled);

@@ -1,6 +1,7 @@
-// Sums of the sun's map of whitewater: the thickness in fixed-point steps, the thickness times the position along the
-// light in whole texels, and the thickness times the squared position. The sums are exact in any order. The fourth word
-// holds the carries of both products; those of the last one are in its lower 22 bits.
+// Three sums that each texel of the sun's map of whitewater accumulates: the thickness in fixed-point steps, the
+// thickness times the position along the light in whole texels, and the thickness times the square of that position.
+// The sums are exact in any order. The fourth word holds the carries of the second and third sum; those of the third
+// are in its lower 22 bits.
 
 const uint WORDS = 4u;
 // Fixed-point steps per thickness of 1.

@@ -7,11 +7,11 @@ layout(set = 0, binding = 1) uniform sampler2D scene_color;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D caustics;
 
-// Max concentration of light: the sun is not a point, and no real surface is as smooth as ours, so focused light is
-// spread.
+// Max factor by which caustics concentrate sunlight. The sun is not a point, and no real surface is as smooth as the
+// rendered one, so real focused light is spread.
 const float MOST_GATHERED = 3.0;
 
-// Light of the caustics at a point, relative to that without water.
+// Sunlight that arrives at a point after refraction, relative to the sunlight without water.
 float caustics_at(LightTexels t) {
     float sum = 0.0;
     float below = 0.0;
@@ -19,8 +19,8 @@ float caustics_at(LightTexels t) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
         vec4 thick = texelFetch(light_thickness, texel, 0);
-        // The sun is a disc, so caustics blur with the distance along the light behind the texel's water. Far behind
-        // it the light is uniform.
+        // The sun is a disc, so caustics blur with the point's distance, along the light, behind the water of the
+        // texel. Far behind the water the light is uniform.
         float far = max(t.depth - thick.z / max(thick.x, 1.0e-9) - 0.5 * thick.x, 0.0);
         float sharp = 1.0 / (1.0 + far / (8.0 * frame.particle.y));
         below += weight * sharp * before_depth(thick, t.depth).x / max(thick.x, 1.0e-9);
@@ -29,7 +29,8 @@ float caustics_at(LightTexels t) {
     return t.inside ? mix(1.0, min(sum, MOST_GATHERED), below) : 1.0;
 }
 
-// Colour at a pixel (its centre is at +0.5), filtered if the scene's size differs.
+// Colour of the lit scene at a pixel (its centre is at +0.5), filtered if the scene's image has another size than the
+// picture.
 vec4 lit_at(vec2 pixel) {
     vec4 color = filtered(scene_color, pixel * frame.lit_color.xy, frame.lit_origin.xy, frame.lit_color.zw);
     float z = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);

@@ -1,7 +1,8 @@
 // Screen-space ray march against the scene's depth (McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing";
-// not in the thesis). Unlike there, steps grow by a constant factor, from a fraction of the picture's height to where
-// the ray leaves the view, and a secant step follows at the end. There is no absolute length: steps are fractions of
-// the picture, and the assumed thickness of the scene is two steps of the ray in depth plus a fraction of the depth.
+// not in the thesis). Unlike in that paper, each step is longer than the one before by a constant factor, from a
+// fraction of the picture's height at the start to the point where the ray leaves the view; bisection and a secant
+// step then refine the hit. No parameter is an absolute length: steps are fractions of the picture, and the scene is
+// assumed to be as thick as twice the ray's change of depth in a step plus a fraction of the scene's depth.
 // Needs frame.glsl. Reads: scene depth (the includer's).
 
 struct Met {
@@ -13,9 +14,10 @@ struct Met {
 // towards the eye ends at the latest after three quarters of the way to the eye's plane.
 const float MARCH_FIRST = 1.0 / 128.0;
 const float MARCH_FAR = 64.0;
-// How far behind the scene's front a ray still hits the scene: the change of the ray's depth in a step times
-// MARCH_STEEP, plus the scene's depth times MARCH_DEEP. This is checked for the whole step and again for its last part:
-// if the object only lies before the ray, the distance between them does not shrink with the step.
+// A point of the ray hits the scene if it is behind the scene's visible front by at most this distance: the change of
+// the ray's depth in the step times MARCH_STEEP, plus the scene's depth times MARCH_DEEP. This is tested with the
+// whole step, and again with the short part of it that bisection leaves. If the ray only passes behind an object, its
+// distance behind the front does not shrink with the step, so the second test rejects the hit.
 const float MARCH_STEEP = 2.0;
 const float MARCH_DEEP = 1.0 / 32.0;
 // Bisections of the step that hits.
@@ -38,10 +40,11 @@ vec3 on_screen(vec3 eye) {
 // Most texels that `on_plane` moves a point.
 const float MOST_MOVED = 4.0;
 
-// Where a ray meets the plane of the scene's texel at a point: a texel's depth alone would round the point to the
-// texel. a, b: the ray's start and that point; pixels, and 1/depth, which is linear in the picture both along the ray
-// and over the plane. The plane has the smaller of the differences to the texels on either side, so that no edge
-// tilts it.
+// Pixel at which a ray meets the scene near the point `b` of the ray. The scene's texel there is taken as part of a
+// plane; with the texel's depth alone, results would jump from texel to texel. `a` is the ray's start. `a` and `b`
+// hold pixels, and 1/depth, which is linear in the picture both along the ray and over the plane. On each axis the
+// plane's slope is the smaller of the differences to the two neighbouring texels, so that no edge of an object tilts
+// the plane.
 vec2 on_plane(vec3 a, vec3 b) {
     vec2 size = 1.0 / frame.scene_depth.xy; // of a texel, pixels
     vec2 centre = (floor(b.xy / size) + 0.5) * size;
@@ -93,7 +96,7 @@ Met march(vec3 from, vec3 along, int steps) {
         before = z;
         next = min(next * growth, whole);
     }
-    // The last step may be half of the picture wide: bisection, then a secant step.
+    // The step that hit may be half of the picture wide. Bisection refines it here, and a secant step below.
     for (int i = 0; i < MARCH_HALVES && met; ++i) {
         float middle = 0.5 * (low + high);
         vec3 p = a + way * middle;
@@ -107,7 +110,8 @@ Met march(vec3 from, vec3 along, int steps) {
     float scene = 1.0 / (a.z + way.z * high) - high_gap;
     float deep = abs(1.0 / (a.z + way.z * high) - 1.0 / (a.z + way.z * low));
     met = met && high_gap <= MARCH_STEEP * deep + MARCH_DEEP * scene;
-    // Without a scene before the hit, or in the first step, there is no secant: take the hit itself.
+    // If there is no scene at the point before the hit, or if the first step hits, there is no secant: take the hit
+    // itself.
     float part = low > 0.0 && low_gap > -0.5 * EMPTY ? low_gap / (low_gap - high_gap) : 1.0;
     Met result;
     result.at = a.xy + way.xy * mix(low, high, part);

@@ -1,14 +1,16 @@
 // Light on its way through water (thesis, Eq. 3.5 to 3.7). Needs frame.glsl.
 
-// Rungs of the ladder; layers above the selected rung are omitted.
+// Rungs of the ladder, a debug view that builds the picture layer by layer from the back. Layers above the selected
+// rung are omitted.
 const float BACK_WATER = 1.0;
 const float FOAM_TOO = 2.0;
 const float FRONT_WATER = 3.0;
 const float WHOLE = 4.0;
 
-// Light behind `path` metres of water. The light is premultiplied by `share`, its coverage per channel; the water adds
-// its own light before that share, scaled by `lit`. w: mean transmittance (with the thesis' medium, the weight of the
-// light behind).
+// Light after `path` metres of water. `light` is the light from behind the water, premultiplied by `share`, the
+// fraction of the pixel that it covers, per channel. In front of this fraction the water adds its own light, scaled
+// by `lit`. w of the result: the water's mean transmittance (with the thesis' medium, the weight of the light from
+// behind).
 vec4 through_medium(vec3 light, vec3 share, float path, vec3 lit) {
     // One exponential for both media: a CPU driver executes both sides of a branch.
     bool source = frame.medium_a.w > 0.5;
@@ -28,9 +30,9 @@ vec4 through_medium(vec3 background, float path, vec3 lit) {
     return through_medium(background, vec3(1.0), path, lit);
 }
 
-// Light that a turbid medium scatters at a surface, relative to that of level ground in the sun. It depends on slope
-// and sun visibility, as for a matte surface; emission is the same everywhere. `n` and `up` are unit vectors in eye
-// space, `sun` is the visibility of the sun.
+// Factor on the light of turbid water under a surface with normal `n`: 1 for a level surface in full sun. The
+// scattered part of this light depends on the surface's slope and on `sun`, the visibility of the sun, as for a matte
+// surface; the emitted part is the same everywhere. `n` and `up` are unit vectors in eye space.
 vec3 lit_on(vec3 n, vec3 up, float sun) {
     vec3 to = frame.sun_direction.xyz;
     float facing = sun * max(dot(n, to), 0.0) / max(dot(up, to), 0.05);

@@ -1,5 +1,6 @@
-// Which of a chunk's particles are in host packets, one bit each; particles in no packet do not exist (thesis Sec.
-// 4.3). The includer has push.packets, 1 with packets, and defines MEMBERS as its binding. Reads: members.
+// One bit for each particle of a chunk: whether it is in one of the host's packets (ranges of particles with a
+// bounding box). If the host gives packets, particles outside of all packets are treated as absent (thesis Sec. 4.3).
+// In the includer, push.packets is 1 if there are packets, and MEMBERS is the number of the binding. Reads: members.
 
 layout(set = 0, binding = MEMBERS, std430) readonly buffer Members { uint members[]; };
 

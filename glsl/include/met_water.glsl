@@ -1,16 +1,18 @@
-// Colour of the scene where a marched ray meets it, seen through the water that lies on it there. The march knows the
-// scene's depth alone, and the bed of a pool is several times brighter dry than under its water. Not in the thesis.
-// Differs from a ray through that water: its surface is level, and the ray is not displaced by it.
-// Needs frame.glsl, medium.glsl, sheets.glsl, level.glsl, march.glsl, and of shade.glsl a sheet, its range FILLED,
-// `air`, `fresnel`, `under_water` and `scene_at`. Reads: depth, smoothed, thickness, sheets, boundaries, scene colour and
-// depth, environment.
+// Colour of the scene where a marched ray meets it, as seen through the water that lies on the scene at that point.
+// The march itself only knows the scene's depth, and would show the bed of a pool dry, several times brighter than
+// under water. Not in the thesis. Simpler than a ray traced through this water: the water's surface is assumed to be
+// level, and its refraction does not displace the ray.
+// Needs frame.glsl, medium.glsl, sheets.glsl, level.glsl, march.glsl, and `Sheet`, FILLED, `air`, `fresnel`,
+// `under_water` and `scene_at` of shade.glsl and its includes. Reads: depth, smoothed, thickness, sheets, boundaries,
+// scene colour and depth, environment.
 
 // at: pixels. along: direction of the ray, a unit vector in eye space.
 vec3 met_scene(vec2 at, vec3 along) {
     vec3 dry = scene_at(at);
     ivec2 pixel = clamp(ivec2(at), ivec2(0), ivec2(frame.extent.xy) - 1);
     ivec2 texel = ivec2(vec2(pixel) / frame.thick_extent.z);
-    // The water that may lie on the scene: all of it, or the back sheet where there is air before that.
+    // The water that may lie on the scene: all water of the pixel, or only the back layer where air separates it from
+    // the front layer.
     float z = texelFetch(depth, pixel, 0).x;
     float t = texelFetch(thickness, texel, 0).x;
     float boundary = SHEETS == 2u ? boundary_of(texel) : EMPTY;

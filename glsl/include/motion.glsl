@@ -1,15 +1,19 @@
-// Pass `motion`, not in the sources: motion of the surface in a texel since the previous frame. Sums are over the
-// particles near the frontmost surface of the texel's pixels, and near the farthest if that is another one. Needs
-// frame.glsl and the push constant `level`, the number of halvings.
+// Pass `motion`, not in the sources: motion of the surface in a texel since the previous frame. The motion is a mean
+// over the particles near the frontmost surface that the texel's pixels show, and another mean over those near the
+// farthest such surface if it is a different one. Needs frame.glsl and the push constant `level`: a texel is 2^level
+// pixels wide.
 // Reads and writes: fronts, sums.
 
-// For each texel the nearest and the farthest surface of its pixels; EMPTY if there is none, or no second one.
+// For each texel the eye depths of the nearest and of the farthest surface that its pixels show. x is EMPTY without a
+// surface, y without a second one.
 layout(set = 0, binding = 1, std430) buffer Fronts { vec2 fronts[]; };
-// For each texel: weight times displacement (x, y, z), then weight; then the same for the farther surfaces.
-// 64-bit integers in two's complement, low word first, so the order of additions does not matter.
+// For each texel four sums over particles: weight times displacement (x, y, z), and weight. Those of all nearest
+// surfaces come first, then those of all farthest ones. They are 64-bit integers in two's complement, low word first,
+// so the order of additions does not matter.
 layout(set = 0, binding = 2, std430) buffer Sums { uint sums[]; };
 
-// Fixed-point steps of a weight times a spacing. A thousand spacings fill a word.
+// Fixed-point steps for a weight of 1 times a displacement of one particle spacing, and largest displacement in
+// spacings. The two multiplied fill a signed 32-bit word.
 const float MOTION_UNITS = 2097152.0;
 const float MOST_SPACINGS = 1000.0;
 
@@ -17,12 +21,12 @@ int texel_edge() {
     return 1 << push.level;
 }
 
-// Two surfaces, or one if texels are pixels.
+// Surfaces for which there are sums: two, or one if a texel is a single pixel.
 uint surfaces() {
     return push.level == 0u ? 1u : 2u;
 }
 
-// Number of surfaces of a texel. A loop instead of a branch, for CPU drivers (docs/performance.md).
+// Number of surfaces of a texel, for a loop instead of a branch, for CPU drivers (docs/performance.md).
 uint surfaces_of(vec2 front) {
     return front.y < EMPTY ? 2u : 1u;
 }
@@ -46,8 +50,9 @@ uint sum_index(uint texel, uint surface, uint i) {
     return 2u * (4u * (surface * uint(extent.x * extent.y) + texel) + i);
 }
 
-// Weight of a depth near a surface: 1 up to one radius from it, 0 from three radii. The centre of the frontmost
-// sphere is one radius behind its pole, that of the second layer two more.
+// Weight of a particle with its centre at `depth` in the mean of a surface: 1 within one drawn radius of the surface,
+// 0 beyond three. The centre of the sphere that forms the surface is one radius behind it, the centres of the next
+// layer of spheres are two radii farther.
 float near_surface(float depth, float surface) {
     return 1.0 - smoothstep(frame.particle.x, 3.0 * frame.particle.x, abs(depth - surface));
 }

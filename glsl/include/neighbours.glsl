@@ -1,4 +1,4 @@
-// The fluid's particles by grid cell, for the passes that emit whitewater particles, and their motion. Needs
+// The fluid's particles by grid cell, with their motion, for the passes that emit whitewater particles. Needs
 // generate.glsl, random.glsl.
 // Reads: the grid (ends of the buckets, places, motions).
 

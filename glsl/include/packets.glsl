@@ -8,8 +8,8 @@ struct Packet {
     float reach; // radius of the box around it
 };
 
-// The part of a packet that lies in a chunk with `count` particles. Clamped before the addition, to stay in 32
-// bits.
+// The part of a packet that lies in a chunk with `count` particles. The packet's own number of particles is clamped
+// before the addition, so that the sum stays within 32 bits.
 Packet packet_at(uint i, uint chunk_first, uint count) {
     uint at = 8u * i;
     uint first = max(packets[at], chunk_first);

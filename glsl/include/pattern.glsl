@@ -1,21 +1,22 @@
-// Clumping noise of foam, advected with it: a noise in space that restarts before neighbours have stretched it, in two
-// cross-fading phases (flow maps, Vlachos 2010; Neyret 2003). Not in the thesis, where each sprite has its own noise
-// and many overlapping ones average to a mist. Coarse octaves are evaluated per sprite, the finest per texel. Needs
-// frame.glsl, gradient_noise.glsl.
+// Noise by which foam forms clumps, and which moves with the foam. Differences in velocity stretch the noise, so it
+// restarts before this shows; two phases cross-fade, so that no restart shows either (flow maps, Vlachos 2010; Neyret
+// 2003). Not in the thesis, where each sprite has its own noise and many overlapping sprites average to a mist. The
+// two coarse octaves are evaluated per sprite, the finest per texel. Needs frame.glsl, gradient_noise.glsl.
 
-// Cell widths of the coarse octaves and of the finest one, relative to the first, and their amplitudes.
+// Widths of the cells of the two coarse octaves and of the finest one, relative to the first, and their amplitudes.
 const vec3 OCTAVES = vec3(1.0, 0.53, 0.23);
 const vec3 HEIGHTS = vec3(1.0, 0.7, 1.1);
 // Mean square of the noise.
 const float VARIANCE = 0.073;
-// Limit of the logarithm at a sprite's centre, and of its change to the rim: otherwise a single sprite would show
-// as a disc.
+// Max logarithm of the pattern at a sprite's centre, and max change of it from the centre to the rim. With larger
+// values a single sprite would show as a disc.
 const float MOST_PATTERN = 1.0;
-// Period in widths of the first octave, centred on the world's origin, so that single precision resolves their
-// fractions.
+// The pattern repeats after this many cells of the first octave, centred on the world's origin, so that single
+// precision resolves positions within a cell.
 const float WRAP = 65536.0;
 
-// Weight of a pattern with cells of this width (metres): 0 below one texel, 1 from two texels.
+// Weight of a pattern with cells of this width in metres: 0 if a cell is narrower than one texel, 1 if it is wider
+// than two.
 float told_apart(float cell, float texel) {
     return smoothstep(1.0, 2.0, cell / texel);
 }
@@ -29,8 +30,8 @@ vec3 pattern_place(vec3 position, vec3 velocity, uint phase, uint octave) {
     return (place - way + frame.foam_octaves[1u + phase]) / OCTAVES[octave];
 }
 
-// Coarse octaves of the pattern. w: logarithm of the factor on foam, with mean 1 of the factor; xyz: gradient of
-// the logarithm per metre.
+// Coarse octaves of the pattern. w: logarithm of the factor on the amount of foam; the factor's mean is 1. xyz:
+// gradient of the logarithm per metre.
 vec4 coarse_pattern(vec3 position, vec3 velocity, float texel) {
     vec4 sum = vec4(0.0);
     float square = 0.0;

@@ -1,6 +1,7 @@
-// Plan of one smoothing pixel in 32 bits: iterations (9 bits, low) and step (23 bits), fixed before the first iteration
-// (the thesis decides anew in each, Listing A.12). The step is relative to the largest possible one: kappa of 1/4 for
-// ConstantWidth, epsilon of 0.053 r for Source and Fixed.
+// The plan of one texel of the smoothing, in 32 bits: its number of iterations (low 9 bits) and its step size (23
+// bits). It is made before the first iteration (the thesis decides anew in each iteration, Listing A.12). The step
+// size is stored relative to the largest possible one: kappa = 1/4 for the rule ConstantWidth, epsilon = 0.053 r for
+// the rules Source and Fixed, with the particles' drawn radius r.
 
 const uint RULE_SOURCE = 0u;
 const uint RULE_CONSTANT_WIDTH = 1u;
@@ -9,7 +10,7 @@ const uint RULE_FIXED = 2u;
 const float SOURCE_STEP = 0.053;  // in units of r (thesis' demo: 0.05 at particle size 0.9375)
 const float SOURCE_RADIUS = 4.8;  // r_w in units of r
 const float MOST_KAPPA = 0.25;    // stability limit of the explicit step
-const float MORE = 2.0;           // more iterations: at the limit a checkerboard never decays
+const float MORE = 2.0;           // added iterations: at the stability limit a checkerboard never decays
 
 uint plan_count(uint plan) {
     return plan & 511u;

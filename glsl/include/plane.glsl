@@ -1,6 +1,8 @@
-// A sprite in a plane: its axes divided by their half-axes, and the plane's normal. Needs frame.glsl.
+// A sprite in a plane, given by unit vectors along its two axes, each divided by its half-axis, and by the plane's
+// normal. Needs frame.glsl.
 
-// Intersection of a ray with the plane: position in half-axes, and depth; false if there is none.
+// Intersection of a ray with the sprite: position in half-axes, and eye depth. False if the ray misses the sprite's
+// ellipse, meets it before the near plane, or sees it edge-on.
 bool plane_hit(vec3 centre, vec3 along, vec3 across, vec3 normal, vec2 slope, out vec2 place, out float depth) {
     vec3 w = vec3(slope, -1.0);
     float q = dot(normal, w);

@@ -1,5 +1,5 @@
-// One pixel of the reduced depth and its plan, for any level of the smoothing (thesis Sec. 3.1, Eq. 3.1
-// with the half of its viewport; Listing A.12).
+// The plan (iterations and step size) of one texel of the reduced depth, for any level of the smoothing (thesis Sec.
+// 3.1, Eq. 3.1 with the half of its viewport; Listing A.12).
 // Needs frame.glsl, plan.glsl, level.glsl and the constant RULE.
 
 // Number of iterations before the cap, and the step size relative to the largest, for a surface at depth z; `c` is the
@@ -17,15 +17,15 @@ float iterations(float z, vec2 slope, vec2 c, out float share) {
     return RULE == RULE_FIXED ? frame.smoothing.w : floor(SOURCE_RADIUS * r / width) + 1.0;
 }
 
-// Whether a level is visible at a depth, or would be with a quarter more or a fifth fewer iterations. The margin puts
-// the edges of smoothed regions where they are not visible.
+// Whether a level shows at a point of this nearness, or would show if the point needed a quarter more or a fifth
+// fewer iterations. This margin puts the edges of a level's smoothed regions where the level does not show.
 bool wanted_at(float near, uint level, bool finest, bool coarsest) {
     float here = near * exp2(-2.0 * float(level)); // in its own iterations
     return (finest || here >= 0.2) && (coarsest || here <= 2.5);
 }
 
-// The plan of a texel of a level (0 to 3): 0 without water. `finest` and `coarsest` tell whether it is that level of
-// its sheet.
+// The plan of a texel of a level (0 to 3); 0 without water, or where the level is not wanted. `finest` and `coarsest`
+// tell whether the level is the finest or coarsest of its layer of water.
 uint plan_pixel(float z, vec2 pixel, Level at, uint level, bool finest, bool coarsest) {
     vec2 slope = ray_slope(pixel + 0.5, at.slope);
     if (z >= EMPTY || !wanted_at(nearness(z, slope), level, finest, coarsest)) {

@@ -1,5 +1,5 @@
-// The surface noise in the picture (van der Laan et al. 2009; thesis Sec. 2.5.3): a height along the
-// normal, and the baseline's foam. Needs frame.glsl, surface_noise.glsl. Reads: noise, depth.
+// How the baseline's surface noise shows in the picture (van der Laan et al. 2009; thesis Sec. 2.5.3): as a height
+// along the surface's normal, and as the baseline's foam. Needs frame.glsl, surface_noise.glsl. Reads: noise, depth.
 
 // 1: there may be surface noise; otherwise it is not read.
 layout(constant_id = 14) const uint NOISE = 0;
@@ -14,7 +14,8 @@ vec2 ripple_texel(ivec2 texel) {
     return vec2(texelFetch(surface_noise, texel, 0).x, inside ? z : 2.0 * EMPTY);
 }
 
-// Slope per texel, from those of the two neighbours that lie on its surface.
+// Slope of the noise per texel along an axis, from the differences to those of the two neighbours that lie on the
+// texel's surface.
 float ripple_rise(vec2 before, vec2 here, vec2 after, float threshold) {
     bool has_before = abs(here.y - before.y) <= threshold;
     bool has_after = abs(after.y - here.y) <= threshold;
@@ -22,15 +23,15 @@ float ripple_rise(vec2 before, vec2 here, vec2 after, float threshold) {
     return has_before && has_after ? 0.5 * sum : sum;
 }
 
-// From a texel and its four neighbours: noise and its slope in x and y, times `weight` if the texel lies on the
-// surface of this depth; w: the weight.
+// From a texel and its four neighbours: noise and its slope in x and y, times `weight`; w: the weight. All are 0 if
+// the texel does not lie on the surface (x: depth, y: tolerance).
 vec4 ripple_part(vec2 here, vec2 left, vec2 right, vec2 above, vec2 below, float weight, vec2 surface) {
     vec2 rise = vec2(ripple_rise(left, here, right, surface.y), ripple_rise(above, here, below, surface.y));
     return abs(here.y - surface.x) <= surface.y ? weight * vec4(here.x, rise, 1.0) : vec4(0.0);
 }
 
-// The noise at a pixel and its slope per pixel in x and y. Bilinear over the texels around it that lie on the
-// surface of its own depth.
+// The noise at a pixel and its slope per pixel in x and y, interpolated bilinearly between those of the four texels
+// around the pixel that lie on the pixel's own surface.
 vec3 ripple_at(vec2 pixel, float front, float threshold) {
     vec2 h = pixel / frame.noise_image.z - 0.5;
     ivec2 base = ivec2(floor(h));
@@ -56,8 +57,8 @@ vec3 ripple_at(vec2 pixel, float front, float threshold) {
 }
 
 // Normal of the surface with the height added (bump mapping, Blinn 1978; from screen-space derivatives, Mikkelsen
-// 2010): metres of height per metre of surface, independent of distance and resolution. The thesis' program adds
-// the image's derivatives to the normal, whose strength depends on both.
+// 2010): in metres of height per metre of surface, so the tilt does not depend on distance or resolution. The thesis'
+// program adds derivatives of the noise image to the normal, so its tilt depends on both.
 vec3 rippled(vec3 n, vec3 px, vec3 py, vec2 rise) {
     vec2 height = frame.noise.x * rise;
     vec3 along_x = cross(py, n);
@@ -67,7 +68,7 @@ vec3 rippled(vec3 n, vec3 px, vec3 py, vec2 rise) {
     return any(notEqual(height, vec2(0.0))) ? normalize(turned) : n;
 }
 
-// Light of the thesis' foam: grey, by the magnitude of the noise (thesis Sec. 2.5.3).
+// Light of the baseline's foam: grey, in proportion to the magnitude of the noise (thesis Sec. 2.5.3).
 vec3 ripple_foam(float noise) {
     return frame.noise_color.rgb * min(frame.noise.y * abs(noise), 1.0);
 }

@@ -37,7 +37,7 @@ uint numbers() {
 
 shared uint sums[2][SCAN_GROUP];
 
-// Sum over the preceding invocations of the workgroup, and over all.
+// Sum over the preceding invocations of the workgroup; `all` is the sum over all of them.
 uint sum_before(uint own, out uint all) {
     uint local = gl_LocalInvocationIndex;
     uint at = 0u;

@@ -18,7 +18,8 @@ vec3 shadow_place(vec3 eye, out bool inside) {
     return at;
 }
 
-// The truncated series of the depth comparison, from a basis that is already filtered.
+// Visibility of the sun by a convolution shadow map: the truncated Fourier series of the depth comparison, from a
+// basis image that is already filtered.
 float convolved_at(vec3 eye) {
     bool inside;
     vec3 at = shadow_place(eye, inside);
@@ -40,8 +41,8 @@ float convolved_at(vec3 eye) {
     return inside && span_holds(span) ? clamp(lit, 0.0, 1.0) : 1.0;
 }
 
-// Nine comparisons one texel apart, each filtered (percentage-closer filtering, Reeves et al. 1987): together 4x4
-// texels.
+// Mean of nine bilinearly filtered depth comparisons, one texel apart (percentage-closer filtering, Reeves et al.
+// 1987). Together they read 4x4 texels.
 float shadow_map_at(vec3 eye) {
     bool inside;
     vec3 at = shadow_place(eye, inside);
