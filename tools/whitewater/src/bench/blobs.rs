@@ -1,4 +1,4 @@
-//! Bubble foam: the built-in scenes of blobs, drawn, and simulated on the GPU and on the CPU.
+//! Measures bubble foam: the built-in scenes of blobs are drawn, and simulated on the GPU and on the CPU.
 
 use std::sync::Mutex;
 use std::time::Instant;

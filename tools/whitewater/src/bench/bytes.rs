@@ -1,5 +1,6 @@
-//! Minimum traffic of each pass in bytes: every input read once and every output written once, at their actual sizes.
-//! Caches may save repeated reads; no pass can save these.
+//! Minimum memory traffic of each pass in bytes: every input is read once and every output written once, at their
+//! actual sizes. Caches may save repeated reads, but no pass can do with less than this. In the comments, "in" means
+//! read by the pass and "out" means written by it.
 
 use whitewater::water::{Convolution, Shadows, Splat};
 
@@ -25,20 +26,22 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "front" => 32 * visible + 2 * full / 16 * 4 + 16 * front,
         // Cleared, spheres in, covered pixels written.
         "depth" => 4 * full + 16 * front + 4 * drawn.covered,
-        // Two words a particle in. For each foaming particle: position and velocity in, sprite out and in twice. Depth
-        // and thickness out; without blending, two sums are cleared and read.
+        // Reads two words per particle. For each foaming particle it reads position and velocity, writes a sprite and
+        // reads the sprite twice. Per texel it writes depth and thickness; without blending, it also clears two sums
+        // and reads them.
         "surface_foam" => {
             let summed = drawn.config.thickness_splat != Some(Splat::Raster);
             let texel = if summed { 4 + 8 + 16 } else { 4 + 8 };
             8 * u64::from(drawn.particles) + (24 + 3 * 64) * drawn.foaming + texel * thick
         }
-        // Positions and densities in. For each spray particle: position in, sprite out and in. The image is cleared.
-        // The traffic of blending is not counted.
+        // Reads the density of each particle. For each spray particle it reads the position, writes a sprite and
+        // reads it. It clears the image. The traffic of blending is not counted.
         "spray" => {
             4 * u64::from(drawn.particles) + (12 + 64) * u64::from(drawn.counts.spray) + 4 * full
         }
-        // Depth in; two depths a texel out and in; sums cleared, and for visible particles added to and read; positions
-        // and velocities in; depth, scene depth and surface in, motion vectors out.
+        // Reads depth; writes two depths per texel and reads them; clears the sums, and on covered texels adds to
+        // them and reads them; reads positions and velocities of all particles; reads depth, scene depth and surface;
+        // writes motion vectors.
         "motion" => {
             let sums = if drawn.config.thickness_level == 0 { 32 } else { 64 };
             let covered = drawn.covered / (full / thick).max(1);
@@ -49,24 +52,27 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
                 + 3 * 32 * covered
                 + 24 * u64::from(drawn.particles)
         }
-        // Positions in. For each front sprite at least: sprite out and in. The image is cleared, depth read at its
-        // texels. The traffic of blending is not counted.
+        // Reads positions. There are at least as many sprites as front spheres; each is written and read. The pass
+        // clears the image, and reads the depth at each of the image's texels. The traffic of blending is not
+        // counted.
         "noise" => {
             let texels = pixels(drawn.config.noise.unwrap_or(0));
             12 * u64::from(drawn.particles) + 32 * front + 8 * texels
         }
         // Positions in twice, both maps cleared.
         "light" => 24 * u64::from(drawn.particles) + 20 * texels,
-        // Four words a texel out and in again, front in, four half floats a texel out; positions, kinds, ages and ids
-        // in. The traffic of atomics is not counted. Without particles the map is only cleared.
+        // Per texel of the map it writes four words and reads them again, reads the front depth, and writes four half
+        // floats. It reads positions, kinds, ages and ids of the particles. The traffic of atomics is not counted.
+        // Without particles the map is only cleared.
         "whitewater_light" => match u64::from(drawn.whitewater) {
             0 => 8 * texels,
             whitewater => (16 + 16 + 4 + 8) * texels + 24 * whitewater,
         },
-        // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.
+        // Reads the front depth and smooths it twice, reads thickness, clears the photons, adds to them and reads
+        // them, and writes the caustics.
         "caustics" => (4 * 4 + 4 + 16 + 12 + 4 + 4) * texels,
-        // The shadow map in, once for its depth range and once for each page; a page of half floats out and in twice,
-        // and into the basis.
+        // Reads the shadow map once for its depth range and once for each page. Each page of half floats is written
+        // and read twice, and is written into the basis.
         "convolution" => match drawn.config.shadow {
             Some(Shadows::Convolution(Convolution { terms, texels, bits })) => {
                 let texels = u64::from(texels).pow(2);
@@ -77,38 +83,45 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
             }
             _ => 0,
         },
-        // Scene colour and depth in, lit scene out, in, and to the output. The maps are not counted.
+        // Reads scene colour and depth, writes the lit scene, reads it and writes it to the output. Reads of the maps
+        // are not counted.
         "lit" => (8 + 4 + 8 + 8 + 8) * full,
-        // Depth in, scene depth of covered pixels in, two surfaces and the plan out.
+        // Reads depth, and scene depth on covered pixels; writes two surfaces and the plan (where the smoothing has
+        // to run).
         "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
-        // Without near water, one word for each tile of the coarser levels. With near water the traffic is not counted.
+        // Without water near the camera, one word for each tile of the coarser levels. The traffic with near water is
+        // not counted.
         "level" => 4 * reduced / 256 / 3,
-        // Spheres in; two words a cell cleared, added to and read; three words of depth written, two of them read; the
-        // texel's result out.
+        // Reads spheres. Per cell it clears two words, adds to them and reads them, writes three words of depth and
+        // reads two of them. Per texel it writes the result.
         "gaps" => 16 * (front + visible) + full / 64 * 4 * 11 + 4 * thick,
-        // Spheres in. What the pass writes for tiles near a boundary is not counted.
+        // Reads spheres. What the pass writes for tiles near a boundary between layers of water is not counted.
         "back" => 16 * visible,
         "tiles" => 8 * reduced / 256,
         // The list in and out, boundaries in.
         "split" => 8 * reduced / 256 + if drawn.config.sheets > 1 { 4 * thick } else { 0 },
-        // For each active texel and iteration of the level that is shown: surface and plan in, surface out.
+        // For each active texel of the level that is shown there, each iteration reads surface and plan and writes
+        // surface.
         "smooth" => 12 * drawn.iterations,
-        // Spheres in; sums (two words) cleared, the first added to, both read; thickness out. With two sheets: two more
-        // sums, the first read again, both sheets out, boundaries in and out.
+        // Reads spheres. Per texel it clears two words of sums, adds to the first, reads both and writes the
+        // thickness. With two sheets (layers of water) it has two more sums, reads the first again, writes both
+        // sheets, and reads and writes the boundaries between them.
         "thickness" => {
             let apart = if drawn.config.sheets > 1 { 32 + 8 + 16 + 8 } else { 0 };
-            // Foam needs one more sum (the thickness in front of it), its channel and its depth in.
+            // With foam there is one more sum (the thickness in front of the foam), and its channel and depth are
+            // read.
             let foam = if drawn.config.surface_foam { 16 + 4 + 4 } else { 0 };
             16 * visible + (24 + apart + foam) * thick
         }
-        // Two depths in, eight words a pixel out and in again; two images of four floats and one of half floats out;
-        // positions, kinds, ages and ids in for each dispatch. The traffic of atomics is not counted.
+        // Per pixel it reads two depths, writes eight words and reads them again, and writes two images of four
+        // floats and one of half floats. Each dispatch reads positions, kinds, ages and ids. The traffic of atomics
+        // is not counted.
         "splat" => {
             let read = drawn.goes * 24 * u64::from(drawn.whitewater);
             (8 + 32 + 32 + 32 + 8) * full + read
         }
-        // Depths in twice, the water's depth in once, light out; for foam pixels the normal in. The samples are not
-        // counted.
+        // Reads the depths twice and the water's depth once, and writes the light; on pixels with foam it also reads
+        // the normal. Reads by the samples of ambient occlusion are not counted.
         "radiance" => (16 + 4 + 16 + 8) * full + 8 * foam,
         // Twice: depth and light in, light out; for foam pixels the normal in.
         "blur" => 2 * ((16 + 8 + 8) * full + 8 * foam),
@@ -118,8 +131,9 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "shoreline" => 4 * full + 8 * drawn.coat,
         // A copy of half-float colour.
         "scene" => 16 * full,
-        // Depth, thickness, surface shares, scene colour and scene depth in, colour out; depth, thickness and light of
-        // whitewater foam in. A pixel with nothing but whitewater foam also reads the scene and writes colour.
+        // On covered pixels it reads depth, thickness, surface shares, scene colour and scene depth, and writes
+        // colour. On pixels with whitewater foam it reads the foam's depth, thickness and light; if they hold nothing
+        // else, it also reads the scene and writes colour.
         "composite" => {
             let alone = foam.saturating_sub(drawn.covered);
             drawn.covered * (4 + 4 + 8 + 4 + 8)

@@ -1,5 +1,5 @@
-//! Calibration loop: a small fixed workload on one core. Frame times in multiples of it are comparable on shared and
-//! throttled machines, where milliseconds are not.
+//! Calibration loop: a small fixed workload on one core. On shared and throttled machines, frame times in multiples
+//! of the time that it takes can be compared, while times in milliseconds cannot.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -11,16 +11,16 @@ use crate::camera::Lens;
 use crate::failure::Outcome;
 use crate::shore::transforms;
 
-/// Segments of the waterline, where meshes meet the sea's level, in a grid: each cell lists the segments within reach
-/// of it.
+/// Segments of the waterline, where meshes cross the sea's level. They are kept in a grid, whose cells list the
+/// segments within reach.
 pub struct Waterline {
     reach: f32,
     cells: HashMap<IVec2, Vec<[Vec2; 2]>>,
 }
 
 impl Waterline {
-    /// The waterline of a scene's frame. Segments inside other land stay in: as seen from the water, its own shore is
-    /// nearer.
+    /// The waterline of a scene's frame. Segments inside other land are kept. They change nothing, because every
+    /// point of the water is nearer to the shore of that land than to them.
     pub fn new(scene: &Scene, level: f32, reach: f32) -> Self {
         let mut line = Self { reach, cells: HashMap::new() };
         for (mesh, at) in scene.meshes.iter().zip(transforms(scene, scene.frame)) {
@@ -89,8 +89,8 @@ impl Rays {
         self.eye
     }
 
-    /// Point where the ray through a place in the picture meets a level below the eye. `at` is 0 to 1 from the first
-    /// corner.
+    /// Point where the ray through a place in the picture meets the level plane at height `level`; `None` if it does
+    /// not. `at` is the place, from (0, 0) at the first pixel's corner to (1, 1) at the opposite corner.
     pub fn meets(&self, at: Vec2, level: f32) -> Option<Vec3> {
         let ndc = 2.0 * at - 1.0;
         let through = self.inverse.project_point3(ndc.extend(0.5));
@@ -100,8 +100,8 @@ impl Rays {
     }
 }
 
-/// Share of the picture that shows water with v from 0 to 2, that is, within reach of a shore. `depth` is the picture's
-/// device depth.
+/// Share of the picture that shows water with a shore coordinate v from 0 to 2, that is, water within reach of a
+/// shore. `depth` is the picture's device depth.
 pub fn band(depth: &Picture<f32>, camera: &Camera, level: f32, line: &Waterline) -> Outcome<f64> {
     let (rays, lens) = (Rays::new(camera), Lens::new(camera)?);
     let size = Vec2::new(depth.width as f32, depth.height as f32);
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
     use crate::camera::CameraFile;
 
-    /// A ball half in the water, seen from straight above: the band is a ring.
+    /// A ball that is half in the water, seen from straight above: the water near its shore is a ring.
     #[test]
     fn a_ring_round_a_ball() {
         let ball = Mesh::sphere([0.5, 2.0, -1.0], 3.0, Material::default());

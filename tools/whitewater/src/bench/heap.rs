@@ -1,5 +1,5 @@
-//! The blob simulation on the CPU, as in the source, to time it against the GPU's: the same forces and the same grid,
-//! on all cores.
+//! The blob simulation on the CPU, as in the source, to compare its time with the GPU's. It has the same forces and
+//! the same grid as the one on the GPU, and runs on all cores.
 
 use std::num::NonZero;
 
@@ -63,7 +63,7 @@ impl CpuHeap {
         }
     }
 
-    /// One substep. The balls of a bucket are adjacent, in the order of their ids.
+    /// One substep. The grid sorts the balls, so that those of a bucket are adjacent, in the order of their ids.
     fn part(&mut self, dt: f32) {
         let grid = Grid::new(&mut self.balls, self.cells);
         let mut moved = self.balls.clone();
@@ -137,7 +137,8 @@ impl CpuHeap {
             - own.spin.cross(own.radius * n);
         let (parting, near) = (slip.dot(n), part.min(1.0));
         let across = s.tangential_damping * near * (slip - parting * n);
-        // The force on both balls is equal and opposite; it is divided by their masses.
+        // The forces on the two balls are equal and opposite, with the factor 2ab / (a + b) of their masses a (own)
+        // and b. `share` is this factor divided by the own mass.
         let [a, b] = [own.radius, other.radius].map(|r| r * r * r);
         let share = 2.0 * b / (a + b);
         let push = (along + s.normal_damping * near * parting) * n + across;
@@ -163,7 +164,7 @@ impl CpuHeap {
         let slip = *speed - speed.dot(n) * n + spin.cross(-radius * n);
         let slip = slip - slip.dot(n) * n;
         let fast = slip.length();
-        // At most the change that stops sliding at the contact; the ball then rolls.
+        // Friction changes the speed at most so far that the ball stops sliding at the contact; then it rolls.
         let held = (s.friction * gained).min(fast / (1.0 + ROUND));
         let change = if fast > 0.0 { -held / fast * slip } else { Vec3::ZERO };
         *speed += change;
@@ -250,7 +251,7 @@ mod tests {
     use crate::bubbles::{Motion, Which, set};
 
     /// The CPU simulation equals the GPU's: after a tenth of a second of sliding, positions agree to a hundredth of a
-    /// radius (errors grow with each contact), though blobs have moved much farther.
+    /// radius, while the farthest blob has moved by more than 0.3 radii. (Errors grow with each contact.)
     #[test]
     fn it_is_the_heap_of_the_gpu() -> Result<(), Error> {
         let blobs = set(&Which::Slope(200)).unwrap().blobs;

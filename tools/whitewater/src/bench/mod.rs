@@ -1,5 +1,6 @@
-//! `whitewater bench`: GPU time per pass, and the minimum bytes that each pass moves, over particle counts, resolutions
-//! and paths. It measures water, whitewater of a sea, bubble foam, and shoreline foam.
+//! `whitewater bench` measures the GPU time of each pass, and computes the minimum bytes that it moves, for several
+//! particle counts, picture sizes and paths (ways to draw). What it draws is water, whitewater of a sea, bubble foam,
+//! or shoreline foam.
 
 mod blobs;
 mod bytes;
@@ -46,8 +47,8 @@ use report::{Format, Report, Row};
 pub struct BenchArgs {
     /// Particle counts: 16k, 64k, 256k, 1m or any number
     ///
-    /// A larger count resolves the same pool more finely. With --shore this pool is the water that the foam's time is
-    /// compared with.
+    /// A larger count resolves the same pool of water more finely. With --shore, the time of shore foam is compared
+    /// with the frame time of this pool.
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
     /// Picture sizes [default: 1280x720; for a sea the paper's, 800x600 or 1280x960; for bubbles 640x480]
@@ -63,7 +64,8 @@ pub struct BenchArgs {
     bubbles: Vec<Which>,
     /// Measure shoreline and contact foam instead of water
     ///
-    /// Frames with the foam, frames without it, and frames of the bench's water are drawn in turn.
+    /// Frames with the foam, frames without it, and frames of the bench's pool of water (--particles) are drawn in
+    /// turn.
     #[arg(long, value_delimiter = ',', value_enum)]
     shore: Vec<shore::Scenery>,
     /// Fraction of the picture that the foam band (shore coordinate 0 to 2) covers; the islands of 'isles' are
@@ -79,7 +81,8 @@ pub struct BenchArgs {
     /// Sampling of the ambient occlusion of whitewater [default: fast]
     #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
     occlusion: Vec<sea::OcclusionArg>,
-    /// Sort whitewater particles along a space-filling curve, in packets; packets outside the view are culled
+    /// Sort whitewater particles along a space-filling curve, and cull packets of consecutive particles outside the
+    /// view
     #[arg(long, requires = "sea")]
     packets: bool,
     /// Degrees by which a sea's camera is turned to the left [default: 0]
@@ -95,7 +98,8 @@ pub struct BenchArgs {
     /// Distance of a sea's camera from its target in metres [default: set by the sea]
     #[arg(long, value_name = "METRES", requires = "sea", value_parser = sea::parse_distance)]
     away: Option<f32>,
-    /// Write the last frame of a sea or shore with one combination; an .exr has all layers of its foam
+    /// Write the last frame of a sea or shore, if only one combination is measured; an .exr has all layers of its
+    /// foam
     #[arg(long, value_name = "FILE", requires = "pictured")]
     picture: Option<PathBuf>,
     /// TOML settings: table [whitewater] for a sea, [bubbles] for bubble foam, [shore], [shoreline] and [contact]
@@ -621,7 +625,8 @@ fn densities(pool: &pool::Pool) -> Vec<f32> {
     pool.positions.iter().map(|p| if p[1] > high { 300.0 } else { 1000.0 }).collect()
 }
 
-/// A plate over half of the pool, at a height equal to the pool's radius.
+/// A square plate over the middle of the pool. Its edge, and its height above the pool's centre, are the radius of
+/// the pool's bounding sphere, so it covers about half of the pool.
 fn plate(pool: &pool::Pool) -> Scene {
     let LightVolume { center: [x, y, z], radius: r } = region(pool);
     let corner = |i: i32, j: i32| [x + 0.5 * r * i as f32, y + r, z + 0.5 * r * j as f32];
@@ -645,7 +650,8 @@ fn region(pool: &pool::Pool) -> LightVolume {
         .map_or(LightVolume { center: [0.0; 3], radius: 1.0 }, |bounds| bounds.region())
 }
 
-/// Sets velocities that grow with height, so that the splash foams. Returns the number of foaming particles.
+/// Gives the particles velocities that grow with height, so that the splash foams. Returns the number of foaming
+/// particles.
 fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let mut heights: Vec<f32> = pool.positions.iter().map(|p| p[1].max(0.0)).collect();
     let velocities: Vec<[f32; 3]> = heights.iter().map(|y| [20.0 * y, 0.0, 0.0]).collect();
@@ -655,7 +661,7 @@ fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let threshold = settings.scale * settings.rest_density * (20.0 * high).powi(2);
     headless.motion(&velocities, None)?;
     headless.step(None, &settings.with(|it| it.threshold = threshold))?;
-    // Foam begins at half the threshold of the Weber number, and is 1/2 at the threshold.
+    // Foam begins where the Weber number is half its threshold; at the threshold the particle is half foam.
     Ok(heights.iter().filter(|y| **y > high * 0.5_f32.sqrt()).count() as u64)
 }
 

@@ -1,5 +1,5 @@
-//! The bench's particles: a wavy pool of 2 × 0.2 × 2 m with a crown and drops, by a formula, at any
-//! resolution.
+//! The bench's particles: a wavy pool of 2 × 0.2 × 2 m, with the crown and the drops of a splash. A formula generates
+//! them at any resolution.
 
 use std::f32::consts::TAU;
 
@@ -20,7 +20,7 @@ fn random(index: u32, which: u32) -> f32 {
 }
 
 impl Pool {
-    /// About `count` particles: nine tenths in the pool, the rest in the crown and its drops.
+    /// About `count` particles: nine tenths of them in the pool, the rest in the crown of the splash and its drops.
     pub fn new(count: u32) -> Self {
         let spacing = (0.8 * 0.9 / (0.9 * count as f32)).cbrt();
         let mut positions = Vec::with_capacity(count as usize);

@@ -84,7 +84,8 @@ pub struct ShoreRow {
     /// Source of the shore coordinate.
     pub way: &'static str,
     pub edge: &'static str,
-    /// Requested and actual share of the picture that shows water with v from 0 to 2; `None` without shoreline foam.
+    /// Requested (`cover`) and actual (`covered`) share of the picture that shows water with a shore coordinate v
+    /// from 0 to 2; `None` without shoreline foam.
     pub cover: Option<f64>,
     pub covered: Option<f64>,
     /// Share of the picture that has foam.
@@ -130,7 +131,7 @@ pub fn median(samples: &mut [f64]) -> f64 {
     quantile(samples, 0.5)
 }
 
-/// Results on standard output: tables and CSV are printed as they come, JSON at the end.
+/// Results on standard output: rows of tables and CSV are printed as soon as they are measured, JSON at the end.
 pub struct Report {
     format: Format,
     adapter: String,

@@ -1,4 +1,4 @@
-//! The foam of a sea: whitewater particles by the million over its scene, without water particles.
+//! Measures the foam of a sea: millions of whitewater particles over the scene of the sea, without water particles.
 
 use std::sync::Mutex;
 

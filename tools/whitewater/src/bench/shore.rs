@@ -1,6 +1,6 @@
-//! Cost of shoreline and contact foam: the time that it adds to a frame, relative to a frame of the bench's water.
-//! Frames with foam, without it and of the water are drawn in turn, so that changes of the machine's speed affect all
-//! alike.
+//! Cost of shoreline and contact foam: the time that it adds to a frame, relative to the time of a frame of the
+//! bench's pool of water. Frames with foam, frames without it and frames of the pool are drawn in turn, so that
+//! changes of the machine's speed affect all three alike.
 
 use std::sync::Mutex;
 
@@ -167,7 +167,7 @@ struct Setting {
     level: Option<f32>,
     /// Whether particles of water surround the objects.
     water: bool,
-    /// Min and max x and z of a part of the land that could move.
+    /// Bounds in x and z (min, max) of a part of the land that moves, or could move.
     part: Option<[[f32; 2]; 2]>,
     exposure: f32,
 }
@@ -315,7 +315,7 @@ fn measure(
     let Some(setting) = setting(file, pool, case)? else { return Ok(None) };
     let count = pool.positions.len() as u32;
     let water = Config::new(case.extent, COLOR_FORMAT, count);
-    // Without water there is still room for some particles, because 0 is not allowed.
+    // Without water there is still room for a few particles, because a renderer cannot have room for none.
     let max_particles = if setting.water { count } else { 64 };
     let shadow = (case.path == Path::Pcf).then_some(Shadows::Map);
     let without = water.with(|it| {
@@ -480,7 +480,7 @@ impl Costs {
     }
 }
 
-/// Share of the picture that is water within reach of a shore; `None` without shoreline foam.
+/// Share of the picture that shows water within reach of a shore; `None` without shoreline foam.
 fn covered(headless: &mut Headless, setting: &Setting) -> Outcome<Option<f64>> {
     let Some(level) = setting.level.filter(|_| setting.way != By::None.name()) else {
         return Ok(None);
@@ -490,7 +490,8 @@ fn covered(headless: &mut Headless, setting: &Setting) -> Outcome<Option<f64>> {
     band(&headless.scene_depth()?, &setting.camera, level, &line).map(Some)
 }
 
-/// Times of an update of the distance map: all of it, without a change, and with a change in a part.
+/// Times of updates of the distance map to the shore: of the whole map ("map"), without a change in it ("map again"),
+/// and after a change in one part ("map in part").
 fn maps(
     headless: &mut Headless,
     args: &BenchArgs,

@@ -12,7 +12,7 @@ use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
 use crate::settings::SettingsFile;
 use crate::whitewater_source::{self, WhitewaterSource};
 
-/// Size of the light's maps in texels along an edge, for a picture of this width.
+/// Size of the maps of the light in the water, in texels along an edge, for a picture of this width.
 pub fn light_texels(width: u32) -> u32 {
     (width / 2).next_multiple_of(16).clamp(256, 1024)
 }
@@ -20,18 +20,19 @@ pub fn light_texels(width: u32) -> u32 {
 /// Sets the passes that the settings file asks for. `matte`: only the water is drawn.
 pub fn passes_of(file: &SettingsFile, matte: bool, config: &mut Config) {
     let thesis = file.is_thesis();
-    // GPUs for computing rasterize with a small part of their hardware (docs/performance.md); on others both paths take
-    // as long.
+    // The composite is a compute shader: GPUs made for computing have little hardware for rasterization
+    // (docs/performance.md), and on others a render pass takes as long.
     config.composite = Some(Shading::Compute);
     config.mirror_steps = file.water.mirror_steps(thesis);
-    // If only the water is drawn, the background is unknown, so light leaves the water undeflected.
+    // If only the water is drawn (`matte`), the background is unknown, so light is not refracted where it leaves the
+    // water at the back.
     config.exit = file.water.exit(thesis || matte);
     config.kernels = file.water.kernels(thesis);
 }
 
 impl Session<'_> {
-    /// Creates a renderer with room for that many particles, unless the present one has it. A new one starts without
-    /// foam.
+    /// Creates a renderer with room for `count` particles, unless the present one has it. A new renderer starts
+    /// without foam.
     pub fn make_room(&mut self, count: usize) -> Outcome<()> {
         self.make_room_with(count, 0)
     }
@@ -46,7 +47,8 @@ impl Session<'_> {
         let supersample = self.supersample();
         let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
-        // Room for the fullest probed frame, as for the water's particles: a new renderer loses the foam of earlier frames.
+        // Room for the whitewater of the fullest probed frame, as for the water's particles. Otherwise a later frame
+        // would need a new renderer, which loses the foam of earlier frames.
         let files = match &self.look.whitewater {
             Some(WhitewaterSource::Files(files)) => files.fullest(),
             _ => 0,
@@ -56,7 +58,8 @@ impl Session<'_> {
             Some(WhitewaterSource::Made(made)) => Some(made),
             _ => None,
         };
-        // Probed frames of the whole sequence are uploaded before the first frame is drawn.
+        // To find the limits of the emission, the probed frames of the whole sequence are uploaded before the first
+        // frame is drawn, so there has to be room for them.
         let count = made.map_or(0, |made| made.probed() as u32).max(count);
         let there = self.headless.as_ref().map(|h| *h.renderer().config());
         let most =

@@ -6,10 +6,11 @@ use whitewater::bubbles::{
 
 use super::table::{table, words};
 
-/// Defaults if whitewater foam near the camera becomes blobs: max number of blobs, number of different blobs, bubbles
-/// of each. A particle is a small cluster whose bubbles are seen one by one.
+/// Defaults if whitewater foam near the camera is drawn as blobs of soap bubbles: max number of blobs, number of
+/// different blobs, number of bubbles in each. Each foam particle becomes a small cluster whose bubbles are seen one
+/// by one.
 const CROSSFADED: (u32, u32, u32) = (65_536, 32, 9);
-/// Opaque and outer radius of its core; little of it is opaque.
+/// Opaque and outer radius of the core of such a cluster; little of it is opaque.
 const CLUSTER: [f32; 2] = [0.25, 0.9];
 
 table! {
@@ -34,11 +35,13 @@ table! {
     optional {}
     not { crossfade }
     beside {
-        /// Distances `[near, far]` of the cross-fade; if they are set, whitewater foam near the camera becomes blobs.
+        /// Distances from the camera, `[near, far]`, between which whitewater foam is cross-faded to blobs of soap
+        /// bubbles. If they are not set, there are no such blobs.
         crossfade: [f32; 2],
         crossfade_size: f32,
         crossfade_blobs: u32,
-        /// These keys, and all below, determine passes and are not part of the look.
+        /// This key and all below determine which passes are drawn and with which resources; they are not part of the
+        /// look.
         variants: u32,
         bubbles: u32,
         seed: u32,
@@ -59,8 +62,8 @@ words!(FresnelWord of FilmFresnel { Exact, Schlick, Source });
 words!(SpectrumWord of Spectrum { Three, Whole });
 
 impl BubbleTable {
-    /// The configuration of passes, without the number of blobs; with `crossfade`, for the blobs that replace
-    /// whitewater foam.
+    /// The configuration of passes. The number of blobs is only set with `crossfade`, where blobs replace whitewater
+    /// foam.
     pub fn config(&self) -> BubbleConfig {
         let mut standard = BubbleConfig::new(1);
         if self.crossfade.is_some() {

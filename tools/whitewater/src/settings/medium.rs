@@ -115,7 +115,8 @@ impl MediumName {
         whole.thinned(self.share)
     }
 
-    /// Foam colours, chosen by eye: bubbles are as white as those of water, tinted by the liquid in their walls.
+    /// Index of refraction and foam colours. The colours are chosen by eye: bubbles are as white as those of water,
+    /// but tinted by the liquid in their walls.
     pub fn liquid(self) -> Liquid {
         let thick = matches!(self.word, Word::Honey | Word::Lava);
         let of =

@@ -139,9 +139,11 @@ impl SettingsFile {
         self.light.put(&mut settings.light);
     }
 
-    /// The complete file: settings, results found for the run, and this file's configuration of passes.
+    /// The file with a value for every key: the given settings, the results found for the run, and this file's
+    /// configuration of passes.
     pub fn all(&self, settings: &Settings, found: Found<'_>) -> Self {
-        // `up` is not a key, because the program's scenes are y-up; `ladder` follows from the layers that are written.
+        // Two fields are not keys: `up`, because the program's scenes are y-up, and `ladder`, which follows from the
+        // layers that are written.
         let Settings {
             water,
             surface_foam,

@@ -1,4 +1,4 @@
-//! Renamed tables and keys. The old names are refused, and the error gives the new ones.
+//! Tables and keys that were renamed. Their old names are refused, and the error gives the new ones.
 
 /// Table, old key (empty for the table itself), and new name.
 pub const RENAMED: &[(&str, &str, &str)] = &[

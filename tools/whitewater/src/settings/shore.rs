@@ -23,7 +23,8 @@ table! {
         seed: u32,
         /// A picture that replaces the built-in web.
         web: PathBuf,
-        /// A mesh whose second texture coordinate is v, for `by = "strip"`; it makes that the default.
+        /// File of a mesh whose second texture coordinate is the shore coordinate v, for `by = "strip"`, which is the
+        /// default if this key is set.
         strip: PathBuf,
         /// Source of the shore coordinate.
         by: By,
@@ -214,7 +215,8 @@ table! {
     optional { particle_depth: f32 }
     not {}
     beside {
-        /// A picture across the view that replaces the web as a mask: black removes foam.
+        /// A picture that is laid over the view and replaces the web (the foam texture) as a mask: black removes
+        /// foam.
         mask_picture: PathBuf,
     }
 }

@@ -1,11 +1,12 @@
 //! Macros for TOML tables of parts of the settings.
 
-/// A table whose keys are fields of a part of the settings, all optional: `put` applies the table to the part, `of`
-/// makes a complete table of it. Each field is a key or listed as an exception: the test `no_field_is_forgotten`
-/// compares `FIELDS` with the fields of the part.
+/// Defines a TOML table for a part (a struct) of the settings. The table's keys are fields of the part, and all are
+/// optional: `put` writes the given values to a part, and `of` makes a table with the values of all fields of a part.
+/// Each field of the part is a key or listed as an exception; the test `no_field_is_forgotten` compares `FIELDS` with
+/// the fields of the part.
 ///
-/// `keys` lists fields and the types they are written as. `optional` lists fields that are an `Option` themselves.
-/// `not` lists fields that are no keys. `beside` lists keys that are no fields; `of` leaves them out.
+/// `keys` lists fields, each with the type that it has in the file. `optional` lists fields that are an `Option`
+/// themselves. `not` lists fields that are not keys. `beside` lists keys that are not fields; `of` leaves them unset.
 macro_rules! table {
     (
         $(#[$about:meta])* $table:ident of $part:ident

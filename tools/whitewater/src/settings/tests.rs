@@ -152,7 +152,7 @@ fn every_key_is_written() {
     assert!(tables.len() >= 12, "{tables:?}");
     for name in tables {
         let table = all.get(&name).and_then(toml::Value::as_table);
-        // Keys outside of tables are presets; everything that they choose is written in tables.
+        // Keys outside of tables are presets; what they choose is written as keys of the tables.
         let Some(table) = table else { continue };
         let keys = known(&format!("[{name}]"));
         assert!(!keys.is_empty());
@@ -195,8 +195,8 @@ fn changed(value: &toml::Value) -> Vec<toml::Value> {
     }
 }
 
-/// Each value of the complete file is changed in turn. The file is read, applied to the defaults and written again: the
-/// value has changed, and no other one.
+/// Each value of the complete file is changed in turn. Then the file is read, applied to the defaults and written
+/// again: in the result this value has changed, and no other one.
 #[test]
 fn every_value_arrives_and_is_written() {
     let all: toml::Table = everything().text().unwrap().parse().unwrap();
@@ -256,7 +256,7 @@ fn mistakes_are_named() {
     }
 }
 
-/// Each old name is refused, and each new name in the message is a known key.
+/// Each old name of a key is refused, and each new name that the message gives is a known key.
 #[test]
 fn old_names_are_refused_with_the_new_ones() {
     for (text, says) in [
@@ -294,7 +294,7 @@ fn fields(of: &impl std::fmt::Debug) -> Vec<String> {
     named.filter_map(|line| Some(line.split_once(':')?.0.to_owned())).collect()
 }
 
-/// If a struct of the library gets a new field, this test asks for a key or an exception.
+/// If a struct of the library gets a new field, this test fails until the field is a key or listed as an exception.
 #[test]
 fn no_field_is_forgotten() {
     fn same(of: &impl std::fmt::Debug, known: &[&str]) {

@@ -52,7 +52,8 @@ pub struct Shores {
     pub config: ShoreConfig,
     shore: Shore,
     land: Land,
-    /// Size and texels of a user's web, and of a mask across the view.
+    /// Size and texels of a user's picture of the web (the pattern of foam), and of one that masks contact foam and
+    /// is laid over the view.
     web: Option<([u32; 2], Vec<f32>)>,
     mask: Option<([u32; 2], Vec<f32>)>,
 }
@@ -69,7 +70,7 @@ enum Land {
 }
 
 impl Shores {
-    /// Contact foam on the particles' water alone, if the settings file asks for it.
+    /// Contact foam on the water of the particles, without shoreline foam, if the settings file asks for it.
     pub fn of_particles(file: &SettingsFile) -> Outcome<Option<Self>> {
         file.contact.on_particles().then(|| Self::on_particles(file)).transpose()
     }
@@ -149,7 +150,8 @@ impl Shores {
         self.step(headless, scene, Some(changed))
     }
 
-    /// Updates the distance map, if there is one, for the scene's frame: only the changed part, or all of it.
+    /// Updates the distance map, if there is one, for the scene's frame: the area `changed`, or with `None` all of
+    /// it.
     pub fn step(
         &self,
         headless: &mut Headless,
@@ -185,7 +187,8 @@ pub fn transforms(scene: &Scene, frame: u64) -> Vec<Mat4> {
     (0..scene.meshes.len()).map(|index| pose(index) * scene.meshes[index].transform).collect()
 }
 
-/// Min and max x and z of the meshes that moved since frame `before`, at both positions.
+/// Bounds in x and z (min, max) of the meshes that moved since frame `before`. They contain each of these meshes
+/// where it was then and where it is now.
 pub fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
     let [then, now] = [before, scene.frame].map(|frame| transforms(scene, frame));
     let (mut least, mut most) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
@@ -201,8 +204,8 @@ pub fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
     least.cmple(most).all().then(|| [least.to_array(), most.to_array()])
 }
 
-/// Returns a built-in scene, or a user's scene whose water is at height `level`, and the source of its shore coordinate.
-/// Writes the contact foam's look in that scene to `settings`.
+/// Returns a built-in scene, or a user's scene whose sea is at height `level`, and the source of its shore
+/// coordinate. Writes the look that contact foam has in a built-in scene to `settings`.
 pub fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(ShoreScene, By)> {
     let contact = &mut settings.shore.contact;
     Ok(match which {

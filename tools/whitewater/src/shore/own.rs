@@ -1,4 +1,4 @@
-//! A user's strip of shore foam: a mesh whose second texture coordinate is v.
+//! A user's strip of shore foam: a mesh whose second texture coordinate is the shore coordinate v.
 
 use std::path::Path;
 
@@ -21,7 +21,8 @@ pub fn read(path: &Path) -> Outcome<Strip> {
     joined(path, &scene.meshes.iter().collect::<Vec<_>>())
 }
 
-/// Removes the meshes named `strip` from a scene and returns them as a strip; they are no land.
+/// Removes the meshes whose name contains `strip` from a scene, because they are no land, and returns them as one
+/// strip.
 pub fn taken(path: &Path, scene: &mut Scene) -> Outcome<Option<Strip>> {
     let is_strip = |mesh: &Mesh| mesh.name.to_lowercase().contains("strip");
     let (own, land): (Vec<_>, Vec<_>) =
@@ -53,7 +54,7 @@ fn joined(path: &Path, meshes: &[&Mesh]) -> Outcome<Strip> {
     Ok(strip)
 }
 
-/// Whether the file is OBJ, whose texture coordinates are read with v flipped, as for pictures.
+/// Whether the file is OBJ. The reader flips v in OBJ files to 1 - v, as pictures need it.
 fn is_obj(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"))
 }
@@ -71,7 +72,8 @@ fn of(mesh: &Mesh, upward: bool) -> Result<Strip, String> {
     let (low, high) = v
         .iter()
         .fold((f32::INFINITY, -f32::INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
-    // In glTF pictures are upside down. Exporters such as Blender flip v, to -1 on the land.
+    // glTF counts v from the top of a picture. So exporters such as Blender write 1 - v, which is -1 at the strip's
+    // inland edge.
     let turned = (-1.0 - SLACK..-SLACK).contains(&low) && high <= 1.0 + SLACK;
     if turned {
         v.iter_mut().for_each(|v| *v = 1.0 - *v);

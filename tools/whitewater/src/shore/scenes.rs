@@ -10,7 +10,7 @@ use super::terrain::{self, Lump, Patch, joined, number, octaves, rise, warped};
 
 /// A scene with a sea, its camera, and the period of its animation.
 pub struct ShoreScene {
-    /// The scene. Its sun is set later, from an environment with the sun in direction `sun`.
+    /// The scene. Its sunlight is set later, from an environment whose sun is in direction `sun`.
     pub scene: Scene,
     pub eye: [f32; 3],
     pub target: [f32; 3],
@@ -118,7 +118,7 @@ impl Isle {
 fn land(p: Vec2) -> f32 {
     let height =
         OTHERS.iter().map(|isle| isle.height(p)).fold(MAIN.height(p), |a, b| joined(a, b, 0.6));
-    // The sea is deep where the island drifts, because it slides over the floor.
+    // The sea is deep where the island drifts, because the island slides over the floor.
     let channel = rise(6.0, 22.0, MAIN.shore(p)) * rise(36.0, 18.0, p.distance(DRIFTS));
     let height = height - 6.5 * channel;
     // The floor is uneven.
@@ -488,7 +488,8 @@ mod tests {
             }
         }
         assert!(line > 150, "{line} points of the shore line");
-        // The strip is closed: edges at both ends of v belong to one quad, all other edges to two.
+        // The strip is closed: an edge on a rim (v is 0 or 2 at both ends) belongs to one triangle, all other edges
+        // to two.
         let mut edges = std::collections::HashMap::new();
         for t in strip.indices.chunks_exact(3) {
             for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {

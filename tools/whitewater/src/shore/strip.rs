@@ -6,8 +6,8 @@ use glam::{Vec2, vec2};
 
 use super::terrain::Patch;
 
-/// Triangles on the sea around an island. The vertices' only texture coordinate is v: 0 at the sea's edge, 1 at the
-/// shore line, 2 on the land.
+/// Triangles at sea level around an island. The vertices' only texture coordinate is v: 0 at the strip's seaward
+/// edge, 1 at the shore line, 2 at its inland edge.
 #[derive(Clone, Debug, Default)]
 pub struct Strip {
     /// World space; y is the sea's level.
@@ -27,7 +27,7 @@ pub struct Reach {
     pub land: f32,
 }
 
-/// Closed contours on which a field is 0. All have the same orientation around the positive side.
+/// Closed contours on which a field is 0. All run around the side with positive values in the same direction.
 pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
     let [nx, nz] = patch.cells();
     let at = |i: usize, j: usize| j * (nx + 1) + i;
@@ -36,7 +36,8 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
         .map(|(i, j)| field(patch.corner(i, j)))
         .collect();
     let inside = |corner: usize| values[corner] > 0.0;
-    // Links from one cell edge to the next; an edge is named by its corners, with the positive side on the left.
+    // The contour crosses edges of cells. Each entry leads from one crossed edge to the next, with the positive side
+    // always on the same hand. An edge is named by its two corners.
     let mut next: HashMap<(usize, usize), (usize, usize)> = HashMap::new();
     for (i, j) in (0..nz).flat_map(|j| (0..nx).map(move |i| (i, j))) {
         // Each cell is two triangles, so that no case is ambiguous.
@@ -54,7 +55,7 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
     }
     let corner = |n: usize| patch.corner(n % (nx + 1), n / (nx + 1));
     let place = |(a, b): (usize, usize)| {
-        // Bisection to a thousandth of a cell, because the field is not linear between its corners.
+        // Bisection to a thousandth of a cell, because the field is not linear between two corners.
         let (mut low, mut high) = (corner(a), corner(b));
         for _ in 0..10 {
             let middle = low.midpoint(high);
@@ -84,9 +85,9 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
     loops
 }
 
-/// A strip along contours. `shore` is the distance from the shore line in metres, positive at sea. The rows follow the
-/// gradient of `shore` until it has changed by the row's distance: gradient lines do not cross, so the strip does not
-/// overlap itself.
+/// A strip along contours, in rows of vertices. `shore` is the distance from the shore line in metres, positive at
+/// sea. Each vertex starts on a contour and follows the gradient of `shore` until `shore` has changed by its row's
+/// distance from the shore line. Gradient lines do not cross, so the strip does not overlap itself.
 pub fn along(loops: &[Vec<Vec2>], level: f32, reach: Reach, shore: impl Fn(Vec2) -> f32) -> Strip {
     const ROWS: [f32; 9] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0];
     let slope = |p: Vec2| {
@@ -94,7 +95,7 @@ pub fn along(loops: &[Vec<Vec2>], level: f32, reach: Reach, shore: impl Fn(Vec2)
         let rise = |d: Vec2| (shore(p + d) - shore(p - d)) / (2.0 * STEP);
         vec2(rise(vec2(STEP, 0.0)), rise(vec2(0.0, STEP)))
     };
-    // Moves along the gradient until the value has changed by `by`; in a narrow bay the move ends in the middle.
+    // Moves along the gradient until `shore` has changed by `by`; in a narrow bay the move ends in the bay's middle.
     let moved = |from: Vec2, by: f32| {
         const STEPS: usize = 16;
         let mut at = from;

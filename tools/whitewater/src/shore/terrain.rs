@@ -32,7 +32,7 @@ fn noise(p: Vec2, seed: u32) -> f32 {
 
 /// Fractal sum of that noise, within about -1 to 1.
 pub fn octaves(p: Vec2, count: u32, seed: u32) -> f32 {
-    // Each octave is rotated against the one before, so that the lattices do not show.
+    // Each octave is rotated relative to the one before, so that the lattices do not show.
     let turn = Vec2::from_angle(0.7);
     let step = |(sum, p, amplitude): (f32, Vec2, f32), i: u32| {
         (sum + amplitude * noise(p, seed + i), 2.03 * turn.rotate(p) + 11.3, 0.5 * amplitude)
@@ -40,7 +40,8 @@ pub fn octaves(p: Vec2, count: u32, seed: u32) -> f32 {
     (0..count).fold((0.0, p, 0.5), step).0
 }
 
-/// Domain warping: a point displaced by noise, by up to `reach`, with cells of size `over`.
+/// Domain warping: displaces a point by noise with cells of size `over`, along each axis usually by less than `reach`
+/// and at most by 1.75 times as much.
 pub fn warped(p: Vec2, reach: f32, over: f32, seed: u32) -> Vec2 {
     let q = p / over;
     p + reach * 2.0 * vec2(octaves(q, 3, seed), octaves(q, 3, seed + 50))
@@ -188,8 +189,8 @@ pub fn ring(middle: Vec3, [radius, tube]: [f32; 2], material: Material) -> Mesh 
     mesh
 }
 
-/// A box from corner to corner, with cells no wider than `cell`: ray tracing is faster if the triangles of a scene are
-/// of similar size.
+/// A box from corner to corner, divided into cells no wider than `cell`, because ray tracing is faster if the
+/// triangles of a scene are of similar size.
 pub fn block(low: Vec3, high: Vec3, cell: f32, material: Material) -> Mesh {
     let mut mesh = Mesh { name: "block".into(), material, ..Mesh::default() };
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
