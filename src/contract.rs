@@ -810,7 +810,7 @@ impl Triangles {
     }
 }
 
-/// A mesh around islands that foam is drawn on (*Semi-procedural foam shader*, Sec. IV).
+/// A mesh of the host around islands, on which shoreline foam is drawn (*Semi-procedural foam shader*, Sec. IV).
 #[derive(Clone, Copy, Debug)]
 pub struct Strip {
     /// The mesh, in world space.
@@ -833,8 +833,8 @@ pub struct ShoreDistances {
     pub(crate) size: u32,
 }
 
-/// One simulation step, for [`SurfaceFoamState::record_step`](crate::SurfaceFoamState::record_step): the particles
-/// after it, in any order. The library only reads them.
+/// One simulation step, for [`SurfaceFoamState::record_step`](crate::SurfaceFoamState::record_step): the particles as
+/// they are after the step, in any order. The library only reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct SurfaceFoamStep<'a> {
@@ -887,7 +887,7 @@ impl<'a> SurfaceFoamStep<'a> {
         Self { ids: Some(ids), ..self }
     }
 
-    /// Sets the last use of the buffers before the frame, and their next use after it.
+    /// Sets the last use of the buffers before the step, and their next use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -895,7 +895,7 @@ impl<'a> SurfaceFoamStep<'a> {
 }
 
 /// One fluid step, for [`Generator::record_step`](crate::whitewater::Generator::record_step): the fluid's particles
-/// after it, in any order. The library only reads them.
+/// as they are after the step, in any order. The library only reads them.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct GeneratorStep<'a> {
@@ -957,7 +957,7 @@ impl<'a> GeneratorStep<'a> {
         Self { number, ..self }
     }
 
-    /// Sets the last use of the buffers before the frame, and their next use after it.
+    /// Sets the last use of the buffers before the step, and their next use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -1010,8 +1010,8 @@ impl Camera {
     }
 }
 
-/// The previous frame, which motion vectors refer to. With [`Config::motion`] they are the layer `motion`, two 32-bit
-/// floats per pixel.
+/// The previous frame, which motion vectors refer to. With [`Config::motion`] the vectors are in the layer `motion`,
+/// as two 32-bit floats per pixel.
 ///
 /// A vector is the position of the visible point in this frame (the pixel's centre) minus its position in the
 /// previous frame, in pixels of this frame, x to the right and y down. To reproject, sample the previous frame at
@@ -1023,8 +1023,8 @@ impl Camera {
 pub struct Previous {
     /// The camera of the previous frame. It may have another projection, near plane or depth convention.
     pub camera: Camera,
-    /// Seconds from the previous frame to this one, [0, ∞). In that time a particle's motion along each axis of eye
-    /// space is limited to a thousand particle spacings.
+    /// Seconds from the previous frame to this one, [0, ∞). Along each axis of eye space, a particle's motion in this
+    /// time is clamped to a thousand particle spacings.
     pub dt: f32,
 }
 
@@ -1038,8 +1038,8 @@ pub struct Shadow {
     pub image: HostImage,
     /// World to clip space of the map, four columns, standard or reversed depth. Not read for a mask.
     pub view_projection: [[f32; 4]; 4],
-    /// Shadow bias in scene units, finite, default 0: points are moved towards the sun by this before the comparison.
-    /// Recommended: about a spacing plus a texel of the map. Not read for a mask.
+    /// Shadow bias in scene units, finite, default 0: points are moved towards the sun by this distance before they
+    /// are compared with the map. Recommended: about a spacing plus a texel of the map. Not read for a mask.
     pub bias: f32,
 }
 
@@ -1324,7 +1324,8 @@ impl Light {
     }
 }
 
-/// Light of sun and sky. The default is that of the default [`Sky`](crate::Sky), [`Light::of`] that of another.
+/// Light of sun and sky. The default is the light of the default [`Sky`](crate::Sky); [`Light::of`] computes that of
+/// another sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Light {
@@ -1332,11 +1333,13 @@ pub struct Light {
     pub direction: [f32; 3],
     /// Radiance of the sun's highlight, linear RGB, [0, ∞).
     pub color: [f32; 3],
-    /// Mean radiance of the environment, linear RGB, [0, ∞), which lights scattering in the water.
+    /// Mean radiance of the environment, linear RGB, [0, ∞). It is the light that the water scatters.
     pub ambient: [f32; 3],
-    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞), which lights foam and spray.
+    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞). It is the light on foam and spray in the
+    /// sun.
     pub irradiance: [f32; 3],
-    /// Irradiance of level ground in shadow, under the sky alone, linear RGB, [0, ∞).
+    /// Irradiance of level ground in the sun's shadow, linear RGB, [0, ∞): light of the sky, and light that sunlit
+    /// surroundings reflect.
     pub shade: [f32; 3],
 }
 

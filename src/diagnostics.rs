@@ -21,21 +21,21 @@ pub struct Diagnostics {
     pub counts: Option<ParticleCounts>,
     /// Resolutions at which the frame was smoothed.
     pub levels: Option<SmoothingLevels>,
-    /// Work of the smoothing: a buffer of 259 records of four `u32`. In record 0 the second word is the number
-    /// of 16×16 tiles (of smoothing texels, all levels) that hold water. In record i, 1 to 257, the fourth word
-    /// is the number of tiles that iteration i processes. Transfer source; last written by a compute shader,
-    /// read as indirect arguments.
+    /// Work of the smoothing: a buffer of 259 records of four `u32`. In record 0 the second word is the number of
+    /// tiles that hold water, in all smoothing levels together; a tile is 16×16 texels of its level. In record i, 1
+    /// to 257, the fourth word is the number of tiles that iteration i processes. Transfer source; last written by a
+    /// compute shader, read as indirect arguments.
     pub tiles: Option<vk::Buffer>,
     /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness, row by row: the eye
     /// depth at which the two layers of water are separated, 1e10 where there is only one layer. Transfer source;
     /// last written by a compute shader, read by compute and fragment shaders.
     pub sheets: Option<vk::Buffer>,
-    /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. They hold the position
-    /// where it is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to its ellipsoid (xx,
-    /// yy, zz, yz, xz, xy, each a signed normalised 16-bit number, times 4); the matrix of its ellipsoid as spray, in
-    /// the same form; and the sum of the weights of its neighbours (f32). In films one particle thick the sum is
-    /// raised towards 64, and for particles outside of the grid it is 64. Transfer source; last written and read by
-    /// compute shaders.
+    /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. These hold the
+    /// position where the particle is drawn (3×f32, world); the symmetric matrix that maps a sphere of its radius to
+    /// its ellipsoid (xx, yy, zz, yz, xz, xy, each a signed normalised 16-bit number, times 4); the matrix of its
+    /// ellipsoid as spray, in the same form; and the sum of the weights of its neighbours (f32). In films one
+    /// particle thick the sum is raised towards 64, and for particles outside of the grid it is 64. Transfer source;
+    /// last written and read by compute shaders.
     pub shapes: Option<vk::Buffer>,
     /// With [`Config::bubbles`]: a buffer, and its number of `u32` per pixel of the frame; the pixels follow row by
     /// row. A pixel's words are one for each of its layers of blobs, front to back: 256 times the blob's index in the

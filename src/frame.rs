@@ -198,7 +198,8 @@ pub struct Lens {
     /// World to eye space, which looks down −z. If the host's eye space looks down +z, this is the host's view with z
     /// mirrored.
     pub view: Mat4,
-    /// P₀₀, P₁₁, P₂₀, P₂₁: `ndc.xy = P₀₀₁₁·slope − P₂₀₂₁` with slope = xy / eye depth.
+    /// P₀₀, P₁₁, P₂₀, P₂₁ of the projection: `ndc.x = P₀₀·slope.x − P₂₀` and `ndc.y = P₁₁·slope.y − P₂₁`, with slope
+    /// = xy / eye depth.
     pub p: Vec4,
     /// Device depth z to eye depth: `a / (z + b)`.
     pub linear: (f32, f32),

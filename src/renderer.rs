@@ -46,8 +46,8 @@ struct SlotState {
     uniforms: Buffer,
     /// Framebuffer of the last recorded frame's output.
     framebuffer: Option<Owned<vk::Framebuffer>>,
-    /// Whether an environment was recorded with the slot since the slot was collected. The slot's descriptor sets
-    /// then have to stay.
+    /// Whether an environment was recorded with the slot since the slot was collected. The next frame of the slot
+    /// must then not free the descriptor sets, which the environment uses.
     has_environment: bool,
 }
 

@@ -41,7 +41,7 @@ pub struct Made {
     pub name: &'static str,
     stages: vk::ShaderStageFlags,
     push_size: u32,
-    /// Deletion queue of a pipeline with one owner; `None` if the context owns it.
+    /// Deletion queue of a pipeline with one owner; `None` if the context owns the pipeline.
     yard: Option<Graveyard>,
 }
 

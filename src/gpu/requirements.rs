@@ -1,4 +1,4 @@
-//! Requirements of the library on a device, and the paths that it will use there.
+//! Requirements of the library on a device, and checks of what a device supports.
 
 use std::ffi::CStr;
 
@@ -102,8 +102,8 @@ pub struct DeviceSupport {
     pub api_version: u32,
     /// R32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments: needed by the raster splats.
     pub blend_floats: bool,
-    /// R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments, and the latter
-    /// two storing without a format qualifier: needed by foam.
+    /// Whether R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments, and the last
+    /// two also storing without a format qualifier: needed by surface foam.
     pub foam_floats: bool,
     /// Whether R8G8B8A8_SNORM (first) and R16G16B16A16_SFLOAT (second) support storing without a format qualifier and
     /// linear filtering: needed by filtered shadow maps of 8 and of 16 bits.
@@ -114,7 +114,7 @@ pub struct DeviceSupport {
     pub output_attachment: bool,
     /// The output format supports storing without a format qualifier.
     pub output_storage: bool,
-    /// Optional features that the device supports. A host that enables all of them passes this as
+    /// Optional features that the device supports. A host that enables all of them passes this value as
     /// [`Host::enabled`](crate::Host::enabled).
     pub optional: EnabledFeatures,
     /// Limits.

@@ -1,6 +1,6 @@
 //! In-place exclusive prefix sum (Blelloch, Prefix sums and their applications, 1990), in three dispatches: sums of
 //! blocks, prefix sum of the block sums, prefix sum within each block.
-//! Reads, writes: the values. Writes: their total, into a word of the counts.
+//! Reads, writes: the values. Writes: their total, into a word of the buffer of counts.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;

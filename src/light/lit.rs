@@ -37,7 +37,7 @@ pub struct Output {
     pub target: vk::Framebuffer,
     /// The area of the view within the image.
     pub area: vk::Rect2D,
-    /// The state of the image before the pass, and the one that `composite` expects.
+    /// State of the image before the pass (`before`), and the state that `composite` expects after it (`after`).
     pub before: Access,
     pub after: Access,
 }
