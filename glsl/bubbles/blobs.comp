@@ -22,7 +22,7 @@ layout(set = 0, binding = 6, std430) buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 7, std430) buffer Range { BlobRange range; };
 layout(set = 0, binding = 8, std430) buffer Cells { uint cells[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };
-// For each tile: the first depth slice with a blob, and the one behind the last.
+// For each tile: the first depth slice with a blob, and the slice behind the last one with a blob.
 layout(set = 0, binding = 10, std430) buffer Spans { uint spans[]; };
 
 layout(push_constant, std430) uniform Push {

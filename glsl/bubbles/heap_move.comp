@@ -42,7 +42,7 @@ Pushed pushed_by(Heaped own, Heaped other) {
     if (far >= reach) {
         return none;
     }
-    // Of two blobs in one place, the one with the lower number moves up.
+    // Of two blobs in one place, the one with the lower id moves up.
     bool lower = floatBitsToUint(own.drift.w) < floatBitsToUint(other.drift.w);
     vec3 n = far > 1.0e-6 * sum ? to / far : vec3(0.0, lower ? -1.0 : 1.0, 0.0);
     float part = (reach - far) / (reach - rest);
@@ -53,7 +53,7 @@ Pushed pushed_by(Heaped own, Heaped other) {
     float parting = dot(slip, n);
     float near = min(part, 1.0);
     vec3 across = push.damping.y * near * (slip - parting * n);
-    // The forces on both are equal and opposite; they are divided by their masses.
+    // The forces on the two blobs are equal and opposite; each is divided by the mass of its blob.
     float a = own.ball.w * own.ball.w * own.ball.w;
     float b = other.ball.w * other.ball.w * other.ball.w;
     float share = 2.0 * b / (a + b);
@@ -115,7 +115,7 @@ void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     vec3 slip = speed - dot(speed, n) * n + cross(spin, -ball.w * n);
     slip -= dot(slip, n) * n;
     float fast = length(slip);
-    // At most the change that stops sliding at the contact; the ball then rolls.
+    // Friction changes the speed at most by what stops sliding at the contact; the ball then rolls.
     float held = min(push.damping.w * gained, fast / (1.0 + ROUND));
     vec3 change = fast > 0.0 ? -held / fast * slip : vec3(0.0);
     speed += change;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `peel`, a layer: the nearest blob behind the previous layer (depth peeling, Everitt 2001; Huszar, Szecsi, Sec.
-// 5).
+// Pass `peel`, one layer: in each pixel the nearest blob behind the one of the previous layer (depth peeling, Everitt
+// 2001; Huszar, Szecsi, Sec. 5).
 // Reads: inputs of billboard.glsl, the previous layer. Writes: depth and number of the layer.
 
 #include "billboard.glsl"

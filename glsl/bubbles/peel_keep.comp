@@ -1,5 +1,6 @@
 #version 460
-// Pass `peel`, raster path: copies the result of a draw to the buffer of the tiled path.
+// Pass `peel`, raster path: copies the result of one draw, a layer or the opacity, to the buffer that the tiled path
+// fills.
 // Reads: layer or opacity, blobs, inputs of blob.glsl. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `peel`, opacity: the maximum over all blobs (Huszar, Szecsi, Sec. 5).
+// Pass `peel`, opacity: the maximum of the opacities of all blobs in a pixel (Huszar, Szecsi, Sec. 5).
 // Reads: inputs of billboard.glsl. Writes: opacity, by MAX blending.
 
 #include "billboard.glsl"

@@ -163,7 +163,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     normal = normalize(mix(ball, normal, fine));
     uint number = pcg(look.blob.id * 977u + id);
     float high = dot(to_world(look, normal), frame.up.xyz);
-    // The colours of many film thicknesses mix to white, the colour of a thick film.
+    // The colours of many small bubbles with different film thicknesses mix to white, the colour of a thick film.
     float thick = mix(bubbly.film.w, film_thickness(number, 2.5 * met / radius, high), fine);
 
     vec3 core = core_light(look, past, normal, ball, fine);

@@ -64,7 +64,7 @@ void visit(uint i) {
         }
         --of_stage;
         uint order = first + k;
-        // As a difference, because the sum of slots and new particles may overflow 32 bits.
+        // The room is computed as a difference, because the sum of slots and new particles may overflow 32 bits.
         uint beyond = order - min(order, counts.free);
         if (order >= counts.free && beyond >= push.most - min(counts.high, push.most)) {
             return;

@@ -186,8 +186,8 @@ Surface sand(vec3 p, float width) {
     return s;
 }
 
-// How wet the paving is at a place in the world: 0 dry, 1 under a film of water. There are wet patches, fewer the
-// farther they are from the basin that splashes, and single splashes.
+// How wet stone or paving is at a place in the world: 0 dry, 1 under a film of water. There are wet patches, fewer
+// the farther they are from the basin that splashes, and single splashes.
 float wetness(vec3 at, float width) {
     vec4 box = scene.splashed;
     vec2 out_of = max(max(box.xy - at.xz, at.xz - box.zw), 0.0);
@@ -472,7 +472,8 @@ vec3 lava_light(vec2 place, float sky_seen) {
 void main() {
     vec3 to_eye = scene.eye.xyz - position;
     vec3 v = normalize(to_eye);
-    // Derivatives come before any branch. The winding is not reliable, so the normal is turned towards the eye.
+    // Derivatives are taken before any branch. The winding of triangles is not reliable, so the normal is turned
+    // towards the eye.
     vec3 px = dFdx(position);
     vec3 py = dFdy(position);
     vec3 face = cross(px, py);

@@ -45,7 +45,8 @@ void main() {
     float spray_share = 0.0;
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + index * push.density_stride];
-        // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
+        // 0 marks a particle that was just emitted and has no density yet. NaN counts as 0: comparisons with it are
+        // false.
         if (density > 0.0) {
             bulk_share = density < frame.density.x ? 0.0 : 0.5 + 0.5 * bulk(density);
             spray_share = share_of_spray(density);

@@ -8,7 +8,7 @@
 // 1: blended onto the output, which holds the scene's colour; alpha is the fraction of the scene that remains.
 layout(constant_id = 0) const uint BLENDED = 1;
 
-// An input instead of the uniform block, which a CPU driver would read again for each pixel.
+// An input of the fragment shader instead of the uniform block, which a CPU driver would read again for each pixel.
 layout(location = 0) flat in CoatLight light;
 layout(location = 4) flat in vec2 target;
 

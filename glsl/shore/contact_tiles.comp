@@ -1,5 +1,6 @@
 #version 460
-// Pass `contact`: lists the 8x8 tiles that may contain foam on the particles' water.
+// Pass `contact`: lists the 8x8 tiles that may contain contact foam, which is foam around objects, on the water of
+// particles.
 // Reads: depth, scene depth. Writes: list of tiles, the dispatch over it.
 
 #include "frame.glsl"

@@ -50,6 +50,6 @@ void main() {
     v = vertex.w;
     eye = (frame.view * vec4(vertex.xyz, 1.0)).xyz;
     vec2 clip = frame.projection.xy * eye.xy + frame.projection.zw * eye.z;
-    // Only clipped at the near plane: the depth is compared with the scene's during shading.
+    // Triangles are clipped only at the near plane; shading compares their depth with the scene's.
     gl_Position = there ? vec4(clip, -eye.z - frame.depth.z, -eye.z) : vec4(0.0, 0.0, -1.0, 1.0);
 }

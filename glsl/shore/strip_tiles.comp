@@ -1,5 +1,6 @@
 #version 460
-// Pass `shoreline`: marks the 8x8 tiles that contain foam of a strip, after it was drawn.
+// Pass `shoreline`: marks the 8x8 tiles that contain foam of a strip (the host's mesh along the shore), after the
+// strip was drawn.
 // Reads: foam. Writes: marks.
 
 layout(local_size_x = 8, local_size_y = 8) in;

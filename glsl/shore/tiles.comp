@@ -114,7 +114,8 @@ void main() {
     float found = max(max(nearest.x, nearest.y), max(nearest.z, nearest.w));
     lines = asked && lines && found > NONE;
     contacts = asked && contacts && found > (GENERAL == 1u ? 0.0 : range.contact.x);
-    // Each list has its own constant index: with one variable index, NVIDIA 580.159 listed no tile that has both.
+    // Each call has a constant index of its list: with one variable index, NVIDIA 580.159 listed no tile that has
+    // both kinds of foam.
     if (lines && contacts) {
         adds(3u);
     } else if (lines) {

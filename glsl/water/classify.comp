@@ -65,7 +65,8 @@ float weber(uint i) {
     precise float z = velocities[at + 2u] - push.air_z;
     precise float square = (x * x + y * y) + z * z;
     float density = push.density_stride > 0u ? densities[push.density_word + i * push.density_stride] : 0.0;
-    // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
+    // 0 marks a particle that was just emitted and has no density yet. NaN counts as 0: comparisons with it are
+    // false.
     density = density > 0.0 ? density : push.rest_density;
     precise float number = (density * square) * push.scale;
     return number;
@@ -165,7 +166,7 @@ void main() {
     }
     if (push.id_stride == 0u) {
         // Without ids no state can be kept. Then foam rises linearly from 0 at half the threshold to 1 at one and a
-        // half times the threshold. Comparisons with NaN are false.
+        // half times the threshold; with NaN it is 0, because comparisons with NaN are false.
         float ramp = weber(i) / push.threshold - 0.5;
         foam[i] = vec2(ramp > 0.0 ? min(ramp, 1.0) : 0.0, 0.0);
         return;

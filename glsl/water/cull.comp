@@ -181,7 +181,7 @@ void append(uint kind, vec4 sphere, vec4 shape, float share) {
     barrier();
 }
 
-// Marks all particles of the packet, visible or not, because the sun sees other ones than the camera.
+// Marks all particles of the packet, visible or not, because the sun sees other particles than the camera.
 void enter(Packet packet) {
     uint past = (packet.past + 31u) >> 5;
     for (uint word = (packet.first >> 5) + gl_LocalInvocationIndex; word < past; word += gl_WorkGroupSize.x) {

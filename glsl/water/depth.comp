@@ -1,7 +1,7 @@
 #version 460
 // Pass `depth`, compute path: exact depth of spheres or ellipsoids (thesis Sec. 4.6.1, with the ray's exact
-// intersection in place of the billboard's offset). Positive floats have the order of their bits, so an integer atomic
-// minimum finds the nearest.
+// intersection in place of the billboard's offset). The bits of positive floats, taken as integers, have the same
+// order as the floats, so an integer atomic minimum finds the nearest depth.
 // Reads: Counts, visible. Writes: depth bits (nearest eye depth, EMPTY elsewhere).
 
 #include "frame.glsl"

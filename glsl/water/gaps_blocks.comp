@@ -7,7 +7,7 @@
 #include "sheets.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 0: the farthest, 0 without a boundary. 1: the nearest, EMPTY without a boundary.
+// 0: the farthest boundary of the block, or 0 if it has none. 1: the nearest boundary, or EMPTY if it has none.
 layout(constant_id = 0) const uint NEAREST = 0;
 
 layout(set = 0, binding = 1, std430) writeonly buffer Blocks { float blocks[]; };

@@ -105,7 +105,7 @@ void main() {
     } else {
         float device = texelFetch(scene_depth, scene_texel(pixel), 0).x;
         float scene = eye_depth(device);
-        // No scene: with a reversed infinite depth, infinity is 1/0, or negative by rounding.
+        // EMPTY also without a scene: with a reversed infinite depth, infinity is 1/0, or negative by rounding.
         z = device == frame.before_lens.w || !(scene > 0.0 && scene < EMPTY) ? EMPTY : scene;
     }
     // `change`: the point's position in the eye space of the previous frame minus its position in the current one.

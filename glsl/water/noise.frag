@@ -26,7 +26,7 @@ void main() {
     if (surface >= EMPTY || rho2 >= 1.0) {
         discard;
     }
-    // Depth below the surface of the particle's nearest point: a particle at the surface counts fully.
+    // How far the particle's nearest point is behind the surface: a particle at the surface counts fully.
     float below = max(depth - frame.particle.x - surface, 0.0);
     float amount = noise_kernel(rho2) * exp(-below * frame.noise.z);
     // Along the world's axes, so that it does not turn with the camera.

@@ -50,7 +50,7 @@ const vec2 FLAT = vec2(0.02, 0.06);
 const vec2 BROAD = vec2(0.15, 0.3);
 const vec2 SOME = vec2(2.5, 4.5);
 
-// Variance that counts as 0: Jacobi rotations leave rounding errors. In squares of the reach.
+// Variance, in squares of the reach, up to which it counts as 0: Jacobi rotations leave rounding errors.
 const float NO_VARIANCE = 1.0e-6;
 
 // Half-axes proportional to the variances, with the product 1; the longest is at most `ratio` times the shortest.

@@ -60,7 +60,7 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
     vec4 b;
     fetch_rows(p - ivec2(0, 1), first, last, a, b);
     int k = 0;
-    // The condition is at the end, as in main; the first row is in the level.
+    // The loop's condition is at its end, as in main; the first row always lies in the level.
     do {
         vec4 c;
         vec4 d;
@@ -80,8 +80,8 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
 void main() {
     uint tiles = arguments[push.iteration].w;
     uint i = gl_WorkGroupID.x;
-    // The condition is at the end: with it at the top, a CPU driver executes the body once more without active
-    // invocations. Every workgroup has a tile.
+    // The loop's condition is at its end: with it at the top, a CPU driver executes the body once more without active
+    // invocations. This form is correct because every workgroup has a tile.
     do {
         uint tile = list[i];
         ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;

@@ -45,7 +45,8 @@ void visit(uint index) {
         return;
     }
     float density = densities[push.density_word + index * push.density_stride];
-    // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
+    // 0 marks a particle that was just emitted and has no density yet. NaN counts as 0: comparisons with it are
+    // false.
     float share = density > 0.0 ? share_of_spray(density) : 0.0;
     if (!(share > 0.0)) {
         return;

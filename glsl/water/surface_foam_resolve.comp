@@ -1,5 +1,5 @@
 #version 460
-// Pass `surface_foam`, compute path, last part: converts fixed point to metres.
+// Pass `surface_foam`, compute path, last part: converts the sums from fixed point to metres.
 // Reads: words. Writes: foam depth, foam thickness.
 
 #include "frame.glsl"

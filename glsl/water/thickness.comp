@@ -77,7 +77,7 @@ Sprite sprite_of(uint index) {
     return sprite;
 }
 
-// Texels that the disc covers. The bounds are exact, because it is parallel to the image plane.
+// Texels that the disc covers. The bounds are exact, because the disc is parallel to the image plane.
 ivec4 span(Sprite sprite) {
     float inverse = 1.0 / -sprite.centre.z;
     vec4 slopes = vec4(sprite.centre.xy - sprite.reach, sprite.centre.xy + sprite.reach) * inverse;

@@ -1,5 +1,5 @@
 #version 460
-// Pass `thickness`, compute path, last part: converts fixed point to metres. (The thesis blends.)
+// Pass `thickness`, compute path, last part: converts the sums from fixed point to metres. (The thesis blends.)
 // Reads: sums. Writes: thickness (R32F).
 
 #include "frame.glsl"

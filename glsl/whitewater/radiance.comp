@@ -32,7 +32,7 @@ const float FAST_SAMPLES = 320.0;
 layout(set = 0, binding = 1) uniform sampler2D occluders;
 // xyz: normal; w: search radius.
 layout(set = 0, binding = 2, rgba16f) uniform image2D normals;
-// Points of a unit sphere, and their weights. With FAST it holds one of each pair of opposite points.
+// Points of a unit sphere, and their weights. With FAST the buffer holds one of each pair of opposite points.
 layout(set = 0, binding = 3, std430) readonly buffer Points { vec4 points[]; };
 // Octahedral, with a border of one texel.
 layout(set = 0, binding = 4) uniform sampler2D irradiance;
@@ -49,7 +49,7 @@ const float TO_EYE = 0.02;
 vec2 hidden(vec4 there, float depth, float reach) {
     vec3 opacity = vec3(there.y, frame.whitewater_opacity.xy);
     vec3 before = depth - there.xzw;
-    // Clamped to 1: an empty layer is so far behind that the square overflows.
+    // Clamped to 1: an empty layer has the depth EMPTY, so far behind the point that the square would overflow.
     vec3 near = clamp(1.0 - before / reach, 0.0, 1.0);
     opacity = mix(vec3(0.0), opacity, greaterThan(before, vec3(0.0)));
     return min(vec2(dot(near * near, opacity), dot(vec3(1.0), opacity)), 1.0);
@@ -63,7 +63,8 @@ vec4 point_of(uint i) {
     return vec4((i & 1u) == 0u ? one.xyz : -one.xyz, one.w);
 }
 
-// The points that a pass uses for a sphere with this radius in pixels: index of the first, and index after the last.
+// The points that a pixel uses for one sphere, whose number is `pass` and whose radius is `pixels`: index of the
+// first point, and index after the last.
 uvec2 samples_of(float pixels, ivec2 pixel, uint pass) {
     if (FAST == 1u) {
         uint count = 2u * max(uint(min(frame.whitewater_samples.y, FAST_SAMPLES)) / 32u, 1u);
@@ -143,7 +144,7 @@ void main() {
         }
     }
     vec2 parts = sum.z > 0.0 ? sum.xy / sum.z : vec2(0.0);
-    // The open direction: the direction in which there is less occlusion than in the mean.
+    // The open direction: the direction in which there is less occlusion than in the mean over all directions.
     vec3 open = parts.y * whole - dark + vec3(0.0, 0.0, max(TO_EYE * sum.z, 1.0e-6));
     float told = told_of(0.5 * with.w * frame.extent.y);
     vec3 facing = mix(mat3(frame.world) * normalize(open), with.xyz, told);

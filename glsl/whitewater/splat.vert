@@ -1,6 +1,6 @@
 #version 460
 // Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4): a quad around the pixels of each
-// particle, with edges between pixels. Reads: positions, kinds, radii, ages, ids. Writes: the quad's corners.
+// particle, whose edges lie between pixels. Reads: positions, kinds, radii, ages, ids. Writes: the quad's corners.
 
 #include "frame.glsl"
 #include "falloff.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `radiance`, second part: lists the 8x8 tiles that contain foam. Most of a picture has none, and on a CPU an
-// empty group costs a good part of a full one. One invocation per tile.
+// Pass `radiance`, second part: lists the 8x8 tiles that contain whitewater. Most of a picture has none, and on a CPU
+// an empty workgroup costs a good part of a full one. One invocation per tile.
 // Reads: foam depth. Writes: tiles.
 
 #include "frame.glsl"
