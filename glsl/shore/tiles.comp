@@ -1,7 +1,7 @@
 #version 460
-// Pass `shore-tiles`: lists the 8x8 tiles that may contain foam on the host's water surface, in one list each for
-// shoreline foam, contact foam and both, with the dispatches over the lists. Not in the sources: most of a picture
-// has no such foam, and this test is much cheaper than shading.
+// Pass `shore-tiles`: lists the 8x8 tiles that may contain foam on the host's water surface, and computes the
+// dispatches over the lists. There are three lists: for tiles with shoreline foam, with contact foam, and with both.
+// Not in the sources: most of a picture has no such foam, and this test is much cheaper than shading.
 // Reads: scene depth, surface depth, map of shore distances. Writes: lists, arguments.
 
 #include "frame.glsl"
