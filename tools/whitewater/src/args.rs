@@ -120,7 +120,8 @@ pub struct RenderArgs {
     pub level: f32,
     /// Frames of the sequence to draw, as A-B or A
     ///
-    /// Camera, radius and ground are found from the whole sequence, so that separately drawn parts match.
+    /// Camera, radius and ground are found from the whole sequence, so that parts of it that are drawn separately
+    /// match.
     #[arg(long, value_name = "A-B")]
     pub frames: Option<String>,
     /// Draw every Nth of the selected frames
@@ -253,7 +254,7 @@ pub struct DrawArgs {
     /// File to write: .exr (linear light, all layers), .png, or .mp4 (a film of all frames, H.264, at --fps);
     /// may be given twice
     ///
-    /// For a sequence the frame number replaces %04d, or precedes the extension.
+    /// In the file names of a sequence, the frame number replaces %04d, or is put before the extension.
     #[arg(short, long = "output", required = true, value_name = "OUT")]
     pub outputs: Vec<PathBuf>,
     /// Size in pixels
@@ -274,14 +275,14 @@ pub struct DrawArgs {
     /// Depth of field: lens diameter in scene units, 0 for none [default: for a single PNG 0.0015 of the focus
     /// distance, at most 0.015, otherwise 0]
     ///
-    /// 50 mm at f/2 are 0.025 metres.
+    /// A lens of 50 mm at f/2 has a diameter of 0.025 metres.
     #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]
     pub aperture: Option<f32>,
     /// Focus distance [default: to the camera's target]
     #[arg(long, value_name = "DISTANCE", value_parser = positive)]
     pub focus: Option<f32>,
-    /// Number of renders that a picture with --shutter or --aperture averages, 1 to 256; the time is
-    /// proportional
+    /// Number of renders that a picture with --shutter or --aperture averages, 1 to 256; the time for a picture is
+    /// proportional to it
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
     pub samples: u32,
     /// Settings file in TOML
@@ -457,7 +458,8 @@ pub struct SimulateArgs {
     /// Frames per second
     #[arg(long, value_name = "N", default_value_t = FPS, value_parser = positive)]
     pub fps: f32,
-    /// Rest distance of particles in metres; half of it means eight times as many [default: the scene's]
+    /// Rest distance of particles in metres; half the distance means eight times as many particles [default: the
+    /// scene's]
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub spacing: Option<f32>,
     /// Write only these frames of --frames, as A-B or A

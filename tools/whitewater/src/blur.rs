@@ -166,7 +166,8 @@ mod tests {
             assert_eq!(all.len(), samples as usize);
             assert!(all.iter().all(|s| s.time.abs() < 0.01 && s.lens.length() < 0.1), "{all:?}");
             let mean = all.iter().map(|s| s.time).sum::<f32>() / samples as f32;
-            // If the number is not a power of two, the radical inverse lacks some of its values.
+            // If the number of samples is not a power of two, some values of the radical inverse are missing, so the
+            // mean is off.
             let most = if samples.is_power_of_two() { 1.0e-6 } else { 0.003 };
             assert!(mean.abs() < most, "{samples}: {mean}");
             let pixel = all.iter().map(|s| s.pixel).sum::<Vec2>() / samples as f32;

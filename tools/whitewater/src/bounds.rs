@@ -96,8 +96,8 @@ impl Bounds {
         Some(bounds.within_reach_of(Self::of_bodies(&positions), &positions))
     }
 
-    /// Shrinks the box on each side beyond which few particles lie farther from the bodies of water than spray flies
-    /// ([`SPRAY`]), or, downwards, below the floor.
+    /// Shrinks the box on each side on which only few particles ([`STRAY`]) are farther from the bodies of water than
+    /// spray flies ([`SPRAY`]). Below the water only a grid cell counts as near, because the floor is there.
     fn within_reach_of(self, bodies: Option<(Self, f32)>, positions: &[[f32; 3]]) -> Self {
         let Some((bodies, cell)) = bodies else { return self };
         let reach = (SPRAY * bodies.size().max_element()).max(cell);

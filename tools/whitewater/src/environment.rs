@@ -426,7 +426,7 @@ mod tests {
         }
     }
 
-    /// Texels along an edge of the cube, and pixels along an edge of its pictures.
+    /// Texels along an edge of the cube map, and pixels along an edge of the pictures that are drawn of it.
     const SIZE: u32 = 64;
 
     /// World direction of a pixel, and the steps to the directions of the next pixel to the right and below. The

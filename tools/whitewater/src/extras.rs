@@ -138,8 +138,8 @@ impl Condition {
     }
 }
 
-/// Reads a frame with the attributes that conditions and fluids compare, those that distinguish phases, and those of
-/// radii, among them one with the name `radius`.
+/// Reads a frame with these attributes: those that conditions and fluids compare, those that distinguish phases,
+/// those whose names mean radii, and the one that the argument `radius` names.
 pub fn read(
     frame: &Frame,
     conditions: &[Condition],

@@ -318,8 +318,8 @@ pub struct Liquids<'a> {
 }
 
 impl<'a> Liquids<'a> {
-    /// One liquid, or several with the ranges of their particles. The time of foam and waves is
-    /// that of `one`.
+    /// The liquid `one`, or the liquids of `several` with the ranges of their particles. All get the times of foam
+    /// and waves from `one`.
     pub fn new(one: &'a Settings, several: &[Settings], particles: &Particles) -> Self {
         if several.len() < 2 {
             let all = 0..particles.positions.len() as u32;

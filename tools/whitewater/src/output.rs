@@ -31,7 +31,8 @@ pub fn at_interrupt(last: impl FnOnce() -> Outcome<()> + Send + 'static) {
     *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
 }
 
-/// Runs the last action at the end of the program and clears it, so that it runs once.
+/// Runs the action that [`at_interrupt`] has set, at the end of the program, and clears it, so that it runs only
+/// once.
 pub fn at_end() -> Outcome<()> {
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
     last.take().map_or(Ok(()), |last| last())

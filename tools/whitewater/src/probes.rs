@@ -61,7 +61,8 @@ impl Probes {
             }
         }
         let own = reader.seen;
-        // The rate comes from velocities in the files, since estimated velocities depend on it.
+        // The frame rate is found from velocities in the files, because estimated velocities themselves depend on the
+        // rate.
         let apart = |pair: &[Frame]| {
             let [a, b] = pair else { return None };
             let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);

@@ -325,7 +325,8 @@ fn size(positions: &[[f32; 3]]) -> Option<f32> {
     let count = positions.len();
     let step = (count / LOOKED_AT).max(1);
     let apart = |i: usize| {
-        // The two are far apart in the file, because particles that are close in a file often are close in space.
+        // The two are chosen far apart in the file, because particles that are close in a file often are close in
+        // space.
         let other = (i + count / 2 + i * 7919) % count;
         Vec3::from(positions[i]).distance(Vec3::from(positions[other]))
     };

@@ -465,7 +465,8 @@ mod tests {
         let walls: Vec<f32> =
             scene.meshes.iter().filter(|m| m.name == "basin wall").map(top).collect();
         assert_eq!(walls.len(), 4);
-        // The far walls, at -x and -z, are at least as high as the water with their slabs; the near ones hide little.
+        // The far walls, at -x and -z, are with the slabs on them at least as high as the water; the near ones hide
+        // little of it.
         assert!(walls[0] > 0.46 && walls[2] > 0.46, "{walls:?}");
         assert!(walls[1] < 0.4 && walls[3] < 0.4, "{walls:?}");
         // The tiles are blue.
@@ -510,7 +511,8 @@ mod tests {
         let mut points = block(false);
         let still = right(&points);
         assert!((still - 1.9).abs() < 1.0e-4, "{still}");
-        // On an exact lattice the next layer is excluded, although it has more particles.
+        // On an exact lattice the next layer does not move the wall, although it has more particles than the
+        // outermost.
         let exact: Vec<_> = (0..20 * 6 * 30)
             .map(|i| [i % 20, i / 20 % 6, i / 120].map(|c| c as f32))
             .filter(|p| p[0] < 18.5 || p[1] < 4.5)

@@ -294,7 +294,7 @@ mod tests {
         // With x up no axis is detected except perhaps y, the default: x is no candidate.
         let side = |[x, y, z]: [f32; 3]| Up::X.turn_back([y, z, x]);
         assert!(up(dam(side, true)).is_none_or(|found| found.0 == Up::Y));
-        // A jet that rises from a floor is not a fall towards a lid.
+        // A jet that rises from a floor is not taken for water that falls towards a lid.
         let mut fountain = dam(|[x, y, z]| [x, z, -y], false);
         fountain.velocities = Some(vec![[0.0, 1.0, 0.0]; fountain.positions.len()]);
         assert_eq!(find(&[fountain]), None);

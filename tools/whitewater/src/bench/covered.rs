@@ -1,4 +1,4 @@
-//! The part of a picture that shoreline foam can cover, from the scene's meshes and depth.
+//! Finds the part of a picture that shoreline foam can cover, from the scene's meshes and the picture's depth.
 
 use std::collections::HashMap;
 

@@ -145,7 +145,7 @@ impl CpuHeap {
         (share * push, share * ROUND / own.radius * n.cross(across))
     }
 
-    /// Contact with a solid: a penalty force along the normal and friction in proportion to it.
+    /// Contact with a solid: a penalty force along the normal, and friction in proportion to that force.
     fn touch(
         &self,
         (n, distance): (Vec3, f32),
