@@ -55,7 +55,7 @@ float reduced(ivec2 block, out float best, out bool other) {
             }
         }
     }
-    // A surface counts as a drop if it has less than a quarter of the pixels. In four pixels or fewer, none has.
+    // A surface counts as a drop if it covers less than a quarter of the block's pixels, which needs more than four.
     return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 

@@ -1,6 +1,6 @@
 #version 460
 // Pass `smooth`, form Query: one quad per tile that holds water. A predicate per block of iterations tells whether
-// any pixel is still active; without one no quad is drawn. (The source draws one quad over the image until the CPU
+// any pixel is still active; if none is, no quad is drawn. (The source draws one quad over the image until the CPU
 // has read a query: thesis Sec. 4.7, Listing A.11.)
 // Reads: tile list, predicates. Writes: the quad's corners.
 
