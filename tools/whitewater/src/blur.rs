@@ -49,8 +49,8 @@ impl Blur {
         blurs.then_some(Self { samples: args.samples, seconds, radius: 0.5 * diameter })
     }
 
-    /// Low-discrepancy samples of time (radical inverse of 2), lens (Vogel's sunflower) and pixel (Roberts' sequence),
-    /// which do not correlate with each other.
+    /// Low-discrepancy samples of time (radical inverse of 2), lens (Vogel's sunflower) and pixel (Roberts'
+    /// sequence), which do not correlate with each other.
     pub fn samples(&self) -> impl Iterator<Item = Sample> {
         let Self { samples, seconds, radius } = *self;
         let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());

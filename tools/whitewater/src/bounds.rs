@@ -62,7 +62,8 @@ fn plausible(positions: &[[f32; 3]]) -> Option<Bounds> {
     })
 }
 
-/// Positions without NaN and infinities, without coordinates of [`FAR`] or more, and without outliers beyond [`REACH`].
+/// Positions without NaN and infinities, without coordinates of [`FAR`] or more, and without outliers beyond
+/// [`REACH`].
 pub fn together(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let Some(plausible) = plausible(positions) else { return Vec::new() };
     positions.iter().copied().filter(|p| plausible.contains(Vec3::from(*p))).collect()

@@ -57,8 +57,8 @@ pub fn furnish(scene: &mut Scene, set: SetArg, ground: Material, place: &Place) 
     }
 }
 
-/// Builds meshes from coordinates relative to the water: the origin is the centre of its floor, the unit is its longer
-/// side, and x and z increase away from the camera.
+/// Builds meshes from coordinates relative to the water: the origin is the centre of its floor, the unit is its
+/// longer side, and x and z increase away from the camera.
 struct Builder {
     meshes: Vec<Mesh>,
     middle: Vec3,

@@ -26,7 +26,7 @@ struct Record {
     adapter: String,
     driver: String,
     steps: Vec<Step>,
-    /// For each frame: its number, the start of its submission (microseconds since the program started), and its
+    /// For each frame: its number, the start of its submission (microseconds since the measurements began), and its
     /// passes.
     frames: Vec<(u64, f64, Vec<Timing>)>,
 }
@@ -130,8 +130,8 @@ impl Times {
         })
     }
 
-    /// Writes all measurements as Chrome trace events: steps of this program, and passes on the device. The two clocks
-    /// are not synchronised; the first pass of a frame is placed at the start of its submission.
+    /// Writes all measurements as Chrome trace events: steps of this program, and passes on the device. The two
+    /// clocks are not synchronised; the first pass of a frame is placed at the start of its submission.
     pub fn write_trace(&self, path: &Path) -> Outcome<()> {
         let Record { adapter, steps, frames, .. } = &*self.record();
         let thread = |tid: u32, name: &str| json!({"ph": "M", "name": "thread_name", "pid": 1, "tid": tid, "args": {"name": name}});

@@ -86,8 +86,8 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         // Reads scene colour and depth, writes the lit scene, reads it and writes it to the output. Reads of the maps
         // are not counted.
         "lit" => (8 + 4 + 8 + 8 + 8) * full,
-        // Reads depth, and scene depth on covered pixels; writes two surfaces and the plan (where the smoothing has
-        // to run).
+        // Reads depth, and scene depth on covered pixels; writes two surfaces and the plan (the iteration count
+        // and step size of each pixel).
         "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
         // Without water near the camera, one word for each tile of the coarser levels. The traffic with near water is
         // not counted.

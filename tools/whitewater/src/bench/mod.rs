@@ -172,7 +172,8 @@ pub enum Path {
     Noise,
     /// With shadows and caustics of the water, in maps of 512² texels
     Light,
-    /// Shadows of a plate over the pool, or of a shore's land, by percentage-closer filtering of a map of 2048² texels
+    /// Shadows of a plate over the pool, or of a shore's land, by percentage-closer filtering of a map of 2048²
+    /// texels
     Pcf,
     /// The shadows of 'pcf', by convolution shadow maps at the library's default size
     Convolution,

@@ -97,7 +97,8 @@ pub struct ShoreRow {
 }
 
 impl Row {
-    /// A copy of this row with the name of one pass, and the median and the 10 % and 90 % quantiles of the pass' times.
+    /// A copy of this row with the name of one pass, and the median and the 10 % and 90 % quantiles of the pass'
+    /// times.
     pub fn of_pass(&self, pass: &str, times: &mut [f64]) -> Self {
         Self {
             pass: pass.to_owned(),

@@ -62,8 +62,8 @@ words!(FresnelWord of FilmFresnel { Exact, Schlick, Source });
 words!(SpectrumWord of Spectrum { Three, Whole });
 
 impl BubbleTable {
-    /// The configuration of passes. The number of blobs is only set with `crossfade`, where blobs replace whitewater
-    /// foam.
+    /// The configuration of passes. Its number of blobs holds only with `crossfade`, where blobs replace whitewater
+    /// foam; otherwise the caller sets it.
     pub fn config(&self) -> BubbleConfig {
         let mut standard = BubbleConfig::new(1);
         if self.crossfade.is_some() {
