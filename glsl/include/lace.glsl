@@ -30,8 +30,8 @@ const vec2 COVERS = vec2(0.33, 0.127);
 // Half the range of amounts of foam over which the edge of a thread fades: its min value, and its value times the
 // width of a large bubble's cell in pixels; the larger of both counts.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
-// Min value of that range for one half of a thread's opacity. This half fades more softly, like single bubbles at the
-// thread's edge.
+// One half of a thread's opacity fades over a wider range of amounts of foam than the other, like single bubbles at
+// the thread's edge. This is the min half-width of that range.
 const float EDGE_ENDS = 0.16;
 
 // Foam that has just closed over a bubble is thin, so that bubbles show in it: where the amount of foam just closes a

@@ -1,23 +1,25 @@
-// Shading of a water pixel (thesis Sec. 3.2.3 and 4.9.2, Listings A.19, A.20), for both paths of `composite`. Layers:
-// one or two bodies of water over the scene.
-// Screen-space refraction, Beer's law along the ray, Fresnel reflection of the environment and, by a screen-space
-// march, of the scene, the sun's highlight. Two layers are not in the thesis (its limitation, Fig. 5.13).
-// Whitewater is composited with the layers: the part behind the surface in the water, the rest over it.
+// Shading of a water pixel (thesis Sec. 3.2.3 and 4.9.2, Listings A.19, A.20), for both paths of `composite` (raster
+// and compute). One or two layers of water, called sheets, lie over the scene. A sheet refracts what lies behind it
+// in screen space, absorbs light by Beer's law along the ray, reflects the environment and, by a screen-space march,
+// the scene, both weighted by Fresnel, and has a highlight of the sun. Two sheets are not in the thesis (its
+// limitation, Fig. 5.13). Whitewater behind the water's surface is composited inside the water, the rest of it over
+// the water.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam,
 // thickness and light of whitewater particles, bubble foam, contact foam.
-// Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, surface_foam_texels.glsl, beside.glsl, sunlight.glsl,
-// shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
+// Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, surface_foam_texels.glsl, beside.glsl,
+// sunlight.glsl, shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl,
+// gradient_noise.glsl.
 
 // Resolution of the thickness: 0: full, 1: that of the smoothing, 2: another.
 layout(constant_id = 0) const uint THICKNESS = 1;
-// 1: coarser levels of the smoothing may show. It is a specialization constant, because a CPU would run both
+// 1: coarser levels of the smoothing may show. It is a specialization constant, because a CPU driver would run both
 // sides of a branch.
 layout(constant_id = 2) const uint NEAR = 0;
 // Steps of the screen-space march that finds which part of the scene the front surface reflects; 0: reflect
 // the environment only.
 layout(constant_id = 25) const uint MIRROR = 0;
-// Steps of the screen-space march that finds where the refracted ray meets the scene; 0: displace the scene
-// behind by the front surface's slope.
+// Steps of the screen-space march that finds where the refracted ray meets the scene; 0: no march, the scene is
+// looked up at an offset that follows from the front surface's slope.
 layout(constant_id = 26) const uint EXIT = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
@@ -50,8 +52,9 @@ vec2 drop_slope(ivec2 pixel, float front, float threshold) {
     return clamp(dz, -steepest, steepest);
 }
 
-// Thickness at a pixel, upsampled from the texels of its own surface: all of it, and the part before the
-// frontmost foam. Also returns those texels and their weights.
+// Thickness of the water at a pixel, upsampled from the texels that lie on the pixel's own surface. x: all water, y:
+// the part before the frontmost foam. Also returns the first of the four texels around the pixel, and the weights of
+// the four.
 vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2 base, out vec4 weights) {
     base = s.base;
     weights = s.weights;
@@ -78,8 +81,8 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
         float sum = same.x + same.y + same.z + same.w;
         weights = sum > 1.0e-3 ? same / sum : weights;
     }
-    // Texels without water do not count: at their centre the scene hides the water, but not in the whole
-    // texel.
+    // Texels without water do not count: the scene hides the water at their centre, but need not hide it at this
+    // pixel.
     vec2 sum = vec2(0.0);
     vec4 wet = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
@@ -95,15 +98,16 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
     return share > 0.0 ? sum / share : vec2(0.0);
 }
 
-// Whether there is air between two sheets, from the water left in the window around their boundary: 1 air, 0
-// water.
+// Whether there is air between two sheets (layers of water): 1 air, 0 water. `window` is the thickness of the water
+// in the window, the range around the boundary between the two sheets.
 float air(float window) {
     return 1.0 - smoothstep(0.1 * frame.particle.y, 0.6 * frame.particle.y, window);
 }
 
-// x: thickness of the sheet of the front surface; without air, that of both sheets together. y: amount of air
-// between the sheets. z: thickness of the back sheet. w: thickness of the front sheet. boundary: that of the texel with
-// the largest weight, because a pixel's own texel may show another surface.
+// x: thickness of the sheet (layer of water) that the surface at depth `front` belongs to; without air between the
+// two sheets, of both together. y: amount of air between the sheets, 0 to 1. z, w: thickness of the back and of the
+// front sheet, times y. `boundary`, the depth that separates the sheets, becomes that of the texel with the largest
+// weight, because the pixel's own texel may show another surface.
 vec4 sheet_thickness(ivec2 base, vec4 weights, float front, inout float boundary) {
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     vec4 sum = vec4(0.0);
@@ -153,8 +157,8 @@ bool hidden_at(vec2 q, float z) {
 // different directions, and large offsets would make a mosaic.
 const float MOST_BENT = 1.0 / 16.0;
 
-// Iterations of the search for the end of the offset: two, then bisection of 1/16 of 16384 pixels down to
-// half a pixel.
+// Max iterations of the search in `refracted` for the end of the free offset: two, then bisection of the largest
+// offset (1/16 of a picture height of 16384 pixels) down to half a pixel.
 const int MOST_LOOKS = 14;
 
 // Limits an offset in pixels smoothly to MOST_BENT.
@@ -191,7 +195,8 @@ bool by_source() {
     return frame.ambient.w > 0.5;
 }
 
-// Computes both powers and selects one: two pipelines for so little would double their number.
+// Fresnel reflectance. It computes the fifth power and the general power and selects one: a specialization constant
+// for so little would double the number of pipelines.
 float fresnel(float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0);
     float x2 = x * x;
@@ -216,15 +221,16 @@ struct Sheet {
 
 const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0);
 
-// Range of thickness / room before the scene over which the sheet goes from having air behind it to touching
-// the scene. A thickness from particles is accurate to about a quarter.
+// Ratio of the thickness of a sheet (layer of water) to the distance from its surface to the scene. Below the first
+// value there is air behind the sheet, above the second the sheet touches the scene. The second is less than 1,
+// because a thickness from particles is accurate only to about a quarter.
 const vec2 FILLED = vec2(0.5, 0.7);
 
 // Least cosine between the view axis and a ray through a sheet.
 const float FLATTEST = 0.25;
 
-// Length of the refracted ray to the scene, relative to the unrefracted one: both reach the same depth below
-// a level surface. On a vertical surface the ratio is 1.
+// Length of the refracted ray to the scene, relative to the length of the unrefracted ray, if both reach the same
+// depth below a level surface. Under a vertical surface the ratio is 1.
 float bent_way(vec3 n, vec3 v, vec3 up) {
     float ratio = frame.bed.w;
     float facing = max(dot(n, v), 0.0);
@@ -238,8 +244,8 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
 #include "bed.glsl"
 #include "met_water.glsl"
 
-// `ripple` is the surface noise and its slope per pixel. `marched` allows a search for reflections of the scene, if
-// that is enabled.
+// The sheet (layer of water) with this front surface and the thickness `t` along z. `ripple` is the surface noise and
+// its slope per pixel. `marched` allows a march for reflections of the scene, if MIRROR enables it.
 Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
@@ -274,9 +280,9 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     vec3 up = frame.up.xyz * mat3(frame.world);
     sheet.down = sheet.path * max(dot(v, up), 0.0);
     sheet.path *= mix(1.0, bent_way(n, v, up), sheet.wet);
-    // Light bends towards the water's normal, so the look-up moves against it. (The thesis' program moves it
-    // the other way, which makes things under a bump look smaller.) A torn surface refracts like a thin
-    // sheet: particles without neighbours are no lens.
+    // Light bends towards the water's normal, so the look-up moves in the direction opposite to the normal's on the
+    // screen. (The thesis' program moves it along the normal, which makes things under a bump look smaller.) A torn
+    // surface refracts like a thin sheet: particles without neighbours are no lens.
     float lens = frame.surface.x * mix(min(t, 2.0 * frame.particle.y), t, surface.found);
     sheet.offset = -n.xy * sign(frame.projection.xy) * lens / (frame.texel.xy * surface.z);
 
@@ -285,8 +291,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 to = reflect(-v, n);
     vec3 reflected = mat3(frame.world) * to;
-    // Below the horizon there is more water, not the environment's ground: the reflection fades to what is
-    // behind the surface.
+    // A reflected ray that points below the horizon would meet more water, not the environment's ground. So the
+    // reflection fades out, and what is behind the surface shows instead.
     float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, dot(reflected, frame.up.xyz));
     sheet.mirror = w * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
@@ -304,7 +310,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
         }
     }
     sheet.mirror *= sky;
-    // Looking straight against the sun, the half vector is 0 and there is no highlight.
+    // Where the view ray points straight at the sun, the half vector is 0 and there is no highlight.
     vec3 h = v + frame.sun_direction.xyz;
     h *= inversesqrt(max(dot(h, h), 1.0e-12));
     // pow() written out: for tiny bases it is NaN with some drivers.
@@ -321,7 +327,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     return sheet;
 }
 
-// The sheet without the parts that a target of the ladder leaves out.
+// The sheet without reflection and highlight, unless the ladder (a debug view that adds layer after layer) is at its
+// last rung.
 Sheet on_ladder(Sheet sheet) {
     float whole = frame.target.z >= WHOLE ? 1.0 : 0.0;
     sheet.mirror *= whole;
@@ -329,27 +336,29 @@ Sheet on_ladder(Sheet sheet) {
     return sheet;
 }
 
-// Adds a surface's reflection and highlight to the light from below. through: transmittance of the water
-// before the foam, and of the foam.
+// Adds a surface's reflection and highlight to the light from below. `through`: transmittance of the water before the
+// foam, and of the foam; only the thesis' rule (by_source) uses it.
 vec3 with_mirrored(Sheet sheet, vec3 c, vec2 through) {
     float weight = clamp(1.0 - through.x + through.y, 0.0, 1.0) * (1.0 - through.x);
     float kept = by_source() ? 1.0 : 1.0 - sheet.mirror;
     return c * kept + (sheet.mirrored * sheet.mirror + sheet.shine) * (by_source() ? weight : 1.0);
 }
 
-// Radiance that a turbid medium adds inside a sheet.
+// Factor on the light that a turbid medium scatters inside a sheet.
 vec3 lit_in(Sheet sheet) {
     return lit_on(sheet.normal, frame.up.xyz * mat3(frame.world), sheet.sun);
 }
 
-// The light from behind after a sheet: transmitted, plus what the sheet reflects.
+// The light from behind after a sheet (layer of water): the part that the sheet transmits, plus what it adds and
+// reflects.
 vec3 over(Sheet sheet, vec3 background) {
     vec4 c = through_medium(background, sheet.path, lit_in(sheet));
     return with_mirrored(sheet, c.rgb, vec2(c.a, 1.0));
 }
 
-// The back sheet where the front one covers it. Near its edge, and where little air separates the two, its
-// surface counts for less; its thickness does so already.
+// The back sheet (layer of water) where the front sheet covers it. Its refraction, reflection, highlight and contact
+// with the scene fade near its edge, all but the refraction also where little air separates the sheets. Its thickness
+// `t` has already been scaled by the amount of air.
 Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
     Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0), false);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
@@ -366,15 +375,15 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
 struct Foam {
     float depth;  // of the frontmost foam; EMPTY where only its thickness is known
     float kept;   // transmittance
-    float behind; // metres from the frontmost foam to the middle of the foam that is visible
+    float behind; // metres from the frontmost foam back to the middle of the visible foam
     vec3 color;
     float t;      // its thickness, metres
     vec2 water;   // without a water sphere at the pixel: metres of water, in all and before the frontmost foam
 };
 
-// Slope per texel, right and down, of the quadratic B-spline through nine texels (three rows, top to bottom),
-// at the offset f from the middle one. Plain differences would be constant per texel, and the texels stay in
-// place on the screen while the water moves.
+// Slope per texel, to the right and down, of the quadratic B-spline of nine texels (three rows, top to bottom), at
+// the offset f from the middle one. Plain differences would be constant in each texel, which would show because the
+// texels stay in place on the screen while the water moves.
 vec2 spline_slope(vec2 f, vec3 low, vec3 mid, vec3 high) {
     vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
     vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
@@ -385,8 +394,8 @@ vec2 spline_slope(vec2 f, vec3 low, vec3 mid, vec3 high) {
          + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
 }
 
-// The same slope from four gathers around the middle texel. Texels outside the frame repeat its edge; the
-// image may be larger.
+// The slope of `spline_slope`, from four gathers around the middle texel. Texels outside the frame are replaced by
+// those at its edge, because the image may be larger than the frame.
 vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 after) {
     bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
     vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
@@ -395,8 +404,9 @@ vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 
     return spline_slope(f, low, mid, high);
 }
 
-// Shading of the foam's relief: its height is its thickness in the front layer. Over 1 where it is turned to
-// the sun, under 1 where it is turned away. Not in the thesis, whose foam is flat.
+// Factor that shades the foam as a relief, whose height is the thickness of the front layer of foam. The factor is
+// over 1 where the relief is turned to the sun, under 1 where it is turned away. Not in the thesis, whose foam is
+// flat.
 float relief(vec2 pixel, float z, float sun) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     vec2 middle = floor(h + 0.5);
@@ -422,16 +432,17 @@ bool beside(vec2 pixel) {
     return FOAM == 1u && foam_seen(pixel).depth < EMPTY || spray_at(ivec2(pixel));
 }
 
-// Mean depth of the frontmost foam in the four texels. The least depth would change in steps.
+// Weighted mean of the depths of the frontmost foam in the four texels. The least of these depths would change in
+// steps from pixel to pixel.
 float foam_middle(FoamTexels foam) {
     vec4 w = mix(vec4(0.0), foam.shown, lessThan(foam.z, vec4(EMPTY)));
     float sum = w.x + w.y + w.z + w.w;
     return sum > 0.0 ? dot(w, mix(vec4(0.0), foam.z, greaterThan(w, vec4(0.0)))) / sum : foam.depth;
 }
 
-// Transmittance of foam with the lace pattern. `kept` is that of smooth foam, and the mean over the pattern is close to
-// it. Foam stays smooth where the largest cells are less than two pixels wide. `much` becomes the density relative to
-// smooth foam, which is more than 1 in a thread and less than 1 in a hole.
+// Transmittance of foam with the lace pattern. `kept` is the transmittance of smooth foam; the mean over the pattern
+// is close to it. Foam stays smooth where the largest cells of the pattern are less than two pixels wide. `much`
+// becomes the density relative to smooth foam, which is more than 1 in a thread and less than 1 in a hole.
 float through_lace(vec2 pixel, float z, float kept, out float much) {
     vec3 at = (frame.world * vec4(z * vec3(ray_slope(pixel, frame.slope), -1.0), 1.0)).xyz / frame.foam_pattern.z;
     at -= LACE_WRAP * floor(at / LACE_WRAP + 0.5);
@@ -443,17 +454,19 @@ float through_lace(vec2 pixel, float z, float kept, out float much) {
     return 1.0 - mix(1.0 - kept, covered, told);
 }
 
-// Radius within which the foam around a pixel is compared for its shape: in particle spacings, and at most in
-// texels.
+// Distance from a pixel at which `shape_light` samples the depth of the foam around: in particle spacings, and its
+// max in foam texels.
 const vec2 SHAPE_REACH = vec2(6.0, 32.0);
 const vec2 SHAPE_WAYS[4] = vec2[](vec2(1.0, 0.0), vec2(0.70710678), vec2(0.0, 1.0), vec2(-0.70710678, 0.70710678));
-// Cosines of the angle to the sun at which foam is fully unlit and fully lit. The range is wide because light
-// scatters in foam.
+// Cosine of the angle between the foam's normal and the sun: at the first value foam is unlit, at the second fully
+// lit. The range is wide because light scatters in foam.
 const vec2 SHAPE_LIT = vec2(-0.5, 0.6);
-// Fraction of skylight lost in a hollow whose neighbours are all a full radius nearer.
+// Fraction of skylight that foam loses in a hollow whose surroundings are all nearer to the eye by at least the
+// sampling distance.
 const float SHAPE_HOLLOW = 0.6;
 
-// How much farther the foam at a point between texels is than z, within ±reach. Without foam: reach.
+// By how much the foam at a point between texels is farther from the eye than depth z, clamped to ±reach. Texels
+// without foam count as `reach`.
 float foam_beyond(vec2 h, float z, float reach) {
     h = clamp(h, vec2(0.0), frame.thick_extent.xy - 1.0);
     vec2 base = min(floor(h), frame.thick_extent.xy - 2.0);
@@ -463,8 +476,8 @@ float foam_beyond(vec2 h, float z, float reach) {
     return mix(mix(beyond.x, beyond.y, f.x), mix(beyond.z, beyond.w, f.x), f.y);
 }
 
-// Visibility of the sun and of the sky from the shape of the foam around, so that a splash has a side in the
-// shade, and hollows. Not in the thesis.
+// Visibility of the sun (x) and of the sky (y), estimated from the shape of the foam around a pixel, so that a splash
+// has a shaded side and dark hollows. Not in the thesis.
 vec2 shape_light(vec2 pixel, float z) {
     float reach = SHAPE_REACH.x * frame.particle.y;
     vec2 texels = min(reach / (z * abs(frame.thick_slope.xy)), vec2(SHAPE_REACH.y));
@@ -484,9 +497,11 @@ vec2 shape_light(vec2 pixel, float z) {
                 1.0 - SHAPE_HOLLOW * hollow / (8.0 * reach));
 }
 
-// Thesis Sec. 3.2.3: the more foam lies right behind the frontmost, the nearer the colour is to the front
-// colour (Listing A.20; Eq. 3.9 swaps the two). Sprites carry their sun visibility. (The thesis evaluates it
-// at the mean of nine depths.) Foam gets no shadow of its own per sprite: its outline would show.
+// The surface foam at a pixel (thesis Sec. 3.2.3). The more foam lies in the front layer, right behind the frontmost
+// foam, the nearer its colour is to the front colour (Listing A.20; Eq. 3.9 swaps front and back colour). The
+// visibility of the sun is a mean over the sprites of the front layer, which each carry the visibility at their
+// centre. (The thesis evaluates it at the mean of nine depths.) A shadow of each single sprite would show the
+// sprite's outline.
 Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     Foam foam;
     vec4 t = vec4(0.0);
@@ -517,12 +532,12 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
         foam.kept = through_lace(pixel, z, foam.kept, local);
         torn = false;
     }
-    // Depth of the middle behind the frontmost, plus one spacing for distant foam, so that nothing changes
-    // when it becomes the frontmost. Dense foam is seen at its front, which lies before the middle by the
-    // room that the foam fills.
+    // Distance of the foam's middle behind the frontmost foam. `far` omits the first spacing of this distance; it is
+    // added again for distant foam, so that its depth does not change when it becomes the frontmost. Dense foam is
+    // seen at its front, which lies before its middle by the thickness of the foam.
     float middle = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
     foam.behind = max(middle - t.x * (1.0 - foam.kept), 0.0);
-    // Or the thesis program's other rule: a power of the share.
+    // The alternative is the thesis program's other rule: a power of the front layer's relative thickness.
     float power = frame.foam_front.w;
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
     float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * along * t.y * local);
@@ -544,8 +559,8 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     return foam;
 }
 
-// Radiance of whitewater particles from the light that they gather and their shadow (Akinci et al. 2013, Sec.
-// 2.5).
+// Radiance of whitewater particles (Akinci et al. 2013, Sec. 2.5). `light`: rgb the light that they gather, w their
+// shadow.
 vec3 whitewater_color(vec4 light) {
     vec3 shadow = clamp(light.w * frame.whitewater_shadow.rgb, 0.0, 1.0);
     vec3 whole = frame.whitewater_color.rgb * light.rgb;
@@ -567,16 +582,17 @@ Foam with_submerged(Foam foam, ivec2 pixel, float front) {
     return foam;
 }
 
-// Light through a sheet that contains foam. z is the depth of its surface; of the t metres along z, `before`
-// are before the frontmost foam. That water alone reflects. The foam lies at its middle, under the water
-// before it: otherwise a thin veil would lift foam from deep below to the surface, with its outline. In the
-// thesis all foam lies at the frontmost.
+// Light after a sheet (layer of water) that contains foam. `z` is the depth of the sheet's surface; of the sheet's
+// `t` metres along z, `before` are before the frontmost foam. Only where there is such water does the surface reflect
+// over the foam. All foam is placed at its middle depth, with the water before that over it. If it were placed at the
+// frontmost foam, a thin veil at the surface would lift foam from deep below to the surface, within the veil's
+// outline. In the thesis all foam lies at the depth of the frontmost.
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
     // Particle foam in front of the surface lies over it.
     float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
     first = by_source() ? 1.0 : first;
-    // Foam before the surface has no water before it. Distances below four spacings do not count: within the
-    // width of a drop a pixel may show no sphere.
+    // Foam in front of the surface has no water before it, so its distance from the surface is subtracted. The first
+    // four spacings of this distance do not count: within the width of a drop a pixel may show no sphere of the drop.
     float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
     before += max(foam.behind - apart, 0.0);
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
@@ -590,8 +606,9 @@ vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 back
     return with_mirrored(sheet, all.rgb, vec2(all.a, foam.kept));
 }
 
-// Water with foam in it: the larger the share of foam, the weaker its surface. The rest of a particle that
-// turns into foam is no drop, and would flicker with reflections in single pixels.
+// A sheet (layer of water) with foam in it: the larger the share of foam, the weaker the refraction, reflection and
+// highlight of its surface. The water that is left of a particle that turns into foam is no drop, and its reflections
+// would flicker in single pixels.
 Sheet among(Foam foam, float t, Sheet sheet) {
     float whole = by_source() ? 1.0 : smoothstep(0.5, 1.0, t / max(t + foam.t, 1.0e-9));
     sheet.offset *= whole;
@@ -600,7 +617,8 @@ Sheet among(Foam foam, float t, Sheet sheet) {
     return sheet;
 }
 
-// Water with foam in it where no water sphere shows: it only absorbs. It ends at the scene.
+// Water around foam at a pixel that shows no sphere of water: it has no surface and only absorbs. It ends at the
+// scene.
 Sheet between(Foam foam, vec2 pixel, float t) {
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     t = scene > 0.0 && foam.depth < 0.5 * EMPTY ? min(t, max(scene - foam.depth, 0.0)) : t;
@@ -620,7 +638,7 @@ Surface towards(Surface surface, Surface other, float fade) {
     return surface;
 }
 
-// The front water surface at a pixel, and the light that it sends to the eye itself.
+// The front water surface at a pixel, and the light that comes from this surface itself.
 struct Face {
     float z;      // depth
     float mirror; // reflectance: the rest of the light comes from below
@@ -671,8 +689,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             fading = false;
         }
         if (covers) {
-            // As the air between two sheets closes, they become one, so that the cells of the boundary do not
-            // show.
+            // As the air between two sheets closes, they become one gradually, so that the coarse cells from which
+            // the boundary is found do not show.
             float open = smoothstep(1.0, 4.0, (other.z - surface.z - t) / frame.particle.y);
             open = other.covered > 0.0 ? open : 1.0;
             t += (1.0 - open) * share.y;
@@ -689,7 +707,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     face = Face(surface.z, 0.0, vec3(0.0));
 
-    // Less than one layer of water is a drop: it keeps the shape of its sphere.
+    // Water thinner than one layer of particles is a drop: it keeps the shape of its sphere.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     // For the front sheet only: the noise belongs to the particles of its surface.
@@ -701,9 +719,9 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     if (FOAM == 1u) {
         foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
         behind_boundary = foam.depth >= boundary;
-        // Between the spheres of the front sheet the back sheet shows; of the front sheet only its foam is drawn, with
-        // the water in this foam. With one sheet the condition is false at compile time, so a CPU skips the code that
-        // depends on it.
+        // `past`: the pixel lies between the spheres of the front sheet and shows the back sheet. Of the front sheet
+        // only its foam is drawn, with the water in this foam. With SHEETS = 1 the condition is false at compile
+        // time, so a CPU driver skips the code that depends on it.
         past = SHEETS == 2u && !behind_boundary && front >= boundary && front < EMPTY;
         // Foam behind the air between two sheets belongs to the back sheet.
         if (covers && behind_boundary) {
@@ -792,22 +810,23 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     return dry && foam.depth >= EMPTY ? c : seen;
 }
 
-// Adds bubble foam. Over the water it covers all; in the water, pass `soap` has already dimmed it and added
-// the water's light before it. In both cases `c` is left where no foam covers, and the front surface's own
-// light is the same.
+// Adds bubble foam that lies in the water. Pass `soap` has already dimmed the foam by the water before it and added
+// that water's light. Where no foam covers, `c` is left; where it covers, the light of the front surface itself is
+// kept. (`shade` adds bubble foam before the water.)
 vec3 with_soap(vec3 c, vec4 over, Face face) {
     return c * (1.0 - over.a) + over.a * face.light + (1.0 - face.mirror) * over.rgb;
 }
 
-// Self-shadowing of spray on the screen: distance of the nearest sample in picture heights, number of samples at doubling
-// distances, bias of the optical depth before its logarithm, and loss of skylight over that of sunlight.
+// Self-shadowing of spray on the screen: distance of the nearest sample in picture heights, number of samples at
+// doubling distances, bias that is added to the optical depth before its logarithm, and ratio of the loss of skylight
+// to that of sunlight.
 const float RELIEF_NEAR = 1.0 / 360.0;
 const int RELIEF_OCTAVES = 5;
 const float RELIEF_THIN = 0.3;
 const float RELIEF_OF_SKY = 0.19;
 
-// Radiance of spray of albedo 1. Spray is darker where there is denser spray between it and the sun on the screen, and
-// brighter where there is thinner spray.
+// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the sunlit part of it. Spray is darker where the
+// spray next to it on the screen, in the sun's direction, is denser, and brighter where that spray is thinner.
 vec3 light_of_spray(vec2 pixel, vec2 droplets) {
     float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
     float relief = frame.spray_mist.w;
@@ -825,8 +844,8 @@ vec3 light_of_spray(vec2 pixel, vec2 droplets) {
     return under(vec3(lit)) * (1.0 - RELIEF_OF_SKY * relief * (1.0 - lit));
 }
 
-// All layers at a pixel that shows water, foam or spray. Spray lies over the others, except over bubble foam
-// before the water.
+// All layers at a pixel that shows water, foam or spray. Spray lies over the other layers, except that bubble foam
+// before the water lies over the spray.
 vec3 shade(vec2 pixel, float front) {
     Face face;
     vec3 c = layers_at(pixel, front, face);
@@ -839,8 +858,8 @@ vec3 shade(vec2 pixel, float front) {
     }
     if (SHORE == 1u && frame.target.z >= FOAM_TOO) {
         float amount = texelFetch(shore_foam, ivec2(pixel), 0).w;
-        // The texel's visibility of the sun is that of the host's surface behind; compute it at the water's
-        // surface.
+        // The visibility of the sun in the foam's image belongs to the host's surface behind. This computes it at the
+        // particles' water surface.
         float lost = 0.0;
         for (bool go = SHADOW + CAST > 0u && amount > 0.0; go; go = false) {
             lost = sun_lost(face.z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);

@@ -1,6 +1,6 @@
-// Two layers of water, one behind the other (passes `gaps` and `back`): for each texel of the thickness the eye depth
-// between them, EMPTY where there is only one. Not in the thesis (its limitation, Fig. 5.13). Needs frame.glsl. Reads:
-// boundaries.
+// Two sheets (layers of water), one behind the other (passes `gaps` and `back`): for each texel of the thickness
+// their boundary, the eye depth between them; EMPTY where there is only one sheet. Not in the thesis (its limitation,
+// Fig. 5.13). Needs frame.glsl. Reads: boundaries.
 
 // 1: there is one sheet everywhere; the buffer is not read.
 layout(constant_id = 8) const uint SHEETS = 2;
@@ -17,7 +17,7 @@ const int BLOCK_BITS = 4;
 
 // The boundary at a full-resolution pixel.
 float boundary_at(ivec2 pixel) {
-    // A shift divides by the texel's edge: a float division may round down, and CPUs have no vector division of
-    // integers.
+    // A shift divides by the texel's width in pixels, a power of two: a float division may round down, and CPUs have
+    // no vector division of integers.
     return boundary_of(pixel >> findMSB(int(frame.thick_extent.z)));
 }

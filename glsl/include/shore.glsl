@@ -1,10 +1,11 @@
-// Shared by the passes of shoreline and contact foam: position of the water's surface, values of the block. Horizontal
-// positions p are metres along the two level axes of the world. Needs frame.glsl.
+// Shared by the passes of shoreline and contact foam: position of the host's water surface, values of the uniform
+// block. Horizontal positions p are metres along the two level axes of the world. Needs frame.glsl.
 // Reads: the block of shoreline and contact foam.
 
-// 0: the usual case: a level surface; v from a map of distances or a strip; at most two noise look-ups and two
-// foam-texture look-ups; a scene depth of the frame's size. 1: the general case. They are separate pipelines, because a
-// CPU driver executes both sides of branches and evaluates loop counts one lane at a time.
+// 0: the usual case: the water's surface is level, the shore coordinate v comes from a map of distances or a strip,
+// there are at most two look-ups in the noise and two in the foam texture, and the scene's depth has the frame's
+// size. 1: the general case. The two are separate pipelines, because a CPU driver executes both sides of branches and
+// evaluates loop counts one lane at a time.
 layout(constant_id = 3) const uint GENERAL = 1;
 const int LOOKS = GENERAL == 1u ? 6 : 2;
 const int LAYERS = GENERAL == 1u ? 4 : 2;
@@ -68,7 +69,7 @@ float scene_of(float device_depth) {
     return device_depth == frame.before_lens.w ? 0.0 : eye_depth(device_depth);
 }
 
-// Whether the surface is visible in front of solids at a depth (0 or less: no solid).
+// Whether the water's surface at depth z is visible in front of the solid at depth `scene` (0 or less: no solid).
 bool seen_before(float z, float scene) {
     return z > 0.0 && z < EMPTY && !(scene > 0.0 && scene + shore.surface_part.w < z);
 }

@@ -1,5 +1,5 @@
-// Shared by the steps of the distance map (jump flooding, Rong, Tan 2006). A seed is a point of the shore line: its
-// position in 16ths of a texel, 16 bits per axis; NONE if unknown.
+// Shared by the steps that compute the map of distances to the shore (jump flooding, Rong, Tan 2006). A seed is a
+// point of the shore line: its position in 16ths of a texel, 16 bits per axis; NONE if unknown.
 
 const uint NONE = 0xffffffffu;
 

@@ -1,5 +1,5 @@
-// Intersection of a pixel's ray with the host's surface, and the shore coordinate v there. Needs frame.glsl,
-// shore.glsl.
+// Intersection of a pixel's ray with the host's water surface, and the shore coordinate v at this point: 0 where the
+// foam ends at sea, 1 at the shore, 2 where it ends inland. Needs frame.glsl, shore.glsl.
 // Reads: surface depth, map of distances.
 
 layout(set = 0, binding = 3) uniform sampler2D surface_depth;

@@ -23,8 +23,8 @@ vec2 pixel_of(vec2 first, int i) {
     return first + vec2(i == 1 || i == 2 ? 1.5 : 0.5, i < 2 ? 1.5 : 0.5);
 }
 
-// Scene depths at four pixels from `first` on; texel: 1 / size of the image. They may include texels outside the
-// picture.
+// Scene depths at the 2x2 pixels from `first` on, in the order of a gather; `texel` is 1 / size of the image. Pixels
+// outside the picture may be read.
 vec4 scene_at_four(vec2 first, vec2 texel) {
     if (GENERAL == 0u) {
         return textureGather(scene_depth, (first + 1.0 + frame.scene_origin.xy) * texel);
@@ -37,7 +37,8 @@ vec4 scene_at_four(vec2 first, vec2 texel) {
     return four;
 }
 
-// With the vertical measure, distances along the view count for less when seen from above.
+// Factor from a distance along the view axis to the distance that contact foam measures: with the vertical measure
+// the height that the ray falls per unit of eye depth, otherwise 1.
 float counted(vec3 ray) {
     return shore.contact.w == 2.0 ? max(-dot(shore.height.xyz, ray), 0.0) : 1.0;
 }

@@ -1,5 +1,6 @@
-// Shoreline foam: waves over v and a foam texture in the world (blog, Sec. IV to VIII). Detail finer than a pixel is
-// removed and kept as a variance, so that far foam covers as much as near foam. Needs shore.glsl. Reads: noise, web.
+// Shoreline foam: a mix of waves along the shore coordinate v and of a foam texture, the web, that lies in the world
+// (blog, Sec. IV to VIII). Detail finer than a pixel is removed and kept as a variance, so that far foam covers as
+// much as near foam. Needs shore.glsl. Reads: noise, web.
 
 layout(set = 0, binding = 28) uniform sampler2D shore_noise;
 layout(set = 0, binding = 29) uniform sampler2D shore_web;
@@ -21,8 +22,8 @@ vec4 web_at(vec2 uv, float level) {
     return textureLod(shore_web, uv, level);
 }
 
-// Sums of the noises at a point: added to frequency, phase, offset and threshold, and the displacement of the
-// web.
+// Sums of the noises at a point: `sum` is added to frequency, phase, offset and threshold; `moved` displaces the web,
+// in metres.
 struct Noises {
     vec4 sum;
     vec2 moved;
@@ -41,8 +42,8 @@ Noises noises_at(vec2 p, float width) {
     return noises;
 }
 
-// The mix minus the threshold, its change per pixel to the right and down, and the variance of detail too fine for the
-// pixel.
+// The mix of waves and web minus the threshold, its change per pixel to the right and down, and the variance of the
+// detail that is too fine for the pixel.
 struct Mixed {
     float over;
     vec2 change;
@@ -63,7 +64,7 @@ struct Place {
 Place place_at(vec2 p, mat2 across, vec2 dv) {
     float width = sqrt(abs(determinant(across)));
     Noises noises = noises_at(p, width);
-    // Mean of the wave over a pixel, taken as a normal distribution with the variance of a box.
+    // Factor of the wave's mean over a pixel. The pixel is taken as a normal distribution with the variance of a box.
     float frequency = shore.waves.x + noises.sum.x;
     float kept = exp(-frequency * frequency * dot(dv, dv) / 24.0);
     vec4 levels = vec4(0.0);
@@ -73,12 +74,12 @@ Place place_at(vec2 p, mat2 across, vec2 dv) {
     return Place(noises.sum, p + noises.moved, across, dv, kept, levels);
 }
 
-// The mix at an offset in pixels from a point.
+// The mix of waves and web at an offset in pixels from a point.
 Mixed mixed_at(Place place, float v, vec2 off) {
     vec4 noise = place.noise;
     float frequency = shore.waves.x + noise.x;
     float phase = frequency * v + shore.waves.y + noise.y;
-    // Bring the phase to half a turn: the precision of a sine is not guaranteed beyond it.
+    // Bring the phase to within half a turn of 0: beyond that the precision of a sine is not guaranteed.
     phase -= 6.2831853 * round(phase / 6.2831853);
     float waves = place.kept * sin(phase) + shore.waves.z * v + shore.waves.w + noise.z;
     float steep = waves > shore.mixed.x ? place.kept * frequency * cos(phase) + shore.waves.z : 0.0;
@@ -102,8 +103,8 @@ Mixed mixed_at(Place place, float v, vec2 off) {
     return mixed;
 }
 
-// Coverage of a pixel by foam: a box filter as wide as the change along the steepest direction, together with
-// the variance too fine for the pixel.
+// Coverage of a pixel by foam: a box filter over the values of the mix. Its variance is that of the mix's change
+// across the pixel in the steepest direction, plus that of the detail that is too fine for the pixel.
 float covered(Mixed mixed, vec2 pixel) {
     float width = sqrt(dot(mixed.change, mixed.change) + 12.0 * mixed.variance);
     float share = clamp(mixed.over / max(width, 1.0e-6) + 0.5, 0.0, 1.0);

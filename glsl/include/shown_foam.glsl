@@ -8,8 +8,8 @@ layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 layout(set = 0, binding = 9) uniform sampler2D foam_thickness;
 
-// Depth of the frontmost foam if its opacity is at least a half, otherwise EMPTY: a veil moves like the surface behind
-// it.
+// Depth of the frontmost foam if the foam's opacity is at least a half, otherwise EMPTY: thinner foam gets the motion
+// of the surface behind it.
 float shown_foam(vec2 pixel) {
     if (FOAM == 0u) {
         return EMPTY;

@@ -4,7 +4,8 @@
 
 layout(set = 0, binding = 5) uniform sampler2D smoothed;
 
-// Depth of the smoothed surface at a pixel: the mean of the texels on the surface of its own depth.
+// Depth of the smoothed surface at a pixel: the weighted mean of those of the four texels around it that lie on the
+// pixel's own surface, which has the depth `front`.
 float smoothed_at(vec2 pixel, float front) {
     float fade;
     uint finer = shown_level(nearness(front, ray_slope(pixel, frame.slope)), fade);

@@ -1,4 +1,4 @@
-// Wavelengths (nm) as linear Rec. 709, equal energy as white: the CIE 1931 observer by sums of Gaussians (Wyman, Sloan,
+// Wavelengths (nm) as linear Rec. 709: the CIE 1931 observer, approximated by sums of Gaussians (Wyman, Sloan,
 // Shirley, Simple Analytic Approximations to the CIE XYZ Color Matching Functions, 2013). Needs nothing.
 
 // First wavelength of the sum, number of wavelengths, and distance between them.
@@ -12,7 +12,8 @@ float spectrum_lobe(float wavelength, float middle, float below, float above) {
     return exp(-0.5 * t * t);
 }
 
-// Normalized so that light of equal energy at all wavelengths sums to 1 per channel.
+// Colour of light of one wavelength, not normalized: to show light of equal energy at all wavelengths as white,
+// divide sums by the sum of this colour over all wavelengths.
 vec3 spectrum_color(float w) {
     float x = 0.362 * spectrum_lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * spectrum_lobe(w, 599.8, 0.0264, 0.0323)
         - 0.065 * spectrum_lobe(w, 501.1, 0.0490, 0.0382);

@@ -1,8 +1,8 @@
 // Spheres in perspective: footprint and exact intersection. (The thesis offsets a billboard by N_z r: Sec. 4.6.1,
 // Listings A.8, A.9.) Needs nothing.
 
-// Bounds of the projected sphere in slopes (min xy, max xy), from the tangents through the eye in the planes of x and
-// y; false if the sphere reaches the eye plane and has no bounds.
+// Bounds of the projected sphere in slopes xy / depth (min xy, max xy). They come from the tangents through the eye
+// in the xz and yz planes. False if the sphere reaches the eye plane and so has no bounds.
 bool sphere_bounds(vec3 centre, float radius, out vec4 bounds) {
     float d = -centre.z;
     float h = d * d - radius * radius;
@@ -15,9 +15,9 @@ bool sphere_bounds(vec3 centre, float radius, out vec4 bounds) {
     return true;
 }
 
-// Parameter of the sphere's nearest point on the ray w; EMPTY if missed or nearer than `near` (the far root is
-// never taken). The discriminant uses the distance between centre and ray: the textbook form loses half a radius
-// to rounding at 1000 radii.
+// Parameter t of the point t w at which a ray first meets a sphere; EMPTY if the ray misses, or if t is less than
+// `near` (the far root is never taken). The discriminant uses the distance between centre and ray: at a distance of
+// 1000 radii the textbook form loses half a radius to rounding.
 float ray_hit(vec3 w, vec3 centre, float radius, float near) {
     float inverse = 1.0 / dot(w, w);
     float along = dot(w, centre) * inverse;

@@ -36,7 +36,8 @@ LightTexels light_texels(vec3 eye) {
     return t;
 }
 
-// Metres of a texel's water and foam that lie before a depth, as if each were contiguous around its mean.
+// Metres of water (x) and of foam (y) in a texel of the light's maps that lie before a depth, that is, nearer to the
+// sun. Each is taken as contiguous around its mean depth.
 vec2 before_depth(vec4 thick, float depth) {
     vec2 t = thick.xy;
     vec2 mean = thick.zw / max(t, vec2(1.0e-9));
@@ -44,10 +45,10 @@ vec2 before_depth(vec4 thick, float depth) {
 }
 
 // Coverage of a texel by the whitewater particles in front of a depth, that is, nearer to the sun. Only their mean
-// depth and standard deviation s are known. At a distance x behind the mean at least 1 - s^2 / (s^2 + x^2) of them lie
-// before it (Cantelli's inequality), with equality if they lie at two depths, such as foam on water and spray above it.
-// The bound is scaled to reach 1 at the far end of a uniform distribution. A minimal distance is subtracted, so that
-// foam does not shade itself within what a texel can resolve.
+// depth and standard deviation s are known. At a distance x behind the mean at least 1 - s^2 / (s^2 + x^2) of them
+// lie before it (Cantelli's inequality), with equality if they lie at two depths, such as foam on water and spray
+// above it. The bound is scaled to reach 1 at the far end of a uniform distribution. From x a minimal distance is
+// subtracted, so that foam does not shade itself within what a texel can resolve.
 float covered_by_whitewater(ivec2 texel, float depth) {
     vec3 there = texelFetch(light_whitewater, texel, 0).xyz;
     float reach = 0.5 * frame.particle.y + 1.5 * frame.light_map.y;
@@ -67,8 +68,8 @@ float past_whitewater(LightTexels t) {
     return t.inside ? 1.0 - lost : 1.0;
 }
 
-// Fraction of sunlight that blobs of bubble foam in front of a point let through. It fades with depth into a
-// blob, and a little passes right through.
+// Fraction of sunlight that blobs of bubble foam in front of a point let through. The light fades with depth into a
+// blob, down to the 15 % that always pass.
 float past_soap(LightTexels t) {
     float edge = float(textureSize(light_soap, 0).x);
     float wide = frame.light_map.y * frame.light_map.x / edge; // width of a texel, metres
@@ -92,7 +93,7 @@ float past_soap(LightTexels t) {
 vec3 through_fluid(vec3 eye) {
     LightTexels t = light_texels(eye);
     vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
-    // Sums what is lost instead of what is kept, so that it is 0 where there is nothing.
+    // Sums what is lost instead of what is kept, so that the sum is exactly 0 where there is neither water nor foam.
     vec3 lost = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
@@ -105,8 +106,8 @@ vec3 through_fluid(vec3 eye) {
     return SOAPED == 1u ? left * past_soap(t) : left;
 }
 
-// Sunlight at a point of foam, one value for all colours: around it there is more foam than water. Without
-// the mask's part, which is per pixel.
+// Sunlight at a point of foam, as one value for all colours, because there is more (grey) foam than water around the
+// point. The host's shadow mask is not included, because it is per pixel.
 float sun_in_foam(vec3 eye) {
     float past = SHADOW == 1u ? 1.0 : past_scene(eye, vec2(0.0));
     return CAST == 1u ? past * dot(through_fluid(eye), vec3(1.0 / 3.0)) : past;

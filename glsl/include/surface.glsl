@@ -1,21 +1,21 @@
-// The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.9.3, Listings A.17,
-// A.18, A.21 and A.23-A.25). Two depths belong to one surface if they differ by at most the falloff. If one neighbour
-// of a texel on an axis belongs to its surface, the other one also does if it continues the slope, that is, if the two
-// differences differ by at most the falloff. (The thesis' program tests the second difference as well.) So a surface
-// seen at a grazing angle has no border.
-// - The slope of a texel along an axis is the mean of the differences to its two neighbours on its surface. A
-//   texel that lacks one of its four neighbours is on the rim; the others are complete.
-// - A pixel uses those of the four texels around it that belong to the surface of its own depth, with
-//   bilinear weights. Texels beyond the image's edge repeat it.
-// - Depth and slope of the pixel are the weighted means. In the slope, rim texels have the weight RIM. If
-//   complete texels have at most 1/63 of the weight, RIM_SLOPE limits the slope.
-// - If none of the four texels belongs to its surface, the pixel takes slope and thickness of a texel beside the four
-//   (within one and a half of the pixel), the one nearest in depth, and keeps its own depth. If that is not on its
-//   surface either, or at full resolution, the pixel faces the eye and takes the thickness of the texel, among the
-//   four, that is nearest in depth.
-// The thesis' program shades four neighbours at a border and blends their colours. Here the derivatives on
-// the same surface are blended and shaded once: the colour of another surface never bleeds in, which would
-// show as dark seams.
+// The smoothed water surface at a full-resolution pixel, from the smoothed depth image of lower resolution (thesis
+// Sec. 4.9.3, Listings A.17, A.18, A.21 and A.23-A.25). Two depths belong to one surface if they differ by at most
+// the depth falloff (`threshold`). If one of a texel's two neighbours on an axis belongs to the texel's surface, the
+// other neighbour also does if it continues the slope, that is, if the differences of the texel to both neighbours
+// differ by at most the falloff. (The thesis' program tests the second difference as well.) So a surface seen at a
+// grazing angle has no border.
+// - The slope of a texel along an axis is the mean of the differences to its two neighbours on its surface. A texel
+//   that lacks one of its four neighbours is on the rim; the others are complete.
+// - A pixel uses those of the four texels around it that belong to the surface of its own depth, with bilinear
+//   weights. Texels beyond the image's edge are replaced by those at the edge.
+// - Depth and slope of the pixel are the weighted means. In the slope, rim texels have the weight RIM. If complete
+//   texels have at most 1/63 of the weight, RIM_SLOPE limits the slope.
+// - If none of the four texels belongs to the pixel's surface, the pixel keeps its own depth and takes slope and
+//   thickness of another texel: of the one nearest in depth among those beside the four (within one and a half texels
+//   of the pixel). If that one is not on the pixel's surface either, or at full resolution, the pixel's surface faces
+//   the eye, and the thickness is that of the texel nearest in depth among the four. The thesis' program shades four
+//   neighbours at a border and blends their colours. Here the derivatives on the same surface are blended and shaded
+//   once: the colour of another surface never bleeds in, which would show as dark seams.
 // Needs frame.glsl, level.glsl. Reads: smoothed.
 
 struct Surface {
@@ -30,8 +30,8 @@ struct Surface {
 
 layout(set = 0, binding = 1) uniform sampler2D smoothed;
 
-// Derivatives of four texels along one axis: central, or one-sided if the other side belongs to another
-// surface, or 0. Clears `whole` for texels that lack a side.
+// Derivatives of four texels along one axis: central, one-sided if the other side belongs to another surface, or 0 if
+// both sides do. Clears `whole` for texels that lack a side.
 vec4 differences(vec4 before, vec4 z, vec4 after, float threshold, inout bvec4 whole) {
     vec4 a = z - before;
     vec4 b = after - z;
@@ -55,8 +55,8 @@ const float RIM = 1.0 / 64.0;
 // Largest slope (depth per width) of a drop, which is a place where complete texels have at most 1/63 of the weight.
 const float RIM_SLOPE = 1.5;
 
-// front: depth of the pixel's own surface; negative: the surface of the nearest texel that is not before -front, of the
-// four or else of those beside them.
+// `front` is the depth of the pixel's own surface. A negative value asks for the first surface at or behind the depth
+// -front: that of the nearest such texel among the four or, without one, among those beside the four.
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
     vec2 h = pixel / level.texel.z - 0.5;
@@ -103,8 +103,8 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     if (base.y >= last.y) { z.zw = z.xy; dx.zw = dx.xy; dy.zw = dy.xy; trust.zw = trust.xy; }
 
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    // The two texels above or below the four, and the two at their left or right, whichever side the pixel is
-    // nearer to.
+    // The two texels above or below the four, and the two to their left or right, in each case on the side that the
+    // pixel is nearer to.
     bvec2 after = greaterThan(f, vec2(0.5));
     vec4 beside = vec4(after.y ? row3 : row0, after.x ? vec2(row1.w, row2.w) : vec2(row1.x, row2.x));
     bvec4 outside = bvec4(base.x < 0, base.x >= last.x, base.y < 0, base.y >= last.y);
@@ -123,7 +123,7 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     s.found = dot(own, vec4(whole));
     s.covered = front < EMPTY ? sum : 0.0;
     if (lost) {
-        // At full resolution three texels have weight 0, on one side of the pixel: exclude them.
+        // At full resolution the pixel is one of the four texels. The other three have weight 0: exclude them.
         off = mix(off, vec4(2.0 * EMPTY), equal(w, vec4(0.0)));
         float least = min(min(off.x, off.y), min(off.z, off.w));
         own = off.x == least ? vec4(1, 0, 0, 0) : off.y == least ? vec4(0, 1, 0, 0)

@@ -10,12 +10,12 @@ struct FoamSprite {
 
 // Sprites per workgroup of the compute path.
 const uint FOAM_GROUP = 64u;
-// Half-axis across the motion in drawn radii. The depth's half-axis shrinks as the foam ends. That of the
-// thickness does not, because the thickness fades softly towards its edge, and a smaller half-axis would cut it off.
-// (The thesis has 2 to 3.)
+// Half-axis of a foam sprite across the motion, in drawn radii. The half-axis of the sprite in the foam's depth
+// shrinks as the particle's foam ends. In the foam's thickness it does not, because there the sprite fades softly
+// towards its edge, and a smaller half-axis would cut it off. (The thesis has 2 to 3.)
 const float FOAM_AXIS = 2.0;
-// Min half-axis of the thickness in texels: narrower sprites would flicker between texel centres. Widened sprites are
-// thinner in proportion.
+// Min half-axis of a foam sprite in texels of the thickness: narrower sprites would flicker between texel centres.
+// Widened sprites are thinner in proportion.
 const float LEAST_FOAM_AXIS = 1.5;
 // Noise cells per half-axis.
 const float NOISE_CELLS = 1.6;

@@ -1,13 +1,14 @@
-// Velocity of the foam on the screen: a grid of nodes, each with the mean world velocity of nearby sprites.
-// Fixed-point steps: sums are exact in any order. Needs frame.glsl.
+// Velocity of the foam over the screen: a grid of nodes, each with the mean world velocity of the sprites near it.
+// Values are in fixed-point steps, so that sums are exact in any order. Needs frame.glsl.
 
 // Distance between nodes in pixels.
 const float DRIFT_CELL = 16.0;
-// Fixed-point steps for the weight of a whole sprite at a node, and for a speed of one spacing per second; max speed.
+// Fixed-point steps for the weight of a whole sprite at a node, and for a speed of one particle spacing per second;
+// max speed in steps.
 const float DRIFT_WHOLE = 63.0;
 const float DRIFT_STEPS = 2.0;
 const float DRIFT_MOST = 1023.0;
-// Sum of weights above which no more is added: with it, sums of the largest velocities fit 32 bits.
+// Sum of weights above which no more is added to a node, so that sums of weighted velocities fit 32 bits.
 const int DRIFT_FULL = 1 << 20;
 
 ivec2 drift_nodes() {

@@ -1,8 +1,9 @@
 // A foam sprite as it is drawn, by quads or by invocations. Needs frame.glsl, random.glsl, whole_steps.glsl,
 // gradient_noise.glsl, surface_foam.glsl, pattern.glsl, kernel.glsl.
 
-// Factor on the foam amount that gives the depth sprite's size: it is full before the foam becomes visible, because at
-// its outline the split into front layer and foam behind it changes.
+// A sprite in the foam's depth has DEPTH_GROWTH times the particle's amount of foam (0 to 1) as its relative size, at
+// most 1. So it reaches full size while the foam is hardly visible yet: the division into front layer and foam behind
+// it changes at the sprite's outline, which would show.
 const float DEPTH_GROWTH = 8.0;
 
 struct FoamPlane {
@@ -14,7 +15,7 @@ struct FoamPlane {
     float texel; // width of a texel at its centre
 };
 
-// The noise that tears the sprite: its own, or the finest octave of the pattern.
+// The noise that tears the sprite: the sprite's own noise, or the finest octave of the pattern.
 struct FoamNoise {
     vec3 place;  // at its centre
     vec3 along;  // change to the end of its half-axes
@@ -36,9 +37,9 @@ FoamPlane foam_plane(FoamSprite sprite, bool thick) {
     return plane;
 }
 
-// Metres along z at its centre. As for thickness sprites, the integral over the image plane is the volume. A unit
-// square of slopes covers z^2 / (n . (slope, 1)) of the sprite's area, with n . centre / z, which differs from n.z off
-// the axis.
+// Thickness in metres along z at the sprite's centre. As for the water's thickness sprites, its integral over the
+// plane of constant depth is the volume. A unit square of slopes (xy / depth) covers the area z^2 / |n . centre / z|
+// of the sprite's plane with normal n; away from the optical axis this differs from z^2 / |n.z|.
 float foam_amount(FoamSprite sprite, FoamPlane plane) {
     float facing = max(abs(dot(plane.normal, plane.centre) / plane.centre.z), LEAST_FACING);
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
@@ -78,20 +79,21 @@ FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
     return noise;
 }
 
-// Amounts that the sprite adds at a ray: to all foam; to the front layer, right behind the frontmost foam; to the
-// sunlit part of that; and weighted by the distance behind the frontmost. All are whole steps, so that sums are exact
-// in any order, and they are rounded with the same random number, so that a part never exceeds the whole. `before` is
-// the distance to the scene in metres.
+// Amounts that a sprite adds to a texel. x: to all foam. y: to the front layer, which is the foam right behind the
+// frontmost. z: to the sunlit part of the front layer. w: to all foam weighted by its distance behind the frontmost.
+// All are whole steps, so that sums are exact in any order, and all are rounded with the same random number, so that
+// a part never exceeds the whole. `before` is the distance in metres from the sprite to the scene behind it.
 vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
     float noise = own.torn.x * gradient_noise(own.place + own.along * place.x + own.across * place.y);
     amount *= thickness_kernel(dot(place, place));
     amount *= has_pattern() ? exp(own.coarse.x + dot(own.coarse.yz, place) + noise) : max(1.0 + noise, 0.0);
     // The sprite fades into the scene: a hard cut would show the texels as steps.
     amount *= min(before / (0.5 * frame.particle.y), 1.0);
-    // The layer ends softly within a spacing, so that foam does not pop when it passes the end.
+    // The front layer ends softly within a spacing, so that foam does not pop when it passes the layer's end.
     float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
     float first = front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0;
-    // Bounded, so that steps can hold the sum, and weighted towards near foam, which hides the rest.
+    // This measure of the distance is bounded, so that steps can hold the sum, and gives most weight to changes of
+    // near foam, which hides the rest.
     float behind = max(depth - front - frame.particle.y, 0.0);
     float far = behind / (behind + frame.particle.y);
     return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + rounding_up(own.chance, texel));

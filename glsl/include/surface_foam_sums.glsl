@@ -1,12 +1,13 @@
-// Words of each texel in the compute path of surface foam, next to each other: fixed-point sums of all foam, of the
-// shadowed part of the front layer, of all foam times its distance behind the frontmost, and of the foam behind the
-// front layer. For most sprites all but the first are zero and not added.
+// Words of each texel in the compute path of surface foam, next to each other: two depths, then fixed-point sums of
+// all foam, of the shadowed part of the front layer (with LIT), of all foam times its distance behind the frontmost
+// foam, and of the foam behind the front layer. For most sprites all addends but the first are zero and are not
+// added.
 
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;
 
-// Bits of the depth of the frontmost foam (that of the scene if there is none before it), and of the scene.
-// Positive floats have the order of their bits.
+// FRONT: bits of the depth of the frontmost foam, or of the scene if no foam is before the scene. SCENE: bits of the
+// scene's depth. Bits of positive floats have the same order as the floats.
 const uint FRONT = 0u;
 const uint SCENE = 1u;
 const uint ALL = 2u;
@@ -17,7 +18,7 @@ const uint WORDS = 5u + LIT;
 
 // Max sum: single precision represents all integers up to it. It is at least 4096 spacings of foam.
 const uint FULL = 16777216u;
-// No more is added above this, which leaves room for 85 thousand invocations that add at the same time.
+// No more is added to a sum above this, which leaves room for 85 thousand invocations that add at the same time.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 texel) {

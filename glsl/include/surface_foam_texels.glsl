@@ -1,5 +1,5 @@
 // The foam texels around a pixel. Foam has the resolution of the thickness; occlusion by the scene is resolved per
-// pixel, so its outlines are sharp. Needs frame.glsl.
+// pixel, so the scene's outlines before foam are sharp. Needs frame.glsl.
 
 struct FoamTexels {
     ivec4 at;     // the first and the last of the four texels

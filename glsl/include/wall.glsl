@@ -1,8 +1,9 @@
-// The film between two touching bubbles: part of a sphere through their common circle, whose tangent there bisects the
-// angle between the two (Huszar, Szecsi, Sec. 3.2, whose print lacks its roots and squares). Where films meet at 120
-// degrees it obeys Laplace: 1/r = 1/r_B - 1/r_A. Needs nothing.
-// Stored as curvature and apex, not as a centre: between equal bubbles it is a plane, and between nearly equal ones
-// the sphere exceeds single precision.
+// The wall, the film between two touching bubbles: part of a sphere through the circle in which the bubbles
+// intersect. On this circle the wall's tangent bisects the angle between the two bubbles (Huszar, Szecsi, Sec. 3.2,
+// whose print lacks the roots and squares of the formula). Where the three films meet at 120 degrees, the radius r of
+// the wall obeys Laplace: 1/r = 1/r_B - 1/r_A, with the radii r_A > r_B of the bubbles. Needs nothing.
+// The wall is stored as curvature and apex, not as centre and radius: between equal bubbles it is a plane, and
+// between nearly equal ones the sphere's radius exceeds single precision.
 
 struct Wall {
     vec3 apex;
@@ -35,7 +36,8 @@ bool wall_inside(vec3 point, vec4 ball) {
     return dot(q, q) <= ball.w * ball.w;
 }
 
-// Position on a ray (unit direction) of the wall's cap inside both bubbles; less than 0: none after `from`.
+// Distance along a ray (unit direction) to the wall, which is the part of its sphere inside both bubbles. Less than
+// 0: the ray does not meet it after `from`.
 float wall_hit(Wall wall, vec4 a, vec4 b, vec3 origin, vec3 direction, float from) {
     vec3 q = origin - wall.apex;
     float k = wall.curvature;

@@ -2,9 +2,11 @@
 // "Vectorized procedural models for natural terrain"). Not in the thesis.
 // Needs frame.glsl. Reads: nothing.
 
-// Cosine between normal and vertical up to which water has no waves, and that from which it has all of them.
+// Cosine of the angle between the water's normal and the vertical: up to the first value water has no waves, from the
+// second on it has all of them.
 const vec2 LEVEL_WATER = vec2(0.2, 0.7);
-// Width of a pixel on the water, in wavelengths, up to which a wave is complete, and that from which it is absent.
+// Width of a pixel on the water, in wavelengths of a wave: up to the first value the wave is complete, from the
+// second on it is absent.
 const vec2 SMALL_WAVE = vec2(0.2, 0.45);
 
 // Gradient of the height at a point of the world. `pixel` is the width of a pixel on the water; with 0 all waves are
@@ -27,7 +29,8 @@ float wavelet_share(vec3 n) {
     return smoothstep(LEVEL_WATER.x, LEVEL_WATER.y, dot(n, frame.up.xyz * mat3(frame.world)));
 }
 
-// A normal tilted by that share of the waves at a point, in eye space; `pixel` as above.
+// The normal `n`, tilted by `share` times the slope of the waves at the point `at`, in eye space. `pixel` is the
+// width of a pixel on the water in metres.
 vec3 turned_by_wavelets(vec3 n, vec3 at, float share, float pixel) {
     vec3 slope = wavelet_slope((frame.world * vec4(at, 1.0)).xyz, pixel) * mat3(frame.world);
     return normalize(n - share * (slope - dot(slope, n) * n));

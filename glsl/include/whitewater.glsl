@@ -1,17 +1,18 @@
-// Screen footprint of a whitewater particle, for every path (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc that faces
-// the camera, with the depth of a sphere. Not in the paper: small ones are widened so that they always cover a pixel
-// centre, with their total light preserved exactly at any sub-pixel position, so that far foam does not sparkle. Needs
-// frame.glsl, falloff.glsl.
+// Screen footprint of a whitewater particle (spray, foam or bubble), for every path (Akinci et al. 2013, Sec. 2.1 and
+// 2.2): a disc that faces the camera, with the depth of a sphere. Not in the paper: small discs are widened so that
+// they always cover a pixel centre. Their total light is preserved exactly at any sub-pixel position, so that far
+// foam does not sparkle. Needs frame.glsl, falloff.glsl.
 
 const uint FOAM = 0u;
 const uint SPRAY = 1u;
 const uint BUBBLE = 2u;
 
-// 0: shapes, lifetimes and sizes are the paper's, and its falloff below the surface is off. A specialization
-// constant, because a CPU driver runs the branch that is skipped.
+// 0: shapes, lifetimes and sizes are the paper's, and the paper's falloff below the surface is off. It is a
+// specialization constant, because a CPU driver runs both sides of a branch.
 layout(constant_id = 3) const uint SHAPED = 1;
 
-// Remaining light at an age (Eq. 1 with b = 1; in the paper n = 2, m = 0.4).
+// Fraction of its light that a particle still has at an age, which is in lifetimes (Eq. 1 with b = 1; in the paper n
+// = 2, m = 0.4).
 float life_of(float age) {
     float x = max(age, 0.0);
     if (SHAPED == 1u) {
@@ -34,8 +35,8 @@ Whitewater whitewater_of(vec3 position, uint kind, float radius, float age, uint
     // A centre that is not finite is moved behind the eye, where no path draws it.
     p.centre = all(lessThan(abs(p.centre), vec3(EMPTY))) ? p.centre : vec3(0.0, 0.0, EMPTY);
     p.kind = kind;
-    // As in the paper, radii vary between a fifth and the full radius, for an irregular look; bubbles have half of
-    // that.
+    // Radii vary with the id for an irregular look, in the paper between a fifth and the full radius; those of
+    // bubbles are scaled, in the paper by 0.5.
     uint size = (SHAPED == 1u ? id % uint(frame.whitewater_life.z) : id % 5u) + 1u;
     float bubble = SHAPED == 1u ? frame.whitewater_life.w : 0.5;
     p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.whitewater.x) / float(size) * (kind == BUBBLE ? bubble : 1.0);
@@ -49,8 +50,9 @@ vec4 shape_of(uint kind) {
     return frame.whitewater_shapes[kind == SPRAY ? 1 : kind == BUBBLE ? 2 : 0];
 }
 
-// Profile of the thickness by the squared distance from the centre, 0 to 1 (Fig. 5). The paper's are 1 -
-// x^1.5, x^2 and 1 - x^2.25, here with roots, which are faster than powers.
+// Profile of a particle's thickness over its disc, 0 to 1 (Fig. 5); `rr` is the square of the distance x from the
+// centre in radii. The paper's profiles are 1 - x^1.5 for spray, x^2 for bubbles and 1 - x^2.25 for foam, here with
+// roots, which are faster than powers.
 float whitewater_shape(uint kind, float rr) {
     if (SHAPED == 1u) {
         vec4 shape = shape_of(kind);
@@ -82,7 +84,7 @@ struct Footprint {
     vec2 middle;  // in pixels
     vec2 scale;   // 1 / half-axes in pixels, along the eye's axes
     ivec4 box;    // pixels whose centres may lie in it, also outside the frame
-    uint covered; // a bit for each of 4x4 pixels from the box's first on that it covers; 0 for a larger box
+    uint covered; // of 4x4 pixels from the box's first on, a bit for each that it covers; 0 for a larger box
     float own;    // weight of its own profile; the rest is q = 1 - rr
     float even;   // factor of q
 };
@@ -91,16 +93,16 @@ struct Footprint {
 const int COVERED = 4;
 const vec4 MIDDLES = vec4(0.5, 1.5, 2.5, 3.5);
 
-// Max number of blocks of 4x4 pixels over which a footprint is summed. Only a footprint less than two pixels high or
-// wide has more than one block: a row or two, where pixels are far from square.
+// Max number of blocks of 4x4 pixels over which a footprint is summed. It is summed only if one of its half-axes is
+// less than two pixels, so it has many blocks only where pixels are far from square: then they form a row or two.
 const int MOST_BLOCKS = 8192;
 
 bool is_small(ivec4 box) {
     return all(lessThan(box.zw - box.xy, ivec2(COVERED)));
 }
 
-// Squared distance of a pixel's centre from the middle, 0 to 1, and its position in the disc along the eye's
-// axes.
+// Squared distance of a pixel's centre from the disc's middle, 1 at the rim; `place` is its position in the disc
+// along the eye's axes.
 float whitewater_place(Footprint f, ivec2 pixel, out vec2 place) {
     place = (vec2(pixel) + 0.5 - f.middle) * f.scale;
     return dot(place, place);
@@ -156,7 +158,8 @@ float whitewater_amount(Whitewater p, Footprint f, float rr) {
     return p.life * (f.even * (1.0 - rr) + f.own * whitewater_shape(p.kind, rr));
 }
 
-// Splits the thickness: before the fluid's surface, behind it, and the latter weighted by depth. Depths are along z.
+// Splits a thickness. x: the part before the fluid's surface. y: the part behind it. z: y times d / (d + spacing),
+// where d is the distance behind the surface along z.
 vec3 whitewater_shares(float amount, float depth, float fluid) {
     float behind = fluid < EMPTY ? depth - fluid : 0.0;
     // The paper's falloff, used where our water does not absorb the light.

@@ -1,8 +1,9 @@
 // Traversal of whitewater particles: one invocation per particle, or a group per host packet; then a group per large
 // particle, from a list that the first dispatch wrote. There are no barriers, which are expensive on a CPU. The
-// includer defines a particle (a Sprite with a Whitewater p and a Footprint f, by sprite_at), the pixels of a box that
-// exist (inside), the operation on a pixel (splat), and whether a sphere can contribute at all (shows); it binds
-// arguments. Needs whitewater_streams.glsl. Reads: arguments, packets, list. Writes: list.
+// includer defines the struct `Sprite`, with a Whitewater `p` and a Footprint `f`; `sprite_at`, which returns a
+// particle's sprite; `inside`, which clips a box to pixels that exist; `splat`, the operation on a pixel; and
+// `shows`, whether particles in a sphere can contribute at all. It also binds arguments. Needs
+// whitewater_streams.glsl. Reads: arguments, packets, list. Writes: list.
 
 // 1: a group for each packet.
 layout(constant_id = 1) const uint PACKETS = 0;
@@ -15,12 +16,13 @@ layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
 
 #include "packets.glsl"
 
-// Max number of pixels of a box that one invocation processes alone; if the list is full, it processes more.
+// Max number of pixels of a particle that one invocation processes alone. Particles with more go into the list of
+// large ones; if it is full, the invocation processes them too.
 const int SMALL = 256;
 const uint ROOM = 16384u;
 const uint LIST = ROOM + 4u; // words per chunk
 
-// A particle of the chunk, if it lies before `past`.
+// Processes particle i of the chunk if i is less than `past`.
 void cover_one(uint i, uint past) {
     if (i >= past) {
         return;
@@ -51,8 +53,9 @@ void cover_one(uint i, uint past) {
             left = 0;
         }
     }
-    // One loop: lanes with boxes of different shapes finish with the largest box, not with the widest and the
-    // highest. For small boxes only covered pixels are visited: mostly one or two of four.
+    // One loop over all pixels of a box. With nested loops, lanes with boxes of different shapes would run as long as
+    // the greatest width times the greatest height takes; with one loop, only as long as the largest box takes. In
+    // small boxes only covered pixels are visited: mostly one or two of four.
     ivec2 at = box.xy;
     for (; left > 0; --left) {
         int bit = findLSB(covered);
@@ -63,7 +66,7 @@ void cover_one(uint i, uint past) {
     }
 }
 
-// A large particle, with all invocations of the workgroup.
+// Processes a large particle with all invocations of the workgroup.
 void cover_large(uint i) {
     Sprite s = sprite_at(i);
     ivec4 box = inside(s.f.box);

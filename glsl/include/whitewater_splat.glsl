@@ -1,5 +1,5 @@
 // Accumulation of whitewater particles in the words of each pixel. Needs frame.glsl, whitewater_streams.glsl,
-// whitewater_words.glsl, frustum.glsl, and WORD(at), one of the words. Reads: words. Writes: words.
+// whitewater_words.glsl, frustum.glsl, and the macro WORD(at), which names a word. Reads: words. Writes: words.
 
 struct Sprite {
     Whitewater p;
@@ -16,8 +16,8 @@ ivec4 inside(ivec4 box) {
     return ivec4(max(box.xy, ivec2(0)), min(box.zw, ivec2(frame.extent.xy) - 1));
 }
 
-// Whether a particle with its centre in this sphere may be visible. Beyond the far plane, particles are hidden by
-// the scene.
+// Whether a particle with its centre in this sphere may be visible. Particles beyond the far plane need not count:
+// the scene hides them.
 bool shows(vec3 middle, float reach) {
     vec3 centre = (frame.view * vec4(middle, 1.0)).xyz;
     // The largest radius of a particle, plus the widest to which sub-pixel particles are enlarged.
@@ -25,8 +25,9 @@ bool shows(vec3 middle, float reach) {
     return in_frustum(centre, reach + wider);
 }
 
-// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether or not
-// they add anything. An addition to a word that is half full is subtracted again.
+// Adds the steps to three consecutive words. One loop does all, with a single atomic operation in the code: at each
+// atomic operation a CPU driver runs the invocations one by one, whether or not they add anything. An addition to a
+// word that was half full already is subtracted again.
 void add(uint word, uvec3 steps) {
     do {
         // A zero must not count as an overflow: it would be subtracted again forever.

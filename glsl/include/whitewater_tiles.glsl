@@ -1,5 +1,5 @@
-// Tiles of 8x8 pixels with foam of whitewater particles, and the dispatch over them, with one group per tile. Needs
-// frame.glsl.
+// List of the tiles of 8x8 pixels that show whitewater particles, and arguments of the dispatch over these tiles,
+// with one group per tile. Needs frame.glsl.
 // Reads, writes: tiles.
 
 // Groups in x, y, z and the number of tiles, then the tiles, numbered row by row.
