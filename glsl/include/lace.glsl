@@ -27,8 +27,8 @@ const float CLOSES = 0.22;
 // For a wanted coverage c the amount of foam is COVERS.x + COVERS.y ln(c / (1 - c)). For c from 0.1 to 0.9 the mean
 // coverage over the pattern differs from c by at most 0.02.
 const vec2 COVERS = vec2(0.33, 0.127);
-// Half the range of amounts of foam over which the edge of a thread fades: its min value, and its value times the
-// width of a large bubble's cell in pixels; the larger of both counts.
+// Half the range of amounts of foam over which the edge of a thread fades: max(THREAD_ENDS.x, THREAD_ENDS.y w), where
+// w is the width of a pixel in cells of the large bubbles.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
 // One half of a thread's opacity fades over a wider range of amounts of foam than the other, like single bubbles at
 // the thread's edge. This is the min half-width of that range.

@@ -10,8 +10,8 @@ struct Met {
     float share; // visible fraction: 0 for no hit, fading near the view's edge
 };
 
-// Length of the first step in heights of the picture, and length of a ray in multiples of the depth at its start. A ray
-// towards the eye ends at the latest after three quarters of the way to the eye's plane.
+// Length of the first step in heights of the picture, and length of a ray in multiples of the depth at its start. A
+// ray towards the eye ends at the latest after three quarters of the way to the eye's plane.
 const float MARCH_FIRST = 1.0 / 128.0;
 const float MARCH_FAR = 64.0;
 // A point of the ray hits the scene if it is behind the scene's visible front by at most this distance: the change of

@@ -1,6 +1,6 @@
 // Octahedral map of all directions to a square: the upper half in the middle, the lower one folded out to the corners
-// (Meyer et al. 2010). A border of one texel repeats the texels across the edge, so that no seam appears and no driver
-// needs to filter across faces.
+// (Meyer et al. 2010). A border of one texel repeats the texels across the edge, so that no seam appears and no
+// driver needs to filter across faces.
 
 vec2 octahedral_signs(vec2 p) {
     return mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));

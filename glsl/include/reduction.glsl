@@ -2,8 +2,8 @@
 // 3.1, Eq. 3.1 with the half of its viewport; Listing A.12).
 // Needs frame.glsl, plan.glsl, level.glsl and the constant RULE.
 
-// Number of iterations before the cap, and the step size relative to the largest, for a surface at depth z; `c` is the
-// world size of a pixel per depth.
+// Number of iterations before the cap, and the step size relative to the largest, for a surface at depth z; `c` is
+// the world size of a pixel per depth.
 float iterations(float z, vec2 slope, vec2 c, out float share) {
     float width = c.x * z; // width of the pixel in the world
     if (RULE == RULE_CONSTANT_WIDTH) {

@@ -1,4 +1,5 @@
-// Shadow of the host's scene at a point, from its shadow map or mask. (Thesis Sec. 4.9.4 uses convolution shadow maps.)
+// Shadow of the host's scene at a point, from its shadow map or mask. (Thesis Sec. 4.9.4 uses convolution shadow
+// maps.)
 // Needs frame.glsl, convolution.glsl. Reads: shadow map or mask, its basis and span.
 
 // 0: no shadow, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.

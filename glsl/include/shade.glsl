@@ -169,8 +169,8 @@ vec2 bent(vec2 offset) {
 
 // Scene colour behind the water at an offset in pixels; never that of an object in front of the water. If such an
 // object or the edge of the view lies within twice the offset, the offset is shortened to half of the free length
-// before it. So the offset shrinks gradually towards an obstacle. An offset that dropped to 0 there would leave a seam,
-// and the whole free length would lead all pixels nearby to the obstacle's edge and smear it.
+// before it. So the offset shrinks gradually towards an obstacle. An offset that dropped to 0 there would leave a
+// seam, and the whole free length would lead all pixels nearby to the obstacle's edge and smear it.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
     float far = length(offset);
     // In units of the offset: the farthest point known to be free, and the nearest known to be blocked.
@@ -286,8 +286,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     float lens = frame.surface.x * mix(min(t, 2.0 * frame.particle.y), t, surface.found);
     sheet.offset = -n.xy * sign(frame.projection.xy) * lens / (frame.texel.xy * surface.z);
 
-    // Reflection and highlight fade out where the water is thin, because at the rims of drops they would outline every
-    // drop.
+    // Reflection and highlight fade out where the water is thin, because at the rims of drops they would outline
+    // every drop.
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 to = reflect(-v, n);
     vec3 reflected = mat3(frame.world) * to;

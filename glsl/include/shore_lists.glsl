@@ -1,8 +1,8 @@
 // Tile lists of shoreline and contact foam with their dispatches, shared by producers and consumers.
 // Reads, writes: lists, arguments.
 
-// Five lists: tiles that may have shoreline foam; contact foam; both; runs of tiles with any foam (shore_runs.glsl);
-// and tiles that may have contact foam on the particles' water.
+// Five lists. 1, 2, 3: tiles that may have shoreline foam, contact foam, or both. 4: runs of tiles with any foam
+// (shore_runs.glsl). 5: tiles that may have contact foam on the particles' water.
 layout(set = 0, binding = 9, std430) buffer Lists { uint list[]; };
 // For each list: workgroups in x, y, z and the number of tiles. The fourth list holds runs of tiles, and its
 // arguments are those of a draw: vertices, instances, first vertex, first instance.

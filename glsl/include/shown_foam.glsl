@@ -1,5 +1,5 @@
-// The foam that a pixel shows, of pass `surface_foam`. Needs frame.glsl, surface_foam_texels.glsl. Reads: foam depth and
-// thickness.
+// The foam that a pixel shows, of pass `surface_foam`. Needs frame.glsl, surface_foam_texels.glsl. Reads: foam depth
+// and thickness.
 
 // 1: there may be foam; otherwise it is not read.
 layout(constant_id = 9) const uint FOAM = 0;

@@ -1,6 +1,6 @@
 // Sunlight that reaches a point: past the host's scene (scene_shadow.glsl), and through water and foam (not in the
-// thesis). Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: inputs of scene_shadow.glsl, the light's maps of
-// thickness, whitewater particles and bubble foam.
+// thesis). Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: inputs of scene_shadow.glsl, the light's maps
+// of thickness, whitewater particles and bubble foam.
 
 #include "scene_shadow.glsl"
 

@@ -13,9 +13,9 @@
 // - If none of the four texels belongs to the pixel's surface, the pixel keeps its own depth and takes slope and
 //   thickness of another texel: of the one nearest in depth among those beside the four (within one and a half texels
 //   of the pixel). If that one is not on the pixel's surface either, or at full resolution, the pixel's surface faces
-//   the eye, and the thickness is that of the texel nearest in depth among the four. The thesis' program shades four
-//   neighbours at a border and blends their colours. Here the derivatives on the same surface are blended and shaded
-//   once: the colour of another surface never bleeds in, which would show as dark seams.
+//   the eye, and the thickness is that of the texel nearest in depth among the four.
+// The thesis' program shades four neighbours at a border and blends their colours. Here the derivatives on the same
+// surface are blended and shaded once: the colour of another surface never bleeds in, which would show as dark seams.
 // Needs frame.glsl, level.glsl. Reads: smoothed.
 
 struct Surface {

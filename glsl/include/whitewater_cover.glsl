@@ -11,7 +11,8 @@ layout(constant_id = 1) const uint PACKETS = 0;
 layout(constant_id = 2) const uint LARGE = 0;
 
 layout(set = 0, binding = 9, std430) readonly buffer HostPackets { uint packets[]; };
-// For each chunk: dispatch arguments (4 words; the last is the number of large particles), then the particles that fit.
+// For each chunk: dispatch arguments (4 words; the last is the number of large particles), then the particles that
+// fit.
 layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
 
 #include "packets.glsl"

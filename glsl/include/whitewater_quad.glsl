@@ -1,4 +1,5 @@
-// A whitewater particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, whitewater.glsl, whitewater_words.glsl.
+// A whitewater particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, whitewater.glsl,
+// whitewater_words.glsl.
 // Reads: words.
 
 layout(set = 0, binding = 6, std430) readonly buffer Words { uint words[]; };

@@ -1,5 +1,6 @@
 // The host's streams of whitewater particles: the chunk of each that a splat pass binds. Needs frame.glsl,
-// falloff.glsl, whitewater.glsl, crossfade.glsl, and push constants with offsets and strides (0 for an absent stream).
+// falloff.glsl, whitewater.glsl, crossfade.glsl, and push constants with offsets and strides (0 for an absent
+// stream).
 // Reads: positions, kinds, radii, ages, ids.
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
