@@ -157,8 +157,8 @@ pub struct WaterSettings {
     /// the radius falls to half. At least `density_threshold`, default 0.45.
     pub density_full: f32,
     /// Width (standard deviation) of the smoothing along the surface in drawn radii, [0, ∞), default 1.5. With 0.7
-    /// the particle lattice remains visible; with 2.5 water looks like silk. (The thesis' rule ignores this setting
-    /// and has a width of 4.8.)
+    /// the particle lattice remains visible; with 2.5 water looks like silk. (The thesis' rule ignores this setting;
+    /// its radius r_w is 4.8 drawn radii.)
     pub smoothing_width: f32,
     /// Where the depths of neighbouring pixels differ by more than this, there is a silhouette, and neither side is
     /// smoothed with the other. In drawn radii, [0, ∞), default 5.3.
@@ -368,7 +368,7 @@ pub enum Amplitude {
     /// of the number of particles. Default.
     Volume,
     /// The thesis' 0.8 times the sprite's width (Listing A.15). A sprite then holds about four particle volumes, so
-    /// water is about four times as thick as its volume.
+    /// the thickness is about four times that of [`Amplitude::Volume`].
     Source,
 }
 
@@ -785,7 +785,8 @@ pub struct SpraySettings {
     /// Opacity at the centre of a droplet at rest, [0, 1), default 0.5 (the thesis: 0.4).
     pub opacity: f32,
     /// Half-axis of a particle's droplet in drawn radii if the particle has only one, (0, 8], default 0.5 as in the
-    /// thesis. Of several droplets each has a random half-axis, 0.2 to 2.3 times this and on average half of it.
+    /// thesis. Of several droplets each has a random half-axis, 0.2 to 2.3 times this and on average half of it; on a
+    /// particle that is only spray they are 1.8 times as large.
     pub size: f32,
     /// Maximum number of droplets per particle, 1 (the thesis) to 64, default 16. If it is above 1, each particle has
     /// a random fraction of them, between a fifth and all, chosen by its id. A particle that is more than three
