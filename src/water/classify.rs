@@ -30,7 +30,8 @@ use crate::gpu::timing::Timer;
 pub const ROW: u64 = 20;
 /// Maximum number of particles per dispatch: 65 535 groups of 64.
 const MOST_CHUNK: u32 = 1 << 21;
-/// Maximum bytes of a part: every device can bind this much, so a saved state fits any device.
+/// Maximum bytes of a part of a hash table: every device can bind this much, so a state that was saved on one device
+/// fits any other.
 const MOST_PART: u64 = 1 << 27;
 /// If there are several parts, each has a multiple of this number of rows: 64 rows are 1280 bytes, a multiple of
 /// every device's offset alignment.
@@ -116,7 +117,7 @@ impl Parts {
         let (rows, count) = if rows <= whole {
             (rows, 1)
         } else {
-            // Ids are hashed evenly: with millions of them each part gets its share to within a thousandth.
+            // Ids are hashed evenly: with millions of them all parts get the same number, to within a thousandth.
             let fits = (whole - whole % PART_UNIT).max(PART_UNIT);
             let count = rows.div_ceil(fits);
             (rows.div_ceil(count).next_multiple_of(PART_UNIT), count)
@@ -143,7 +144,7 @@ pub struct Classify {
     /// Tables of the previous step and of this one, alternating.
     tables: [Buffer; 2],
     parts: Parts,
-    /// Foam (0 to 1) and age (seconds) of each particle of the last step, in its order.
+    /// Foam (0 to 1) and age (seconds) of each particle of the last step, in the order that the particles had in it.
     pub foam: Buffer,
     max_particles: u32,
     chunk: u32,
@@ -255,10 +256,12 @@ impl Classify {
         for part in 0..parts {
             for first in (0..count).step_by(self.chunk as usize) {
                 let bound = Window::all(gpu, &step.velocities, [&step.densities, &step.ids], first);
-                // A stream that ends before the chunk has no particles in it: the count was clamped.
+                // If a stream ends before this chunk, the chunk is empty: the number of particles was limited to what
+                // all streams hold.
                 let Some((velocities, [densities, ids])) = bound else { break };
                 if std::mem::replace(&mut written, true) {
-                    // Other parts' rows, and the foam of their particles, are in the same buffers.
+                    // Earlier dispatches wrote rows of other parts, and the foam of other particles, to the same
+                    // buffers.
                     let ours = [new.handle, self.foam.handle]
                         .map(|own| buffer(own, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE));
                     gpu.barriers(cmd, &[], &ours);

@@ -129,7 +129,7 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
     let own = own.max(entry_bytes(config)).max(shaped);
     let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
     let unit = chunk_unit(config);
-    // The request is clamped to the number that fits, which also keeps the rounding within the integer's range.
+    // The number of particles is limited to what fits before it is rounded up, so the rounding cannot overflow.
     let wanted = config.max_particles.clamp(1, fits.max(1)).next_multiple_of(unit);
     let size = wanted.min(fits - fits % unit).max(unit);
     (size, config.max_particles.max(1).div_ceil(size))
@@ -449,7 +449,8 @@ impl Cull {
         let chunk = self.list.chunk(index);
         let first = index * self.list.chunk_size;
         let others = [&particles.densities, &particles.surface_foam];
-        // A stream that ends before the chunk has no particles in it: the count was clamped.
+        // If a stream ends before this chunk, the chunk is empty: the number of particles was limited to what
+        // all streams hold.
         let Some((positions, [densities, foam])) =
             Window::all(gpu, &particles.positions, others, first)
         else {
@@ -526,7 +527,8 @@ pub fn buffers_of(particles: &Particles) -> Vec<vk::Buffer> {
     each_once(streams(particles), particles.count, particles.packets.map(|p| p.buffer))
 }
 
-/// The buffers of streams (each with the size of its values in bytes), of a count and of another buffer, each once.
+/// The buffers that hold the streams (each given with the size of its values in bytes) and the count, if it is on the
+/// GPU, and the other buffer; each buffer once.
 pub fn each_once<'a>(
     streams: impl Iterator<Item = (&'a Stream, u64)>,
     count: Count,

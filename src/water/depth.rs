@@ -1,8 +1,9 @@
 //! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
 //!
 //! It computes the exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a billboard by
-//! N_z·r, which is wrong off the axis and near the camera. Two paths give the same picture: sprites with MIN
-//! blending, and a compute shader with integer atomics on the same image.
+//! N_z·r (the z component of the sphere's normal, times the radius), which is wrong off the axis and near the camera.
+//! Two paths give the same picture: sprites with MIN blending, and a compute shader with integer atomics on the same
+//! image.
 //! Reads: the list of `front`. Writes: depth, R32F, EMPTY where there is no water.
 
 use ash::vk;

@@ -229,7 +229,8 @@ impl WaterSettings {
         Self {
             spacing,
             amplitude: Amplitude::Source,
-            // The thickness of the thesis is this many times the volume's, so the falloff is divided by it.
+            // The thesis' thickness is this many times that of the particles' volumes, so the falloff is divided by
+            // it.
             medium: Medium::Source { base, falloff: falloff.map(|k| k / SOURCE_VOLUMES) },
             fresnel: Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 },
             compositing: Compositing::Source,

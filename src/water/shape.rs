@@ -395,8 +395,8 @@ impl Shape {
         Ok(Particles { surface_foam, densities, ..*particles })
     }
 
-    /// Number of particles, or their maximum; 1 if the number is in the returned buffer. If the host knows the
-    /// number, any buffer can be bound.
+    /// Three values: the number of particles, or their maximum if only the GPU knows the number; 1 in that case,
+    /// otherwise 0; the buffer with the number on the GPU, otherwise any buffer, which is not read.
     fn count_of(&self, particles: &Particles, most: u32) -> (u32, u32, Resource) {
         match particles.count {
             Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),

@@ -277,7 +277,7 @@ impl Query {
                 self.record_gate(r, gate, block);
                 continue;
             };
-            // Labels stay within a command buffer: lavapipe does not survive one that spans two.
+            // A debug label may not span two command buffers: lavapipe crashes then.
             gpu.end_label(r.cmd);
             gpu.end_label(r.cmd);
             let (next, any) = read_back(r.cmd, self.pool.handle, block)?;

@@ -50,7 +50,8 @@ impl<const N: usize> Over<'_, N> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let first = index * list.chunk_size;
         let bound = Window::all(gpu, &self.particles.positions, self.streams, first);
-        // A stream that ends before the chunk has no particles in it: the count was clamped.
+        // If a stream ends before this chunk, the chunk is empty: the number of particles was limited to what
+        // all streams hold.
         let Some((positions, streams)) = bound else { return Ok(()) };
         let mut resources = vec![(0, r.uniforms), (self.binding, positions.resource)];
         resources.extend((self.binding + 1..).zip(streams.map(|stream| stream.resource)));
