@@ -1,4 +1,4 @@
-// Spray as droplets around a particle (thesis Sec. 4.9.5 draws one sprite per particle). Needs frame.glsl.
+// Spray as droplets around a particle (thesis Sec. 4.9.5 draws one sprite per particle). Needs frame.glsl, density.glsl.
 
 struct SpraySprite {
     vec4 centre;   // eye-space position; fraction of the particle that is spray
@@ -6,5 +6,9 @@ struct SpraySprite {
     uvec4 shape;   // of its droplets and mist, in the world (axes.glsl); sum of its neighbours' weights
 };
 
-// Half-axis of the largest droplet, relative to the mean.
-const float LARGEST_DROPLET = 2.74; // 1.5 over the root of LEAST_TORN
+// Half-axis of the smallest droplet relative to the mean one, and how much larger the largest is, before both are
+// divided by the root of torn_of.
+const float SMALLEST_DROPLET = 0.2;
+const float DROPLET_RANGE = 2.135;
+// Half-axis of the largest droplet relative to the mean one: of a particle that is only spray.
+const float LARGEST_DROPLET = (SMALLEST_DROPLET + DROPLET_RANGE) * inversesqrt(LEAST_TORN);

@@ -97,7 +97,7 @@ void main() {
     // Many droplets are small, few are large; the first one is mist.
     float rare = uniform_of(PLACE, id, number + 3u);
     rare *= rare * rare;
-    float size = several ? (0.2 + 2.135 * rare * rare) * inversesqrt(torn) : 1.0;
+    float size = several ? (SMALLEST_DROPLET + DROPLET_RANGE * rare * rare) * inversesqrt(torn) : 1.0;
     bool mist = several && gl_InstanceIndex % droplets == 0u;
 
     // In world space, so that it does not turn with the camera.

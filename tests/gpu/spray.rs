@@ -512,6 +512,32 @@ fn tiles_with_spray_alone_are_drawn() {
     }
 }
 
+/// Particles beside the picture whose largest droplets reach into it: the list must keep them.
+#[test]
+fn large_droplets_reach_into_the_picture() {
+    let gpu = Gpu::shared();
+    let size = extent(120, 90);
+    let mut rig = Rig::new(&gpu, &spraying(size));
+    let (spacing, depth) = (0.4, 2.0);
+    // The mean half-axis of a droplet, and the left plane of the view. A droplet with a half-axis
+    // of half its depth is not drawn.
+    let mean = 3.0 * 0.656 * spacing / (0.6 * 0.513 * 64.0_f32).sqrt();
+    let edge = (30.0_f32.to_radians().tan() * 120.0 / 90.0).atan();
+    let beside = |i: u16| {
+        // From the distance of 1.5 over the root of 0.3 to nearly the largest half-axis.
+        let (row, away) = (f32::from(i % 10), 2.8 + 0.1 * f32::from(i / 10));
+        [-depth * edge.tan() - mean * away / edge.cos(), 0.2 * (row - 4.5), depth]
+    };
+    let points: Vec<_> = (0..120).map(beside).collect();
+    let mut case = Sprayed::of(Shot::new(size, Lens::Standard, spacing * 0.656, &points), 0.0);
+    case.shot.densities.as_mut().expect("densities").fill(1.0);
+    (case.look().size, case.look().scatter_radius, case.look().droplets) = (3.0, 0.0, 64);
+    case.look().mist = 0.0;
+    let drawn = case.draw(&mut rig);
+    let (_, covered) = case.check("spray-beside", &drawn);
+    assert!(covered > 100, "{covered} pixels");
+}
+
 /// A particle that flies straight at the eye is drawn as if at rest, at any speed: its motion
 /// across the view is only rounding error and must not become a direction.
 #[test]
