@@ -827,7 +827,7 @@ pub struct Strip {
 #[derive(Clone, Copy, Debug)]
 pub struct ShoreDistances {
     pub(crate) view: vk::ImageView,
-    /// Minimum corner, side length in metres, and number of texels along each axis.
+    /// Minimum corner and side length of the map in scene units, and its number of texels along each axis.
     pub(crate) corner: [f32; 2],
     pub(crate) edge: f32,
     pub(crate) size: u32,
@@ -1243,7 +1243,7 @@ pub struct Settings {
     pub(crate) ladder: DebugView,
 }
 
-/// Defaults for a particle spacing of 0.05 in a scene of metres, under the default [`Sky`](crate::Sky).
+/// Defaults for a particle spacing of 0.05 and scene units of one metre, under the default [`Sky`](crate::Sky).
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -1369,12 +1369,12 @@ impl Light {
 pub struct Layer {
     /// Name. The tool's EXR files append a channel to it: the layer `water.depth` is the channel `water.depth.Z`, the
     /// layer `motion` the channels `motion.X` and `motion.Y`. With [`Config::surface_foam`] `water.thickness` has a
-    /// second channel: metres of water in front of the frontmost foam. With [`Config::sheets`] of 2 there is a layer
-    /// `water.thickness.sheets` with four channels: thickness of the front layer of water, thickness of the back
-    /// layer, metres of water within about a spacing of the boundary between them (with water there the two are drawn
-    /// as one), and the eye depth of this boundary as it was first found. A texel of `water.iterations` has 32 bits:
-    /// the low nine are the number of smoothing iterations planned for it, the other 23 the size of its steps
-    /// relative to the largest step.
+    /// second channel: thickness of the water in front of the frontmost foam. With [`Config::sheets`] of 2 there is a
+    /// layer `water.thickness.sheets` with four channels: thickness of the front layer of water, thickness of the
+    /// back layer, thickness of the water within about a spacing of the boundary between them (with water there the
+    /// two are drawn as one), and the eye depth of this boundary as it was first found. A texel of `water.iterations`
+    /// has 32 bits: the low nine are the number of smoothing iterations planned for it, the other 23 the size of its
+    /// steps relative to the largest step.
     pub name: &'static str,
     /// The image; transfer source usage.
     pub image: vk::Image,

@@ -64,7 +64,7 @@ pub struct SmoothingLevels {
     pub atlas: [i32; 4],
     /// Four numbers: the iterations that the first level needs at eye depth 1 on the optical axis, divided by a
     /// quarter of the maximum number of iterations; the square of a pixel's width over its height; the depth
-    /// difference in metres up to which neighbouring texels belong to one surface; 0.
+    /// difference in scene units up to which neighbouring texels belong to one surface; 0.
     pub near: [f32; 4],
 }
 

@@ -630,8 +630,8 @@ fn spray_color(spray: &SpraySettings, light: &Light) -> [f32; 4] {
     [r, g, b, f32::from(u8::from(spray.additive))]
 }
 
-/// Step in metres to which a sprite's foam thickness is rounded. It is a power of two, so that sums in 32-bit floats
-/// are exact up to 4096 spacings.
+/// Step in scene units to which a sprite's foam thickness is rounded. It is a power of two, so that sums in 32-bit
+/// floats are exact up to 4096 spacings.
 pub fn foam_step(spacing: f32) -> f32 {
     spacing.log2().floor().exp2() / 2048.0
 }
@@ -717,7 +717,7 @@ fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let n = index(water);
     let comes_in = comes_in(water);
     let leaves = leaves(water);
-    // Path of an even sky's light per metre of depth: the mean of 1/cos of the angle inside, over sin^2 of the angle
+    // Path of an even sky's light per unit of depth: the mean of 1/cos of the angle inside, over sin^2 of the angle
     // outside, is 2 n^2 (1 - sqrt(1 - 1/n^2)); this form has no cancellation.
     let sky = 2.0 / (1.0 + (1.0 - 1.0 / (n * n)).max(0.0).sqrt());
     let cosine = light.toward().dot(up).clamp(0.0, 1.0);
@@ -760,8 +760,8 @@ fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]
     }
 }
 
-/// Diffuse reflectance of a half space with this absorption and scattering per metre (van de Hulst 1980), below a
-/// surface that lets the share `leaves` of the light out. The surface's own reflection is not included.
+/// Diffuse reflectance of a half space with this absorption and scattering per scene unit (van de Hulst 1980), below
+/// a surface that lets the share `leaves` of the light out. The surface's own reflection is not included.
 fn reflectance(absorption: f32, scattering: f32, leaves: f32) -> f32 {
     let extinction = absorption + scattering;
     if extinction <= 0.0 {

@@ -209,7 +209,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     return light;
 }
 
-// Metres of water along z at a pixel, interpolated between the texels with water.
+// Thickness of the water along z at a pixel in scene units, interpolated between the texels with water.
 float water_at(vec2 pixel) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
@@ -239,7 +239,7 @@ void main() {
     vec3 color = vec3(0.0);
     vec3 left = vec3(1.0);
     vec3 body = vec3(0.0);
-    // Depth of the water's surface, and thickness of the water behind it in metres; air in between is ignored.
+    // Depth of the water's surface, and thickness of the water behind it, in scene units; air in between is ignored.
     float surface = texelFetch(water_depth, pixel, 0).x;
     float room = surface < EMPTY && frame.target.z >= FRONT_WATER ? water_at(vec2(pixel) + 0.5) : 0.0;
     float metres = 0.0;

@@ -21,13 +21,13 @@ layout(set = 0, binding = 0, std140) uniform Scene {
                         // clouds and band over the horizon, 0 to 1
     vec4 splashed;      // least x and z, greatest x and z of the basin that splashes on the paving around it;
                         // least > greatest: none
-    vec4 sea;           // level, length of the largest waves or of a plate of lava, unused, path of sunlight per metre of depth
-    vec4 absorption;    // of water, 1/m; w: variance of the slopes of all waves
-    vec4 scattering;    // of water, 1/m; w: fraction of the loop that has passed (lava)
+    vec4 sea;           // level, length of the largest waves or of a plate of lava, unused, path of sunlight per unit of depth
+    vec4 absorption;    // of water, per world unit; w: variance of the slopes of all waves
+    vec4 scattering;    // of water, per world unit; w: fraction of the loop that has passed (lava)
     vec4 lava;          // radiance of the hottest parts; w: 1 if it loops
     vec4 flow;          // of lava: direction x and z (of gusts on water too); distance flown, and that of a
                         // copy one loop behind
-    vec4 waves[WAVES];  // of water: wave number along x and z in rad/m, amplitude, phase
+    vec4 waves[WAVES];  // of water: wave number along x and z in radians per world unit, amplitude, phase
     vec4 shifts[WAVES]; // of each wave: factors of unrest() in its phase; variance of the slopes of this wave
                         // and all shorter ones
 } scene;

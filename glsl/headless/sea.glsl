@@ -21,7 +21,7 @@ const float REFRACTION = 1.333;
 const float MIRRORED = 0.02037; // reflectance at normal incidence
 const float FINER = 0.2;           // variance of slopes: ripples too short for the sum of waves, relative to the sum
 const float CLOUDED = 0.256;       // mean opacity of the clouds of sky.frag
-const float SKY_PATH = 1.2;        // mean path of skylight per metre of depth under water
+const float SKY_PATH = 1.2;        // mean path of skylight per unit of depth under water
 
 // Whether the eye is above the sea. From below the sea is not drawn.
 bool over_sea() {

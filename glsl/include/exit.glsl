@@ -22,7 +22,7 @@ struct Exit {
     float kept; // transmittance for the scene behind
     vec3 free;  // all other light
     vec3 scene;
-    float path; // metres through the sheet
+    float path; // length through the sheet, scene units
 };
 
 // Slope of the thickness, per pixel.

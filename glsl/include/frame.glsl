@@ -31,7 +31,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 ambient;       // w: 1 = the thesis' composite
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // amplitude, cells per second; relief; thickness below which foam fades
-    vec4 foam_pattern;  // strength of the pattern; of the lace; width of the lace's cells in metres; half the pattern's period in seconds
+    vec4 foam_pattern;  // strength of the pattern; of the lace; width of the lace's cells in scene units; half the pattern's period in seconds
     vec4 foam_octaves;  // spacings per cell of the first octave; origins of the two phases in the noise; strength of shape lighting
     vec4 foam_phases;   // weights of the two phases; displacement of each relative to half a period, -1 to 1
     vec4 foam_back;     // radiance of thin foam; w: quantum of the thickness
@@ -42,10 +42,10 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 spray_cloud;   // optical depth and half-axis of mist; seconds of motion that droplets are spread over
     vec4 spray_mist;    // contrast of mist; extinction for sunlight over foam's; scattering; relief
     mat4 shadow;        // eye -> the host's shadow map: place in it 0 to 1, depth
-    mat4 to_light;      // eye -> the light's maps: place in them 0 to 1, metres along the light
-    vec4 shadow_map;    // bias in metres; 1, or -1 where depth is reversed
+    mat4 to_light;      // eye -> the light's maps: place in them 0 to 1, distance along the light in scene units
+    vec4 shadow_map;    // bias in scene units; 1, or -1 where depth is reversed
     vec4 shadow_rect;   // first texel and size of the part of the shadow map or mask
-    vec4 light_map;     // side length of the maps in texels; of a texel in metres; smoothing in metres
+    vec4 light_map;     // side length of the maps in texels; of a texel in scene units; smoothing in scene units
     vec4 shade;         // shade relative to sunlight; foam's extinction of sunlight
     vec4 lit_color;     // as scene_color and its origin, for the image that `lit` reads
     vec4 lit_origin;
@@ -57,14 +57,14 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 before_lens;   // previous P00 P11; its near plane; device depth of the far end in this frame
     vec4 lens_change;   // P00 P11 P20 P21 minus the previous ones
     vec4 motion;        // seconds since the previous frame per spacing; spacing
-    vec4 noise;         // height of 1 in metres, foam; falloff per metre below the surface, half-axis
-    vec4 noise_image;   // width, height of the surface noise; size of its texels in pixels; cells per metre
+    vec4 noise;         // height of 1 in scene units, foam; falloff per scene unit below the surface, half-axis
+    vec4 noise_image;   // width, height of the surface noise; size of its texels in pixels; cells per scene unit
     vec4 noise_color;   // radiance of its foam
     vec4 whitewater;       // default radius of a whitewater particle; near and far end of the cross-fade to blobs, 0: none; 1 = the paper's falloff below the surface
-    vec4 whitewater_below; // that falloff: metres, exponents
+    vec4 whitewater_below; // that falloff: scene units, exponents
     vec4 whitewater_light; // log2 of the intensity's half, its exponent; 1 = the paper's mixing; radius of a blob relative to its particle
     vec4 whitewater_search; // occlusion spheres: first radius, increment per pass, passes, samples per cubic pixel
-    vec4 whitewater_samples; // minimum and maximum samples; reach of occluders in radii, or, negative, in metres
+    vec4 whitewater_samples; // minimum and maximum samples; reach of occluders in radii, or, negative, in scene units
     vec4 whitewater_opacity; // of fluid and solids; scale and exponent of the shadow
     vec4 whitewater_shadow; // colour that a shadow removes; its offset
     vec4 whitewater_color; // 2 albedo scale; radius of the blur relative to the first sphere
@@ -74,9 +74,9 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 shore_color;   // radiance of shoreline foam; its opacity
     vec4 contact_color; // radiance of contact foam; its lit share
     vec4 up;            // world, unit length; w: 1/n of the water
-    vec4 bed;           // share of upward light that leaves the water; path of skylight, of sunlight, per metre of depth; 1/n, or 0: dry
+    vec4 bed;           // share of upward light that leaves the water; path of skylight, of sunlight, per unit of depth; 1/n, or 0: dry
     vec4 bed_light;     // pi over the irradiance; transmittance of sunlight relative to skylight
-    vec4 wavelets[15];  // wave vector in the world, cycles per metre; phase in cycles
+    vec4 wavelets[15];  // wave vector in the world, cycles per scene unit; phase in cycles
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -12,8 +12,8 @@ struct Heaped {
 };
 
 layout(push_constant, std430) uniform Push {
-    vec4 gravity;      // m/s2; drag of the air 1/s
-    vec4 pair;         // rest distance and reach in sums of radii; stiffness 1/s2, pull m/s2
+    vec4 gravity;      // scene units/s2; drag of the air 1/s
+    vec4 pair;         // rest distance and reach in sums of radii; stiffness 1/s2, pull scene units/s2
     vec4 damping;      // of pairs along and across, of solids, 1/s; friction
     vec4 solid;        // contact distance in radii, stiffness 1/s2; time step in seconds; seconds in which halves separate
     vec4 water;        // level, relative density of foam; neighbour volume that keeps a blob whole, seconds without it
@@ -21,7 +21,7 @@ layout(push_constant, std430) uniform Push {
     uvec4 field_size;  // its points on each axis (0: no field); number of solids
     uint blobs;
     uint buckets;      // a power of two
-    float cells;       // grid cells per metre
+    float cells;       // grid cells per scene unit
     uint max_splits;     // max number of splits of one blob; there are 2^max_splits entries for each
 } push;
 

@@ -27,7 +27,7 @@ float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
     return drawn;
 }
 
-// Converts a sum (low word and carries) to metres.
+// Converts a sum (low word and carries) to scene units.
 float metres(uvec2 sum) {
     return (float(sum.y) * 4294967296.0 + float(sum.x)) * (frame.particle.w / UNITS);
 }

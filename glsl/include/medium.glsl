@@ -7,10 +7,10 @@ const float FOAM_TOO = 2.0;
 const float FRONT_WATER = 3.0;
 const float WHOLE = 4.0;
 
-// Light after `path` metres of water. `light` is the light from behind the water, premultiplied by `share`, the
-// fraction of the pixel that it covers, per channel. In front of this fraction the water adds its own light, scaled
-// by `lit`. w of the result: the water's mean transmittance (with the thesis' medium, the weight of the light from
-// behind).
+// Light after a path of length `path` through water. `light` is the light from behind the water, premultiplied by
+// `share`, the fraction of the pixel that it covers, per channel. In front of this fraction the water adds its own
+// light, scaled by `lit`. w of the result: the water's mean transmittance (with the thesis' medium, the weight of the
+// light from behind).
 vec4 through_medium(vec3 light, vec3 share, float path, vec3 lit) {
     // One exponential for both media: a CPU driver executes both sides of a branch.
     bool source = frame.medium_a.w > 0.5;

@@ -15,8 +15,8 @@ const float MOST_PATTERN = 1.0;
 // precision resolves positions within a cell.
 const float WRAP = 65536.0;
 
-// Weight of a pattern with cells of this width in metres: 0 if a cell is narrower than one texel, 1 if it is wider
-// than two.
+// Weight of a pattern with cells of this width in scene units: 0 if a cell is narrower than one texel, 1 if it is
+// wider than two.
 float told_apart(float cell, float texel) {
     return smoothstep(1.0, 2.0, cell / texel);
 }
@@ -31,7 +31,7 @@ vec3 pattern_place(vec3 position, vec3 velocity, uint phase, uint octave) {
 }
 
 // Coarse octaves of the pattern. w: logarithm of the factor on the amount of foam; the factor's mean is 1. xyz:
-// gradient of the logarithm per metre.
+// gradient of the logarithm per scene unit.
 vec4 coarse_pattern(vec3 position, vec3 velocity, float texel) {
     vec4 sum = vec4(0.0);
     float square = 0.0;

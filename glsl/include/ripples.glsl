@@ -57,7 +57,7 @@ vec3 ripple_at(vec2 pixel, float front, float threshold) {
 }
 
 // Normal of the surface with the height added (bump mapping, Blinn 1978; from screen-space derivatives, Mikkelsen
-// 2010): in metres of height per metre of surface, so the tilt does not depend on distance or resolution. The thesis'
+// 2010): as height per distance along the surface, so the tilt does not depend on distance or resolution. The thesis'
 // program adds derivatives of the noise image to the normal, so its tilt depends on both.
 vec3 rippled(vec3 n, vec3 px, vec3 py, vec2 rise) {
     vec2 height = frame.noise.x * rise;

@@ -206,17 +206,17 @@ float fresnel(float cosine) {
 
 // The effect of a sheet of water on the light from behind it.
 struct Sheet {
-    float path;    // length of the view ray in the water, metres
+    float path;    // length of the view ray in the water, scene units
     vec2 offset;   // of the refraction, pixels
     float mirror;  // reflectance
     vec3 mirrored;
     vec3 shine;    // sun highlight
     float wet;     // whether the scene behind touches the water: 1 it does, 0 air between
-    float down;    // metres of water above that scene, vertically
+    float down;    // depth of the water above that scene, vertically, scene units
     float sun;     // visibility of the sun at the surface
     vec3 at;       // surface position, eye space
     vec3 normal;   // towards the eye
-    float thick;   // thickness along z, metres
+    float thick;   // thickness along z, scene units
 };
 
 const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0);
@@ -375,10 +375,10 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
 struct Foam {
     float depth;  // of the frontmost foam; EMPTY where only its thickness is known
     float kept;   // transmittance
-    float behind; // metres from the frontmost foam back to the middle of the visible foam
+    float behind; // distance from the frontmost foam back to the middle of the visible foam, scene units
     vec3 color;
-    float t;      // its thickness, metres
-    vec2 water;   // without a water sphere at the pixel: metres of water, in all and before the frontmost foam
+    float t;      // its thickness, scene units
+    vec2 water;   // without a water sphere at the pixel: thickness of the water, in all and before the frontmost foam
 };
 
 // Slope per texel, to the right and down, of the quadratic B-spline of nine texels (three rows, top to bottom), at
@@ -518,7 +518,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     foam.depth = texels.depth;
     // In the thesis all foam lies at the depth of the frontmost.
     float far = by_source() || frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
-    // Converts metres along z to metres along the ray, as for water.
+    // Converts lengths along z to lengths along the ray, as for water.
     float along = length(vec3(ray_slope(pixel, frame.slope), 1.0));
     // Very thin foam counts as none: a veil would look like steam.
     foam.kept = exp(-frame.foam.x * along * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
@@ -582,11 +582,11 @@ Foam with_submerged(Foam foam, ivec2 pixel, float front) {
     return foam;
 }
 
-// Light after a sheet (layer of water) that contains foam. `z` is the depth of the sheet's surface; of the sheet's
-// `t` metres along z, `before` are before the frontmost foam. Only where there is such water does the surface reflect
-// over the foam. All foam is placed at its middle depth, with the water before that over it. If it were placed at the
-// frontmost foam, a thin veil at the surface would lift foam from deep below to the surface, within the veil's
-// outline. In the thesis all foam lies at the depth of the frontmost.
+// Light after a sheet (layer of water) that contains foam. `z` is the depth of the sheet's surface. Along z the sheet
+// has a thickness of `t`, of which the part `before` lies in front of the frontmost foam. Only where there is such
+// water does the surface reflect over the foam. All foam is placed at its middle depth, with the water before that
+// over it. If it were placed at the frontmost foam, a thin veil at the surface would lift foam from deep below to the
+// surface, within the veil's outline. In the thesis all foam lies at the depth of the frontmost.
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
     // Particle foam in front of the surface lies over it.
     float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);

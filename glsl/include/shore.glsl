@@ -1,5 +1,5 @@
 // Shared by the passes of shoreline and contact foam: position of the host's water surface, values of the uniform
-// block. Horizontal positions p are metres along the two level axes of the world. Needs frame.glsl.
+// block. Horizontal positions p are in scene units along the two level axes of the world. Needs frame.glsl.
 // Reads: the block of shoreline and contact foam.
 
 // 0: the usual case: the water's surface is level, the shore coordinate v comes from a map of distances or a strip,
@@ -15,20 +15,20 @@ layout(set = 0, binding = 1, std140) uniform ShoreFrame {
     vec4 north;         // and to the second
     vec4 height;        // eye space to height above the water's level
     vec4 surface;       // texels of the host's surface per pixel, its size
-    vec4 surface_part;  // its first texel; 1: level, 2: depth, 0: neither; metres of solids before it that count as behind
-    vec4 map;           // corner of the map in p, texels per metre, texels on each axis
-    vec4 reach;         // 1 / metres of foam to sea and inland; v where it ends; 0: no shoreline, 1: strip, 2: map, 3: screen
+    vec4 surface_part;  // its first texel; 1: level, 2: depth, 0: neither; distance in scene units by which solids before it still count as behind
+    vec4 map;           // corner of the map in p, texels per scene unit, texels on each axis
+    vec4 reach;         // 1 / width of the foam to sea and inland in scene units; v where it ends; 0: no shoreline, 1: strip, 2: map, 3: screen
     vec4 waves;         // frequency, phase, a, b
     vec4 mixed;         // floor, ratio of waves and of the web, threshold
     vec4 web;           // a', b'; texels of the web and of the noise
     vec4 counts;        // look-ups in the noise, layers of the web; 0 0
-    vec4 look[6];       // for each: repetitions per metre; metres by which xy displaces points and zw the web; 0
-    vec4 look_moved[6]; // how far it has moved, metres; 0 0
+    vec4 look[6];       // for each: repetitions per scene unit; scene units by which xy displaces points and zw the web; 0
+    vec4 look_moved[6]; // how far it has moved, scene units; 0 0
     vec4 noise[6];      // weights with which its xyzw change frequency, phase, offset and threshold
     vec4 layer[4];      // web at p: (x p.x - y p.y, y p.x + x p.y) + zw
     vec4 layer_weight;
-    vec4 contact;       // 1 / metres (host's surface, particles'); weight of the mask; 0: distance, 1: view, 2: vertical
-    vec4 contact_mask;  // repetitions of the web per metre, how far it has moved; 1: the host has a mask
+    vec4 contact;       // 1 / distance at which foam ends, scene units (host's surface, particles'); weight of the mask; 0: distance, 1: view, 2: vertical
+    vec4 contact_mask;  // repetitions of the web per scene unit, how far it has moved; 1: the host has a mask
     vec4 mask;          // texels of the mask per pixel, its size
     vec4 mask_part;     // its first texel; opacity on the host's surface and on the particles'
 } shore;
@@ -38,7 +38,7 @@ struct Water {
     float z;     // eye depth; 0 or less without a surface
     vec3 ray;    // eye space, at depth 1
     vec2 p;
-    mat2 across; // metres of p per pixel to the right and down
+    mat2 across; // change of p per pixel to the right and down
 };
 
 // The point of a ray at a depth, on a level surface.
@@ -59,7 +59,7 @@ Water water_point(vec3 ray, float z) {
     return w;
 }
 
-// Width of a pixel in metres: the side of a square of the same area.
+// Width of a pixel in scene units: the side of a square of the same area.
 float width_of(Water w) {
     return sqrt(abs(determinant(w.across)));
 }

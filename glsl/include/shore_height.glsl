@@ -5,7 +5,7 @@ layout(constant_id = 0) const uint OWN = 0;
 
 layout(set = 0, binding = 0) uniform sampler2D heights;
 
-// Metres above the water at the centre of a texel; clamped at the map's edge.
+// Height above the water at the centre of a texel, in scene units; clamped at the map's edge.
 float height_at(ivec2 texel) {
     texel = clamp(texel, ivec2(0), ivec2(push.size - 1));
     if (OWN == 0u) {

@@ -7,7 +7,7 @@ layout(push_constant, std430) uniform Push {
     ivec4 window; // first texel and size of the part that is computed anew
     int size;     // texels on each axis
     int jump;
-    float texel;  // its edge in metres
+    float texel;  // its edge in scene units
     float level;  // of the water
     vec4 part;    // of the host's height image: first texel, size
 } push;

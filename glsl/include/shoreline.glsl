@@ -23,7 +23,7 @@ vec4 web_at(vec2 uv, float level) {
 }
 
 // Sums of the noises at a point: `sum` is added to frequency, phase, offset and threshold; `moved` displaces the web,
-// in metres.
+// in scene units.
 struct Noises {
     vec4 sum;
     vec2 moved;
@@ -55,7 +55,7 @@ struct Mixed {
 struct Place {
     vec4 noise;     // sums of the noises
     vec2 moved;     // p, displaced by them
-    mat2 across;    // metres of p per pixel to the right and down
+    mat2 across;    // change of p per pixel to the right and down
     vec2 dv;        // derivative of v per pixel
     float kept;     // fraction of the waves that a pixel resolves
     vec4 levels;    // mip level of each layer of the web

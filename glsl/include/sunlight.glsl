@@ -20,7 +20,7 @@ layout(set = 0, binding = 27) uniform sampler2D light_soap;
 struct LightTexels {
     ivec2 base;
     vec2 f;
-    float depth; // metres along the light
+    float depth; // along the light, scene units
     bool inside;
 };
 
@@ -36,8 +36,8 @@ LightTexels light_texels(vec3 eye) {
     return t;
 }
 
-// Metres of water (x) and of foam (y) in a texel of the light's maps that lie before a depth, that is, nearer to the
-// sun. Each is taken as contiguous around its mean depth.
+// Thickness of the water (x) and of the foam (y) in a texel of the light's maps that lie before a depth, that is,
+// nearer to the sun. Each is taken as contiguous around its mean depth.
 vec2 before_depth(vec4 thick, float depth) {
     vec2 t = thick.xy;
     vec2 mean = thick.zw / max(t, vec2(1.0e-9));
@@ -72,7 +72,7 @@ float past_whitewater(LightTexels t) {
 // blob, down to the 15 % that always pass.
 float past_soap(LightTexels t) {
     float edge = float(textureSize(light_soap, 0).x);
-    float wide = frame.light_map.y * frame.light_map.x / edge; // width of a texel, metres
+    float wide = frame.light_map.y * frame.light_map.x / edge; // width of a texel, scene units
     vec2 at = (vec2(t.base) + t.f + 0.5) / frame.light_map.x * edge - 0.5;
     ivec2 base = ivec2(floor(at));
     vec2 f = at - vec2(base);

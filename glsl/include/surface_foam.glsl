@@ -5,7 +5,7 @@ struct FoamSprite {
     vec4 centre;   // eye-space position; foam, 0 to 1
     vec4 velocity; // eye-space velocity; age in seconds
     vec4 rest;     // x: bits of the particle's id; y: visibility of the sun; zw: 0
-    vec4 pattern;  // w: logarithm of the pattern's factor at the centre; xyz: its gradient per metre, eye space
+    vec4 pattern;  // w: logarithm of the pattern's factor at the centre; xyz: its gradient per scene unit, eye space
 };
 
 // Sprites per workgroup of the compute path.

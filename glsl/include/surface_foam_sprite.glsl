@@ -10,7 +10,7 @@ struct FoamPlane {
     vec3 centre;
     vec3 e1;     // unit vectors along its axes
     vec3 e2;
-    vec2 axes;   // half-axes, metres
+    vec2 axes;   // half-axes, scene units
     vec3 normal;
     float texel; // width of a texel at its centre
 };
@@ -37,9 +37,9 @@ FoamPlane foam_plane(FoamSprite sprite, bool thick) {
     return plane;
 }
 
-// Thickness in metres along z at the sprite's centre. As for the water's thickness sprites, its integral over the
-// plane of constant depth is the volume. A unit square of slopes (xy / depth) covers the area z^2 / |n . centre / z|
-// of the sprite's plane with normal n; away from the optical axis this differs from z^2 / |n.z|.
+// Thickness in scene units along z at the sprite's centre. As for the water's thickness sprites, its integral over
+// the plane of constant depth is the volume. A unit square of slopes (xy / depth) covers the area z^2 / |n . centre /
+// z| of the sprite's plane with normal n; away from the optical axis this differs from z^2 / |n.z|.
 float foam_amount(FoamSprite sprite, FoamPlane plane) {
     float facing = max(abs(dot(plane.normal, plane.centre) / plane.centre.z), LEAST_FACING);
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
@@ -82,7 +82,7 @@ FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
 // Amounts that a sprite adds to a texel. x: to all foam. y: to the front layer, which is the foam right behind the
 // frontmost. z: to the sunlit part of the front layer. w: to all foam weighted by its distance behind the frontmost.
 // All are whole steps, so that sums are exact in any order, and all are rounded with the same random number, so that
-// a part never exceeds the whole. `before` is the distance in metres from the sprite to the scene behind it.
+// a part never exceeds the whole. `before` is the distance from the sprite to the scene behind it.
 vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
     float noise = own.torn.x * gradient_noise(own.place + own.along * place.x + own.across * place.y);
     amount *= thickness_kernel(dot(place, place));

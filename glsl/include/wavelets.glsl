@@ -30,7 +30,7 @@ float wavelet_share(vec3 n) {
 }
 
 // The normal `n`, tilted by `share` times the slope of the waves at the point `at`, in eye space. `pixel` is the
-// width of a pixel on the water in metres.
+// width of a pixel on the water in scene units.
 vec3 turned_by_wavelets(vec3 n, vec3 at, float share, float pixel) {
     vec3 slope = wavelet_slope((frame.world * vec4(at, 1.0)).xyz, pixel) * mat3(frame.world);
     return normalize(n - share * (slope - dot(slope, n) * n));

@@ -20,14 +20,14 @@ layout(set = 0, binding = 3, std430) buffer Photons { uint photons[]; };
 const float UNITS = 4096.0;
 // Refractive index of water relative to air.
 const float INDEX = 1.333;
-// Half the width over which the surface's slope is measured, relative to the metres of water along the light, and the
-// limit of this half width in texels. Waves shorter than this focus light far above the bed. On the bed their light
-// is nearly uniform again, and ripples too small for the particles spread what is left.
+// Half the width over which the surface's slope is measured, relative to the thickness of the water along the light,
+// and the limit of this half width in texels. Waves shorter than this focus light far above the bed. On the bed their
+// light is nearly uniform again, and ripples too small for the particles spread what is left.
 const float SOFT = 1.0 / 16.0;
 const int MOST_SOFT = 8;
 
-// Eye-space position of a point at `place` (0 to 1) in the light's maps and at `depth` in metres along the light.
-// This inverts `to_light`, whose rows are orthogonal.
+// Eye-space position of a point at `place` (0 to 1) in the light's maps and at `depth` along the light, in scene
+// units. This inverts `to_light`, whose rows are orthogonal.
 vec3 eye_at(vec2 place, float depth) {
     mat4 rows = transpose(frame.to_light);
     vec3 off = vec3(place, depth) - vec3(rows[0].w, rows[1].w, rows[2].w);

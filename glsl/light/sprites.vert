@@ -32,8 +32,8 @@ layout(push_constant, std430) uniform Push {
 const float SPREAD = 0.6;
 
 layout(location = 0) flat out vec2 centre; // texels
-layout(location = 1) flat out float depth; // metres along the light
-layout(location = 2) flat out float axis;  // half-axis, metres
+layout(location = 1) flat out float depth; // along the light, scene units
+layout(location = 2) flat out float axis;  // half-axis, scene units
 layout(location = 3) flat out vec2 amount; // thickness of its water and of its foam
 layout(location = 4) flat out uint chance; // for stochastic rounding
 

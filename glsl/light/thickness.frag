@@ -1,6 +1,6 @@
 #version 460
-// Pass `light`: thickness in metres of water and of foam along the sunlight, and each of the two multiplied by its
-// depth along the light, from which the mean depth follows. It is the thickness of the camera (thesis Sec. 3.2.2,
+// Pass `light`: thickness in scene units of water and of foam along the sunlight, and each of the two multiplied by
+// its depth along the light, from which the mean depth follows. It is the thickness of the camera (thesis Sec. 3.2.2,
 // kernel.glsl), but seen from the sun, which is not in the thesis.
 // Reads: the discs of sprites.vert. Writes: thickness (RGBA32F), summed.
 

@@ -43,7 +43,7 @@ layout(set = 0, binding = 8) uniform sampler2D front;
 struct Sprite {
     Whitewater p;
     Footprint f;
-    float depth; // depth of its centre, metres along the light
+    float depth; // depth of its centre along the light, scene units
     uint place;  // position of its far end, texels along the light
 };
 

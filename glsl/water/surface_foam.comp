@@ -1,6 +1,6 @@
 #version 460
 // Pass `surface_foam`, compute path. It finds the depth of the frontmost surface foam (thesis Sec. 4.6.2), then sums,
-// in fixed-point steps, the metres of all foam and of its front layer, the foam right behind the frontmost (Sec.
+// in fixed-point steps, the thickness of all foam and of its front layer, the foam right behind the frontmost (Sec.
 // 4.8). One invocation handles a sprite, a whole workgroup a large one. A noise breaks up the discs: a pattern that
 // all sprites share, or a noise of each sprite that changes with its age.
 // Reads: Counts, sprites, words. Writes: words.
@@ -112,7 +112,7 @@ void splat(ivec2 texel, Splat s) {
         return;
     }
     uint scene = words[at + SCENE];
-    // Metres to the scene; not positive where it hides the sprite.
+    // Distance to the scene along z; not positive where the scene hides the sprite.
     float before = uintBitsToFloat(scene) - depth;
     if (!(before > 0.0)) {
         return;

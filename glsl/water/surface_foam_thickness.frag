@@ -1,8 +1,8 @@
 #version 460
-// Pass `surface_foam`, raster path: four thicknesses in metres: of all foam; of the front layer, which is the foam
-// right behind the frontmost (thesis Sec. 4.8.2, Listing A.16); of the layer's sunlit part; and of all foam with
-// weights from 0 to 1 that grow with the distance behind the frontmost. A noise breaks up the discs: a pattern that
-// all sprites share, or a noise of each sprite that changes with its age.
+// Pass `surface_foam`, raster path: four thicknesses in scene units: of all foam; of the front layer, which is the
+// foam right behind the frontmost (thesis Sec. 4.8.2, Listing A.16); of the layer's sunlit part; and of all foam
+// with weights from 0 to 1 that grow with the distance behind the frontmost. A noise breaks up the discs: a pattern
+// that all sprites share, or a noise of each sprite that changes with its age.
 // Reads: scene depth, foam depth. Writes: foam thickness (RGBA32F).
 
 #include "frame.glsl"

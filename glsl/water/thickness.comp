@@ -1,5 +1,5 @@
 #version 460
-// Pass `thickness`, compute path: sums the metres of water of each texel in fixed point, so that the order of the
+// Pass `thickness`, compute path: sums the thickness of water of each texel in fixed point, so that the order of the
 // particles does not matter (thesis Sec. 4.8.1 blends; kernel.glsl). An addend is at most 2^26 (of a particle with
 // half the radius), so 64 of them overflow a word. Carries are counted in a second word, so any number of particles
 // may lie on one spot. A second dispatch handles texels with two layers of water: it sums the front layer and the

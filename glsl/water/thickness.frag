@@ -1,7 +1,7 @@
 #version 460
-// Pass `thickness`, raster path: adds the metres of water of each sprite by blending, except where the sprite's
+// Pass `thickness`, raster path: adds each sprite's thickness of water by blending, except where the sprite's
 // centre is behind the scene (thesis Sec. 4.8.1, Listing A.15; kernel.glsl).
-// Reads: scene depth, foam depth. Writes: thickness (metres along z; R32F, or RG32F with foam).
+// Reads: scene depth, foam depth. Writes: thickness (scene units along z; R32F, or RG32F with foam).
 
 #include "frame.glsl"
 #include "sphere.glsl"

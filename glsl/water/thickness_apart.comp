@@ -1,6 +1,6 @@
 #version 460
-// Pass `thickness`, compute path, with two layers of water: converts the sums of the layers to metres, and removes
-// the boundary between the layers in texels where all water belongs to one of them. Not in the thesis.
+// Pass `thickness`, compute path, with two layers of water: converts the sums of the layers to scene units, and
+// removes the boundary between the layers in texels where all water belongs to one of them. Not in the thesis.
 // Reads: sums, boundaries, scene depth. Writes: sheets (RGBA32F: front, back, window, boundary as found), boundaries.
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `thickness`, raster path with two layers of water: adds the metres of water of each sprite by blending, in
-// total and for each layer, except where the sprite's centre is behind the scene. Two layers are not in the thesis.
+// Pass `thickness`, raster path with two layers of water: adds each sprite's thickness of water in scene units by
+// blending, in total and for each layer, except where the sprite's centre is behind the scene. Two layers are not
+// in the thesis.
 // Reads: scene depth, boundaries, foam depth. Writes: thickness (as thickness.frag), sheets
 // (RGBA32F: front, back, window; thickness_prune.comp completes them).
 

@@ -1,5 +1,6 @@
 #version 460
-// Pass `thickness`, compute path, last part: converts the sums from fixed point to metres. (The thesis blends.)
+// Pass `thickness`, compute path, last part: converts the sums from fixed point to scene units. (The thesis
+// blends.)
 // Reads: sums. Writes: thickness (R32F).
 
 #include "frame.glsl"

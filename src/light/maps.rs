@@ -3,8 +3,8 @@
 //! Every particle is drawn, independent of the camera, directly from the host's streams, without a list. Particles in
 //! culled packets are included, because they cast shadows into the view.
 //! Reads: the counts and the members of `cull` (which particles are in a packet), the host's particles. Writes:
-//! front, R32F, position of the first surface along the light, in metres; thickness, RGBA32F, of water and of foam
-//! along the light in metres, then each of the two multiplied by its position along the light.
+//! front, R32F, position of the first surface along the light, in scene units; thickness, RGBA32F, of water and of
+//! foam along the light in scene units, then each of the two multiplied by its position along the light.
 
 use ash::vk;
 use bytemuck::NoUninit;

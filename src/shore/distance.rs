@@ -5,7 +5,8 @@
 //! water's level are seeds, and jump flooding finds the nearest seed of each texel (Rong, Tan, *Jump Flooding in GPU
 //! with Applications to Voronoi Diagram and Distance Transform*, 2006), with one extra jump of one texel at the end.
 //! If only a part of the land has changed, only a rectangle of texels around it is updated.
-//! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, metres, negative in the water).
+//! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, scene units, negative in the
+//! water).
 
 use std::sync::Arc;
 

@@ -113,7 +113,7 @@ struct Looks {
 }
 
 impl Looks {
-    /// Adds a look-up with a number of repetitions per metre.
+    /// Adds a look-up with a number of repetitions per scene unit.
     fn add(&mut self, scale: f32) -> &mut [f32; 4] {
         let own = &mut self.own[self.count];
         self.count += 1;
@@ -193,7 +193,7 @@ impl ShoreUniforms {
         ]);
         if texture_warp.amplitude != 0.0 {
             looks.add(texture_warp.scale)[2] = texture_warp.amplitude;
-            // In metres.
+            // The displacement, in scene units instead of repetitions.
             let [u, v] = moved(look, texture_warp.scale, s.texture_warp_velocity);
             let metres = 1.0 / texture_warp.scale.max(1.0e-9);
             looks.moved[looks.count - 1] = [u * metres, v * metres, 0.0, 0.0];

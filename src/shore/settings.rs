@@ -1,6 +1,6 @@
 //! Settings of shoreline foam (*Semi-procedural foam shader*, an indie developer's blog, 2019) and of contact
-//! foam (D. Lettier, *3D Game Shaders For Beginners*, Foam). Lengths are in scene units. Defaults are in metres
-//! and suit an island about a hundred metres wide.
+//! foam (D. Lettier, *3D Game Shaders For Beginners*, Foam). Lengths are in scene units. The defaults are for scene
+//! units of one metre, and suit an island about a hundred metres wide.
 
 use std::f64::consts::TAU;
 
@@ -75,7 +75,7 @@ pub struct ShoreSettings {
 }
 
 impl ShoreSettings {
-    /// Converts this look from metres to scene units, for a number of scene units per metre.
+    /// Converts this look, whose lengths are in metres, to scene units, for a number of scene units per metre.
     #[must_use]
     pub fn in_units(mut self, units_per_metre: f32) -> Self {
         let longer = |length: &mut f32| *length *= units_per_metre;

@@ -365,8 +365,8 @@ pub(crate) const WATER_INDEX: f32 = 1.333;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Amplitude {
-    /// The sprite's integral is the particle's volume, spacing³. Thickness is then metres of water, independent
-    /// of the number of particles. Default.
+    /// The sprite's integral is the particle's volume, spacing³. Thickness is then the length of the water along z in
+    /// scene units, independent of the number of particles. Default.
     Volume,
     /// The thesis' 0.8 times the sprite's width (Listing A.15). A sprite then holds about four particle volumes, so
     /// the thickness is about four times that of [`Amplitude::Volume`].

@@ -4,9 +4,9 @@
 //!
 //! Not in the thesis. Neighbours are found with a hashed grid, rebuilt each frame. The weighted covariance of
 //! the neighbours within reach is diagonalised by a fixed number of Jacobi rotations. An ellipsoid has its
-//! sphere's volume, so thickness stays in metres; the paper scales by a kernel constant. A sphere changes gradually
-//! to an ellipsoid as the sum of its neighbours' weights grows; in the paper the sphere is kept up to a number of
-//! neighbours and then replaced.
+//! sphere's volume, so thickness stays in scene units; the paper scales by a kernel constant. A sphere changes
+//! gradually to an ellipsoid as the sum of its neighbours' weights grows; in the paper the sphere is kept up to a
+//! number of neighbours and then replaced.
 //!
 //! The pass runs once per frame before `cull`, which reads the result instead of the host's positions. The result
 //! does not depend on the view. In an optional last part, particles with few neighbours lose their surface foam and

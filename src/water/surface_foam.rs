@@ -2,8 +2,8 @@
 //!
 //! Particles with foam are drawn as sprites stretched along their motion. Slow sprites, and those that move towards
 //! the camera, change smoothly to discs (the thesis switches between the two, which pops). The intersection of a ray
-//! with a sprite's plane is exact. Thickness is in metres, as that of the water: the fraction of a particle that is
-//! foam is subtracted from its water.
+//! with a sprite's plane is exact. Thickness is in scene units, as that of the water: the fraction of a particle that
+//! is foam is subtracted from its water.
 //!
 //! Nothing pops or flickers: the sprite of a particle in the depth image has its full size before its foam becomes
 //! visible; no sprite is narrower than a texel can represent; noise finer than texels fades out; the front layer (the
@@ -22,9 +22,9 @@
 //!
 //! Spray is not foam: as a particle's density falls, its foam fades out and pass `spray` draws droplets instead.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there is
-//! none; foam thickness, RGBA32F, in metres: the total, the front layer (right behind the frontmost foam), the sunlit
-//! part of that layer (per sprite; a mask applies per pixel), and the total weighted by `d / (d + s)`, with s one
-//! spacing and d the distance behind the point one spacing behind the frontmost foam.
+//! none; foam thickness, RGBA32F, in scene units: the total, the front layer (right behind the frontmost foam), the
+//! sunlit part of that layer (per sprite; a mask applies per pixel), and the total weighted by `d / (d + s)`, with s
+//! one spacing and d the distance behind the point one spacing behind the frontmost foam.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -372,7 +372,7 @@ impl Foam {
         &self.drift
     }
 
-    /// Metres of foam.
+    /// Thickness of the foam along z, in scene units.
     pub fn thickness(&self) -> &Image {
         match &self.path {
             Path::Raster(both) => &both[1].target.image,

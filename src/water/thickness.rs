@@ -1,8 +1,8 @@
-//! Pass `thickness`: thickness of the water along z in metres, per pixel (thesis Sec. 3.2.2, Eq. 3.4 as in Listing
-//! A.15).
+//! Pass `thickness`: thickness of the water along z in scene units, per pixel (thesis Sec. 3.2.2, Eq. 3.4 as in
+//! Listing A.15).
 //!
 //! The amplitude is such that a sprite's integral over its plane is the particle's volume (the thesis' unit is
-//! arbitrary). Absorption is then per metre, and the look does not depend on how many particles resolve the same
+//! arbitrary). Absorption is then per scene unit, and the look does not depend on how many particles resolve the same
 //! water. The image has a quarter of the resolution by default; `composite` upsamples it with the weights with which
 //! it interpolates the surface. There are two paths: additive sprites, and fixed-point atomic sums, which do not
 //! depend on the order of the particles.

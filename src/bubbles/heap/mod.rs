@@ -256,8 +256,8 @@ impl BlobSimulation {
         })
     }
 
-    /// Records the initial blobs: the host's, at rest or with velocities (3×f32, m/s). `largest` is their
-    /// largest radius, which sizes the grid cells.
+    /// Records the initial blobs: the host's, at rest or with velocities (3×f32, scene units per second). `largest`
+    /// is their largest radius, which sizes the grid cells.
     ///
     /// # Errors
     /// [`Error::BadInput`], which names the field, before the first command is recorded.
@@ -443,7 +443,7 @@ impl BlobSimulation {
         }
     }
 
-    /// Velocities of these blobs (3×f32, m/s), in the same order.
+    /// Velocities of these blobs (3×f32, scene units per second), in the same order.
     pub fn velocities(&self) -> Stream {
         let size = 16 * u64::from(self.places());
         Stream { buffer: self.buffers.drifts.handle, size, offset: 0, stride: 16 }

@@ -1,5 +1,5 @@
 //! Settings of the blob simulation: motion, collisions, capacity. Lengths are in scene units, times in seconds; the
-//! defaults suit a scene in metres.
+//! defaults are for scene units of one metre.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -12,11 +12,11 @@ crate::contract::with!(BlobSimulationConfig, BlobSimulationSettings, BlobSimulat
 /// Max number of substeps per step.
 const MOST_SUBSTEPS: u32 = 64;
 
-/// How blobs move. Lengths are in scene units; the defaults are for metres.
+/// How blobs move. Lengths are in scene units; the defaults are for scene units of one metre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BlobSimulationSettings {
-    /// Gravity, m/s², default (0, −9.81, 0).
+    /// Gravity, scene units per second squared, default (0, −9.81, 0).
     pub gravity: [f32; 3],
     /// Linear air drag, 1/s, [0, 100], default 0.8.
     pub drag: f32,
@@ -26,9 +26,10 @@ pub struct BlobSimulationSettings {
     /// Distance between the centres of two blobs below which they attract each other, relative to the sum of their
     /// radii, from `rest` to 1.2, default 0.95. Below `rest` they repel each other.
     pub reach: f32,
-    /// Repulsion of two blobs, m/s² per metre of distance that is missing to `rest`, (0, 100 000], default 4000.
+    /// Repulsion of two blobs: acceleration divided by the length by which their distance falls short of that of
+    /// `rest`, 1/s², (0, 100 000], default 4000.
     pub stiffness: f32,
-    /// Maximum attraction, m/s², [0, 1000], default 12.
+    /// Maximum attraction of two blobs, scene units per second squared, [0, 1000], default 12.
     pub cohesion: f32,
     /// Damping of the relative velocity of two touching blobs along the line through their centres, 1/s, [0, 100],
     /// default 12.
@@ -39,8 +40,8 @@ pub struct BlobSimulationSettings {
     /// Distance of a blob's centre from a solid below which the solid repels the blob, in radii of the blob, (0, 1],
     /// default 0.85: a blob at rest overlaps the solid, like foam that adheres to it.
     pub contact: f32,
-    /// Repulsion of a blob by a solid, m/s² per metre of distance that is missing to `contact`, (0, 100 000],
-    /// default 20 000.
+    /// Repulsion of a blob by a solid: acceleration divided by the length by which their distance falls short of
+    /// that of `contact`, 1/s², (0, 100 000], default 20 000.
     pub solidity: f32,
     /// Damping of the velocity along a solid's normal, 1/s, [0, 200], default 60.
     pub solid_damping: f32,

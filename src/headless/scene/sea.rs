@@ -13,10 +13,11 @@ pub(super) const WAVES: usize = 28;
 const SHORTER: f64 = 0.85;
 /// Ratio of a wave's steepness to that of the next longer wave.
 const FLATTER: f64 = 0.93;
-/// Metres per second squared.
+/// Acceleration by gravity: 9.81 m/s², with a world unit taken as a metre.
 const GRAVITY: f64 = 9.81;
 
-/// A level sheet of water or lava that extends to the horizon, with gentle waves. Lengths in metres, y up.
+/// A level sheet of water or lava that extends to the horizon, with gentle waves. Lengths are in world units, y is
+/// up. The speed of the waves follows from gravity, for which a world unit is taken as a metre.
 ///
 /// It is visible but not in the depth buffer: the scene's depth and shadow map stay those of the ground below.
 /// Water absorbs and scatters light along the refracted ray, but shows the scene along the straight one:
@@ -27,13 +28,14 @@ const GRAVITY: f64 = 9.81;
 pub struct Sea {
     /// Mean height, default 0.
     pub level: f32,
-    /// Absorption, linear RGB, 1/m, [0, ∞), default that of a clear sea.
+    /// Absorption per world unit, linear RGB, [0, ∞), default that of a clear sea in a scene in metres.
     pub absorption: [f32; 3],
-    /// Isotropic scattering, linear RGB, 1/m, [0, ∞), default that of a clear sea.
+    /// Isotropic scattering per world unit, linear RGB, [0, ∞), default that of a clear sea in a scene in metres.
     pub scattering: [f32; 3],
-    /// Height of the largest waves from trough to crest, m, [0, ∞), default 0.22; 0 is a mirror. Lava has none.
+    /// Height of the largest waves from trough to crest, world units, [0, ∞), default 0.22; 0 is a mirror. Lava has
+    /// none.
     pub waves: f32,
-    /// Length of the largest waves, m, (0, ∞), default 11. For lava: size of its crust's plates.
+    /// Length of the largest waves, world units, (0, ∞), default 11. For lava: size of its crust's plates.
     pub length: f32,
     /// Direction of the largest waves, or of the lava's flow: world x and z, any length except 0, default [0.8,
     /// 0.6].
@@ -57,7 +59,7 @@ pub enum Liquid {
     Lava {
         /// Radiance of the hottest parts, linear RGB in the unit of the output, [0, ∞).
         radiance: [f32; 3],
-        /// Speed of its flow, m/s.
+        /// Speed of its flow, world units per second.
         speed: f32,
     },
 }
@@ -125,8 +127,8 @@ impl Sea {
         DVec2::from(self.towards.map(f64::from)).normalize_or(DVec2::X)
     }
 
-    /// The waves at a time in seconds, the longest first: wave number along x and z in rad/m, amplitude in
-    /// metres, phase.
+    /// The waves at a time in seconds, the longest first: wave number along x and z in radians per world unit,
+    /// amplitude in world units, phase.
     pub(super) fn waves_at(&self, time: f64) -> [[f32; 4]; WAVES] {
         let longest = TAU / f64::from(self.length);
         let steepest = 0.5 * f64::from(self.waves) * longest;
@@ -161,7 +163,7 @@ impl Sea {
         })
     }
 
-    /// Distance that the lava has flowed, in metres. With a period, this is the distance since the period's
+    /// Distance that the lava has flowed, in world units. With a period, this is the distance since the period's
     /// start; then also the distance of a copy that is a period behind (negative), and the copy's weight, which
     /// rises from 0 to 1, so that the copy has replaced the flow when the next period starts. `None` without a
     /// period.
