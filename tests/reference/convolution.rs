@@ -197,8 +197,8 @@ impl Convolved<'_> {
         [page / 2, page % 2].map(|i| i * (self.filter.texels + 2) + 1)
     }
 
-    /// Fraction of sunlight at a point with this error in metres, from the basis as read back. A
-    /// filter keeps `bits` bits of the position between texels.
+    /// Fraction of sunlight at a point with this error in scene units, from the basis as read back.
+    /// A filter keeps `bits` bits of the position between texels.
     pub fn past(&self, pages: &Pages, p: DVec3, by: f64, bits: u32) -> Rounded {
         let Some(place) = self.seen(p, by) else { return exact(1.0) };
         let Some(span) = self.span() else { return exact(1.0) };

@@ -2,10 +2,10 @@
 //! reaches the scene.
 //!
 //! The light's space is (u, v, d): position in the maps, which cover a ball's silhouette, and
-//! metres along the light. Numbers are [`Rounded`], or bounds where single precision decides
-//! something: the first particle of a texel, a multiple of a step, whether two depths belong to one
-//! surface. Where rounding may change a decision, the bounds widen by the effect of that decision
-//! only.
+//! distance along the light in scene units. Numbers are [`Rounded`], or bounds where single
+//! precision decides something: the first particle of a texel, a multiple of a step, whether two
+//! depths belong to one surface. Where rounding may change a decision, the bounds widen by the
+//! effect of that decision only.
 
 mod whitewater;
 
@@ -61,7 +61,7 @@ pub struct Light {
     /// Width of the smoothing and falloff of its depth, in drawn radii.
     pub width: f64,
     pub falloff: f64,
-    /// Extinction per metre of water and of foam.
+    /// Extinction per scene unit of water and of foam.
     pub extinction: [f64; 3],
     pub foam_extinction: f64,
     /// Whitewater particles: thickness of half intensity, and exponent.
@@ -112,7 +112,7 @@ impl Light {
         RADIUS * self.spacing
     }
 
-    /// Width of a texel in metres.
+    /// Width of a texel in scene units.
     pub fn texel(&self) -> f64 {
         2.0 * self.radius / self.texels as f64
     }
@@ -122,7 +122,7 @@ impl Light {
         self.spacing.log2().floor().exp2() / 2048.0
     }
 
-    /// Position in texels, whose centres are at +0.5, and metres along the light.
+    /// Position in texels, whose centres are at +0.5, and distance along the light.
     pub fn place(&self, p: DVec3) -> (DVec2, f64) {
         let sun = self.sun.normalize();
         let up = if sun.y.abs() > 0.99 { DVec3::X } else { DVec3::Y };
@@ -133,7 +133,7 @@ impl Light {
         ((across + 0.5) * self.texels as f64, -sun.dot(from))
     }
 
-    /// The world position at a place of the maps and metres along the light.
+    /// The world position at a place of the maps and a distance along the light.
     pub fn point(&self, at: DVec2, depth: f64) -> DVec3 {
         let sun = self.sun.normalize();
         let up = if sun.y.abs() > 0.99 { DVec3::X } else { DVec3::Y };
@@ -142,10 +142,10 @@ impl Light {
         self.center + right * across.x + sun.cross(right) * across.y - sun * depth
     }
 
-    /// Error of a coordinate in metres. The axes are unit vectors whose components err by 16u, 28u
-    /// as vectors, and are scaled with two roundings; this error grows with the distance from the
-    /// centre. The offset is a sum of four terms, like the product with a point: 8u of the terms
-    /// that cancel, 4u of the map's coordinate.
+    /// Error of a coordinate in scene units. The axes are unit vectors whose components err by 16u,
+    /// 28u as vectors, and are scaled with two roundings; this error grows with the distance from
+    /// the centre. The offset is a sum of four terms, like the product with a point: 8u of the
+    /// terms that cancel, 4u of the map's coordinate.
     pub fn off(&self, p: DVec3) -> f64 {
         let from = p - self.center;
         U * (36.0 * from.length() + 8.0 * (p.length() + self.center.length()) + 8.0 * self.radius)
@@ -184,8 +184,8 @@ impl Light {
         (water.v > 0.0 || foam.v > 0.0).then_some(Share { bulk, spray, parts: [water, foam] })
     }
 
-    /// The texels whose centres lie within `reach` metres of a place, with their distances in
-    /// metres.
+    /// The texels whose centres lie within `reach` of a place, with their distances; both in scene
+    /// units.
     fn within(&self, at: DVec2, reach: f64) -> impl Iterator<Item = (usize, usize, f64)> {
         let (n, t) = (self.texels, self.texel());
         let range = move |at: f64| {
@@ -418,7 +418,7 @@ impl Light {
     }
 
     /// Light relative to that without water, and the units that each texel holds. `past`: fraction
-    /// of sunlight that the host's scene lets through at a point with this error in metres.
+    /// of sunlight that the host's scene lets through at a point with this error in scene units.
     pub fn caustics(
         &self,
         maps: &Maps<'_>,
@@ -471,8 +471,8 @@ impl Light {
         (sums, Between { low, high })
     }
 
-    /// Fraction of sunlight that water and foam let through at a point with this error in metres,
-    /// for each channel, and the factor by which caustics change it.
+    /// Fraction of sunlight that water and foam let through at a point with this error in scene
+    /// units, for each channel, and the factor by which caustics change it.
     pub fn at(&self, maps: &Maps<'_>, p: DVec3, by: f64) -> ([Rounded; 3], Rounded) {
         let (at, d) = self.place(p);
         let (at, n) = (at - 0.5, self.texels as f64);
@@ -554,7 +554,7 @@ pub struct ShadowMap<'a> {
 }
 
 impl ShadowMap<'_> {
-    /// Fraction of sunlight at a point with this error in metres: a mean of comparisons. A
+    /// Fraction of sunlight at a point with this error in scene units: a mean of comparisons. A
     /// comparison that rounding may change counts a half, with an error of a half.
     pub fn past(&self, p: DVec3, by: f64) -> Rounded {
         let p = p + self.bias * self.sun.normalize();

@@ -23,7 +23,7 @@ use glam::{DMat3, DVec3};
 /// Fixed-point step of the sums.
 pub const STEP: f64 = 1.0 / 65536.0;
 
-/// Settings of the shapes; lengths in metres.
+/// Settings of the shapes; lengths in scene units.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     pub reach: f64,
@@ -56,7 +56,8 @@ pub struct Shape {
     pub spray: DMat3,
     /// Sum of its neighbours' weights, up to 64 in a film.
     pub crowd: f64,
-    /// Error bounds on the GPU: of the centre in metres, of both matrices as norms, and of the sum.
+    /// Error bounds on the GPU: of the centre in scene units, of both matrices as norms, and of the
+    /// sum.
     pub off: [f64; 4],
 }
 

@@ -596,7 +596,7 @@ pub struct Spray {
 }
 
 /// Fraction of sunlight at a droplet of a particle, by the droplet's world position and the
-/// position's error in metres.
+/// position's error in world units.
 pub type Sun<'a> = dyn Fn(&Particle, DVec3, f64) -> Rounded + 'a;
 
 /// The spray of particles. `scene`: eye depth of the scene that hides spray, infinite or

@@ -12,8 +12,8 @@ pub const J: f64 = 0.3400030;
 /// Amplitude of a splat.
 #[derive(Clone, Copy, Debug)]
 pub enum Amplitude {
-    /// Its integral over the plane is the particle's volume, so the thickness is in metres of
-    /// water.
+    /// Its integral over the plane is the particle's volume, so the thickness is a length of water
+    /// in scene units.
     Volume {
         /// Mass over density, or the cubed spacing.
         particle_volume: f64,

@@ -111,12 +111,12 @@ struct Lit {
     /// Colour of the baseline's foam.
     foam: [Rounded; 3],
     /// Fraction to which the scene touches the water, and height of the water above the scene in
-    /// metres.
+    /// scene units.
     wet: Rounded,
     down: Rounded,
     /// Fraction to which the water darkens the scene.
     film: Rounded,
-    /// Thickness of the water along z in metres.
+    /// Thickness of the water along z in scene units.
     thick: Rounded,
 }
 

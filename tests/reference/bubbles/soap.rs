@@ -119,7 +119,7 @@ impl Table {
 /// What water transmits, and the light that it emits or scatters itself.
 #[derive(Clone, Copy, Debug)]
 pub enum Medium {
-    /// Extinction per metre, as exp(-x), and the light from a great thickness.
+    /// Extinction per scene unit, as exp(-x), and the light from a great thickness.
     Physical { extinction: DVec3, own: DVec3 },
     /// The source's: colour of thin water; falloffs of the colour and of what is behind (thesis,
     /// Eq. 3.5 to 3.7).
@@ -127,7 +127,7 @@ pub enum Medium {
 }
 
 impl Medium {
-    /// Transmittance and own light of this many metres.
+    /// Transmittance and own light of water of this length.
     pub fn of(&self, metres: f64) -> (DVec3, DVec3) {
         match *self {
             Self::Physical { extinction, own } => {
@@ -141,7 +141,7 @@ impl Medium {
         }
     }
 
-    /// Upper bound of the loss per metre.
+    /// Upper bound of the loss per scene unit.
     fn falls(&self) -> f64 {
         match *self {
             Self::Physical { extinction, .. } => extinction.max_element(),
@@ -150,7 +150,7 @@ impl Medium {
     }
 }
 
-/// The water on a ray: its distance from the eye and its length in metres, with air behind.
+/// The water on a ray: its distance from the eye and its length in scene units, with air behind.
 #[derive(Clone, Copy, Debug)]
 pub struct Water {
     pub medium: Medium,
@@ -165,7 +165,7 @@ impl Water {
         Self { medium, from: f64::INFINITY, metres: 0.0 }
     }
 
-    /// Metres of water nearer than this distance.
+    /// Length of water nearer than this distance.
     fn before(&self, away: f64) -> f64 {
         (away - self.from).clamp(0.0, self.metres)
     }

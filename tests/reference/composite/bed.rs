@@ -21,9 +21,9 @@ pub struct Bed {
     pub index: f64,
     /// Fraction of the sky's light that enters the water.
     pub comes_in: f64,
-    /// Mean path of that light, in metres per metre of depth.
+    /// Mean path of that light per unit of depth.
     pub sky_way: f64,
-    /// Path of the sun's light, in metres per metre of depth.
+    /// Path of the sun's light per unit of depth.
     pub sun_way: f64,
     /// Fraction of sunlight that enters, relative to that of the sky's light.
     pub sun: f64,
@@ -71,9 +71,9 @@ impl Bed {
 pub struct Under {
     /// Fraction to which the scene behind is under water.
     pub wet: f64,
-    /// Depth of that water in metres, vertically.
+    /// Depth of that water in scene units, vertically.
     pub down: f64,
-    /// Path through that water to the eye, in metres.
+    /// Path through that water to the eye, in scene units.
     pub path: f64,
     /// Fraction to which it darkens the scene: a film, not at all.
     pub film: f64,

@@ -25,7 +25,7 @@ pub struct Off {
     pub stretch: f64,
 }
 
-/// Light that enters the sheet from behind, and the path through it in metres.
+/// Light that enters the sheet from behind, and the path through it in scene units.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
     pub light: DVec3,

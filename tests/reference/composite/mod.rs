@@ -33,18 +33,18 @@ pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 /// The water's medium.
 #[derive(Clone, Copy, Debug)]
 pub enum Medium {
-    /// Single scattering; lengths in metres.
+    /// Single scattering; lengths in scene units.
     Physical {
-        /// Absorption per metre.
+        /// Absorption per scene unit.
         absorption: [f64; 3],
-        /// Scattering per metre.
+        /// Scattering per scene unit.
         scattering: [f64; 3],
         /// Radiance that is scattered towards the eye.
         ambient: [f64; 3],
     },
-    /// Multiple scattering; lengths in metres.
+    /// Multiple scattering; lengths in scene units.
     Turbid {
-        /// Extinction per metre.
+        /// Extinction per scene unit.
         extinction: [f64; 3],
         /// Radiance of an infinitely deep body with a level surface.
         own: [f64; 3],
@@ -57,7 +57,7 @@ pub enum Medium {
     Source {
         /// The water's own colour.
         base: [f64; 3],
-        /// Falloffs per metre: of the base colour, and last of the background.
+        /// Falloffs per scene unit: of the base colour, and last of the background.
         k: [f64; 4],
     },
 }

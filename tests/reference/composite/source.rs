@@ -13,9 +13,9 @@ use glam::DVec3;
 /// The layers of a pixel along its ray, its background and its reflection.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers {
-    /// Metres of water behind and before the frontmost foam.
+    /// Thickness of the water behind and before the frontmost foam.
     pub water: [f64; 2],
-    /// Metres of foam.
+    /// Thickness of the foam.
     pub foam: f64,
     /// Colour of the foam.
     pub foam_color: DVec3,
@@ -30,11 +30,11 @@ pub struct Layers {
 pub struct Falloffs {
     /// The water's own colour.
     pub base: DVec3,
-    /// Falloff of that colour per metre of water.
+    /// Falloff of that colour per scene unit of water.
     pub color: DVec3,
-    /// Falloff of the background per metre of water.
+    /// Falloff of the background per scene unit of water.
     pub behind: f64,
-    /// Falloff of the background per metre of foam.
+    /// Falloff of the background per scene unit of foam.
     pub foam: f64,
 }
 

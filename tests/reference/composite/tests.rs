@@ -25,8 +25,8 @@ pub const PLAIN: Settings = Settings {
     exit: None,
 };
 
-/// A surface with this position and normal, this thickness of water, and `room` metres to the
-/// scene.
+/// A surface with this position and normal, this thickness of water, and the distance `room` to
+/// the scene.
 pub fn facing(position: DVec3, normal: DVec3, thickness: f64, room: f64) -> Surface {
     let parts = super::super::surface::Parts {
         case: super::super::surface::Case::Whole,
@@ -176,8 +176,8 @@ fn the_background_is_displaced_in_pixels_but_not_onto_what_is_in_front() {
     assert!((found[0] / fresnel(n.z) - 32.0).abs() < 1e-3, "{found:?}");
 }
 
-/// Two planes that face the eye at depths 10 and 20, with thicknesses x and y, and with `window`
-/// metres of water between them.
+/// Two planes that face the eye at depths 10 and 20, with thicknesses x and y, and with water of
+/// thickness `window` between them.
 fn two(
     view: &View,
     [x, y, window]: [f64; 3],

@@ -1,7 +1,7 @@
 //! Twin of the whitewater particles: spray, foam and bubbles emitted by a particle fluid, after
 //! "Unified spray, foam and air bubbles for particle-based fluids" (Ihmsen et al. 2012).
 //!
-//! Units are metres and seconds; ids and random numbers are those of the GPU. h = 2 s is the
+//! Units are scene units and seconds; ids and random numbers are those of the GPU. h = 2 s is the
 //! support of all sums, with s the fluid's spacing, and `W = 1 - d/h`. The GPU sums fixed-point
 //! steps, [`unit`] or [`STEP`], so that the order does not matter. Here sums are in `f64`, together
 //! with what bounds the difference: number of terms, their errors, and whether rounding may decide
@@ -40,15 +40,15 @@ const MOST: u32 = 64;
 /// Settings of the generator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// s, the rest spacing of the fluid's particles in metres.
+    /// s, the rest spacing of the fluid's particles in scene units.
     pub spacing: f32,
-    /// g, in metres per second squared.
+    /// g, in scene units per second squared.
     pub gravity: [f32; 3],
-    /// Lower and upper limit of the trapped air, in metres per second.
+    /// Lower and upper limit of the trapped air, in scene units per second.
     pub trapped_air: [f32; 2],
     /// Limits of the wave crest, which has no unit.
     pub wave_crest: [f32; 2],
-    /// Limits of the kinetic energy per mass, in metres squared per second squared.
+    /// Limits of the kinetic energy per mass, in scene units squared per second squared.
     pub energy: [f32; 2],
     /// Particles per second at the upper limit of the trapped air.
     pub trapped_air_rate: f32,
@@ -62,16 +62,16 @@ pub struct Settings {
     pub drag: f32,
     /// Seed of all random numbers.
     pub seed: u32,
-    /// Lower and upper corner of the box in which particles live, in metres.
+    /// Lower and upper corner of the box in which particles live, in scene units.
     pub bounds: Option<[[f32; 3]; 2]>,
 }
 
 /// A whitewater particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particle {
-    /// Position in metres.
+    /// Position in scene units.
     pub position: DVec3,
-    /// Velocity in metres per second.
+    /// Velocity in scene units per second.
     pub velocity: DVec3,
     /// Fraction of its life that has passed; from 1 on it is dead.
     pub age: f64,
@@ -81,12 +81,12 @@ pub struct Particle {
     pub id: u32,
 }
 
-/// U: sums of speeds are multiples of this on the GPU; in metres per second.
+/// U: sums of speeds are multiples of this on the GPU; in scene units per second.
 pub fn unit(spacing: f32) -> f64 {
     (9.81 * f64::from(spacing)).sqrt() / 256.0
 }
 
-/// h, the support of the sums in metres.
+/// h, the support of the sums in scene units.
 fn support(spacing: f32) -> f64 {
     2.0 * f64::from(spacing)
 }
@@ -164,7 +164,7 @@ pub fn newborn(
     let aside = radius * (turn.cos() * e1 + turn.sin() * e2);
     Particle {
         position: position + aside + along * axis,
-        // The offset is added to the velocity as published, a metre as a metre per second.
+        // The offset is added to the velocity as published, a scene unit as one per second.
         velocity: velocity + aside,
         age: 0.0,
         kind: kind_of(p.neighbours + 1),

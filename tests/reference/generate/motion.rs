@@ -15,7 +15,7 @@ pub struct Carried {
     pub neighbours: u32,
     /// Sum of K.
     pub weight: f64,
-    /// vt, their mean velocity weighted by K, in metres per second; 0 without any.
+    /// vt, their mean velocity weighted by K, in scene units per second; 0 without any.
     pub velocity: DVec3,
     /// Error of its components from fixed-point steps; infinite if the steps' weights may be 0.
     pub off: f64,

@@ -20,12 +20,12 @@ const FLOAT: f64 = 1e-6;
 /// Potentials of a fluid particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Potentials {
-    /// Sum of `|v_ij| (1 - cos) W`, in metres per second, with the angle between relative velocity
-    /// and relative position.
+    /// Sum of `|v_ij| (1 - cos) W`, in scene units per second, with the angle between relative
+    /// velocity and relative position.
     pub trapped_air: f64,
     /// Sum of `(1 - n_i . n_j) W`.
     pub wave_crest: f64,
-    /// `|v|^2 / 2`, in metres squared per second squared.
+    /// `|v|^2 / 2`, in scene units squared per second squared.
     pub energy: f64,
     /// N, the number of neighbours, which is the number of terms of all sums except the crest's.
     pub neighbours: u32,

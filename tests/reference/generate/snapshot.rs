@@ -38,7 +38,7 @@ const FLOAT: f64 = 4e-6;
 pub struct Stage {
     /// s, the time since then.
     pub seconds: f64,
-    /// q, the position at that time, in metres.
+    /// q, the position at that time, in scene units.
     pub place: DVec3,
     /// Error of the GPU's position.
     pub off: f64,
@@ -203,7 +203,7 @@ impl<'a> Snapshot<'a> {
         all
     }
 
-    /// The water at a position with this error in metres.
+    /// The water at a position with this error in scene units.
     fn water(&self, place: DVec3, off: f64) -> Water {
         let support = support(self.settings.spacing);
         let unit = unit(self.settings.spacing);

@@ -16,9 +16,9 @@ const EDGE: f64 = 1e-5;
 /// A fluid; all vectors have the same length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fluid {
-    /// Positions in metres.
+    /// Positions in scene units.
     pub positions: Vec<[f32; 3]>,
-    /// Velocities in metres per second.
+    /// Velocities in scene units per second.
     pub velocities: Vec<[f32; 3]>,
     /// Ids.
     pub ids: Vec<u32>,
@@ -29,9 +29,9 @@ pub struct Fluid {
 pub(super) struct Part {
     /// Its index.
     pub index: usize,
-    /// Position in metres.
+    /// Position in scene units.
     pub position: DVec3,
-    /// Velocity in metres per second.
+    /// Velocity in scene units per second.
     pub velocity: DVec3,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Part {
 pub(super) struct Near {
     /// The particle.
     pub part: Part,
-    /// Vector from the particle to the place, in metres.
+    /// Vector from the particle to the place, in scene units.
     pub offset: DVec3,
     /// q, its length in supports.
     pub q: f64,

@@ -117,7 +117,7 @@ impl Disc {
     }
 
     /// Contribution to a texel, if there may be one. `front`: distance to the first water there, in
-    /// metres.
+    /// scene units.
     fn addend(&self, x: i64, y: i64, front: f64, settings: &Settings) -> Option<Addend> {
         let square = self.square(x, y);
         if square.v - square.e >= 1.0 {
@@ -187,7 +187,7 @@ impl Light {
             .map(|i| Between { low: all.map(|ends| ends[i][0]), high: all.map(|ends| ends[i][1]) })
     }
 
-    /// Sum, mean and deviation (in metres) of weighted contributions.
+    /// Sum, mean and deviation (in scene units) of weighted contributions.
     ///
     /// If the contributions err by e, a mean changes by `sum e |k - mean| / sum a`. The variance
     /// changes likewise, minus the square of the mean's change. Quotients in single precision add a

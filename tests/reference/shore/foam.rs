@@ -27,7 +27,7 @@ const LEAST: f64 = 1e-6;
 pub struct Noise {
     /// Amplitude; 0 means none.
     pub amplitude: f64,
-    /// Repetitions per metre.
+    /// Repetitions per scene unit.
     pub scale: f64,
 }
 
@@ -44,7 +44,7 @@ pub fn noise(amplitude: f32, scale: f32) -> Noise {
 pub struct Layer {
     /// Weight; 0 means none.
     pub weight: f64,
-    /// Repetitions per metre.
+    /// Repetitions per scene unit.
     pub scale: f64,
     /// Cosine and sine of its rotation.
     pub turn: [Bounded; 2],
@@ -52,7 +52,7 @@ pub struct Layer {
     pub offset: [Bounded; 2],
 }
 
-/// From numbers of the settings: degrees, metres per second.
+/// From numbers of the settings: degrees, scene units per second.
 pub fn layer(clock: Clock, weight: f32, scale: f32, angle: f32, speed: [f32; 2]) -> Layer {
     let (sine, cosine) = f64::from(angle).to_radians().sin_cos();
     // The speed is rotated in single precision. Its rounding is that of a constant speed, so it is
@@ -101,9 +101,9 @@ pub struct Shoreline {
     pub web_rise: [f64; 2],
     /// Layers of the foam texture.
     pub layers: Vec<Layer>,
-    /// Noise that displaces the texture, in metres.
+    /// Noise that displaces the texture, in scene units.
     pub texture_warp: Noise,
-    /// Displacement of that noise in metres.
+    /// Displacement of that noise in scene units.
     pub web_warp_moved: [Bounded; 2],
     /// There is foam from this value on.
     pub threshold: f64,
@@ -111,7 +111,7 @@ pub struct Shoreline {
     pub threshold_noise: Noise,
     /// Noise on b and b'.
     pub rise_noise: Noise,
-    /// Noise that displaces everything except v, in metres.
+    /// Noise that displaces everything except v, in scene units.
     pub warp: Noise,
     /// Foam ends within this range of v at both ends.
     pub fade: f64,
@@ -147,7 +147,7 @@ impl Shoreline {
 pub struct Pixel {
     /// Offset in pixels from the point that the other values belong to.
     pub off: [f64; 2],
-    /// Place in metres.
+    /// Place in scene units.
     pub place: [Bounded; 2],
     /// 0 at the sea's end, 1 at the shore line, 2 inland.
     pub v: Bounded,
@@ -305,8 +305,8 @@ pub fn by_samples(part: Bounded, [x, y]: [usize; 2]) -> Bounded {
     part.wider(2.0 * U).rising(|part| (4.0 * part.clamp(0.0, 1.0) + order).floor() / 4.0)
 }
 
-/// v from a signed distance, which is negative in water. `reach`: extent of the foam in metres to
-/// sea and to land.
+/// v from a signed distance, which is negative in water. `reach`: extent of the foam to sea and
+/// to land, in scene units.
 pub fn coordinate(distance: Bounded, reach: [f64; 2]) -> Bounded {
     let quotient = |s: f64| s / if s < 0.0 { reach[0] } else { reach[1] };
     let part = distance.rising(quotient);

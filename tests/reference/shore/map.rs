@@ -147,8 +147,9 @@ impl Heights {
         Bounded::between(low.min(value), value, high.max(value)).wider(11.0 * U * far)
     }
 
-    /// The signed distance of each texel, in metres, by its nearest seed; if several are equally
-    /// near, the bounds include all. `edge`: width of a texel in metres. None without seeds.
+    /// The signed distance of each texel, in scene units, by its nearest seed; if several are
+    /// equally near, the bounds include all. `edge`: width of a texel in scene units. None without
+    /// seeds.
     pub fn map(&self, seeds: &[Option<Seed>], edge: f64) -> Option<Map> {
         let mut known: Vec<Seed> = seeds.iter().copied().flatten().collect();
         known.sort_unstable();
@@ -193,7 +194,7 @@ fn on_the_way(x: usize, y: usize, part: f64, to: [isize; 2], off: f64) -> Seed {
     [step(at.x, to[0]), step(at.y, to[1])]
 }
 
-/// Signed distances to the shore in metres, negative in water.
+/// Signed distances to the shore in scene units, negative in water.
 #[derive(Clone, Debug)]
 pub struct Map {
     /// Texels in a row.
@@ -205,8 +206,8 @@ pub struct Map {
 }
 
 impl Map {
-    /// Converts a position in metres to texels; `corner` is the map's corner, `edge` the width of a
-    /// texel.
+    /// Converts a position in scene units to texels; `corner` is the map's corner, `edge` the width
+    /// of a texel.
     pub fn texels(place: [Bounded; 2], corner: [f64; 2], edge: f64) -> [Bounded; 2] {
         [0, 1].map(|i| (place[i] - corner[i]) / edge)
     }
@@ -419,7 +420,7 @@ impl Shore {
         self.segments.iter().map(|s| from_segment(at, *s)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Distances of all texels in metres, negative in water.
+    /// Distances of all texels in scene units, negative in water.
     pub fn distances(&self, heights: &Heights, edge: f64) -> Vec<f64> {
         let texel = |i: usize| {
             let (x, y) = (i % heights.width, i / heights.width);

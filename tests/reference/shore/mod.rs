@@ -4,7 +4,7 @@
 //!
 //! The camera looks along -z in eye space; r = (s_x, s_y, -1) is a pixel's ray, and points on it
 //! are z r with a depth z. The water's plane is `H·P + h0 = 0`, and its coordinates are
-//! `p = (E·P + e0, N·P + n0)` in metres:
+//! `p = (E·P + e0, N·P + n0)` in scene units:
 //! ```text
 //! z = -h0 / H·r    d' = d - (H·d)/(H·r) r    dp = z (E·d', N·d')    width = sqrt |det(dp/dx, dp/dy)|
 //! ```
@@ -49,11 +49,11 @@ pub struct Point {
     pub ray: [Bounded; 3],
     /// z; the point is visible if it is positive.
     pub depth: Bounded,
-    /// p in metres.
+    /// p in scene units.
     pub place: [Bounded; 2],
     /// Change of p per pixel, along x and along y.
     pub change: [[Bounded; 2]; 2],
-    /// Width of a pixel in metres.
+    /// Width of a pixel in scene units.
     pub width: Bounded,
 }
 
@@ -139,13 +139,13 @@ impl Clock {
         Phases { waves: held((straight + swung).rem_euclid(TAU)), local: held(local) }
     }
 
-    /// Displacement of a pattern in repetitions; speed in metres per second along the pattern's
-    /// axes.
+    /// Displacement of a pattern in repetitions; speed in scene units per second along the
+    /// pattern's axes.
     pub fn offset(&self, scale: f32, speed: [f64; 2]) -> [Bounded; 2] {
         speed.map(|speed| held(self.turned(f64::from(scale) * speed)))
     }
 
-    /// Displacement of a pattern in metres; 0 for a pattern without detail.
+    /// Displacement of a pattern in scene units; 0 for a pattern without detail.
     pub fn moved(&self, scale: f32, speed: [f32; 2]) -> [Bounded; 2] {
         let scale = f64::from(scale);
         speed.map(|speed| match scale {
@@ -224,13 +224,13 @@ pub fn ease(x: Bounded) -> Bounded {
 /// Settings of contact foam.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
-    /// Distance in metres at which foam ends.
+    /// Distance in scene units at which foam ends.
     pub depth: f64,
     /// How that distance is measured.
     pub measure: Measure,
     /// Strength of the mask.
     pub mask: f64,
-    /// Repetitions of the mask per metre.
+    /// Repetitions of the mask per scene unit.
     pub mask_scale: f64,
     /// Displacement of the mask in repetitions.
     pub mask_offset: [Bounded; 2],

@@ -264,7 +264,7 @@ fn a_filter_of_single_precision_is_within_the_bounds() {
 
 #[test]
 fn the_water_s_points_and_pixels_are_as_the_view_has_them() {
-    // Straight down from 40 m, all pixels have the same width.
+    // Straight down from a height of 40, all pixels have the same width.
     let down = camera(40.0, PI / 2.0 - 1e-9, 0.3, [64.0, 48.0], 0.5);
     for at in [[0.5, 0.5], [32.0, 24.0], [63.5, 40.5]] {
         let point = down.at(at);
@@ -497,7 +497,7 @@ struct Covers {
     clipped: f64,
 }
 
-/// `slope`: change of v per metre.
+/// `slope`: change of v per scene unit.
 fn far_less_near(
     look: &Shoreline,
     (noise, web): (&Texture<4>, &Texture<4>),
@@ -541,13 +541,14 @@ fn far_foam_covers_what_near_foam_does() {
     let waves = Shoreline { texture_weight: 0.0, wave_weight: 1.0, ..own.clone() };
     let web_alone = Shoreline { texture_weight: 1.0, wave_weight: 0.0, ..own.clone() };
     let only_web = Shoreline { web_rise: [0.25, -0.25], threshold: 0.5, ..web_alone };
-    // A shore so wide that v changes little in a pixel, while waves of some metres and the texture
-    // change much.
+    // A shore so wide that v changes little in a pixel, while waves some scene units long and the
+    // texture change much.
     let short = |look: &Shoreline| Shoreline { frequency: 150.0, ..look.clone() };
     // Bounds for the bias, the mean and the max. The uniform distribution that `covered` assumes is
     // not exact: a sine is more often near its ends. The bias is a mean of 150 pixels: three
     // standard errors are a quarter of the mean difference. The texture's level of detail is a box
-    // up to √2 wider or narrower than a pixel; at 6 m it is 1.3 times as wide for one layer.
+    // up to √2 wider or narrower than a pixel; for a pixel of width 6 it is 1.3 times as wide
+    // for one layer.
     for (name, look, width, bounds) in [
         ("waves", short(&waves), 6.0, [0.01, 0.06, 0.2]),
         ("web", only_web.clone(), 6.0, [0.01, 0.065, 0.24]),

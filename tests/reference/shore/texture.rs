@@ -103,13 +103,13 @@ impl<const C: usize> Texture<C> {
         self.levels.len() - 1
     }
 
-    /// Level of detail for a pixel `width` metres wide, not clamped; `scale` in repetitions per
-    /// metre.
+    /// Level of detail for a pixel `width` scene units wide, not clamped; `scale` in repetitions
+    /// per scene unit.
     pub fn detail(&self, width: Bounded, scale: f64) -> Bounded {
         (width * scale * self.size as f64).max(LEAST).log2()
     }
 
-    /// The texture at a place in metres.
+    /// The texture at a place in scene units.
     pub fn at(&self, place: [Bounded; 2], scale: f64, width: Bounded) -> [Bounded; C] {
         let uv = place.map(|p| p * scale);
         self.nearest(self.detail(width, scale), |level| self.sample(uv, level))

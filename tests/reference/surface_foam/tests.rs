@@ -82,7 +82,7 @@ fn a_sprite_holds_its_particles_volume() {
         let n = ellipse.axes.normal();
         let mut sum = 0.0;
         for (x, y) in (0..301).flat_map(|y| (0..401).map(move |x| (x, y))) {
-            // The thickness is in metres along z, over a pixel's area at the depth k of the
+            // The thickness is in world units along z, over a pixel's area at the depth k of the
             // ellipse's plane.
             let k = n.dot(sprite.center) / n.dot(view.ray(x, y));
             sum += drawn.at(x, y)[0] * k * k * view.c_x() * view.c_y();

@@ -34,13 +34,13 @@ pub struct Drawn {
     pub motion: Option<Image<[f32; 2]>>,
     /// Height of the surface noise, if it is drawn.
     pub noise: Option<Image<f32>>,
-    /// Map of the light: distance along the light to the nearest fluid, in metres.
+    /// Map of the light: distance along the light to the nearest fluid, in scene units.
     pub light_front: Option<Image<f32>>,
-    /// Map of the light: thickness of water and of foam in metres, and each of them times its
+    /// Map of the light: thickness of water and of foam in scene units, and each of them times its
     /// position along the light.
     pub light_thickness: Option<Image<[f32; 4]>>,
     /// Map of the light for whitewater particles: thickness, and mean and standard deviation of
-    /// their position along the light in metres.
+    /// their position along the light in scene units.
     pub light_whitewater: Option<Image<[f32; 4]>>,
     /// Map of the light: irradiance relative to that without water.
     pub caustics: Option<Image<f32>>,

@@ -126,7 +126,7 @@ fn a_way_ends_with_the_water() {
 
 #[test]
 fn still_water_makes_what_its_place_does() {
-    // Together with the first particle, the second has 1 m/s of trapped air with a W of 3/4, so it
+    // Together with the first particle, the second has a trapped air of 1 with a W of 3/4, so it
     // makes 3/4; K is 0.71875.
     let p = [([0.0; 3], [0.0; 3]), ([0.25, 0.0, 0.0], [0.0; 3]), ([9.0; 3], [0.0; 3])];
     let still = fluid(&p);
@@ -143,7 +143,8 @@ fn still_water_makes_what_its_place_does() {
         let part = share_by_hand(&stage);
         close(stage.make, 4.0 * part);
     }
-    // A particle half a metre aside that moves across, with W = 1/2 and K = 1/4, makes the max.
+    // A particle half a scene unit aside that moves across, with W = 1/2 and K = 1/4, makes the
+    // max.
     let mut moved = still;
     moved.positions[2] = [0.0, 0.5, 0.0];
     moved.velocities[2] = [1e-3, 2.0, 0.0];

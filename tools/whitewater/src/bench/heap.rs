@@ -27,7 +27,7 @@ pub struct CpuHeap {
     balls: Vec<Ball>,
     settings: BlobSimulationSettings,
     solids: Vec<Solid>,
-    /// Grid cells per metre.
+    /// Grid cells per scene unit.
     cells: f32,
     threads: usize,
 }

@@ -120,7 +120,7 @@ table! {
     beside {}
 }
 
-/// A noise: amplitude, and repetitions per metre.
+/// A noise: amplitude, and repetitions per scene unit.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub struct Pair([f32; 2]);
 
