@@ -1,9 +1,9 @@
 #version 460
-// Pass `composite`, compute: shades the pixels of the listed tiles that show water, foam or spray; the source draws
-// one quad over the screen (thesis Sec. 4.9.3). A tile has 16x16 texels of the first smoothing level, which are up to
-// 64x64 pixels; several workgroups of 8x8 pixels share it. The dispatch counts tiles in its second and third
-// dimension, because one dimension may be too short for all of them, and because with a loop over tiles one driver
-// took ten seconds to compile the shader.
+// Pass `composite`, compute: shades the pixels of the listed tiles that show water, foam, spray, whitewater particles
+// or bubble foam; the source draws one quad over the screen (thesis Sec. 4.9.3). A tile has 16x16 texels of the first
+// smoothing level, which are up to 64x64 pixels; several workgroups of 8x8 pixels share it. The dispatch counts tiles
+// in its second and third dimension, because one dimension may be too short for all of them, and because with a loop
+// over tiles one driver took ten seconds to compile the shader.
 // Reads: inputs of shade.glsl, tile list and arguments. Writes: output.
 
 #include "frame.glsl"

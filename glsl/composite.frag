@@ -1,6 +1,6 @@
 #version 460
-// Pass `composite`, raster: in the tiles' quads (composite.vert), shades the pixels that show water, foam or spray.
-// The thesis draws one quad over the screen (Sec. 4.9.3).
+// Pass `composite`, raster: in the tiles' quads (composite.vert), shades the pixels that show water, foam, spray,
+// whitewater particles or bubble foam. The thesis draws one quad over the screen (Sec. 4.9.3).
 // Reads: inputs of shade.glsl. Writes: output.
 
 #include "frame.glsl"

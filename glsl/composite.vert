@@ -1,5 +1,6 @@
 #version 460
-// Pass `composite`, raster: one quad per tile that holds water. The thesis draws one quad over the screen (Sec. 4.9.3).
+// Pass `composite`, raster: one quad per listed tile, that is, per tile with water, foam, spray, whitewater particles
+// or bubble foam. The thesis draws one quad over the screen (Sec. 4.9.3).
 // Reads: tile list, levels. Writes: the quad's corners.
 
 #include "frame.glsl"

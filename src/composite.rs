@@ -1,9 +1,10 @@
 //! Pass `composite`: combines the layers of all techniques and writes the output. (The only other pass that writes it
 //! is `lit`.)
 //!
-//! It shades only the screen tiles that hold water; pixels outside the fluid are not touched. Two paths shade alike:
-//! a render pass that draws one instance per tile, and a compute shader that stores to the output. It follows the
-//! thesis, Sec. 3.2.3 and 4.9; glsl/include/shade.glsl states the differences.
+//! It shades only the screen tiles with water, foam, spray, whitewater particles or bubble foam, and in them only
+//! pixels that show one of these. Two paths shade alike: a render pass that draws one instance per tile, and a
+//! compute shader that stores to the output. It follows the thesis, Sec. 3.2.3 and 4.9; glsl/include/shade.glsl
+//! states the differences.
 
 use ash::vk;
 

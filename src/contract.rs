@@ -249,24 +249,27 @@ pub struct Config {
     /// With 1 the passes `gaps` and `back` do not exist.
     pub sheets: u32,
     /// Whether the pass `surface_foam` draws surface foam (default false), into which particles of the water turn.
-    /// The part of a particle that is foam no longer counts as water. Surface foam takes 68 more bytes per particle.
+    /// The part of a particle that is foam no longer counts as water. Surface foam takes 68 more bytes of GPU memory
+    /// per particle.
     pub surface_foam: bool,
     /// Whether the pass `spray` draws particles of low density as droplets and mist (default false). A particle below
     /// [`SpraySettings::all_spray_density`] is only spray, one above
     /// [`no_spray_density`](SpraySettings::no_spray_density) is no spray; in between the share of spray falls
     /// gradually. The limits of [`SpraySettings`] then also apply to water and surface foam. Spray takes 48 more
-    /// bytes per particle.
+    /// bytes of GPU memory per particle.
     pub spray: bool,
     /// Whether whitewater is drawn (spray, foam and bubbles that are particles of their own, [`Frame::whitewater`]):
-    /// the passes `splat`, `radiance`, `blur`. With `None`, the default, it is not drawn. It takes 88 more bytes per
-    /// pixel.
+    /// the passes `splat`, `radiance`, `blur`. With `None`, the default, it is not drawn. It takes 88 more bytes of
+    /// GPU memory per pixel of [`extent`](Self::extent).
     pub whitewater: Option<WhitewaterConfig>,
     /// Whether blobs of bubble foam (balls of soap bubbles) are drawn ([`Frame::bubbles`]): the passes `blobs`,
     /// `peel`, `soap`, and `near` if the blobs are made from whitewater foam ([`BubbleConfig::crossfade`]). With
-    /// `None`, the default, they are not drawn. They take `18½ + 4·layers` more bytes per pixel, and 64 per blob.
+    /// `None`, the default, they are not drawn. They take `18½ + 4·layers` more bytes of GPU memory per pixel, and 64
+    /// per blob.
     pub bubbles: Option<BubbleConfig>,
     /// Whether shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`. With
-    /// `None`, the default, they are not drawn. They take 4 more bytes per pixel, and 8.7 MiB for the textures.
+    /// `None`, the default, they are not drawn. They take 4 more bytes of GPU memory per pixel, and 8.7 MiB for the
+    /// textures.
     pub shore: Option<ShoreConfig>,
     /// Resolution at which the pass `noise` draws the surface noise of the baseline (van der Laan et al. 2009), which
     /// is meant only for comparisons: 0 full, 1 half, 2 quarter, 3 eighth. With `None`, the default, there is no such
@@ -1036,7 +1039,8 @@ pub struct Shadow {
     /// size. With [`Shadows::Mask`] it has one channel over the view, 1 where the sun shines on the fluid and 0 where
     /// it does not. `rect` is the part that is used.
     pub image: HostImage,
-    /// World to clip space of the map, four columns, standard or reversed depth. Not read for a mask.
+    /// View-projection matrix of the shadow map, from world space to the map's clip space: four columns, standard or
+    /// reversed depth. Not read if `image` is a mask.
     pub view_projection: [[f32; 4]; 4],
     /// Shadow bias in scene units, finite, default 0: points are moved towards the sun by this distance before they
     /// are compared with the map. Recommended: about a spacing plus a texel of the map. Not read for a mask.

@@ -22,9 +22,9 @@ pub struct Diagnostics {
     /// Resolutions at which the frame was smoothed.
     pub levels: Option<SmoothingLevels>,
     /// Work of the smoothing: a buffer of 259 records of four `u32`. In record 0 the second word is the number of
-    /// tiles that hold water, in all smoothing levels together; a tile is 16×16 texels of its level. In record i, 1
-    /// to 257, the fourth word is the number of tiles that iteration i processes. Transfer source; last written by a
-    /// compute shader, read as indirect arguments.
+    /// tiles, in all smoothing levels together, that hold water or show foam, spray, whitewater particles or bubble
+    /// foam; a tile is 16×16 texels of its level. In record i, 1 to 257, the fourth word is the number of tiles that
+    /// iteration i processes. Transfer source; last written by a compute shader, read as indirect arguments.
     pub tiles: Option<vk::Buffer>,
     /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness, row by row: the eye
     /// depth at which the two layers of water are separated, 1e10 where there is only one layer. Transfer source;

@@ -22,8 +22,11 @@ bool span_holds(uvec4 span) {
     return span.x != NO_SPAN;
 }
 
-// Normalised depth: 0 at the nearest texel, 1 - 4 r at the farthest, with the width r of the comparison's ramp
-// (`shadow_filter.w`). The Fourier series is periodic, so both ends of the range keep a margin for the ramp.
+// Normalised depth: 0 at the nearest texel of the map, 1 - 4 r at the farthest. r (`shadow_filter.w`) is half the
+// width of the ramp from light to shadow by which the Fourier series approximates the step of the depth comparison.
+// Empty texels are placed at 1 - 2 r (`texel_place`), and the depths of shaded points are clamped to the range from
+// -r to 1 - 3 r. The series is periodic, with further ramps of this width around differences of -1 and 1 between
+// point and texel. With these margins no difference is nearer than r to -1 or 1.
 float span_place(float depth, uvec4 span) {
     vec2 ends = vec2(along_light(uintBitsToFloat(span.x)), along_light(uintBitsToFloat(~span.y)));
     ends = frame.shadow_map.y > 0.0 ? ends : ends.yx;
@@ -32,7 +35,7 @@ float span_place(float depth, uvec4 span) {
     return (along_light(depth) - ends.x) / max(ends.y - ends.x, least) * (1.0 - 4.0 * frame.shadow_filter.w);
 }
 
-// Position of a texel in the span; an empty one is behind all.
+// Normalised depth of a texel; that of an empty texel is greater than that of every other texel and shaded point.
 float texel_place(float depth, uvec4 span) {
     return is_open(depth) ? 1.0 - 2.0 * frame.shadow_filter.w : span_place(depth, span);
 }

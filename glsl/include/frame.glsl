@@ -51,7 +51,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 lit_origin;
     vec4 shadow_linear; // depth d of the shadow map -> (x d + y) / (z d + w), linear along the light
     vec4 shadow_basis;  // its Fourier basis: size in texels, map texels per texel, side length of a page
-    vec4 shadow_filter; // half the box in texels, scale, offset, ramp
+    vec4 shadow_filter; // half the box in texels, scale, offset, half the width of the ramp
     vec4 shadow_weight[4]; // of the terms
     mat4 before;        // eye -> previous eye, minus the identity
     vec4 before_lens;   // previous P00 P11; its near plane; device depth of the far end in this frame

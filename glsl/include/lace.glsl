@@ -17,8 +17,9 @@ const vec3 BUBBLE_BEGIN = vec3(0.0, 31.7, 77.3);
 const vec3 BUBBLE_PART = vec3(0.42, 0.34, 0.24);
 // Mean of `bubbles_at`, which is used instead where cells are less than 1.5 pixels wide.
 const float BUBBLE_MEAN = 0.232;
-// The noise that warps the bubbles: width of its cells, and displacement per slope of 1, both in cells of the large
-// bubbles; and weight with which the noise itself is added to the amount that closes a point.
+// A gradient noise warps the bubbles. DRAWN_CELL: width of its cells. DRAWN: distance by which it displaces a point
+// where its slope is 1. Both are in cells of the large bubbles. RAGGED: weight with which the noise's value is added
+// to the amount of foam that it takes to close a point (`lace_at`).
 const float DRAWN_CELL = 2.6;
 const float DRAWN = 0.3;
 const float RAGGED = 0.3;

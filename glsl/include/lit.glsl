@@ -29,8 +29,8 @@ float caustics_at(LightTexels t) {
     return t.inside ? mix(1.0, min(sum, MOST_GATHERED), below) : 1.0;
 }
 
-// Colour of the lit scene at a pixel (its centre is at +0.5), filtered if the scene's image has another size than the
-// picture.
+// Colour of the lit scene at the position `pixel` in pixels (the centre of a pixel is at +0.5), filtered if the
+// scene's image has another size than the picture.
 vec4 lit_at(vec2 pixel) {
     vec4 color = filtered(scene_color, pixel * frame.lit_color.xy, frame.lit_origin.xy, frame.lit_color.zw);
     float z = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);

@@ -427,7 +427,7 @@ FoamTexels foam_seen(vec2 pixel) {
     return foam_texels(foam_depth, pixel, eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x));
 }
 
-// Whether a pixel without water shows foam or spray.
+// Whether a pixel without water shows foam, spray, whitewater particles or bubble foam.
 bool beside(vec2 pixel) {
     return FOAM == 1u && foam_seen(pixel).depth < EMPTY || spray_at(ivec2(pixel));
 }
@@ -645,7 +645,8 @@ struct Face {
     vec3 light;   // reflection times reflectance, plus the sun highlight
 };
 
-// Colour of scene, water and foam at a pixel (its centre is at +0.5), and the water surface there.
+// Colour of scene, water and foam at the position `pixel` in pixels (the centre of a pixel is at +0.5), and the water
+// surface there.
 vec3 layers_at(vec2 pixel, float front, out Face face) {
     float threshold = frame.surface.w;
     vec2 slope = ray_slope(pixel, frame.slope);

@@ -16,7 +16,8 @@ const uint FAR = 3u + LIT;
 const uint LATE = 4u + LIT;
 const uint WORDS = 5u + LIT;
 
-// Max sum: single precision represents all integers up to it. It is at least 4096 spacings of foam.
+// Max sum, in fixed-point steps: single precision represents all integers up to it. It is a thickness of 4096 to
+// 8192 spacings of foam, because a step is more than 1/4096 and at most 1/2048 of a spacing (`foam_step`).
 const uint FULL = 16777216u;
 // No more is added to a sum above this, which leaves room for 85 thousand invocations that add at the same time.
 const uint HALF_FULL = 2147483648u;

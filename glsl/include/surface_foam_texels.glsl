@@ -9,7 +9,8 @@ struct FoamTexels {
     float depth;  // the least of them
 };
 
-// `scene` is the eye depth of the scene at the pixel (its centre is at +0.5), 0 or less without a scene.
+// `pixel` is a position in pixels; the centre of a pixel is at +0.5. `scene` is the eye depth of the scene at this
+// pixel; 0 or less means that there is no scene.
 FoamTexels foam_texels(sampler2D foam_depth, vec2 pixel, float scene) {
     // Clamp to the frame: the image may be larger.
     vec2 h = clamp(pixel / frame.thick_extent.z - 0.5, vec2(0.0), frame.thick_extent.xy - 1.0);

@@ -1,7 +1,8 @@
 #version 460
-// Pass `cull`, last part: converts the numbers of small and large survivors to numbers of workgroups. (The thesis
-// draws the survivors directly.)
-// Reads: Counts of every chunk. Writes: their arguments.
+// Pass `cull`, last part: computes the arguments of dispatches over the visible particles, which are the numbers
+// of workgroups for small and for large sprites, from the counts that `cull` has left for each chunk. Indirect
+// draws need no conversion: they take these counts as they are. Not in the thesis, which only draws.
+// Reads: Counts of every chunk. Writes: their dispatch arguments.
 
 layout(local_size_x = 32) in;
 layout(set = 0, binding = 1, std430) buffer AllCounts { uint words[]; };

@@ -18,8 +18,10 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
-// Per tile. Bits 0 to 15: the max number of iterations + 1, or 0 without water. Bits 16 to 23: the coarsest level
-// needed. Bit 24: whether a coarser level may be visible.
+// Work of each tile. Bits 0 to 15: 0 if there is nothing to shade in the tile, otherwise one more than the tile's max
+// number of iterations. So they are 1 in a tile in which nothing is smoothed, such as one without water that shows
+// foam, spray, whitewater particles or bubble foam. Bits 16 to 23: the coarsest smoothing level that the tile's water
+// needs, 0 for the first. Bit 24: 1 if a level coarser than the first may be visible in the tile.
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
 #include "surface_foam_texels.glsl"
@@ -74,7 +76,7 @@ void main() {
         imageStore(smooth_a, block, vec4(z));
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));
-        // Iterations + 1, because a tile with water and nothing to smooth is still drawn.
+        // Iterations + 1, because a tile with nothing to smooth still has to be shaded.
         if (z < EMPTY || other) {
             atomicMax(most, plan_count(planned) + 1u);
         }

@@ -1,7 +1,7 @@
 #version 460
-// Pass `smooth`, form Query: one quad per tile that holds water. A predicate per block of iterations tells whether
-// any pixel is still active; if none is, no quad is drawn. (The source draws one quad over the image until the CPU
-// has read a query: thesis Sec. 4.7, Listing A.11.)
+// Pass `smooth`, form Query: one quad per listed tile (tiles.comp). A predicate per block of iterations tells
+// whether any pixel is still active; if none is, no quad is drawn. (The source draws one quad over the image until
+// the CPU has read a query: thesis Sec. 4.7, Listing A.11.)
 // Reads: tile list, predicates. Writes: the quad's corners.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `split`: sorts the tiles with water of the first level by three properties: two layers of water, foam, and a
-// visible coarser level of the smoothing. So `composite` can shade each of the eight kinds with the simplest shader
-// that suffices. Not in the thesis.
+// Pass `split`: sorts the tiles to shade, which are the listed tiles of the first level, by three properties: two
+// layers of water, foam, and a visible coarser level of the smoothing. So `composite` can shade each of the eight
+// kinds with the simplest shader that suffices. Not in the thesis.
 // Reads: tile list and arguments, work, levels, boundaries, foam depth and thickness. Writes: eight lists, their
 // lengths.
 

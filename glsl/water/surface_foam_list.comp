@@ -71,7 +71,8 @@ void visit(uint index) {
         return;
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
-    // `reach`: an upper bound of the half-axes. A particle whose centre is nearer than the near plane has no sprite.
+    // `reach`: an upper bound of the half-axes of the particle's foam sprite, in scene units. A particle whose centre
+    // lies between the eye and the near plane, or behind the eye, has no sprite.
     float texel = -centre.z * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
     float reach = max(2.0 * FOAM_AXIS * frame.particle.x, LEAST_FOAM_AXIS * texel);
     if (-centre.z <= frame.depth.z || !in_frustum(centre, reach)) {

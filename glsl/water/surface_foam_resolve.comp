@@ -1,5 +1,6 @@
 #version 460
-// Pass `surface_foam`, compute path, last part: converts the sums from fixed point to metres.
+// Pass `surface_foam`, compute path, last part: converts the sums of thickness from fixed point to scene
+// units, and copies the depth of the frontmost foam.
 // Reads: words. Writes: foam depth, foam thickness.
 
 #include "frame.glsl"

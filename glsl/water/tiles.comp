@@ -1,8 +1,9 @@
 #version 460
-// Pass `tiles`: sorts the tiles that hold water by iteration count, largest first, so that the tiles still active in
-// iteration i are a prefix of the list; writes the arguments of every iteration's dispatch. A counting sort by one
-// workgroup. Not in the thesis.
-// Reads: work of every tile (maximum iterations + 1), levels. Writes: list, arguments.
+// Pass `tiles`: sorts the tiles with work by iteration count, largest first, so that the tiles still active in
+// iteration i are a prefix of the list; writes the arguments of every iteration's dispatch. A tile has work if it
+// holds water that is smoothed or shaded, and also if it shows only foam, spray, whitewater particles or bubble foam,
+// which `composite` shades without smoothing. A counting sort by one workgroup. Not in the thesis.
+// Reads: work of every tile (maximum iterations + 1, or 0 for no work), levels. Writes: list, arguments.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -11,8 +12,8 @@ layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer List { uint list[]; };
-// [0]: arguments of a draw of all tiles with water (4, n, 0, 0). After it arguments of dispatches {x, 1, 1, n}: one
-// for each iteration, and at the end one over all tiles with water.
+// [0]: arguments of a draw of all tiles with work (4, n, 0, 0). After it arguments of dispatches {x, 1, 1, n}: one
+// for each iteration, and at the end one over all tiles with work.
 layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {

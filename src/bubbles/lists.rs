@@ -182,7 +182,8 @@ impl Lists {
         [&self.blobs, &self.range, cells, list, spans]
     }
 
-    /// Access to the blobs after the pass. The pass's other buffers are read by compute shaders only.
+    /// How the blobs' buffer is read after the pass: by compute shaders, and with [`BubbleSort::Peel`] also by vertex
+    /// and fragment shaders. The pass's other buffers are read by compute shaders; the host may copy the statistics.
     fn read(&self) -> Access {
         match self.config.sort {
             BubbleSort::Tiles => COMPUTE_READ,

@@ -5,8 +5,8 @@
 //! Differences, and their reasons:
 //! - Depths are normalised between the nearest and the farthest texel of the map, which the GPU finds. So any
 //!   projection works, infinite ones too, and the transition from light to shadow is as short as the scene's depth
-//!   range allows. Empty texels count as behind everything. The series is periodic, so both ends of the range keep a
-//!   margin.
+//!   range allows. Empty texels count as behind everything. The series is periodic, so the normalised depths keep
+//!   margins to the ends of its period.
 //! - The k-th of M terms is damped by exp(−α((k − ½)/M)²), where the paper has k in place of k − ½. This convolves
 //!   the step with a Gaussian, so it keeps its height with few terms.
 //! - The reconstructed result is steepened around one half, and clipped to 0 to 1, which hides ringing. It is shifted
@@ -163,7 +163,8 @@ fn weights(terms: u32, settings: &ShadowFilter) -> impl Iterator<Item = f32> + u
     })
 }
 
-/// Position at which the steepened series first reaches 1, or its first maximum if it does not reach 1.
+/// Half the width of the ramp from shadow to light: the distance from the step at which the steepened series first
+/// reaches 1, or its first maximum if it does not reach 1.
 fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     const STEPS: u32 = 256;
     // The first maximum is not beyond this, for every damping in range.
@@ -347,8 +348,8 @@ mod tests {
         0.5 + settings.scale * sum
     }
 
-    /// With the default settings the reconstructed light is 1 from the end of the ramp until one ramp before the end
-    /// of the period. A larger `scale` makes the ramp shorter.
+    /// With the default settings the reconstructed light is 1 from distance r to distance 1 − r of the step, where r
+    /// is half the width of the ramp, and 1 half a period. A larger `scale` makes the ramp shorter.
     #[test]
     fn the_ramp_ends_where_the_light_is_whole() {
         for terms in [4, 8, 16] {

@@ -278,11 +278,12 @@ impl Default for ShorelineSettings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ContactSettings {
-    /// Distance between water surface and scene at which contact foam ends on the application's own water surface,
-    /// scene units, (0, 1e6], default 0.4. (The tutorial has 4 in its own units.)
+    /// Distance between water surface and scene, measured as [`measure`](Self::measure) says, at which contact foam
+    /// ends on the application's own water surface, scene units, (0, 1e6], default 0.4. (The tutorial has 4 in its
+    /// own units.)
     pub depth: f32,
-    /// Distance between water surface and scene at which contact foam ends on the particles' water, scene units,
-    /// (0, 1e6]. `None` (default): four particle spacings.
+    /// Distance between water surface and scene, measured as [`measure`](Self::measure) says, at which contact foam
+    /// ends on the particles' water, scene units, (0, 1e6]. `None` (default): four particle spacings.
     pub particle_depth: Option<f32>,
     /// How the distance between water surface and scene is measured.
     pub measure: Measure,

@@ -348,7 +348,7 @@ impl Cull {
         Ok(())
     }
 
-    /// Records the computation of a list's dispatch arguments from its counts.
+    /// Records the computation of a list's dispatch arguments from its counts. Draws take the counts as they are.
     fn record_end(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         r.descriptors.bind(gpu, cmd, &self.end, &[(1, Resource::buffer(&list.counts))])?;

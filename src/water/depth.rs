@@ -25,7 +25,8 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::Splat;
 
-/// Last uses of the image in a frame: `composite`, or the host's copy of the layer.
+/// Last uses of the depth image in a frame, for which the next frame waits: by `composite` and by compute passes, or
+/// a copy of the layer by the host.
 const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ).and(COMPUTE_READ_WRITE);
 
 enum Path {
@@ -223,7 +224,8 @@ pub fn draw_sprites(
     Ok(())
 }
 
-/// Dispatches over the sprites of all chunks: one invocation per small sprite, one workgroup per large sprite.
+/// Records two indirect dispatches for each chunk of the list: over its small sprites, with one invocation per
+/// sprite, and over its large sprites, with one workgroup per sprite.
 pub fn dispatch_sprites(
     r: &mut Recording<'_>,
     list: &SphereList,

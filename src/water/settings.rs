@@ -16,10 +16,11 @@ pub enum Splat {
     Compute,
 }
 
-/// How pixels with water are shaded. Both paths give the same picture.
+/// How pixels with water, foam or spray are shaded. Both paths give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
-    /// A render pass over the tiles that hold water. The output is a colour attachment.
+    /// A render pass over the tiles that show water, foam, spray, whitewater particles or bubble foam. The output is
+    /// a colour attachment.
     Raster,
     /// A compute shader over the same tiles. The output is a storage image.
     Compute,
@@ -307,9 +308,10 @@ pub enum Kernels {
     Spheres,
     /// An ellipsoid of the same volume, fitted to the neighbours (Yu and Turk 2013) as
     /// [`WaterSettings::ellipsoids`] says: flat in a thin sheet, elongated in a stream, round inside the water. All
-    /// particles count as neighbours, also those that are in none of the host's packets for culling. Light maps,
-    /// foam, motion vectors and the separation of two layers of water still use spheres; spray has an ellipsoid of
-    /// its own ([`SpraySettings::strand_ratio`]).
+    /// particles count as neighbours, also those that the host has put in none of its [`Packets`](crate::Packets),
+    /// which are not drawn. The ellipsoids give the depth of the water's surface (of both layers) and the thickness
+    /// of the water. Light maps, surface foam, motion vectors and the separation of two layers of water still use
+    /// spheres; spray has an ellipsoid of its own ([`SpraySettings::strand_ratio`]).
     Ellipsoids,
 }
 
@@ -412,10 +414,13 @@ pub enum Medium {
 }
 
 /// Presets. Red, green and blue are 610, 550 and 465 nm, next to the dominant wavelengths of the primaries of Rec.
-/// 709 (611, 549 and 464 nm), except where the publication measured with the three channels of a camera. All numbers
-/// are per metre; [`Settings::new`](crate::Settings::new) converts the default medium to scene units. If a scene is
-/// simulated larger than it is meant, such as a glass of beer four metres wide, [`thinned`](Self::thinned) gives the
-/// right picture.
+/// 709 (611, 549 and 464 nm), except where the publication measured with the three channels of a camera.
+///
+/// Absorption and scattering of the presets are per metre, those of [`WaterSettings::medium`] per scene unit. If a
+/// scene unit is not a metre, use [`thinned(1.0 / units_per_metre)`](Self::thinned) of a preset;
+/// [`Settings::new`](crate::Settings::new) does so for the default medium. If a scene is larger than what it shows,
+/// such as a glass of beer simulated four metres wide, [`thinned`](Self::thinned) by the ratio of the real width to
+/// the width in the scene gives the right picture.
 impl Medium {
     /// Pure water: absorption by Pope and Fry (Applied Optics 36, 1997, Table 3), scattering by Morel (1974, fresh
     /// water). Colourless in a glass, blue over ten metres.

@@ -27,7 +27,8 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::{Rule, Smoothing};
 
-/// Last uses of both images in a frame: `composite`, the host's copy, the forms themselves.
+/// Last uses of both smoothing images in a frame, for which the next frame waits: by `composite`, by the smoothing
+/// itself, or a copy of the layer by the host.
 pub const BEFORE: Access =
     FRAGMENT_SAMPLED.and(COPY_READ).and(COMPUTE_READ).and(COMPUTE_WRITE).and(COLOR_ATTACHMENT);
 

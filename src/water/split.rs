@@ -1,5 +1,5 @@
-//! Pass `split`: sorts the tiles with water into eight lists, by whether they hold two layers of water, foam, and
-//! coarser smoothing levels.
+//! Pass `split`: sorts the tiles that are shaded into eight lists, by whether they hold two layers of water, foam,
+//! and coarser smoothing levels.
 //!
 //! Not in the thesis. Shading two layers costs twice as much as shading one, and foam adds another half. With a
 //! single shader for all tiles a CPU, and partly a GPU, would pay that cost in every tile.

@@ -9,10 +9,10 @@
 //! visible; no sprite is narrower than a texel can represent; noise finer than texels fades out; the front layer (the
 //! foam right behind the frontmost foam) ends softly, and so do sprites that sink into the scene.
 //!
-//! Depth and thickness have the same resolution, a quarter by default (in the thesis the depth has full resolution).
-//! What is visible of foam is its thickness; a finer depth would only have more fragments, most of which fail the
-//! depth test. The outlines of foam are those of its thickness, which ends softly. The outlines of the scene in front
-//! of foam are resolved per pixel (glsl/include/surface_foam_texels.glsl).
+//! Depth and thickness have the same resolution, by default a quarter of the frame's width and height (in the thesis
+//! the depth has full resolution). What is visible of foam is its thickness; a finer depth would only have more
+//! fragments, most of which fail the depth test. The outlines of foam are those of its thickness, which ends softly.
+//! The outlines of the scene in front of foam are resolved per pixel (glsl/include/surface_foam_texels.glsl).
 //!
 //! There are two paths, as for the water's thickness: blended quads, and compute invocations with integer atomics.
 //! The compute path saves time in three ways: it has no triangle set-up, which for sprites of few texels costs as

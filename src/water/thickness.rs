@@ -3,9 +3,9 @@
 //!
 //! The amplitude is such that a sprite's integral over its plane is the particle's volume (the thesis' unit is
 //! arbitrary). Absorption is then per scene unit, and the look does not depend on how many particles resolve the same
-//! water. The image has a quarter of the resolution by default; `composite` upsamples it with the weights with which
-//! it interpolates the surface. There are two paths: additive sprites, and fixed-point atomic sums, which do not
-//! depend on the order of the particles.
+//! water. The image has by default a quarter of the frame's width and height; `composite` upsamples it with the
+//! weights with which it interpolates the surface. There are two paths: additive sprites, and fixed-point atomic
+//! sums, which do not depend on the order of the particles.
 //!
 //! Where `gaps` has found a boundary between two layers of water, a second image holds the thickness of each layer,
 //! and the thickness of the water in a window of depths, up to one spacing before and behind the boundary: water in
@@ -41,7 +41,8 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::Splat;
 
-/// Last uses of the image in a frame: `composite`, or the host's copy of the layer.
+/// Last uses of the thickness image in a frame, for which the next frame waits: sampling by `composite`, or a copy of
+/// the layer by the host.
 const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ);
 
 enum Path {

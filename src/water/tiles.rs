@@ -1,6 +1,7 @@
-//! Pass `tiles`: lists the tiles that hold water, 16×16 texels of the smoothing images each, in all levels of the
-//! smoothing. It sorts them by their iteration counts, largest first, and writes the arguments of every draw and
-//! dispatch over them.
+//! Pass `tiles`: lists the tiles with work, 16×16 texels of the smoothing images each, in all levels of the
+//! smoothing: tiles with water, and tiles that show only foam, spray, whitewater particles or bubble foam, which have
+//! to be shaded too. It sorts them by their iteration counts, largest first, and writes the arguments of every draw
+//! and dispatch over them.
 //!
 //! Not in the thesis, which draws full-screen quads. Iteration counts are known in advance, so the tiles that are
 //! still active in iteration i are a prefix of the sorted list, and one counting sort gives the arguments of all
@@ -43,9 +44,10 @@ struct Push {
 /// The pass.
 pub struct Tiles {
     pipeline: Pipeline,
-    /// For each tile, row by row, the largest iteration count of its pixels plus 1; 0 for a tile without water.
+    /// For each tile, row by row, the largest iteration count of its texels plus 1, in the low 16 bits; 0 for a tile
+    /// in which nothing has to be smoothed or shaded.
     pub work: Buffer,
-    /// Indices of tiles with water, largest work first.
+    /// Indices of the tiles with work, largest work first.
     pub list: Buffer,
     /// `[0]`: a draw of all tiles (a strip of four vertices, one instance per tile). `[i]`: the dispatch of iteration
     /// i, with the number of its tiles in the fourth word.

@@ -200,10 +200,11 @@ pub struct WhitewaterSettings {
     /// radii (Eq. 1, Sec. 2.2). [0.1, 16], default 2.25 and 1. If any shape, `life`, `sizes` or `bubble_size` differs
     /// from its default, shaders evaluate a few powers more per pixel.
     pub foam_shape: [f32; 2],
-    /// Exponents n and m of the thickness `(1 − x^n)^m` of a spray particle, default 1.5 and 1.
+    /// Exponents n and m of the thickness `(1 − x^n)^m` of a spray particle, with x the distance from its centre in
+    /// radii, default 1.5 and 1.
     pub spray_shape: [f32; 2],
-    /// Exponents n and m of the thickness `1 − (1 − x^n)^m` of a bubble, which is greatest at the rim. Default 2 and
-    /// 1.
+    /// Exponents n and m of the thickness `1 − (1 − x^n)^m` of a bubble, with x the distance from its centre in
+    /// radii: 0 at the centre, greatest at the rim. Default 2 and 1.
     pub bubble_shape: [f32; 2],
     /// Exponents n and m of the factor `(1 − a^n)^m` on a particle's thickness at the relative age a, 0 (new) to 1
     /// (gone) (Sec. 2.2). [0.1, 16], default 2 and 0.4.

@@ -469,7 +469,8 @@ impl Inflate {
         (self.used, self.packed, self.done, self.ended) = (0, packed, 0, false);
     }
 
-    /// Decompresses the next bytes into `out` and returns their number, 0 at the end of the block.
+    /// Decompresses the block's next bytes into `out`. Returns how many bytes of `out` it has filled, 0 at the end of
+    /// the block.
     fn read(&mut self, from: &mut Run<'_>, out: &mut [u8]) -> Result<usize, ReadError> {
         while !self.ended {
             if self.used == self.input.len() && self.packed > 0 {

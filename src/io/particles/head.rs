@@ -50,7 +50,8 @@ pub(super) enum Words<'d> {
     Here(&'d str),
     /// It is in this byte range of the file.
     There(u64, u64),
-    /// It has entities or CDATA besides a part that is only in the file, so it cannot be read from there.
+    /// A long part of it was left out of memory, and the rest has entities or CDATA. So it is neither in memory
+    /// nor a byte range of the file: the XML has to be read again with all texts in memory.
     Mixed,
 }
 

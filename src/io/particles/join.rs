@@ -64,7 +64,8 @@ pub(super) fn append(to: &mut Particles, mut other: Particles) {
     }
 }
 
-/// The attribute of both files; `None`, with a warning, if only one has it.
+/// Appends one attribute of the other file to that of the first. If only one of the two files has the
+/// attribute, it is dropped, and named in `missing`.
 fn both<T>(
     to: &mut Option<Vec<T>>,
     other: Option<Vec<T>>,

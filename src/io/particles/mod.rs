@@ -19,8 +19,9 @@
 //! | dumps of LAMMPS and LIGGGHTS, text; positions also scaled, in a box of any shape | yes | |
 //! | HDF5 (VTKHDF, PySPH, H5Part, H5MD, arrays in a group) and XDMF | with the feature `hdf5` | |
 //!
-//! [`Parts`] reads the same particles in parts, for files that are too large for memory: all of these formats
-//! except JSON, HDF5 and XDMF.
+//! [`Parts`] returns the particles of a file of any of these formats in parts, so that the file may be larger than
+//! memory. Exceptions, which it still loads as a whole first, are JSON, HDF5, XDMF and the rare variants of other
+//! formats that its documentation lists.
 //!
 //! Any of them may be compressed with gzip. The content decides the format; the extension is only a hint. Case,
 //! blanks and units in the names of attributes are ignored: `Pos.x [m]` is `pos_x`. A valid file that is not one

@@ -111,8 +111,9 @@ impl<'a> Content<'a> {
         self.reach(None, start, end)
     }
 
-    /// Returns `source`, which is no longer needed, if it helps to [`reach`](Self::reach) a later position: if
-    /// the content is compressed.
+    /// Decides whether to keep `source`, whose range has been read, for the next call of
+    /// [`reach`](Self::reach). If the content is compressed, it is returned, because it can be read on to a
+    /// later position; otherwise `None`, because every position can be opened directly.
     pub(super) fn spare(&self, source: Source<'a>) -> Option<Source<'a>> {
         Some(source).filter(|_| self.piece.packing != Packing::None)
     }

@@ -3,10 +3,10 @@
 /// Value at which the shoulder begins.
 const START: f32 = 0.72;
 
-/// The shoulder of Khronos' PBR Neutral tone map: colours whose channels are all below 0.72 are unchanged,
-/// brighter ones are compressed towards white with their hue kept. The toe of that tone map, which subtracts
-/// the 4 % that dielectrics reflect, is omitted, because it makes shadows under a blue sky nearly black.
-/// Negative and NaN input gives 0, infinite input white.
+/// The shoulder of Khronos' PBR Neutral tone map, here from 0.72 on: colours whose channels are all below 0.72 are
+/// unchanged, brighter ones are compressed towards white with their hue kept. The toe of that tone map, which
+/// subtracts the 4 % that dielectrics reflect, is omitted, because it makes shadows under a blue sky nearly black. A
+/// negative or NaN channel counts as 0. A colour with an infinite channel becomes white.
 pub fn neutral(c: [f32; 3]) -> [f32; 3] {
     const DESATURATION: f32 = 0.15;
     // NaN goes to 0.

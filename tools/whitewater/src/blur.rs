@@ -89,8 +89,9 @@ impl Blur {
     }
 }
 
-/// The camera's view through a point of the lens. In the picture, points at distance `focus` do not move, except by
-/// the sample's offset within the pixel.
+/// Returns the camera moved to a point of the lens: its view is shifted, and its projection is sheared so that
+/// points at distance `focus` stay where they are in the picture. The shear also moves the whole picture by the
+/// sample's offset within the pixel.
 pub fn through(
     camera: &Camera,
     Sample { lens, pixel, .. }: Sample,

@@ -1,5 +1,6 @@
-//! Render targets of one slot: the frame's images, and multisampled images for the colour pass if edges are
-//! smoothed.
+//! Framebuffers of one slot (a frame in flight). The depth pass draws to the frame's depth image, the colour
+//! pass to the frame's colour image. If edges are smoothed, the colour pass draws to multisampled images of
+//! the slot, which are resolved to the frame's colour image.
 
 use ash::vk;
 

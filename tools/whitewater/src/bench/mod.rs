@@ -47,8 +47,8 @@ use report::{Format, Report, Row};
 pub struct BenchArgs {
     /// Particle counts: 16k, 64k, 256k, 1m or any number
     ///
-    /// A larger count resolves the same pool of water more finely. With --shore, the time of shore foam is compared
-    /// with the frame time of this pool.
+    /// A larger count resolves the same pool of water more finely. With --shore, the time that shore foam adds to a
+    /// frame is reported relative to the frame time of this pool.
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
     /// Picture sizes [default: 1280x720; for a sea the paper's, 800x600 or 1280x960; for bubbles 640x480]

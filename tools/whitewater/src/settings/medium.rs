@@ -11,9 +11,9 @@ use whitewater::water::{Fresnel, Medium};
 pub struct Liquid {
     /// Index of refraction; `None` keeps the default.
     index: Option<f32>,
-    /// Albedo of thick foam and of thin foam; `None` is white.
+    /// Albedo of thick foam and of thin foam; `None` keeps the library's colours, which are white.
     foam: Option<[[f32; 3]; 2]>,
-    /// Whether it is so viscous that small waves die at once.
+    /// Whether it is so viscous that small waves die at once, so that none are drawn.
     thick: bool,
 }
 
@@ -115,8 +115,9 @@ impl MediumName {
         whole.thinned(self.share)
     }
 
-    /// Index of refraction and foam colours. The colours are chosen by eye: bubbles are as white as those of water,
-    /// but tinted by the liquid in their walls.
+    /// Index of refraction, foam colours, and whether the liquid is thick. Clear waters keep the library's index
+    /// and colours. The colours of the others are chosen by eye: bubbles are as white as those of water, but tinted
+    /// by the liquid in their walls; lava has the dark colour of cooled crust.
     pub fn liquid(self) -> Liquid {
         let thick = matches!(self.word, Word::Honey | Word::Lava);
         let of =

@@ -139,8 +139,10 @@ impl SettingsFile {
         self.light.put(&mut settings.light);
     }
 
-    /// The file with a value for every key: the given settings, the results found for the run, and this file's
-    /// configuration of passes.
+    /// The settings file `self` with a value for every key. Keys that are part of the library's [`Settings`] get the
+    /// value in `settings`; those of foam formation and whitewater emission the value that was `found` for the run.
+    /// The others, such as those that configure passes, keep the value of `self`, or that of its preset where `self`
+    /// has none.
     pub fn all(&self, settings: &Settings, found: Found<'_>) -> Self {
         // Two fields are not keys: `up`, because the program's scenes are y-up, and `ladder`, which follows from the
         // layers that are written.
