@@ -293,8 +293,8 @@ pub struct DrawArgs {
     /// per metre: {absorption = [r, g, b], reduced_scattering = [r, g, b], emission = [r, g, b]} for multiple
     /// scattering, {absorption = [r, g, b], scattering = [r, g, b]} for single scattering. Keys of [surface_foam]
     /// also set which water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach
-    /// a particle, or 'speed', the particle's own; 'speed' is the default for sequences, and if threshold, air or a
-    /// number for --surface-foam is given. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
+    /// a particle (default), or 'speed', the particle's own (default with --look thesis, and if threshold, air or a
+    /// number for --surface-foam is given). weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
     /// (as --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units
     /// per second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
@@ -354,10 +354,9 @@ pub struct DrawArgs {
     pub sheets: Option<u32>,
     /// Surface foam: auto, none, or a Weber number as threshold [default: auto]
     ///
-    /// 'auto' needs velocities. In a single frame foam lies where the water traps air, that is, where neighbouring
-    /// particles move towards each other: on at most 5 % of the particles, and on none in water that rests, flows or
-    /// falls as a whole. In a sequence the 5 % of the particles with the largest Weber numbers foam, and at most 30 %
-    /// carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed
+    /// 'auto' needs velocities. Foam forms where the water traps air, that is, where neighbouring particles move
+    /// towards each other, and where it is fast: on at most 5 % of the particles of a frame, and on none in water that
+    /// rests, flows or falls as a whole or is slower than 1 m/s. In a sequence at most 30 % of the particles carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed
     /// gives. If particles have ids, foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,

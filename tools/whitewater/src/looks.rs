@@ -60,7 +60,7 @@ pub const LONE: f32 = 0.35;
 /// their motion, by their differences in speed over a third of the time of a fall through a spacing. Mist comes from
 /// fast water: its share grows with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.65 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.5 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -361,14 +361,7 @@ pub fn look(
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
     let wanted = args.draw.surface_foam.unwrap_or(Foaming::Auto);
-    // A sequence uses the Weber number of speed: the trapped air changes from frame to frame three times as much as
-    // foam by speed does.
-    let steady = sequence.is.then_some(FoamBy::Speed);
-    let by = file
-        .surface_foam
-        .by
-        .or(steady)
-        .unwrap_or_else(|| file.surface_foam.by(wanted, file.is_thesis()));
+    let by = file.surface_foam.by(wanted, file.is_thesis());
     file.surface_foam.by = Some(by);
     let foam = surface_foam::settings(
         wanted,

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use whitewater::Settings;
 use whitewater::io::particles::Particles;
 use whitewater::water::WeberSettings;
@@ -19,6 +19,10 @@ const MOST: f64 = 0.3;
 /// of calm water tremble at half that speed, so that water at rest, and water that flows or falls as a whole, stays
 /// clear.
 const FALL: f32 = 0.125;
+/// Speed of the eddies that particles do not resolve, relative to the water's speed, from which the frame's mean velocity
+/// is subtracted. Jets from nozzles have 0.003 to 0.08 (Ervine et al. 1980); this value is chosen by eye: a
+/// free jet is glassy at its mouth, and whiter the faster it falls.
+const TURBULENCE: f32 = 0.12;
 /// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
 /// Speed relative to its surroundings, m/s, from which water entrains air. A plunging jet does from 0.8 m/s (rough) to
@@ -44,27 +48,26 @@ pub fn settings(
 ) -> Option<WeberSettings> {
     let spacing = settings.water.spacing;
     let mut foam = table.formation(&settings.water);
-    let (driven, floor): (Vec<Particles>, _) = match by {
-        FoamBy::Speed if wanted == Foaming::Auto && table.threshold.is_none() => {
-            let flows: Vec<_> = frames.iter().filter_map(Flow::of).collect();
-            if flows.iter().all(|flow| flow.fast < ONSET) {
-                return None;
-            }
-            // Water that moves with the surrounding water does not foam, however fast both are.
-            let flow = Flow::together(&flows);
-            if table.air.is_none() && flow.mean.length() > UNIFORM * flow.deviation {
-                foam.air = flow.mean.to_array();
-            }
-            (Vec::new(), foam.scale * foam.rest_density * ONSET * ONSET)
+    let mut floor = 0.0;
+    if wanted == Foaming::Auto && table.threshold.is_none() {
+        let flows: Vec<_> = frames.iter().filter_map(Flow::of).collect();
+        if flows.iter().all(|flow| flow.fast < ONSET) {
+            return None;
         }
-        FoamBy::Speed => (Vec::new(), 0.0),
-        FoamBy::Air => {
-            // The speed is relative to neighbours, so the wind does not matter.
-            foam.air = [0.0; 3];
-            let floor = foam.scale * foam.rest_density * 2.0 * GRAVITY * FALL * spacing;
-            (frames.iter().map(|frame| driven(frame, spacing)).collect(), floor)
+        // Water that moves with the surrounding water does not foam, however fast both are.
+        let flow = Flow::together(&flows);
+        if table.air.is_none() && flow.mean.length() > UNIFORM * flow.deviation {
+            foam.air = flow.mean.to_array();
         }
-    };
+        floor = foam.scale * foam.rest_density * ONSET * ONSET;
+    }
+    let mut driven = Vec::new();
+    if by == FoamBy::Air {
+        // The speed is relative to neighbours, so the wind does not matter.
+        foam.air = [0.0; 3];
+        floor = foam.scale * foam.rest_density * 2.0 * GRAVITY * FALL * spacing;
+        driven = frames.iter().map(|frame| self::driven(frame, spacing)).collect();
+    }
     let frames = if by == FoamBy::Air { &driven } else { frames };
     let wanted = match (wanted, table.threshold) {
         (Foaming::Auto, Some(threshold)) => Foaming::From(threshold),
@@ -79,8 +82,8 @@ pub fn settings(
             let all = moving.flat_map(|frame| numbers(frame, &foam, spray)).map(|(_, n)| n);
             let calm = quantile(all.collect(), CALM)?;
             let calm = calm.max(of_lifetimes(frames, seconds, &foam, spray).unwrap_or(0.0));
-            // A single frame foams if some particle exceeds half of the lower limit; a sequence foams unless all its
-            // frames are at rest.
+            // A single frame foams if some particle exceeds half of the lower limit. Of a sequence only some frames
+            // are known, so it foams unless all of them are at rest.
             let least = if frames.len() == 1 { 0.5 * floor } else { 0.0 };
             let some = |frame| numbers(frame, &foam, spray).iter().any(|(_, n)| *n > least);
             if by == FoamBy::Air && !frames.iter().any(some) {
@@ -124,11 +127,18 @@ impl Flow {
     }
 }
 
-/// Substitute for the velocities, if foam is driven by trapped air: vectors whose length is the speed at which
-/// neighbours approach.
+/// Substitute for the velocities, if foam is driven by trapped air: vectors whose length is the speed at which air is
+/// trapped. Of two independent causes the squares add up: the approach of neighbours, and the eddies that particles do
+/// not resolve.
 pub fn drive(particles: &Particles, spacing: f32) -> Option<Vec<[f32; 3]>> {
-    let speeds = air::trapped(&particles.positions, particles.velocities.as_ref()?, spacing);
-    Some(speeds.into_iter().map(|speed| [speed, 0.0, 0.0]).collect())
+    let velocities = particles.velocities.as_ref()?;
+    // Unlike the median, the mean does not jump from frame to frame where two bodies of water collide.
+    let known = || velocities.iter().map(|v| Vec3::from(*v)).filter(|v| v.is_finite());
+    let mean = known().map(|v| v.as_dvec3()).sum::<DVec3>() / known().count().max(1) as f64;
+    let approach = air::trapped(&particles.positions, velocities, spacing);
+    let eddies = |v: &[f32; 3]| TURBULENCE * (Vec3::from(*v) - mean.as_vec3()).length();
+    let each = approach.into_iter().zip(velocities);
+    Some(each.map(|(speed, v)| [speed.hypot(eddies(v)), 0.0, 0.0]).collect())
 }
 
 /// A frame with these vectors as velocities, and without positions.
@@ -338,6 +348,7 @@ mod tests {
             [0.05 * ((i * 7919) as f32).sin(), 0.05 * ((i * 104_729) as f32).cos(), 0.0]
         };
         assert_eq!(of(&tremble), None, "trembles");
+        assert_eq!(of(&|_, p| [0.0, -0.4 * p[1].signum(), 0.0]), None, "collides too slowly");
         let (count, farthest) = of(&|_, p| [0.0, -2.0 * p[1].signum(), 0.0]).unwrap();
         // Of two layers of 256 particles on either side, those with neighbours all around.
         assert!((100..=512).contains(&count) && farthest < 1.6 * spacing, "{count} {farthest}");
@@ -347,8 +358,32 @@ mod tests {
         assert_eq!(settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()), None);
     }
 
-    /// In a sequence, water that trembles, that flows as a whole or that is slow does not foam. Only water that exceeds
-    /// the flow by the speed of air entrainment does.
+    /// In a jet that falls beside water at rest no neighbours approach each other. A fast one foams, because it is
+    /// turbulent; a slow one does not.
+    #[test]
+    fn a_fast_jet_foams() {
+        let look = Settings::default();
+        let at = |i: u16| {
+            let aside = if i < 4000 { 0.0 } else { 30.0 };
+            let [x, y, z] = [i % 16, i / 16 % 16, i / 256].map(f32::from);
+            [x + aside, y, z].map(|v| look.water.spacing * v)
+        };
+        let mut frame = Particles::from_positions((0..4096).map(at).collect());
+        let mut of = |speed: f32| {
+            let fall = |i: u16| [0.0, if i < 4000 { 0.0 } else { -speed }, 0.0];
+            frame.velocities = Some((0..4096).map(fall).collect());
+            let by = (&SurfaceFoamTable::default(), FoamBy::Air);
+            let found = settings(Foaming::Auto, by, std::slice::from_ref(&frame), &[0.0], &look)?;
+            let numbers = numbers(&driven(&frame, look.water.spacing), &found, 0.0);
+            let foams = numbers.iter().filter(|(_, n)| *n >= found.threshold).map(|(i, _)| *i);
+            Some(foams.collect::<Vec<_>>())
+        };
+        assert_eq!(of(9.0), Some((4000..4096).collect()), "all of the jet and nothing else");
+        assert_eq!(of(1.5), None);
+    }
+
+    /// Water that trembles weakly, flows as a whole or is slow does not foam. By speed, only water does whose velocity
+    /// differs from the flow, the median velocity of all particles, by at least [`ONSET`].
     #[test]
     fn air_is_not_drawn_in_by_calm_water() {
         let noise = |i: usize, seed: usize| ((i * 7919 + seed * 104_729) as f32).sin();
