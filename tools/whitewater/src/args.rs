@@ -294,7 +294,8 @@ pub struct DrawArgs {
     /// scattering, {absorption = [r, g, b], scattering = [r, g, b]} for single scattering. Keys of [surface_foam]
     /// also set which water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach
     /// a particle (default), or 'speed', the particle's own (default with --look thesis, and if threshold, air or a
-    /// number for --surface-foam is given). weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
+    /// number for --surface-foam is given). With 'air', turbulence times the particle's own speed counts too (default
+    /// 0.12 in sequences, 0 in single frames). weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
     /// (as --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units
     /// per second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
@@ -355,8 +356,8 @@ pub struct DrawArgs {
     /// Surface foam: auto, none, or a Weber number as threshold [default: auto]
     ///
     /// 'auto' needs velocities. Foam forms where the water traps air, that is, where neighbouring particles move
-    /// towards each other, and where it is fast: on at most 5 % of the particles of a frame, and on none in water that
-    /// rests, flows or falls as a whole or is slower than 1 m/s. In a sequence at most 30 % of the particles carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed
+    /// towards each other, in sequences also where it is fast: on at most 5 % of the particles of a frame, and on none
+    /// in water that rests, flows or falls as a whole or is slower than 1 m/s. In a sequence at most 30 % of the particles carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed
     /// gives. If particles have ids, foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,

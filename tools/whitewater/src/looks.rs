@@ -363,6 +363,13 @@ pub fn look(
     let wanted = args.draw.surface_foam.unwrap_or(Foaming::Auto);
     let by = file.surface_foam.by(wanted, file.is_thesis());
     file.surface_foam.by = Some(by);
+    if sequence.is && by == FoamBy::Air {
+        file.surface_foam.turbulence.get_or_insert(surface_foam::TURBULENCE);
+    }
+    if let Some(turbulence) = file.surface_foam.turbulence.filter(|t| !(0.0..=1.0).contains(t)) {
+        let why = format!("[surface_foam] turbulence: expected 0 to 1, found {turbulence}");
+        return Err(Failure::input(why));
+    }
     let foam = surface_foam::settings(
         wanted,
         (&file.surface_foam, by),

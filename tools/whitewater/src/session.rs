@@ -408,8 +408,11 @@ impl<'a> Session<'a> {
             let fps = self.look.fps.filter(|_| particles.ids.is_some());
             let (ids, spacing) = (particles.ids.as_deref(), self.look.settings.water.spacing);
             let by_air = self.look.file.surface_foam.by == Some(FoamBy::Air);
+            let turbulence = self.look.file.surface_foam.turbulence.unwrap_or(0.0);
             let drive = by_air.then(|| {
-                times.step("trapped air", number, || surface_foam::drive(particles, spacing))
+                times.step("trapped air", number, || {
+                    surface_foam::drive(particles, spacing, turbulence)
+                })
             });
             times.step("surface_foam", number, || {
                 let drive = drive.flatten();

@@ -19,10 +19,10 @@ const MOST: f64 = 0.3;
 /// of calm water tremble at half that speed, so that water at rest, and water that flows or falls as a whole, stays
 /// clear.
 const FALL: f32 = 0.125;
-/// Speed of the eddies that particles do not resolve, relative to the water's speed, from which the frame's mean velocity
-/// is subtracted. Jets from nozzles have 0.003 to 0.08 (Ervine et al. 1980); this value is chosen by eye: a
-/// free jet is glassy at its mouth, and whiter the faster it falls.
-const TURBULENCE: f32 = 0.12;
+/// Default of [`SurfaceFoamTable::turbulence`] in sequences. Jets from nozzles have 0.003 to 0.08 (Ervine et al. 1980);
+/// this value is chosen by eye: a free jet is glassy at its mouth, and whiter the faster it falls. In single frames the
+/// default is 0, because without a history of the foam the front of a smooth surge would be white.
+pub const TURBULENCE: f32 = 0.12;
 /// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
 /// Speed relative to its surroundings, m/s, from which water entrains air. A plunging jet does from 0.8 m/s (rough) to
@@ -66,7 +66,8 @@ pub fn settings(
         // The speed is relative to neighbours, so the wind does not matter.
         foam.air = [0.0; 3];
         floor = foam.scale * foam.rest_density * 2.0 * GRAVITY * FALL * spacing;
-        driven = frames.iter().map(|frame| self::driven(frame, spacing)).collect();
+        let turbulence = table.turbulence.unwrap_or(0.0);
+        driven = frames.iter().map(|frame| self::driven(frame, spacing, turbulence)).collect();
     }
     let frames = if by == FoamBy::Air { &driven } else { frames };
     let wanted = match (wanted, table.threshold) {
@@ -129,22 +130,22 @@ impl Flow {
 
 /// Substitute for the velocities, if foam is driven by trapped air: vectors whose length is the speed at which air is
 /// trapped. Of two independent causes the squares add up: the approach of neighbours, and the eddies that particles do
-/// not resolve.
-pub fn drive(particles: &Particles, spacing: f32) -> Option<Vec<[f32; 3]>> {
+/// not resolve, whose speed is `turbulence` times that of the particle relative to the frame's mean velocity.
+pub fn drive(particles: &Particles, spacing: f32, turbulence: f32) -> Option<Vec<[f32; 3]>> {
     let velocities = particles.velocities.as_ref()?;
     // Unlike the median, the mean does not jump from frame to frame where two bodies of water collide.
     let known = || velocities.iter().map(|v| Vec3::from(*v)).filter(|v| v.is_finite());
     let mean = known().map(|v| v.as_dvec3()).sum::<DVec3>() / known().count().max(1) as f64;
     let approach = air::trapped(&particles.positions, velocities, spacing);
-    let eddies = |v: &[f32; 3]| TURBULENCE * (Vec3::from(*v) - mean.as_vec3()).length();
+    let eddies = |v: &[f32; 3]| turbulence * (Vec3::from(*v) - mean.as_vec3()).length();
     let each = approach.into_iter().zip(velocities);
     Some(each.map(|(speed, v)| [speed.hypot(eddies(v)), 0.0, 0.0]).collect())
 }
 
 /// A frame with these vectors as velocities, and without positions.
-fn driven(frame: &Particles, spacing: f32) -> Particles {
+fn driven(frame: &Particles, spacing: f32, turbulence: f32) -> Particles {
     Particles {
-        velocities: drive(frame, spacing),
+        velocities: drive(frame, spacing, turbulence),
         densities: frame.densities.clone(),
         ids: frame.ids.clone(),
         ..Particles::from_positions(Vec::new())
@@ -334,7 +335,7 @@ mod tests {
             let by = (&table, FoamBy::Air);
             let frames = std::slice::from_ref(&frame);
             settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()).map(|found| {
-                let numbers = numbers(&driven(&frame, spacing), &found, 0.0);
+                let numbers = numbers(&driven(&frame, spacing, 0.0), &found, 0.0);
                 let foam = numbers.iter().filter(|(_, n)| *n >= found.threshold);
                 (
                     foam.clone().count(),
@@ -372,9 +373,11 @@ mod tests {
         let mut of = |speed: f32| {
             let fall = |i: u16| [0.0, if i < 4000 { 0.0 } else { -speed }, 0.0];
             frame.velocities = Some((0..4096).map(fall).collect());
-            let by = (&SurfaceFoamTable::default(), FoamBy::Air);
+            let turbulence = Some(TURBULENCE);
+            let table = SurfaceFoamTable { turbulence, ..SurfaceFoamTable::default() };
+            let by = (&table, FoamBy::Air);
             let found = settings(Foaming::Auto, by, std::slice::from_ref(&frame), &[0.0], &look)?;
-            let numbers = numbers(&driven(&frame, look.water.spacing), &found, 0.0);
+            let numbers = numbers(&driven(&frame, look.water.spacing, TURBULENCE), &found, 0.0);
             let foams = numbers.iter().filter(|(_, n)| *n >= found.threshold).map(|(i, _)| *i);
             Some(foams.collect::<Vec<_>>())
         };

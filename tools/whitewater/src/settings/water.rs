@@ -261,6 +261,9 @@ table! {
         /// The keys from here on are not part of the look; they set which water foams. `by`: the speed in the Weber
         /// number.
         by: FoamBy,
+        /// Speed of the eddies that particles do not resolve, relative to the water's speed. It adds to the speed at
+        /// which neighbours approach.
+        turbulence: f32,
         /// Unit of the Weber number.
         weber: Weber,
         /// Weber number from which water foams, unless the command line sets it.
@@ -325,6 +328,7 @@ impl SurfaceFoamTable {
         let WeberSettings { foam_lifetime, air, seed, .. } = *found.unwrap_or(&said);
         Self {
             by: Some(self.by.unwrap_or(FoamBy::Speed)),
+            turbulence: Some(self.turbulence.unwrap_or(0.0)),
             weber: Some(self.weber.unwrap_or(Weber::Reduced)),
             threshold: found.map_or(self.threshold, |found| Some(found.threshold)),
             lifetime: Some(foam_lifetime),
