@@ -43,10 +43,10 @@ pub fn impact_speed(frames: &[Particles]) -> f32 {
 
 /// Density limits of spray in caches: only lone particles, or nearly lone ones, are all spray. Solvers' densities are
 /// low at every surface, in sheets and in jets, so that the library's limit of 0.85 turns most of a splash to spray (82
-/// % of the highest tenth of two solid jets; these limits 23 %). A particle with one neighbour one spacing away has
-/// 0.40, one in a line 0.48. Sheets of one layer (0.70) stay water; water that is torn further stays water with
-/// droplets around it.
-const SPRAY_DENSITIES: [f32; 3] = [0.44, 0.66, 0.7];
+/// % of the highest tenth of two solid jets; these limits fewer than 23 %). A particle with one neighbour one spacing
+/// away has 0.40, one in a line 0.48. Sheets of one layer (0.70) stay water, and so do bumps on a pool's surface (0.63
+/// or more), which would be white stains; water that is torn further stays water with droplets around it.
+const SPRAY_DENSITIES: [f32; 3] = [0.44, 0.60, 0.63];
 
 /// Density limits at which a lone particle (0.318) is drawn as a whole drop of water.
 const WHOLE_DROPS: (f32, f32) = (0.0, 0.3);
