@@ -22,8 +22,8 @@ const NAMED: usize = 12;
 pub(super) enum Ends<'a> {
     /// In the list of points itself, before the points of each cell.
     Inside,
-    /// As a list of running sums, and the first of them: 1, or 0 if the list has one value more than there are
-    /// cells.
+    /// As a list of running sums of the numbers, and the expected first sum: 1, or 0 if a 0 precedes the sums, so
+    /// that the list has one value more than there are cells.
     Sums(Track<'a>, u64),
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Lists<'a> {
 /// The cells of a file, piece by piece, and the point of each.
 #[derive(Clone, Default)]
 pub(super) struct Cells {
-    /// Number of points of all pieces so far, which is the number of cells.
+    /// Number of points of all pieces of the file so far; each point has one cell.
     count: u64,
     /// Index of the point of each cell; `None` as long as every cell i has point i.
     order: Option<Vec<u32>>,
@@ -152,8 +152,8 @@ impl Cells {
         Ok(())
     }
 
-    /// The cell of each point; `None` if every point has the cell of the same number. The error says why the
-    /// cells are no particles.
+    /// For each point the index of its only cell; `None` if every point i has cell i. The error says why the cells
+    /// cannot be taken as particles.
     pub(super) fn finish(self) -> Result<Option<Arc<[u32]>>, String> {
         if let Some(why) = self.why {
             return Err(why);
@@ -170,7 +170,8 @@ impl Cells {
     }
 }
 
-/// Calls `each` with the index and value of the first `count` values of a track's only column.
+/// Reads a track (values in a file) that has one column, and calls `each` with the index and value of its first
+/// `count` values.
 fn each(
     track: &Track<'_>,
     count: u64,
@@ -193,8 +194,8 @@ fn each(
     Ok(())
 }
 
-/// Name of a column of cells' values. That of ghosts gets a suffix, because ghosts are marked by other bits in
-/// cells than in points.
+/// Name for a column of values per cell. A column that marks ghosts gets a suffix, because ghosts are marked by other
+/// bits in cells than in points.
 pub(super) fn column_name(name: &str) -> String {
     match names::is_ghost(name) {
         true => format!("{name}{}", names::OF_CELLS),
@@ -202,8 +203,8 @@ pub(super) fn column_name(name: &str) -> String {
     }
 }
 
-/// Removes from `cells` the fields whose names the points have too, because they are not used. Returns their
-/// names, except those of ghosts.
+/// Removes from `cells` the fields that the points have under the same name, because those of the points are used.
+/// Returns the removed names, except those of ghosts.
 pub(super) fn doubled(cells: &mut Vec<Attribute>, points: &[Attribute]) -> Vec<String> {
     let plain: Vec<String> = points.iter().map(|point| names::plain(&point.name)).collect();
     let (double, own): (Vec<_>, Vec<_>) = std::mem::take(cells)
@@ -230,13 +231,13 @@ pub(super) fn no_particles(why: &str) -> String {
     )
 }
 
-/// Why fields of cells are not used, if points have them too.
+/// Why cell fields (values per cell) are not used: the points have fields of the same names.
 pub(super) const DOUBLED: &str = "the points have fields of the same names, which are used";
-/// Why fields of cells are not used, if they have too few values or too many.
+/// Why cell fields (values per cell) are not used: they have too few values or too many.
 pub(super) const UNEVEN: &str = "they do not have a value for each cell";
 
-/// The track with its rows in the order of the points instead of the cells. All rows are in memory while they are
-/// read.
+/// The same values as the given track (values in a file, one row per cell), with the rows in the order of the points.
+/// All rows are in memory while they are read.
 pub(super) fn reordered<'a>(track: Track<'a>, cells: Arc<[u32]>) -> Track<'a> {
     let Track { columns, lengths, what, open: inner } = track;
     let empty = columns.clone();

@@ -142,7 +142,7 @@ impl Records<'_> {
         })
     }
 
-    /// The error for a line that is no row, by what is expected and found.
+    /// The error for a line that is no row of values; if the line begins a second table, an error that says so.
     fn no_row(&self, expected: String, found: String) -> ReadError {
         if self.numbered == Some(true) && !self.begins_with_number() {
             return ReadError::Unsupported {

@@ -23,10 +23,10 @@
 //! memory. Exceptions, which it still loads as a whole first, are JSON, HDF5, XDMF and the rare variants of other
 //! formats that its documentation lists.
 //!
-//! Any of them may be compressed with gzip. The content decides the format; the extension is only a hint. Case,
-//! blanks and units in the names of attributes are ignored: `Pos.x [m]` is `pos_x`. A valid file that is not one
-//! frame of particles is refused; the error says what it is and what to do. Ambiguous interpretations are reported in
-//! [`Particles::warnings`].
+//! A file in any of these formats may be compressed with gzip. The content decides the format; the extension is only
+//! a hint. Case, blanks, `_ - . :` and units in the names of attributes are ignored: `Pos.x [m]` is `pos_x`. A valid
+//! file that is not one frame of particles is refused; the error says what it is and what to do. Ambiguous
+//! interpretations are reported in [`Particles::warnings`].
 //!
 //! Lengths and times keep the file's units; nothing is scaled or reordered. Ghosts (copies of particles that
 //! belong to another piece of the file) are left out. An origin is subtracted only from double-precision
@@ -106,7 +106,7 @@ pub struct Particles {
     /// Mass densities, in the file's unit.
     pub densities: Option<Vec<f32>>,
     /// Ids: integers that identify a particle from frame to frame. Ids beyond 32 bits are kept modulo 2^32. If any id
-    /// is negative or fractional, or if ids repeat, all are dropped with a warning.
+    /// is negative or fractional, or if more than 1 % of the ids repeat, all are dropped with a warning.
     pub ids: Option<Vec<u32>>,
     /// Remaining lifetime of whitewater particles. A particle whose lifetime is zero or less dies with the next
     /// frame.
@@ -115,8 +115,9 @@ pub struct Particles {
     pub kinds: Option<Vec<u32>>,
     /// Every attribute in the file, including positions and attributes that are not read.
     pub attributes: Vec<Attribute>,
-    /// Each meaning that was found, with the names of the attributes that have it, positions first. Attributes
-    /// in no list were ignored, except [`extras`](Self::extras) and those that mark ghosts or time steps.
+    /// Each meaning (position, velocity, ...) that was found in the file, with the names of its attributes; positions
+    /// come first. An attribute that is named nowhere here was ignored, unless it is in [`extras`](Self::extras) or
+    /// marks ghosts or time steps.
     pub meanings: Vec<(Meaning, Vec<String>)>,
     /// Attributes that were requested with [`read_with`].
     pub extras: Vec<Extra>,
@@ -133,7 +134,8 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Particles with positions only. The format is the raw one, and no attributes are listed.
+    /// Makes particles that have only these positions. Their format is [`Format::RawF32`], and no attributes are
+    /// listed.
     pub fn from_positions(positions: Vec<[f32; 3]>) -> Self {
         Self {
             positions,

@@ -74,7 +74,7 @@ pub(super) const KIND: Names = &["type"];
 /// Names that mark copies of particles of another piece.
 pub(super) const GHOST: Names =
     &["vtkghosttype", "vtkghostlevels", "vtkghosttypeofcells", "vtkghostlevelsofcells"];
-/// Suffix for the name of a ghost attribute that belongs to cells instead of points.
+/// Suffix that is added to the name of a ghost attribute if its values belong to cells instead of points.
 pub(super) const OF_CELLS: &str = " of cells";
 /// Names of the time or step of a particle, in files with several frames.
 pub(super) const STEP: Names = &["timestep", "time", "timevalue", "step", "frame"];
@@ -206,19 +206,20 @@ pub(super) fn is_time(name: &str) -> bool {
     is_step(name) || ["t", "times", "timesteps", "steps"].contains(&plain(name).as_str())
 }
 
-/// Whether one of these names may be a position, or two or three together.
+/// Whether some of these names denote positions, either as a vector or as two or three components.
 pub(super) fn may_have_positions<N: AsRef<str>>(names: &[N]) -> bool {
     let whole = |name: &N| POSITION.contains(&plain(name.as_ref()).as_str());
     names.iter().any(whole) || have_positions(names)
 }
 
-/// Whether an attribute with this name may be text, because the picture does not depend on it.
+/// Whether an attribute with this name (a kind, a time or an unknown one) may be text, because the picture does not
+/// depend on it.
 pub(super) fn may_be_text(name: &str) -> bool {
     let plain = plain(name);
     KIND.contains(&plain.as_str()) || STEP.contains(&plain.as_str()) || !known(&plain)
 }
 
-/// Whether an attribute with this name may be a time, which need not be a number.
+/// Whether an attribute with this name is a particle's time or step, whose values need not be numbers.
 pub(super) fn is_step(name: &str) -> bool {
     STEP.contains(&plain(name).as_str())
 }

@@ -10,11 +10,11 @@ use super::steps::Step;
 /// One file of a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// Number in the file's name. If the names have no number, or a time instead, the file's index in the
-    /// sequence, from 0.
+    /// Number in the file's name. If the names have no number, or a time instead, or if a list of files gives the
+    /// order, the frame's index in the sequence, from 0.
     pub number: u64,
-    /// Time in the file's or its folder's name, in the author's unit, if the numbers there have a decimal point
-    /// or an exponent (`t0.32`, `0.32/cloud`, `4.0e-04`).
+    /// Time of the frame in the author's unit: from a list of files (`.pvd`, `.series`), or from a number with a
+    /// decimal point or an exponent in the file's or its folder's name (`t0.32`, `0.32/cloud`, `4.0e-04`).
     pub time: Option<f64>,
     /// The file.
     pub path: PathBuf,
@@ -121,7 +121,7 @@ pub enum SequenceError {
 /// Reads a range of frames, `A-B` (both included) or `A`.
 ///
 /// # Errors
-/// [`SequenceError::Pattern`] if the text has another form, or `B` is less than `A`.
+/// [`SequenceError::Pattern`] if the text is neither `A` nor `A-B` with whole numbers, or if `B` is less than `A`.
 pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
     let bad = || SequenceError::Pattern {
         pattern: text.into(),
@@ -151,7 +151,8 @@ pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
 /// `rank`, `proc` and the like is that of a process, whose file is a part of a frame.
 ///
 /// # Errors
-/// Every input must give at least one file. The error says which input gave none, and what exists instead.
+/// Every input must give at least one file. Otherwise the error says which input gave none, and what exists instead.
+/// For other errors see [`SequenceError`].
 pub fn expand<S: AsRef<str>>(
     inputs: &[S],
     frames: Option<RangeInclusive<u64>>,
@@ -273,8 +274,8 @@ fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError>
     })
 }
 
-/// Whether this is a file. If its metadata cannot be read, the result is an error, because the sequence would
-/// silently lack a frame.
+/// Whether `path` is a file; false if nothing is there. If its metadata cannot be read for another reason, the result
+/// is an error, because the sequence would silently lack a frame.
 fn is_file(path: &Path) -> Result<bool, SequenceError> {
     match std::fs::metadata(path) {
         Ok(found) => Ok(found.is_file()),
@@ -418,7 +419,8 @@ enum Part {
 /// and so on, each split into numbers and text.
 struct Named {
     levels: Vec<Vec<Part>>,
-    /// Number and time, if a list of files or a `%d` in the input determines them, and not the name alone.
+    /// The frame's number and time, if a list of files or a `%d` in the input determines them; `None` if only the
+    /// name can tell.
     said: Option<(u64, Option<f64>)>,
     /// Whether they come from a list of files.
     listed: bool,
@@ -465,8 +467,8 @@ impl Named {
         }
     }
 
-    /// The numbers in the name at a level (0 for the file, 1 for its folder) except process ranks, and whether
-    /// the name has such ranks.
+    /// The numbers in one name of the path (`level` 0 is the file, 1 its folder), without process ranks, and whether
+    /// the name has a process rank.
     fn numbers(&self, level: usize) -> (Vec<&Number>, bool) {
         let (mut numbers, mut ranked, mut before) = (Vec::new(), false, "");
         for part in self.levels.get(level).into_iter().flatten() {
@@ -484,8 +486,8 @@ impl Named {
 const RANKS: [&str; 9] =
     ["rank", "proc", "processor", "process", "piece", "mpi", "cpu", "subdomain", "thread"];
 
-/// Whether a number after this text, as in `fluid_10_rank0`, is a process rank; each process writes a part of each
-/// frame.
+/// Whether `text` ends in a word such as `rank` or `proc`, so that a number after it is a process rank, as in
+/// `fluid_10_rank0`. Each process writes a part of each frame.
 pub fn is_rank(text: &str) -> bool {
     let text = text.trim_end_matches(['_', '-', '.', '=']);
     let word = text.rsplit(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or(text);

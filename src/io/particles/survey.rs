@@ -184,12 +184,14 @@ impl Steps {
 /// Results so far.
 #[derive(Debug)]
 pub(super) struct Survey {
-    /// Whether this is the first pass over the particles, in which nothing is known yet about all of them.
+    /// Whether this is the first pass over the particles, which gathers their times, ids and positions. A second one
+    /// knows them.
     asks: bool,
     origin: [f64; 3],
     seen: usize,
     ghosts: usize,
-    /// The time of the requested frame, and the number of particles of other frames.
+    /// `only`: the requested time, `None` if no time is requested. `others`: number of particles of other times so
+    /// far.
     only: Option<f64>,
     others: usize,
     /// At most a few thousand positions, spread evenly over the file: the first of each `step` particles.
@@ -246,12 +248,13 @@ impl Survey {
         self.seen
     }
 
-    /// Number of particles so far that are kept: no ghosts, and of the requested time.
+    /// Number of particles seen so far that are kept: those that are no ghosts and have the requested time, if one is
+    /// requested.
     pub(super) fn kept(&self) -> usize {
         self.seen - self.ghosts - self.others
     }
 
-    /// The requested time, or the time of all particles if they have the same.
+    /// The requested time, or else the time of all particles if there is only one.
     pub(super) fn time(&self) -> Option<f64> {
         self.only.or(self.one_time())
     }
@@ -260,7 +263,8 @@ impl Survey {
         self.steps.first.filter(|time| self.steps.different.len() == 1 && time.is_finite())
     }
 
-    /// Samples are chosen by the particle's number in the file alone, because the total is not known yet.
+    /// Samples some of the next `rows` positions. They are chosen by the particle's number in the file alone, because
+    /// the total is not known yet.
     fn sample(&mut self, rows: usize, position: impl Fn(usize) -> [f64; 3]) {
         loop {
             let next = self.samples.len().saturating_mul(self.step);
@@ -371,13 +375,15 @@ impl Survey {
         particles
     }
 
-    /// Whether ids repeat, so that they do not identify particles. Copies at the same position may share an
-    /// id. The fractions of repeated ids and positions are those of some thousand samples.
+    /// Whether too many ids repeat (more than 1 %; the limit rises with the repeated positions, because copies of a
+    /// particle may share its id), so that ids do not identify particles. Both fractions are those of some thousand
+    /// sampled values.
     fn repeated_ids(&self) -> bool {
         self.numbers.share() > REPEATED_IDS + 1.2 * self.places.share()
     }
 
-    /// Removes from a part (or from all particles) the attributes that are dropped for the file as a whole.
+    /// Removes from particles (all of a file, or a part) the ids if any id in the file is not an integer or if ids
+    /// repeat, and the kinds if any kind in it is not an integer.
     pub(super) fn drop_from(&self, particles: &mut Particles) {
         if self.ids.is_some() || self.repeated_ids() {
             particles.ids = None;
@@ -506,8 +512,8 @@ pub(super) fn retain(particles: &mut Particles, kept: &[bool]) {
     particles.extras.iter_mut().for_each(|extra| some(&mut extra.values, kept));
 }
 
-/// Of the positions: the largest distance from 0 and the largest extent along any axis, and the median of each
-/// axis.
+/// Of the middle 90 % of the positions along each axis: the largest distance from 0 and the largest extent along any
+/// axis. Also the median of each axis.
 fn reach_of(samples: &[[f64; 3]]) -> Option<(f64, f64, [f64; 3])> {
     let (mut extent, mut reach, mut middle) = (0.0_f64, 0.0_f64, [0.0; 3]);
     for (axis, middle) in middle.iter_mut().enumerate() {
@@ -525,8 +531,8 @@ fn reach_of(samples: &[[f64; 3]]) -> Option<(f64, f64, [f64; 3])> {
     Some((reach, extent, middle))
 }
 
-/// Origin to subtract from distant positions; 0 if the positions are not distant. The origin is rounded to a few
-/// leading digits, so that the frames of a sequence usually have the same one.
+/// Origin to subtract from the positions: their median, if they are distant ([`FAR`]), otherwise 0. The median is
+/// rounded to about four leading digits, so that the frames of a sequence usually have the same origin.
 fn origin(first: &[[f64; 3]]) -> [f64; 3] {
     let Some((reach, extent, middle)) = reach_of(first) else { return [0.0; 3] };
     if extent <= 0.0 || reach <= FAR * extent || !reach.is_finite() {
@@ -536,7 +542,7 @@ fn origin(first: &[[f64; 3]]) -> [f64; 3] {
     middle.map(|c| (c / step).round() * step)
 }
 
-/// Warns if the bulk is so far away that 32-bit floats cannot distinguish particles.
+/// Warns if the step of 32-bit floats at the positions' distance from 0 is more than a thousandth of their extent.
 fn resolution_warning(samples: &[[f64; 3]]) -> Option<String> {
     let (reach, extent, _) = reach_of(samples)?;
     let resolution = reach * f64::from(f32::EPSILON);

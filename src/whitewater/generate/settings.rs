@@ -60,14 +60,16 @@ pub struct GeneratorSettings {
     /// Spacing of the fluid's particles, scene units, (0, ∞). Particles nearer than two spacings are
     /// neighbours.
     pub spacing: f32,
-    /// Limits of the trapped-air potential (Ihmsen et al. 2012, Sec. 3.1.1), scene units per second: the sum of the
-    /// speeds at which neighbours approach a particle, weighted by a kernel of their distance.
+    /// Range of the trapped-air potential (Ihmsen et al. 2012, Sec. 3.1.1) over which its emission rises from none to
+    /// the full rate, scene units per second. The potential sums the speeds at which neighbours approach a particle,
+    /// weighted by a kernel of their distance.
     pub trapped_air: PotentialRange,
-    /// Limits of the wave-crest potential (Sec. 3.1.2): a measure of convex curvature, without a unit, which counts
-    /// only where the surface moves outwards.
+    /// Range of the wave-crest potential (Sec. 3.1.2) over which its emission rises from none to the full rate. The
+    /// potential measures convex curvature, has no unit, and counts only where the surface moves outwards.
     pub wave_crest: PotentialRange,
-    /// Limits of the energy potential (Sec. 3.1.3): half the squared speed, which is the kinetic energy per mass, in
-    /// (scene units per second)². It scales the emission from both other potentials.
+    /// Range of the energy potential (Sec. 3.1.3), in (scene units per second)²: half the squared speed, which is the
+    /// kinetic energy per mass. Over this range a factor on the emission from both other potentials rises from 0 to
+    /// 1.
     pub energy: PotentialRange,
     /// Maximum emission of one fluid particle from trapped air, particles per second, [0, 1e18]. From all causes
     /// together, a fluid particle emits at most 64 particles per step.
@@ -93,15 +95,15 @@ pub struct GeneratorSettings {
 }
 
 impl GeneratorSettings {
-    /// These settings with the earth's gravity, for a number of scene units per metre and an up direction of unit
-    /// length.
+    /// These settings with the earth's gravity in scene units, from the number of scene units per metre and an up
+    /// direction of unit length.
     #[must_use]
     pub fn with_gravity(self, units_per_metre: f32, up: [f32; 3]) -> Self {
         Self { gravity: up.map(|v| -9.81 * units_per_metre * v), ..self }
     }
 
-    /// The defaults, with limits of trapped air, wave crests and energy (in this order), and one rate for trapped air
-    /// and wave crests.
+    /// The defaults with these limits of trapped air, wave crests and energy (in this order), and with `rate`
+    /// (particles per second) as the maximum emission from trapped air and also from wave crests.
     pub fn new(spacing: f32, limits: [PotentialRange; 3], rate: f32) -> Self {
         let [trapped_air, wave_crest, energy] = limits;
         Self {
