@@ -178,8 +178,8 @@ impl WhitewaterParts<'_> {
     /// Uploads the next particles. The slices need not outlive the call.
     ///
     /// # Errors
-    /// Attributes of different lengths, other attributes than in the previous part, more particles than announced, or
-    /// no memory. After an error the part is ignored.
+    /// Attributes of different lengths, other attributes than in the previous part, no memory, or more whitewater
+    /// particles than announced by `whitewater_parts`. After an error this part is ignored.
     pub fn push(&mut self, part: &Whitewater<'_>) -> Result<(), Error> {
         let length = part.positions.len();
         if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {
@@ -229,7 +229,8 @@ impl WhitewaterParts<'_> {
     /// Ends the upload. The following frames show these whitewater particles.
     ///
     /// # Errors
-    /// Fewer particles than announced, or no memory. After an error there are no whitewater particles.
+    /// Fewer whitewater particles in all parts than announced, or no memory. After an error there are no whitewater
+    /// particles.
     pub fn finish(mut self) -> Result<(), Error> {
         if self.written < self.count {
             let why = format!("expected {} particles, found {}", self.count, self.written);

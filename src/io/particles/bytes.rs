@@ -18,7 +18,8 @@ pub(super) fn gunzip(bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
     unpack(flate2::read::MultiGzDecoder::new(bytes), unpack_limit(bytes.len()), "gzip data", 0)
 }
 
-/// Reads to the end, or fails after `limit` bytes. Memory grows with what really comes out.
+/// Reads `reader` to the end, or fails after `limit` bytes. Memory grows with the bytes that are read, not with
+/// `limit`.
 pub(super) fn unpack(
     reader: impl Read,
     limit: usize,
@@ -64,7 +65,7 @@ impl<'a> Cursor<'a> {
         self.data.get(self.at..).unwrap_or_default()
     }
 
-    /// The next `n` bytes. `n` comes from headers, so it is checked as `u64`.
+    /// Takes the next `n` bytes of the data; fails if fewer are left. `n` comes from headers, so it is a `u64`.
     pub(super) fn take(&mut self, n: u64, what: &str) -> Result<&'a [u8], ReadError> {
         let rest = self.rest();
         let taken = usize::try_from(n).ok().and_then(|n| rest.get(..n));

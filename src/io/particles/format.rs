@@ -372,8 +372,8 @@ fn is_text(bytes: &[u8]) -> bool {
     valid && is_readable(bytes)
 }
 
-/// Whether the beginning has no control characters, as text in any encoding. Bytes that are not ASCII are
-/// allowed: a unit may contain a superscript.
+/// Whether the first 4096 bytes of a file have no control characters, as text in any encoding. Bytes that are not
+/// ASCII are allowed: a unit of a column may contain a superscript.
 fn is_readable(bytes: &[u8]) -> bool {
     let head = bytes.get(..bytes.len().min(4096)).unwrap_or(bytes);
     !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))
@@ -394,7 +394,8 @@ fn from_old_mac(bytes: &[u8]) -> Option<Vec<u8>> {
     (returns && several()).then(|| bytes.iter().map(feed).collect())
 }
 
-/// Converts UTF-16 text, as spreadsheets write it, with a byte order mark or with every other byte 0.
+/// Converts UTF-16 text, as spreadsheets write it, with a byte order mark or with every other byte 0, to UTF-8;
+/// `None` for all others.
 fn from_utf16(bytes: &[u8]) -> Option<Vec<u8>> {
     type Unit = fn([u8; 2]) -> u16;
     let (mark, rest) = bytes.split_first_chunk::<2>()?;

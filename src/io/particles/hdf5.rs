@@ -12,7 +12,8 @@
 //!   of the group with the same number of frames are attributes of these particles.
 //! - Others: the group, or groups, with an array of positions; several are joined.
 //!
-//! Only arrays of the requested frame that have a meaning are read. Memory use is limited by the size of the file.
+//! Of an HDF5 file only arrays of the requested frame that have a meaning are read. Memory use is limited by the
+//! file's size.
 
 use std::io::Read as _;
 use std::ops::Range;
@@ -213,7 +214,7 @@ fn type_of(dataset: &Dataset) -> AttributeType {
     }
 }
 
-/// Rows that are read at a time, if the dataset is not stored in larger chunks.
+/// Number of rows of a dataset that are read at a time, unless it is stored in larger chunks.
 const ROWS: u64 = 1 << 17;
 
 /// Selections of rows to read in sequence. Each ends at a chunk boundary, so that no rows of another selection are
@@ -310,7 +311,7 @@ fn memory_left() -> Option<u64> {
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// Min size of a frame in bytes for which the available memory is checked.
+/// Min size of a frame in bytes from which it is compared with the available memory.
 const LARGE: u64 = 1 << 28;
 
 /// Refuses a frame that does not fit in memory: HDF5 is not read in parts.
@@ -545,8 +546,8 @@ fn of_vtk(grid: &Group, limit: usize) -> Result<Vec<Frame>, ReadError> {
 /// A dataset and its name.
 type NamedSet = (String, Dataset);
 
-/// The attributes of a block's cells, if these are its points in the same order, and a warning about those that are not
-/// used. `points` has the number of points of each part.
+/// The attributes of the cells of a VTKHDF block, if each cell is the point of the same index, and warnings about
+/// cell attributes that are not used. `points` has the number of points of each part.
 fn of_cells(
     block: &Group,
     points: &[u64],
@@ -575,7 +576,7 @@ fn of_cells(
     Ok((found, told))
 }
 
-/// Why the cells of a block are not its points in the same order; `None` if they are.
+/// Why the cells of a VTKHDF block are not its points in the same order; `None` if each cell is one point.
 fn no_vertices(block: &Group, points: &[u64], limit: usize) -> Option<String> {
     let vertices = block.group("Vertices").ok();
     let group = vertices.as_ref().unwrap_or(block);
@@ -618,7 +619,8 @@ struct Steps {
     points: Vec<u64>,
     parts: Vec<u64>,
     counts: Vec<u64>,
-    /// Names and offsets of the arrays that have offsets of their own: those of points, and those of cells.
+    /// Names of the arrays that have an offset of their own for each step, with these offsets: arrays of points, and
+    /// arrays of cells.
     arrays: [Vec<(String, Vec<u64>)>; 2],
 }
 

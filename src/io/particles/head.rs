@@ -18,8 +18,8 @@ const CHUNK: usize = 1 << 14;
 
 /// The XML of a file, up to its appended data or its end.
 pub(super) struct Head {
-    /// The XML with each long text replaced by one character: a space if the text is only white space,
-    /// otherwise a digit.
+    /// The XML of the file, with each long text (data) replaced by one character: a space if the text is only white
+    /// space, otherwise a digit.
     text: String,
     cuts: Vec<Cut>,
     /// Length of the byte order mark before it.
@@ -32,14 +32,14 @@ pub(super) struct Head {
 struct Cut {
     /// Index in [`Head::text`] of the character that replaces it.
     at: usize,
-    /// Byte range in the file from its first to its last character that is not white space; empty if there is
-    /// none.
+    /// Byte range of this text in the file, from its first to its last character that is not white space; an empty
+    /// range if all of it is white space.
     start: u64,
     end: u64,
     /// Number of bytes and lines left out so far, this text included.
     bytes: u64,
     lines: u64,
-    /// Whether it has a line break, and its number of bytes after the last one.
+    /// Whether this left-out text has a line break, and its number of bytes after the last one.
     breaks: bool,
     column: u64,
 }
@@ -50,8 +50,8 @@ pub(super) enum Words<'d> {
     Here(&'d str),
     /// It is in this byte range of the file.
     There(u64, u64),
-    /// A long part of it was left out of memory, and the rest has entities or CDATA. So it is neither in memory
-    /// nor a byte range of the file: the XML has to be read again with all texts in memory.
+    /// A long part of the element's text was left out of memory, and the rest has entities or CDATA. So the text is
+    /// neither in memory nor a byte range of the file: the XML has to be read again with all texts in memory.
     Mixed,
 }
 
@@ -184,7 +184,7 @@ const REFERENCE: usize = 16;
 /// State of the scan.
 struct Scan {
     out: Vec<u8>,
-    /// Number of bytes at the start of `out` that are known to be UTF-8.
+    /// Number of bytes at the start of the output text `out` that are known to be UTF-8.
     valid: usize,
     cuts: Vec<Cut>,
     state: State,
@@ -202,19 +202,20 @@ struct Run {
     /// Number of these bytes at the end of `out`.
     kept: usize,
     lines: u64,
-    /// Range within the run, from its first non-space byte to the end of its last one; `None` if all are
-    /// spaces.
+    /// Byte range within the run of text, from its first byte that is not white space to the end of its last one;
+    /// `None` if there is none.
     words: Option<(u64, u64)>,
 }
 
-/// Whether a byte of text stands for itself, so that a run of such bytes can be left out.
+/// Whether a byte is printable ASCII or white space, and no markup. A long run of such bytes can be left out of
+/// memory.
 fn is_plain(byte: u8) -> bool {
     matches!(byte, b'\t' | b'\n' | b'\r' | b' '..=b'~') && !matches!(byte, b'<' | b'>' | b'&')
 }
 
 impl Scan {
-    /// Scans the next bytes; an empty chunk means the end of the file. Ends at the appended data and returns its
-    /// offset.
+    /// Scans the next bytes of an XML file; an empty chunk means the end of the file. Stops where the appended data
+    /// begins and returns its offset in the file, otherwise `None`.
     fn chunk(&mut self, chunk: &[u8]) -> Option<u64> {
         let mut rest = chunk;
         while let Some((&byte, behind)) = rest.split_first() {
@@ -243,7 +244,8 @@ impl Scan {
         None
     }
 
-    /// Adds plain characters to the run, and drops the run from `out` once it is too long.
+    /// Adds plain characters to the current run of them, and drops the run from the output text `out` once it is too
+    /// long.
     fn plain(&mut self, some: &[u8]) {
         let run = &mut self.run;
         let space = |b: &u8| b.is_ascii_whitespace();
@@ -288,7 +290,8 @@ impl Scan {
         self.out.push(if run.words.is_some() { b'0' } else { b' ' });
     }
 
-    /// Fails if the text cannot become valid UTF-8. `all` says that no more bytes follow.
+    /// Fails if the output text has bytes that are not UTF-8. `all` says that no more bytes follow, so that no
+    /// character may be incomplete.
     fn check(&mut self, all: bool) -> Result<(), ReadError> {
         self.valid = self.valid.min(self.out.len());
         let new = self.out.get(self.valid..).unwrap_or_default();

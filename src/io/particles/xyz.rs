@@ -54,7 +54,8 @@ pub(super) fn raw(length: u64, asked: &Asked) -> Result<Layout, ReadError> {
     })
 }
 
-/// Positions at which the frames of a counted file begin, up to frame `upto`; empty for any other file.
+/// Positions at which the frames of an XYZ file with particle counts begin, up to the one after frame `upto`; empty
+/// for any other file.
 pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<Start>, ReadError> {
     let lines = heading::lines(content)?;
     let Some(Counted { heading, .. }) = Counted::of(&lines) else { return Ok(Vec::new()) };
@@ -231,8 +232,8 @@ pub(super) fn rows<'a>(
     Table { columns, about, rows: Box::new(rows) }
 }
 
-/// Reads the rows of zones. `zone` is `Some` if there are several zones; it then holds the name of the column
-/// that counts them, if that column is used.
+/// Reads the rows of a Tecplot file, whose zones are parts of the table. `zone` is `Some` if there are several zones;
+/// it then holds the name of the column for the zone's number, if that column is used.
 pub(super) fn rows_of_zones<'a>(
     text: Text<'a>,
     number: u64,
@@ -259,7 +260,7 @@ pub(super) fn rows_of_zones<'a>(
     Table { columns, about, rows: Box::new(rows) }
 }
 
-/// A warning about columns without names; the first `from` of them are the element.
+/// A warning that columns without names are not read; the first `from` (0 or 1) of all columns are the element.
 fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
     let more = columns > from + 3;
     match from {
@@ -277,7 +278,8 @@ fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
 /// Min number of lines for which the first column may be taken as a particle number.
 const COUNTED: usize = 8;
 
-/// Whether the first column counts the lines from 0 or 1, and at least three more columns follow.
+/// Whether the first column numbers the lines consecutively, beginning with 0 or 1, and at least three more columns
+/// follow.
 pub(super) fn counts(lines: &[Line], at: u64, first: impl Fn(&[u8]) -> Option<f64>) -> bool {
     let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
     let rows: Vec<&Line> = rows.collect();
@@ -302,7 +304,8 @@ pub(super) fn counted_warning(columns: usize) -> String {
     )
 }
 
-/// Number of columns before the position: one of words or, in files with a count, one of integers.
+/// Number of columns before the position: 1 if the first column holds words or, in a file with a particle count,
+/// integers; otherwise 0.
 fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
     let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
     let rows: Vec<Vec<_>> = rows.map(|line| words(&line.text, commas).collect()).collect();
@@ -401,7 +404,7 @@ struct Lines<'a> {
     promised: Option<u64>,
     /// Whether commas separate fields.
     commas: bool,
-    /// For each word of a line, the index of the column that takes it.
+    /// For each word of a line of text, the index of the column that stores it; `None`: it is skipped.
     columns: Vec<Option<usize>>,
     /// The box that scales positions, and the columns of the axes.
     basis: Option<(Basis, [Option<usize>; 3])>,

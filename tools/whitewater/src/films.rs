@@ -11,8 +11,8 @@ const NEIGHBOURS: usize = 6;
 /// of the particles with 0.4 to 0.65 of the rest density, 2 % are below this ratio in a splash crown and in jets, and
 /// 64 % in a film that runs over a floor.
 const FLAT: f32 = 0.02;
-/// Min ratio of the middle to the largest variance of the neighbours' positions; with a lower ratio they form a
-/// thread.
+/// Min ratio of the middle to the largest variance of the neighbours' positions; with a lower ratio the neighbours
+/// form a thread, not a film.
 const BROAD: f32 = 0.25;
 
 /// If the water is higher than this, in spacings, its topmost particles are assumed to touch the lid of a box.

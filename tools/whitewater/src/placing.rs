@@ -130,7 +130,8 @@ const GRAVITY: f32 = 9.81;
 /// Water after a fall through its own height has 2, a jet under pressure a few times as much. If the unit of the file
 /// is really a centimetre or a millimetre, the number is far larger.
 const FASTEST: f32 = 40.0;
-/// If the speed gives no hint, the user is asked for the unit if the extent is above `LARGE` or below `TINY`, metres.
+/// If the speed of the water gives no hint of the unit, the user is asked for it if the water's extent, read in
+/// metres, is above `LARGE` or below `TINY`.
 const LARGE: f32 = 200.0;
 const TINY: f32 = 0.005;
 
@@ -140,7 +141,8 @@ pub fn fastest(particles: &Particles) -> Option<f32> {
     quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
 }
 
-/// The unit that stands in brackets after the names of the position attributes, if it is not metres.
+/// The unit that stands in brackets after the names of the position attributes, if it is millimetres, centimetres or
+/// kilometres.
 pub fn named(particles: &Particles) -> Option<Unit> {
     let (_, names) = particles.meanings.iter().find(|(m, _)| *m == Meaning::Position)?;
     let unit = |name: &String| {
@@ -191,7 +193,8 @@ pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// A dam of 1.3 metres, in metres, millimetres and centimetres; a lake, a cup, a jet, and water at rest.
+    /// Hints on the unit of a dam of 1.3 metres, in metres, millimetres and centimetres; of a lake, a cup, a jet, and
+    /// water at rest.
     #[test]
     fn units_that_cannot_be_are_told() {
         assert_eq!(hint(1.3, Some(3.5)), None);

@@ -43,7 +43,8 @@ pub struct Reader<'a> {
     fluids: &'a Fluids,
     /// The attribute that the user named as radii.
     radius: Option<&'a str>,
-    /// Whether an attribute `r` holds radii (`Ok`), or why not (`Err`); determined by the first frame that was read.
+    /// Whether the attribute that is called only `r` holds radii (`Ok`), or why not (`Err`); determined by the first
+    /// frame that was read.
     unsure: OnceCell<Option<Result<(), String>>>,
     /// Min, median and max radius in the first frame that was read.
     pub radii: Option<[f32; 3]>,
@@ -54,7 +55,8 @@ pub struct Reader<'a> {
     last: Option<Known>,
     /// Whether any velocities were estimated.
     pub found_velocities: bool,
-    /// Attributes that some frames of the sequence have; a frame that lacks one of them gets a warning.
+    /// The attributes (velocities, ids, densities) that some frame of the sequence has. A frame that lacks one of
+    /// them gets a warning.
     pub expected: Has,
     /// Attributes of the frames read so far.
     pub seen: Has,
@@ -211,8 +213,8 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Sets `last` to the frame before this number or, for the first frame, to the next one. If that frame cannot be
-    /// read, the error is reported when it is drawn.
+    /// Reads into `last` the frame before frame `number` or, if that is the first, the next one. If that frame cannot
+    /// be read, the error is reported when it is drawn.
     fn neighbour(&mut self, number: u64) {
         let before = self.all.iter().filter(|frame| frame.number < number).max_by_key(|f| f.number);
         let after = self.all.iter().filter(|frame| frame.number > number).min_by_key(|f| f.number);
@@ -282,8 +284,8 @@ impl Has {
     }
 }
 
-/// Ids of the neighbouring frame, if the particles are in the same order in both frames. They are if nearly all
-/// particles with the same index have moved little.
+/// Ids for the particles of this frame, copied from the neighbouring frame; `None` unless the particles have the same
+/// order in both, that is, nearly all particles with the same index have moved little.
 fn ids_by_place(now: &Particles, known: &Known) -> Option<Vec<u32>> {
     let ids = known.ids.as_ref().filter(|ids| ids.len() == now.positions.len())?;
     let most = FAR * size(&now.positions)?;

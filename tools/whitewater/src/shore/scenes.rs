@@ -10,7 +10,7 @@ use super::terrain::{self, Lump, Patch, joined, number, octaves, rise, warped};
 
 /// A scene with a sea, its camera, and the period of its animation.
 pub struct ShoreScene {
-    /// The scene. Its sunlight is set later, from an environment whose sun is in direction `sun`.
+    /// The scene, without its sunlight: that is set later, from an environment whose sun is in direction `sun`.
     pub scene: Scene,
     pub eye: [f32; 3],
     pub target: [f32; 3],
