@@ -63,9 +63,9 @@ vec3 to_world(Look look, vec3 v) {
     return turned(turned_back(look.blob.turn), v);
 }
 
-// Light that a film sends to the eye; `back` is the fraction of the light from behind that it withholds. The smaller
-// `radius` is, the bubble's radius in pixels, the wider is the cone of directions that a pixel reflects. `open` is
-// the fraction of the surroundings that is environment; the rest is foam with the light `foam`.
+// Light that a bubble's film reflects to the eye. `back` returns its reflectance, the fraction of light from behind
+// that it withholds. The smaller the bubble's `radius` in pixels, the wider is the cone of directions that a pixel
+// reflects. `open` is the fraction of the surroundings that is environment; the rest is foam with the light `foam`.
 vec3 film_light(Look look, vec3 normal, float radius, float thickness, float open, vec3 foam, out vec3 back) {
     vec3 n = to_world(look, normal);
     float cosine = dot(n, look.seen);
@@ -79,7 +79,9 @@ vec3 film_light(Look look, vec3 normal, float radius, float thickness, float ope
     return bubbly.mirror.x * back * mix(foam, light, open);
 }
 
-// Light of the core where the ray leaves a bubble (`past`); `normal` is that of the bubble in front.
+// Light that the blob's opaque core sends to the eye at the point `past`, where the ray leaves the bubble that it
+// hit. `normal` is that of the bubble's front, `round_` that of the blob as a ball; `fine` is 0 if the bubbles are
+// too small to be seen, up to 1.
 vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     vec3 at = normalize(mix(normalize(past), -normal, bubbly.core.z));
     vec4 pattern = textureLod(core_map, octahedral_texture_place(at, textureSize(core_map, 0)), 0.0);
@@ -90,14 +92,15 @@ vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     // Foam scatters light, so it is lit also where it is turned a little away from the sun.
     float facing = dot(n, mat3(frame.world) * frame.sun_direction.xyz);
     vec3 light = sky + bubbly.sun.rgb * look.sun * max((facing + 0.4) / 1.4, 0.0);
-    // The core is darker between bubbles. Where bubbles are too small to be seen, it has the mean brightness.
+    // The core is darker near the blob's centre, in the creases between bubbles. Where bubbles are too small to be
+    // seen, it has the mean brightness everywhere.
     float crease = mix(0.81, mix(0.77, 1.07, smoothstep(0.6, 1.0, length(past))), fine);
     return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
 }
 
-// The first wall on a path through a bubble: the number of the bubble on its other side (NO_BUBBLE if there
-// is none), and the position `at` on the path. The paper takes the next wall that its search finds, and can
-// miss one.
+// Finds the first wall (film shared with a neighbour) that the ray meets on its path `way` through the bubble `a`.
+// Returns the number of the neighbour, NO_BUBBLE without a wall, and in `at` the distance along the ray. The paper
+// takes the next wall that its search finds, and can miss a nearer one.
 uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
     uint other = NO_BUBBLE;
     at = way.y;
@@ -121,8 +124,9 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
     return other;
 }
 
-// Light of a blob's layer, its transmittance `through`, and the light `body` of its core. `opacity`: x is that of the
-// core as in pass `peel`; y is that of the core if the ray goes on in the next bubble behind a wall.
+// Shades one layer of a pixel, a bubble of a blob. Returns its light, its transmittance `through`, the light `body`
+// of the blob's core, and `opacity`: x is the core's where the ray leaves this bubble, as in pass `peel`; y is the
+// core's where the ray leaves the next bubble, if it went on through a wall.
 vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 opacity) {
     BlobRay ray = look.ray;
     vec2 way = ray.span;
@@ -146,7 +150,8 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     if (BY_ID == 1u) {
         normal = (met - middle) / radius;
     } else {
-        // Normal of the surface |p| = d(p / |p|), from the differences of d across it.
+        // Normal of the blob's surface, which has the distance d(p / |p|) from the centre in the direction of p, from
+        // finite differences of d in two tangent directions.
         uint which = look.blob.template_;
         vec3 axis = abs(round_.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
         vec3 side = 0.03 * normalize(cross(round_, axis));
@@ -155,15 +160,16 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
         float b = distance_at(which, round_ + other) - distance_at(which, round_ - other);
         normal = normalize(round_ - (a * side + b * other) / (2.0 * 0.03 * 0.03 * length(met)));
     }
-    // Bubbles too small to be seen are shaded as one rough white ball. If the ball is too small too, its normal is
-    // the mean over its visible side, which points to the eye, instead of the normal at one point.
+    // If a blob's bubbles are too small to be seen, it is shaded as one rough white ball. If the blob is too small
+    // too, its normal is the mean over its visible side, which points to the eye, instead of the normal at one point.
     float pixels = radius * look.pixels;
     float fine = smoothstep(0.7, 3.0, pixels);
     vec3 ball = normalize(mix(-ray.direction, round_, smoothstep(0.7, 3.0, look.pixels)));
     normal = normalize(mix(ball, normal, fine));
     uint number = pcg(look.blob.id * 977u + id);
     float high = dot(to_world(look, normal), frame.up.xyz);
-    // The colours of many small bubbles with different film thicknesses mix to white, the colour of a thick film.
+    // Where bubbles are too small to be seen, the film gets the greatest thickness of the table: the interference
+    // colours of many bubbles mix to white, which is the colour of a thick film.
     float thick = mix(bubbly.film.w, film_thickness(number, 2.5 * met / radius, high), fine);
 
     vec3 core = core_light(look, past, normal, ball, fine);
@@ -239,7 +245,8 @@ void main() {
     vec3 color = vec3(0.0);
     vec3 left = vec3(1.0);
     vec3 body = vec3(0.0);
-    // Depth of the water's surface, and thickness of the water behind it, in scene units; air in between is ignored.
+    // Eye depth of the water's surface at this pixel, and thickness of all water behind it along z, both in scene
+    // units. Gaps of air between layers of water are ignored: the water counts as one piece.
     float surface = texelFetch(water_depth, pixel, 0).x;
     float room = surface < EMPTY && frame.target.z >= FRONT_WATER ? water_at(vec2(pixel) + 0.5) : 0.0;
     float metres = 0.0;
@@ -282,8 +289,9 @@ void main() {
         more = open && i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
     }
     float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
-    // Holes between the layers get the opacity of the layers themselves (Sec. 5), or that of more opaque blobs behind
-    // them, if `peel` evaluated those. The comparison allows for half precision, in which opacities were blended.
+    // Where a pixel's layers leave a hole, it is filled up to the maximum opacity (Sec. 5) of these layers, or of all
+    // blobs if pass `peel` has found more opaque ones behind. The comparison allows 1/1024 because `peel` blends
+    // opacities in half precision.
     most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
     float plug = bubbly.mirror.w > 0.5 ? max(most - covered, 0.0) : 0.0;
     color += through_medium(plug * body, vec3(plug), metres).rgb;

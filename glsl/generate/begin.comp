@@ -1,5 +1,6 @@
 #version 460
-// Pass `grid`, first part: stores the number of particles of the step.
+// Pass `grid`, first part: stores the number of fluid particles of this simulation step, and clamps the number of
+// used slots for whitewater particles.
 // Reads: the host's count. Writes: counts.
 
 #include "random.glsl"
@@ -12,8 +13,9 @@ layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count
 layout(set = 0, binding = 2, std430) buffer CountBuffer { GenerateCounts counts; };
 
 void main() {
-    // A host that knows the number of particles passes it as the capacity. A restored state of another generator (an
-    // error of the host) may have too many used slots, so their number is clamped to the capacity.
+    // `most` is the capacity for whitewater particles: a state that the host restores by mistake from another
+    // generator may have more slots in use. `capacity` is that for fluid particles, or their number if the host knows
+    // it.
     counts.high = min(counts.high, push.most);
     counts.fluid = FROM_GPU == 1u ? min(host_count, push.capacity) : push.capacity;
 }

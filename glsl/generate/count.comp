@@ -1,8 +1,8 @@
 #version 460
-// Pass `grid`: counts the fluid particles in each bucket of the grid that finds neighbours. It needs velocities
-// because particles with an invalid velocity are dropped.
-// Reads: number of particles, positions, velocities. Writes: bucket counts; clears the potentials and the number of
-// whitewater particles to emit.
+// Pass `grid`: counts the fluid particles in each bucket of the hash grid in which later passes find neighbours. It
+// reads velocities because it leaves out particles with an invalid velocity.
+// Reads: number of particles, positions, velocities. Writes: bucket counts; zeros as the potentials of each fluid
+// particle and as its number of whitewater particles to emit.
 
 #include "random.glsl"
 #include "fluid.glsl"

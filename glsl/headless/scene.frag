@@ -40,8 +40,9 @@ layout(push_constant, std430) uniform Push {
     vec4 turn;      // rotation of the mesh's frame (quaternion)
     vec4 origin;    // origin of the mesh's frame (world)
     vec4 color;     // base colour, roughness
-    vec4 pattern;   // size, or height of the beach above the sea (m); height of the tiles' band (m);
-                    // 1 for the backdrop, whose visibility of the sun is baked; 1 for stone in blocks
+    vec4 pattern;   // x: size, or height of the beach above the sea (m). y: height of the tiles' band (m).
+                    // z is 1 for meshes of the backdrop, whose visibility of the sun is baked per vertex, else 0.
+                    // w is 1 for stone in blocks, else 0.
 } push;
 
 layout(location = 0) in vec3 position;
@@ -150,7 +151,8 @@ Surface concrete(vec3 p, vec3 n, float width) {
 // Dressed stone in courses, warm and cool veins.
 Surface stone(vec3 p, vec3 n, vec2 footprint, float width) {
     float size = push.pattern.x;
-    // Blocks lie in courses from the ground up, and the vertical joints of each course are offset from the next.
+    // If the stone is in blocks, they lie in courses (level rows) that begin at the ground, and the vertical joints
+    // of each course are offset from those of the next.
     bool blocks = push.pattern.w > 0.5;
     float row = p.y - (blocks && scene.shadow_texel.w > -1.0e8 ? scene.air.y * scene.shadow_texel.w : 0.0);
     float course = floor(row / size);
@@ -210,8 +212,9 @@ float wetness(vec3 at, float width) {
     return wet;
 }
 
-// Wets a stone. It gets darker, because light is reflected back inside the film of water (Lekner and Dorf 1988: 0.07
-// of the light is reflected going in, 0.47 of the diffuse light coming out), and shinier, because a film is smooth.
+// Changes a stone's albedo and roughness by its wetness `wet`, 0 to 1. It gets darker, because light is reflected
+// back inside the film of water (Lekner and Dorf 1988: 0.07 of the light is reflected going in, 0.47 of the diffuse
+// light coming out), and shinier, because a film is smooth; on slopes (`level` below 1) the film runs off.
 Surface wetted(Surface s, float wet, float level) {
     vec3 under = 0.93 * 0.53 * s.albedo / (1.0 - 0.47 * s.albedo);
     float damp = min(1.1 * wet, 0.75);
@@ -259,7 +262,8 @@ Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
     return s;
 }
 
-// Rock: clouds, clefts, lichen on surfaces that face up; dark where the sea wets it.
+// Natural rock: soft light and dark spots, strata, clefts, and lichen on surfaces that face up. It is darker up to
+// some height above the sea, where waves wet it; `height` is that above the sea.
 Surface rock(vec3 p, vec3 n, float width, float height) {
     float cloud = octaves(p, 0.45, 4, width);
     float cleft = octaves(p + 3.0 * cloud, 1.1, 3, width);
@@ -294,7 +298,8 @@ Surface leaves(vec3 p, vec3 n, float width) {
     return s;
 }
 
-// Masses of leaves: twigs in all directions, dark gaps between them, each bush with its own green.
+// Leaves of trees and hedges from afar: twigs in all directions, dark gaps between them, and a green that varies over
+// lengths of a few metres, as from bush to bush.
 Surface foliage(vec3 p, vec3 n, float width) {
     float mass = octaves(p + 3.0, 0.35, 2, width);
     float twig = octaves(p + 61.0, 2.6, 3, width);
@@ -314,7 +319,8 @@ Surface foliage(vec3 p, vec3 n, float width) {
 Surface lawn(vec3 p, float width) {
     float broad = octaves(p + 5.0, 0.09, 3, width);
     float patches = octaves(p + 29.0, 0.9, 3, width);
-    // From a low eye tufts hide one another, so their scale follows the narrow axis of the footprint.
+    // Seen at a low angle, tufts of grass hide one another instead of averaging out, so their noise is filtered with
+    // 0.6 of the pixel's footprint width.
     float tuft = octaves(vec3(p.x, 0.0, p.z), 9.0, 3, 0.6 * width);
     float laid = lines(p.x / (2.0 * push.pattern.x) + 0.04 * broad, 0.5, width / (2.0 * push.pattern.x)) - 0.5;
     vec3 lush = push.color.rgb;
@@ -349,7 +355,8 @@ Surface ripples(vec3 p, float width) {
     return s;
 }
 
-// Sand up to a height above the sea, then grass, and rock where it is steep; weed on the sea bed.
+// Ground of an island: sand up to a height above the sea, grass above it, and rock where it is steep; dark sand where
+// it is wet, and weed on the sea bed.
 Surface island(vec3 p, vec3 n, float width, float height) {
     float beach = push.pattern.x;
     Surface s = sand(p, width);
@@ -380,11 +387,13 @@ Surface island(vec3 p, vec3 n, float width, float height) {
     return s;
 }
 
-// Fraction of the sunlight through thin clouds that comes from around the sun's disc, and the angular radius of that
-// glow (Buie, Monger and Dey 2003: circumsolar ratios reach 0.5 and more; the glow's radius is 43.6 mrad).
+// Fraction of the sunlight through thin clouds that comes from a glow around the sun's disc, and the angular radius
+// of that glow in radians (Buie, Monger and Dey 2003: circumsolar ratios reach 0.5 and more; the glow's radius is
+// 43.6 mrad).
 const float GLOWING = 0.5;
 const float GLOW = 0.0436;
-// Maximum radius of the glow's filter, in texels of the shadow map, and its number of samples.
+// Maximum radius, in texels of the shadow map, and number of samples of the filter that softens shadows by the glow
+// around the sun.
 const float WIDEST = 12.0;
 const int TAPS = 16;
 
@@ -402,7 +411,8 @@ float sunlight(vec3 at, vec3 facing) {
     float slope = 1.0 - max(dot(facing, scene.sun_direction.xyz), 0.0);
     vec3 lifted = at + facing * scene.shadow_texel.z * (1.0 + 2.5 * slope);
     vec4 s = scene.shadow * vec4(lifted, 1.0);
-    // The depth of the shadow map ends behind the last caster, so depths are clamped to it. Its border is lit.
+    // The shadow map's depth range ends just behind the farthest caster, so receivers behind it are clamped to the
+    // range's end. Outside the map's borders everything is lit.
     float depth = min(s.z, 1.0);
     vec2 uv = s.xy / scene.shadow_texel.xy;
     vec2 middle = s.xy;
@@ -426,8 +436,8 @@ float sunlight(vec3 at, vec3 facing) {
               + w2.x * w2.y * texture(shadow_map, vec3(base + o2, depth));
     float lit = sum / 144.0;
 
-    // Gradient of the surface's depth in the shadow map. Each sample is compared with the depth of the surface's plane
-    // at that sample, so that the surface does not shadow itself.
+    // `rise` is the gradient, over the shadow map, of the depth of the surface's plane. Each sample of the filter is
+    // compared with the plane's depth at that sample, so that the surface does not shadow itself.
     vec3 along_x = cross(facing, abs(facing.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0));
     vec3 a = mat3(scene.shadow) * along_x;
     vec3 b = mat3(scene.shadow) * cross(facing, along_x);
@@ -461,7 +471,8 @@ float sunlight(vec3 at, vec3 facing) {
     return lit;
 }
 
-// Irradiance on the sea at a point: the sun's, and the given fraction of the sky's.
+// Irradiance on the level surface of a sea of lava at `place` (world x and z): the sun's with shadows, and the
+// fraction `sky_seen` of the sky's.
 vec3 lava_light(vec2 place, float sky_seen) {
     vec3 at = vec3(place.x, scene.sea.x, place.y);
     vec3 up = vec3(0.0, 1.0, 0.0);
@@ -472,8 +483,8 @@ vec3 lava_light(vec2 place, float sky_seen) {
 void main() {
     vec3 to_eye = scene.eye.xyz - position;
     vec3 v = normalize(to_eye);
-    // Derivatives are taken before any branch. The winding of triangles is not reliable, so the normal is turned
-    // towards the eye.
+    // Screen-space derivatives are taken before any branch, because inside one they would be undefined. The winding of
+    // triangles is not reliable, so the normals of face and vertex are turned towards the eye.
     vec3 px = dFdx(position);
     vec3 py = dFdy(position);
     vec3 face = cross(px, py);
@@ -482,7 +493,8 @@ void main() {
     vec3 n = normalize(normal);
     // Leaves keep the normal of their crown.
     n = PATTERN != FOLIAGE && dot(n, face) < 0.0 ? -n : n;
-    // Depth under the sea, and the fraction of the pixel that is under water.
+    // Depth of the shaded point below the level of the sea (world units, 0 above it), and the fraction of the pixel's
+    // footprint that is below that level.
     float depth = SEA != 0u ? max(scene.sea.x - position.y, 0.0) : 0.0;
     float under = SEA != 0u ? clamp((scene.sea.x - position.y) / max(fwidth(position.y), 1.0e-6) + 0.5, 0.0, 1.0) : 0.0;
 
@@ -499,7 +511,8 @@ void main() {
     vec3 step_x = scene.air.y * unturn(px);
     vec3 step_y = scene.air.y * unturn(py);
     vec3 footprint3 = abs(step_x) + abs(step_y);
-    // A width between the short and the long axis of the footprint is a compromise between noise and blur.
+    // Width by which procedural noise is filtered: the geometric mean of the pixel footprint's two axes, times 1.2.
+    // The short axis alone would leave aliasing, the long one would blur.
     float width = 1.2 * sqrt(length(step_x) * length(step_y));
     vec3 axis = abs(unturn(face));
 
@@ -554,8 +567,8 @@ void main() {
     float n_v = max(dot(n, v), 1.0e-3);
     vec3 sun = vec3(0.0);
     if (n_l > 0.0) {
-        // The shadow is looked up at the smooth surface that the facets approximate, so that facets do not shadow one
-        // another.
+        // The shadow map is sampled at the position lifted along the normal to the curved surface that the flat
+        // facets of the mesh approximate, so that facets do not shadow one another.
         bool backdrop = push.pattern.z > 0.5;
         vec3 lifted = position + n * 1.5 * (backdrop ? 0.0 : max(around.w, 0.0));
         sun = scene.sun_color.rgb * n_l * sunlight(lifted, face);
@@ -565,8 +578,8 @@ void main() {
         sun *= backdrop ? through : vec3(1.0);
     }
     vec3 up = sky_irradiance(vec3(0.0, 1.0, 0.0));
-    // Where a pixel's centre lies outside of its triangle, interpolation may extrapolate the baked light
-    // below zero.
+    // The baked light is clamped at 0, because where a multisampled pixel's centre lies outside of its triangle,
+    // interpolation may extrapolate it below 0.
     float sky_seen = clamp(light.x, 0.0, 1.0);
     // Thin clouds scatter some of the sun's light down.
     vec3 cloudy = 0.16 * scene.air.z * scene.sun_color.rgb;

@@ -1,7 +1,7 @@
 #version 460
 // Pass `scene`: draws the sky where there is no mesh: the displayed environment along the pixel's ray. The sun's disc
-// is added for the built-in sky, whose image omits it because it would be a few texels of huge radiance. A sea
-// extends to the horizon, and has no floor where there is no mesh.
+// is added for the built-in sky, whose image omits it because it would be a few texels of huge radiance. If the scene
+// has a sea, it is drawn below the horizon, without a floor.
 // Reads: environment, displayed environment, irradiance. Writes: scene colour.
 
 #include "../headless/scene.glsl"
@@ -42,7 +42,7 @@ void main() {
     const float radius = 0.00465; // 0.533 degrees across
     float edge = max(fwidth(angle), 1.0e-5);
     float disc = smoothstep(radius + edge, radius - edge, angle);
-    // The glow of a lens and of haze: a tight and a wide lobe.
+    // Glow around the sun's disc, as of a lens and of haze: the sum of a narrow and a wide exponential of the angle.
     float glow = 0.6 * exp(-angle / 0.012) + 0.03 * exp(-angle / 0.06);
     float above = scene.sun_color.w > 0.0 ? smoothstep(-0.01, 0.01, d.y) : 0.0;
     c += above * scene.sun_color.rgb * (disc * scene.sun_color.w + glow);

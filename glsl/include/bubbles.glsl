@@ -47,7 +47,8 @@ float slice_begin(BlobRange range, uint slice) {
 uint slice_of(BlobRange range, float depth) {
     float place = (depth - uintBitsToFloat(range.nearest)) / slice_width(range);
     uint slice = min(uint(max(place, 0.0)), bubbly.tiles.z - 1u);
-    // Compares with the exact value of `slice_begin`, so that no depth in a slice is less than the slice's beginning.
+    // Rounding may have given a depth the slice behind its own. The comparison with `slice_begin` itself corrects
+    // this, so that no depth in a slice is less than the slice's beginning.
     return slice > 0u && depth < slice_begin(range, slice) ? slice - 1u : slice;
 }
 

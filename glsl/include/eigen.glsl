@@ -1,10 +1,12 @@
 // Eigenvalues and eigenvectors of a symmetric matrix by a fixed number of Jacobi rotations (Golub and Van Loan 2013,
 // Sec. 8.5), so that no matrix hangs a device. Needs nothing.
 
-// Rotates the axes p and q so that a_pq becomes 0; r is the third axis.
+// One Jacobi rotation: rotates the axes p and q of a symmetric matrix so that its element a_pq becomes 0. It updates
+// the elements pp, qq, pq, pr and qr, where r is the third axis.
 void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout float qr, inout vec3 p, inout vec3 q) {
     float d = qq - pp;
-    // Tangent of the smaller of the two angles that make a_pq 0. It is 0, not 0 / 0, for a multiple of the identity.
+    // Tangent of the rotation angle: of the two angles that make a_pq 0, the smaller one. For a multiple of the
+    // identity it is 0, not 0 / 0.
     float t = (d < 0.0 ? -2.0 : 2.0) * pq / max(abs(d) + sqrt(d * d + 4.0 * pq * pq), 1.0e-30);
     float c = inversesqrt(1.0 + t * t);
     float s = t * c;

@@ -4,8 +4,8 @@
 
 layout(set = 0, binding = 5) uniform sampler2D smoothed;
 
-// Depth of the smoothed surface at a pixel: the weighted mean of those of the four texels around it that lie on the
-// pixel's own surface, which has the depth `front`.
+// Smoothed depth of the water surface at a pixel. It is the bilinear mean of the four texels around the pixel; texels
+// whose depth is far from the pixel's own unsmoothed depth `front` lie on another surface and do not count.
 float smoothed_at(vec2 pixel, float front) {
     float fade;
     uint finer = shown_level(nearness(front, ray_slope(pixel, frame.slope)), fade);

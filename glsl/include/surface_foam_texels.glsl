@@ -1,5 +1,5 @@
-// The foam texels around a pixel. Foam has the resolution of the thickness; occlusion by the scene is resolved per
-// pixel, so the scene's outlines before foam are sharp. Needs frame.glsl.
+// The texels of surface foam around a pixel. Foam has the lower resolution of the thickness images, but whether the
+// scene hides it is tested per pixel, so the scene's outlines in front of foam are sharp. Needs frame.glsl.
 
 struct FoamTexels {
     ivec4 at;     // the first and the last of the four texels
@@ -9,8 +9,8 @@ struct FoamTexels {
     float depth;  // the least of them
 };
 
-// `pixel` is a position in pixels; the centre of a pixel is at +0.5. `scene` is the eye depth of the scene at this
-// pixel; 0 or less means that there is no scene.
+// The four texels of `foam_depth` around a pixel, with weights that are 0 where the scene hides the foam. `pixel` is
+// a position in pixels (centres at +0.5), `scene` the eye depth of the scene there, 0 or less without a scene.
 FoamTexels foam_texels(sampler2D foam_depth, vec2 pixel, float scene) {
     // Clamp to the frame: the image may be larger.
     vec2 h = clamp(pixel / frame.thick_extent.z - 0.5, vec2(0.0), frame.thick_extent.xy - 1.0);
@@ -21,8 +21,8 @@ FoamTexels foam_texels(sampler2D foam_depth, vec2 pixel, float scene) {
     foam.at.zw = min(foam.at.xy + 1, ivec2(frame.thick_extent.xy) - 1);
     foam.weights = vec4(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4(1.0 - f.y, 1.0 - f.y, f.y, f.y);
     vec4 z = textureGather(foam_depth, (base + 1.0) / vec2(textureSize(foam_depth, 0))).wzxy;
-    // Where foam lies on the scene at a grazing angle, a texel's foam may be farther than the scene in
-    // another of its pixels, so one spacing is tolerated.
+    // Foam counts as hidden only if it is more than one particle spacing behind the scene: where foam lies on the
+    // scene at a grazing angle, a texel covers pixels with nearer and with farther scene depths.
     float end = scene > 0.0 ? min(scene + frame.particle.y, EMPTY) : EMPTY;
     bvec4 seen = lessThan(mix(vec4(EMPTY), z, greaterThan(foam.weights, vec4(0.0))), vec4(end));
     foam.shown = mix(vec4(0.0), foam.weights, seen);

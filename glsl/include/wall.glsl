@@ -1,9 +1,9 @@
 // The wall, the film between two touching bubbles: part of a sphere through the circle in which the bubbles
 // intersect. On this circle the wall's tangent bisects the angle between the two bubbles (Huszar, Szecsi, Sec. 3.2,
-// whose print lacks the roots and squares of the formula). Where the three films meet at 120 degrees, the radius r of
-// the wall obeys Laplace: 1/r = 1/r_B - 1/r_A, with the radii r_A > r_B of the bubbles. Needs nothing.
-// The wall is stored as curvature and apex, not as centre and radius: between equal bubbles it is a plane, and
-// between nearly equal ones the sphere's radius exceeds single precision.
+// whose print lacks the roots and squares of the formula). If the two bubbles and the wall meet there at 120 degrees,
+// the radius r of the wall obeys Laplace's law, 1/r = 1/r_B - 1/r_A, with the radii r_A > r_B of the bubbles. Needs
+// nothing. The wall is stored as curvature and apex, not as centre and radius: between equal bubbles it is a plane,
+// and between nearly equal ones the sphere's radius exceeds single precision.
 
 struct Wall {
     vec3 apex;
@@ -11,7 +11,8 @@ struct Wall {
     float curvature; // 0 for a plane; the centre lies ahead on the axis
 };
 
-// The wall between two bubbles (centre, radius). They intersect, and neither contains the other.
+// Computes the wall (shared film) between the bubbles a and b (xyz centre, w radius), which have to intersect without
+// one containing the other.
 Wall wall_between(vec4 a, vec4 b) {
     if (a.w < b.w) {
         vec4 other = a;
@@ -36,12 +37,13 @@ bool wall_inside(vec3 point, vec4 ball) {
     return dot(q, q) <= ball.w * ball.w;
 }
 
-// Distance along a ray (unit direction) to the wall, which is the part of its sphere inside both bubbles. Less than
-// 0: the ray does not meet it after `from`.
+// Distance along a ray (unit direction) to the nearest point after the distance `from` at which it meets the wall,
+// the part of the wall's sphere that is inside both bubbles; -1 if there is none.
 float wall_hit(Wall wall, vec4 a, vec4 b, vec3 origin, vec3 direction, float from) {
     vec3 q = origin - wall.apex;
     float k = wall.curvature;
-    // k t^2 + 2 h t + c = 0, with roots that stay precise where k is 0.
+    // The ray meets the wall's sphere of curvature k at the roots t of k t^2 + 2 h t + c = 0, computed by a form of
+    // the quadratic formula that stays precise for k near 0.
     float h = k * dot(q, direction) - dot(direction, wall.axis);
     float c = k * dot(q, q) - 2.0 * dot(q, wall.axis);
     float under = h * h - k * c;
@@ -61,7 +63,8 @@ float wall_hit(Wall wall, vec4 a, vec4 b, vec3 origin, vec3 direction, float fro
     return -1.0;
 }
 
-// Unit normal of the wall at one of its points, on the side of the axis.
+// Unit normal of the wall (film between two bubbles) at a point on it. It points from the larger bubble to the
+// smaller.
 vec3 wall_normal(Wall wall, vec3 point) {
     return normalize(wall.axis - wall.curvature * (point - wall.apex));
 }

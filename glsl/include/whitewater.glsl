@@ -7,12 +7,13 @@ const uint FOAM = 0u;
 const uint SPRAY = 1u;
 const uint BUBBLE = 2u;
 
-// 0: shapes, lifetimes and sizes are the paper's, and the paper's falloff below the surface is off. It is a
-// specialization constant, because a CPU driver runs both sides of a branch.
+// 1: shapes, lifetimes and sizes of whitewater particles, and the paper's falloff below the water surface, follow the
+// settings in `frame`. 0: shapes, lifetimes and sizes are the paper's, and that falloff is off. It is a
+// specialization constant because a CPU driver runs both sides of a branch.
 layout(constant_id = 3) const uint SHAPED = 1;
 
-// Fraction of its light that a particle still has at an age, which is in lifetimes (Eq. 1 with b = 1; in the paper n
-// = 2, m = 0.4).
+// Fraction of its light that a whitewater particle still has at an age in lifetimes (1: its end): the falloff of Eq.
+// 1, (1 - age^n)^m, with n = 2 and m = 0.4 in the paper.
 float life_of(float age) {
     float x = max(age, 0.0);
     if (SHAPED == 1u) {
@@ -28,15 +29,17 @@ struct Whitewater {
     float life;   // 1 to 0 with the age; 0 is not drawn
 };
 
-// A particle with these attributes. A radius that is 0, negative or not finite means the default.
+// Makes a whitewater particle from its attributes: world position, kind, radius, age in lifetimes, and id. A radius
+// that is 0, negative or not finite is replaced by the default radius.
 Whitewater whitewater_of(vec3 position, uint kind, float radius, float age, uint id) {
     Whitewater p;
     p.centre = (frame.view * vec4(position, 1.0)).xyz;
-    // A centre that is not finite is moved behind the eye, where no path draws it.
+    // A particle whose centre is not finite is moved behind the eye, where neither the compute nor the raster path
+    // draws it.
     p.centre = all(lessThan(abs(p.centre), vec3(EMPTY))) ? p.centre : vec3(0.0, 0.0, EMPTY);
     p.kind = kind;
-    // Radii vary with the id for an irregular look, in the paper between a fifth and the full radius; those of
-    // bubbles are scaled, in the paper by 0.5.
+    // For an irregular look the radius is divided by id mod n + 1, in the paper with n = 5, so by 1 to 5. Radii of
+    // bubbles are also multiplied by a factor, in the paper by 0.5.
     uint size = (SHAPED == 1u ? id % uint(frame.whitewater_life.z) : id % 5u) + 1u;
     float bubble = SHAPED == 1u ? frame.whitewater_life.w : 0.5;
     p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.whitewater.x) / float(size) * (kind == BUBBLE ? bubble : 1.0);
@@ -50,9 +53,9 @@ vec4 shape_of(uint kind) {
     return frame.whitewater_shapes[kind == SPRAY ? 1 : kind == BUBBLE ? 2 : 0];
 }
 
-// Profile of a particle's thickness over its disc, 0 to 1 (Fig. 5); `rr` is the square of the distance x from the
-// centre in radii. The paper's profiles are 1 - x^1.5 for spray, x^2 for bubbles and 1 - x^2.25 for foam, here with
-// roots, which are faster than powers.
+// Thickness, 0 to 1, of a whitewater particle at a point of its disc (Fig. 5). `rr` is the square of the distance x
+// from the centre in radii. The paper's profiles are 1 - x^1.5 for spray, x^2 for bubbles and 1 - x^2.25 for foam;
+// here roots compute these powers, because they are faster than pow().
 float whitewater_shape(uint kind, float rr) {
     if (SHAPED == 1u) {
         vec4 shape = shape_of(kind);
@@ -93,16 +96,17 @@ struct Footprint {
 const int COVERED = 4;
 const vec4 MIDDLES = vec4(0.5, 1.5, 2.5, 3.5);
 
-// Max number of blocks of 4x4 pixels over which a footprint is summed. It is summed only if one of its half-axes is
-// less than two pixels, so it has many blocks only where pixels are far from square: then they form a row or two.
+// Max number of blocks of 4x4 pixels in which the weights of a footprint's pixels are summed, to normalise its light.
+// The sum is needed only if the shorter half-axis is less than two pixels, so there are many blocks only where pixels
+// are far from square: then they form a row or two.
 const int MOST_BLOCKS = 8192;
 
 bool is_small(ivec4 box) {
     return all(lessThan(box.zw - box.xy, ivec2(COVERED)));
 }
 
-// Squared distance of a pixel's centre from the disc's middle, 1 at the rim; `place` is its position in the disc
-// along the eye's axes.
+// Squared distance of a pixel's centre from the middle of a particle's disc, in units in which the rim is at 1.
+// `place` returns the position of the pixel's centre in the disc in these units, along the eye's x and y axes.
 float whitewater_place(Footprint f, ivec2 pixel, out vec2 place) {
     place = (vec2(pixel) + 0.5 - f.middle) * f.scale;
     return dot(place, place);
@@ -124,7 +128,8 @@ Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     f.own = told_of(min(wide.x, wide.y));
     f.covered = 0u;
     bool small = is_small(f.box);
-    // The number of blocks is computed in advance: for some values a loop up to the box's end would not end.
+    // The loop counts down a number of blocks of 4x4 pixels that is computed before it and is bounded; a loop whose
+    // condition is the end of the box would not end for some values of the box.
     ivec2 blocks = clamp(f.box.zw - f.box.xy, ivec2(0), ivec2(COVERED * MOST_BLOCKS - 1)) / COVERED + 1;
     int left = small ? 1 : f.own < 1.0 ? min(blocks.x * blocks.y, MOST_BLOCKS) : 0;
     float sum = 0.0;
@@ -158,8 +163,9 @@ float whitewater_amount(Whitewater p, Footprint f, float rr) {
     return p.life * (f.even * (1.0 - rr) + f.own * whitewater_shape(p.kind, rr));
 }
 
-// Splits a thickness. x: the part before the fluid's surface. y: the part behind it. z: y times d / (d + spacing),
-// where d is the distance behind the surface along z.
+// Splits a particle's thickness by the fluid's surface; d is the particle's distance behind the surface along z. x:
+// the part in front of the surface. y: the part behind it, which rises from 0 at d = 0 to all at d = spacing. z: y
+// times d / (d + spacing). With the paper's falloff x is the attenuated thickness, y and z are 0.
 vec3 whitewater_shares(float amount, float depth, float fluid) {
     float behind = fluid < EMPTY ? depth - fluid : 0.0;
     // The paper's falloff, used where our water does not absorb the light.

@@ -2,7 +2,8 @@
 // with one group per tile. Needs frame.glsl.
 // Reads, writes: tiles.
 
-// Groups in x, y, z and the number of tiles, then the tiles, numbered row by row.
+// Words 0 to 2 are the numbers of workgroups in x, y, z of an indirect dispatch, word 3 is the number of listed
+// tiles, and from word 4 on come the tiles' indices, counted row by row over the screen.
 layout(set = 0, binding = 9, std430) buffer Tiles { uint tiles[]; };
 
 const uint FIRST_TILE = 4u;
@@ -19,7 +20,8 @@ void add_tile(uvec2 tile) {
     atomicMax(tiles[1], 1u + slot / MOST_GROUPS);
 }
 
-// The invocation's pixel in the tile of its workgroup; false if there is none.
+// Finds the pixel of this invocation in the 8x8 tile that its workgroup processes. False if the workgroup has no tile
+// or the pixel is outside the picture.
 bool tile_pixel(out ivec2 pixel) {
     uint slot = gl_WorkGroupID.y * MOST_GROUPS + gl_WorkGroupID.x;
     bool listed = slot < tiles[3];

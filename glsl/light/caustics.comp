@@ -1,8 +1,8 @@
 #version 460
-// Pass `caustics`: for each texel of the light map (water seen from the sun), refracts the sunlight and adds it at
-// the texel where it leaves the water again, usually at the ground (caustics mapping, Shah et al. 2007, without its
-// mesh). No light enters where the host's scene shadows the water; without this test, light would enter through the
-// water's side at a wall and spread along the bed.
+// Pass `caustics`: for each texel of the light map (water seen from the sun), refracts the sunlight at the water's
+// front surface and adds it to the texel of the map where it leaves the water again, usually at the ground (caustics
+// mapping, Shah et al. 2007, without its mesh). No light enters where the host's scene shadows the water; without
+// this test, light would enter through the water's side at a wall and spread along the bed.
 // Reads: smoothed front, thickness, shadow map or its basis and span. Writes: photons, fixed point, summed.
 
 #include "frame.glsl"
@@ -20,9 +20,9 @@ layout(set = 0, binding = 3, std430) buffer Photons { uint photons[]; };
 const float UNITS = 4096.0;
 // Refractive index of water relative to air.
 const float INDEX = 1.333;
-// Half the width over which the surface's slope is measured, relative to the thickness of the water along the light,
-// and the limit of this half width in texels. Waves shorter than this focus light far above the bed. On the bed their
-// light is nearly uniform again, and ripples too small for the particles spread what is left.
+// The slope of the water surface is a difference between texels this far to either side: SOFT times the water's
+// thickness along the light, from 1 to MOST_SOFT texels. Shorter waves are ignored: they focus light far above the
+// bed. On the bed their light is nearly uniform again, and ripples too small for the particles spread what is left.
 const float SOFT = 1.0 / 16.0;
 const int MOST_SOFT = 8;
 
@@ -35,8 +35,8 @@ vec3 eye_at(vec2 place, float depth) {
          + rows[2].xyz * (off.z / dot(rows[2].xyz, rows[2].xyz));
 }
 
-// The surface's normal `n`, tilted by the small waves (wavelets.glsl). Both normals are in the axes of the light's
-// maps. All waves count here, because waves of any size focus light.
+// Tilts the water surface's normal `n` by the small waves (wavelets.glsl). `n` and the result are in the axes of the
+// light map. No wave is left out as too small for a pixel, because waves of any size focus light.
 vec3 with_waves(vec3 n, vec2 place, float depth) {
     mat3 rows = transpose(mat3(frame.to_light));
     mat3 axes = mat3(normalize(rows[0]), normalize(rows[1]), normalize(rows[2]));
@@ -75,11 +75,13 @@ void main() {
               / (2.0 * float(reach) * frame.light_map.y);
     vec3 n = with_waves(normalize(vec3(rise, -1.0)), (vec2(texel) + 0.5) / float(size), here);
     vec3 bent = refract(vec3(0.0, 0.0, 1.0), n, 1.0 / INDEX);
-    // Drops and thin layers of water do not act as lenses: the light that they focus diverges again before it reaches
-    // the ground. Foam weakens the lens too, because it scatters the light.
+    // Distance along which refraction moves the light aside: the water's thickness, but reduced, down to 0, for drops
+    // and thin layers of water, because light that they focus diverges again before it reaches the ground, and by
+    // foam, because it scatters the light.
     float lens = deep.x * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep.x)
                * exp(-4.0 * frame.shade.w * deep.y);
-    // A shadow mask is not used, because it has the shadow per pixel of the picture and not per texel of this map.
+    // Visibility of the sun: from the host's shadow map, or 1 if the host gives a shadow mask instead, because a mask
+    // has the shadow per pixel of the picture and not per texel of this light map.
     float sun = SHADOW > 1u ? past_scene(eye_at((vec2(texel) + 0.5) / float(size), here), vec2(0.0)) : 1.0;
     vec2 at = vec2(texel) + bent.xy / max(bent.z, 0.2) * (lens / frame.light_map.y);
     ivec2 base = ivec2(floor(at));

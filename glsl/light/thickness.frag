@@ -1,7 +1,7 @@
 #version 460
-// Pass `light`: thickness in scene units of water and of foam along the sunlight, and each of the two multiplied by
-// its depth along the light, from which the mean depth follows. It is the thickness of the camera (thesis Sec. 3.2.2,
-// kernel.glsl), but seen from the sun, which is not in the thesis.
+// Pass `light`: sums along the sunlight the thicknesses of water and of foam in scene units (x, y), and the same with
+// each particle's thickness multiplied by its depth along the light (z, w); z / x and w / y are mean depths. The
+// thesis has this thickness for the camera (Sec. 3.2.2, kernel.glsl), but not for the sun.
 // Reads: the discs of sprites.vert. Writes: thickness (RGBA32F), summed.
 
 #include "frame.glsl"
@@ -27,7 +27,7 @@ void main() {
     float step = frame.foam_back.w;
     float up = rounding_up(chance, ivec2(gl_FragCoord.xy));
     vec2 height = floor(amount * (thickness_kernel(rho2) / step) + up) * step;
-    // Depths are rounded to 512 steps: a quarter of the spacing, where the spacing is rounded down to a power of two.
-    // So products and sums are exact too.
+    // Depths are rounded to multiples of 512 thickness steps, which is a quarter of s, where s is the particle
+    // spacing rounded down to a power of two. So products of thickness and depth, and their sums, are exact too.
     thickness = vec4(height, height * (floor(depth / (512.0 * step) + 0.5) * (512.0 * step)));
 }

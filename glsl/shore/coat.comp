@@ -1,6 +1,6 @@
 #version 460
-// Pass `composite`, compute: foam on the scene's own water surface, one workgroup per run (adjacent 8x8 tiles of a
-// row). Water of particles is stored over it afterwards.
+// Pass `composite`, compute: draws shoreline and contact foam on the scene's own water surface over the scene's
+// colour, one workgroup per run (adjacent 8x8 tiles of a row). Particle water is drawn over it afterwards.
 // Reads: list, scene colour, shoreline and contact foam. Writes: output.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `map`, distances: the distance in scene units from each texel of the map to the shore line near the texel's
-// seed, which is the nearest known point of the line. There the line is taken as a straight segment of one texel's
-// length. Distances are negative in the water.
+// Pass `map`, distances: the distance in scene units from each texel of the map to the shore line. Each texel has a
+// seed, the nearest known point of the line; at the seed the line is taken as a straight segment of one texel's
+// length, and the distance to this segment is stored. Distances are negative in the water.
 // Reads: seeds, heights. Writes: distances.
 
 #include "shore_map.glsl"

@@ -20,8 +20,8 @@ void main() {
     }
     uint base = chunk * 64u;
     uint large = words[base + 5u];
-    // With only large sprites there is still one workgroup for the small ones: in pass `front` it copies the large
-    // ones.
+    // If a chunk has only large sprites, one workgroup is still dispatched for small ones: in pass `front` this
+    // workgroup also copies the large sprites to the list of the front.
     words[base + 8u] = max((words[base] + push.group_size - 1u) / push.group_size, min(large, 1u));
     words[base + 11u] = min(large, push.most_groups);
 }

@@ -1,13 +1,14 @@
 #version 460
-// Passes `gaps` and `back`: the farthest or the nearest boundary (depth that separates two layers of water) in each
-// block of 16x16 pixels, so that most spheres need not read the texels of the block. Not in the thesis. Reads:
-// boundaries. Writes: blocks.
+// Passes `gaps` and `back`: computes for each block of 16x16 pixels the farthest (`gaps`) or the nearest (`back`)
+// boundary, which is the depth that separates two layers of water. Most spheres are compared only with this value,
+// not with every texel of the block. Not in the thesis. Reads: boundaries. Writes: blocks.
 
 #include "frame.glsl"
 #include "sheets.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 0: the farthest boundary of the block, or 0 if it has none. 1: the nearest boundary, or EMPTY if it has none.
+// What is stored for a block of pixels. 0: its farthest boundary between two layers of water, or 0 if it has none. 1:
+// its nearest boundary, or EMPTY if it has none.
 layout(constant_id = 0) const uint NEAREST = 0;
 
 layout(set = 0, binding = 1, std430) writeonly buffer Blocks { float blocks[]; };
