@@ -42,7 +42,7 @@ Pushed pushed_by(Heaped own, Heaped other) {
     if (far >= reach) {
         return none;
     }
-    // Of two blobs in one place, the one with the lower id moves up.
+    // If two blobs lie in one place, the one with the lower id is pushed up (+y), the other one down.
     bool lower = floatBitsToUint(own.drift.w) < floatBitsToUint(other.drift.w);
     vec3 n = far > 1.0e-6 * sum ? to / far : vec3(0.0, lower ? -1.0 : 1.0, 0.0);
     float part = (reach - far) / (reach - rest);
@@ -53,7 +53,8 @@ Pushed pushed_by(Heaped own, Heaped other) {
     float parting = dot(slip, n);
     float near = min(part, 1.0);
     vec3 across = push.damping.y * near * (slip - parting * n);
-    // The forces on the two blobs are equal and opposite; each is divided by the mass of its blob.
+    // The forces on the two blobs are equal and opposite, with the factor 2ab / (a + b) of their masses a (own) and
+    // b. `share` is this factor divided by the own mass.
     float a = own.ball.w * own.ball.w * own.ball.w;
     float b = other.ball.w * other.ball.w * other.ball.w;
     float share = 2.0 * b / (a + b);
@@ -76,8 +77,8 @@ vec4 solid_at(Solid solid, vec3 place) {
     return vec4(turned(solid.turn, n), beside > 0.0 ? beside : most);
 }
 
-// Like solid_at, for the distance field: xyz is the direction of its gradient, w its value, both interpolated. There
-// is no solid outside its box.
+// Like solid_at, for the solids in the distance field: xyz is the direction out of them (the field's gradient), w the
+// distance from them (its value), both interpolated. Outside of the field's box there is no solid.
 vec4 field_at(vec3 place) {
     vec3 at = (place - push.field.xyz) / push.field.w;
     vec3 last = vec3(push.field_size.xyz) - 1.0;
@@ -100,8 +101,8 @@ vec4 field_at(vec3 place) {
     return vec4(steep > 0.0 ? sum.xyz / steep : vec3(0.0, 1.0, 0.0), sum.w);
 }
 
-// Changes the speed and spin of a blob that touches a solid. The solid pushes in proportion to the penetration;
-// friction is at most proportional to the push.
+// Applies the contact with a solid (xyz: direction out of it, w: distance) to the speed and spin of a blob (centre,
+// radius). The solid pushes in proportion to the penetration; friction is at most proportional to the push.
 void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     float deep = push.solid.x * ball.w - solid.w;
     if (deep <= 0.0) {
@@ -115,15 +116,15 @@ void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     vec3 slip = speed - dot(speed, n) * n + cross(spin, -ball.w * n);
     slip -= dot(slip, n) * n;
     float fast = length(slip);
-    // Friction changes the speed at most by what stops sliding at the contact; the ball then rolls.
+    // Friction takes at most so much speed that the contact point stops sliding; the blob then rolls.
     float held = min(push.damping.w * gained, fast / (1.0 + ROUND));
     vec3 change = fast > 0.0 ? -held / fast * slip : vec3(0.0);
     speed += change;
     spin += ROUND / ball.w * cross(-n, change);
 }
 
-// Surroundings of a blob: volume of the touching neighbours; `lean`, the direction towards neighbours and solids;
-// `ground`, the direction out of the last solid touched.
+// What touches a blob. `volume`: that of the touching neighbours, as radius cubed; `lean`: direction towards
+// neighbours and solids, weighted by volume; `ground`: direction out of the last solid touched.
 struct Company {
     float volume;
     vec3 lean;
@@ -152,8 +153,8 @@ void lies_on(inout Company company, Heaped own, vec4 solid) {
     }
 }
 
-// Direction from a blob to the other half that grows beside it: random by the blob's id, but beside the neighbours,
-// so that clumps form, and not into solids.
+// Returns the direction from a splitting blob to the second half that grows beside it: random by the blob's id, but
+// beside the neighbours, so that clumps form, and not into solids.
 vec3 way_apart(Heaped own, Company company) {
     uint number = pcg(floatBitsToUint(own.drift.w) ^ 0x70617274u);
     float up = float(number >> 8) / 8388608.0 - 1.0;
@@ -162,14 +163,15 @@ vec3 way_apart(Heaped own, Company company) {
     float far = length(company.lean);
     vec3 to = far > 0.0 ? company.lean / far : vec3(0.0);
     vec3 across = any_ - dot(any_, to) * to;
-    // At about 65 degrees from the direction to the neighbours, so that three blobs of one size touch each other.
+    // The second half is placed at about 65 degrees from the direction to the neighbours, so that both halves and a
+    // neighbour of the same size touch each other.
     vec3 way = across / max(length(across), 0.01) + 0.45 * to;
     way -= 2.0 * min(dot(way, company.ground), 0.0) * company.ground;
     return way / max(length(way), 0.01);
 }
 
-// A blob that has had too few neighbours for some time splits, at most as often as there are entries for its halves.
-// Returns the blob's radius.
+// Advances the growth of a blob's halves. A blob that has had too few neighbours for some time splits, at most as
+// often as there are entries for its halves. Returns the blob's radius after the step.
 float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec3 spin) {
     float dt = push.solid.z;
     Growth growth = growths[index];
@@ -240,7 +242,7 @@ void main() {
         lies_on(company, own, solid);
         touch(solid, own.ball, speed, spin);
     }
-    // The distance per step is limited, so that a blob does not pass through anything.
+    // A blob moves by at most its radius per step, so that it does not pass through anything.
     float most = own.ball.w / dt;
     speed *= min(most / max(length(speed), 1.0e-20), 1.0);
     uint index = floatBitsToUint(own.spin.w);

@@ -10,9 +10,10 @@
 layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCounts counts; };
-// xyz: normal of a particle at the surface, else 0. w: number of neighbours.
+// xyz: surface normal of a particle at the surface, else 0. w: number of its neighbours.
 layout(set = 0, binding = 5, std430) writeonly buffer Normals { vec4 normals[]; };
-// In the order of the step: trapped air, wave crest, energy, number of neighbours.
+// For each fluid particle, in the host's order: trapped air, wave crest (0; pass `crest` adds it), energy, number of
+// neighbours.
 layout(set = 0, binding = 6, std430) writeonly buffer Potentials { vec4 potentials[]; };
 
 // A particle is at the surface if the weighted mean of the vectors from its neighbours to it, in units of the support

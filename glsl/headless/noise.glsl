@@ -39,7 +39,8 @@ float kept(float width, float frequency) {
     return 1.0 - smoothstep(0.25, 0.9, width * frequency);
 }
 
-// Sum of octaves of noise. An octave fades out as the width of the footprint grows beyond its cells.
+// Sum of octaves of value noise at `p`, the first with this frequency. An octave fades out while `width`, that of the
+// pixel's footprint, grows from a quarter to 0.9 of its cells.
 float octaves(vec3 p, float frequency, int count, float width) {
     float sum = 0.0;
     float amplitude = 0.5;

@@ -20,9 +20,9 @@ bool spray_at(ivec2 pixel) {
         || SOAP == 1u && texelFetch(soap_depth, pixel, 0).x < EMPTY;
 }
 
-// Whether a block of `side` x `side` pixels may show surface foam; the scene may still hide this foam. `side` is a
-// power of two and `corner` a multiple of it. So all pixels in the same quarter of a foam texel are interpolated from
-// the same four texels, which are read once.
+// Returns whether a block of `side` x `side` pixels, with its first pixel at `corner`, may show surface foam; the
+// scene may still hide this foam. `side` is a power of two and both coordinates of `corner` are multiples of it. So
+// all pixels in the same quarter of a foam texel are interpolated from the same four texels, which are read once.
 bool foam_beside(ivec2 corner, int side) {
     int step = max(int(FOAM_EDGE) / 2, 1);
     vec4 z = vec4(EMPTY);

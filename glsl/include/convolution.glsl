@@ -35,7 +35,8 @@ float span_place(float depth, uvec4 span) {
     return (along_light(depth) - ends.x) / max(ends.y - ends.x, least) * (1.0 - 4.0 * frame.shadow_filter.w);
 }
 
-// Normalised depth of a texel; that of an empty texel is greater than that of every other texel and shaded point.
+// Returns the normalised depth of a texel with this depth. That of an empty texel is greater than that of every other
+// texel and shaded point.
 float texel_place(float depth, uvec4 span) {
     return is_open(depth) ? 1.0 - 2.0 * frame.shadow_filter.w : span_place(depth, span);
 }

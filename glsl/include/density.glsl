@@ -19,9 +19,9 @@ float share_of_spray(float density) {
 // Min value of torn_of: that of a particle that is entirely spray.
 const float LEAST_TORN = 0.3;
 
-// Fraction of the largest number of droplets that a particle gets. `share` is the part of it that is spray: a
-// particle that is just being torn (share up to 3/4) gets all droplets, fine ones; one that is entirely spray gets
-// few, large ones. The amount of mist is scaled by the cube of this fraction.
+// Returns which fraction of the largest number of droplets a particle gets (1 if that number is 1). `share` is the
+// part of the particle that is spray: one that is just being torn (share up to 3/4) gets all droplets, fine ones; one
+// that is entirely spray gets few, large ones. The amount of mist is scaled by the cube of this fraction.
 float torn_of(float share) {
     return frame.density.w > 1.0 ? clamp(4.0 * (1.0 - share), LEAST_TORN, 1.0) : 1.0;
 }

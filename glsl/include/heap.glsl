@@ -1,4 +1,5 @@
-// Shared by the passes of the blob simulation (Huszar, Szecsi, Sec. 6). Needs nothing.
+// Constants, types and push constants that the passes of the blob simulation share (Huszar, Szecsi, Sec. 6). Needs
+// nothing.
 
 // Max number of blobs that are visited in a bucket, so that blobs heaped on one spot cannot hang a device. Those with
 // the lowest ids are visited.

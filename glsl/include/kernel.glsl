@@ -11,15 +11,16 @@ float thickness_kernel(float rho2) {
     return rho2 > 1.0 ? 0.0 : sqrt(1.0 - rho2) * exp(-2.0 * rho2);
 }
 
-// rho^2 at the point where the ray meets the plane of constant depth through the sprite's centre.
+// Returns rho^2 (rho: distance from the sprite's centre in half-axes) where a ray with this slope meets the plane of
+// constant depth through the centre.
 float thickness_rho2(vec2 slope, vec3 centre, float inverse_axis) {
     vec2 off = (slope * -centre.z - centre.xy) * inverse_axis;
     return dot(off, off);
 }
 
-// Half-axis with which a sprite at a depth is drawn; `widened` is the factor by which its amplitude is then divided.
-// A half-axis below one pixel is enlarged to one pixel while the sprite keeps its volume. So far water does not
-// sparkle, and no sprite vanishes between pixel centres.
+// Half-axis with which a sprite at a depth is drawn; `slope` converts texels of the image to slopes of rays. A
+// half-axis below one texel is enlarged to one texel while the sprite keeps its volume: its amplitude is then divided
+// by `widened`. So far water does not sparkle, and no sprite vanishes between texel centres.
 float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
     float least = depth * max(abs(slope.x), abs(slope.y));
     float drawn = max(axis, least);
@@ -32,7 +33,8 @@ float metres(uvec2 sum) {
     return (float(sum.y) * 4294967296.0 + float(sum.x)) * (frame.particle.w / UNITS);
 }
 
-// Water in the window (see sheet_shares) where there is no boundary: more than enough for a single layer of water.
+// Amount of water in the window (third value of sheet_shares) of a texel without a boundary: so much that it always
+// counts as a single layer.
 const float ONE_SHEET = 1.0e6;
 
 // Whether a texel keeps its boundary, the depth that separates two layers of water. It does if there is water on both

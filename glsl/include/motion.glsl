@@ -12,8 +12,8 @@ layout(set = 0, binding = 1, std430) buffer Fronts { vec2 fronts[]; };
 // so the order of additions does not matter.
 layout(set = 0, binding = 2, std430) buffer Sums { uint sums[]; };
 
-// Fixed-point steps for a weight of 1 times a displacement of one particle spacing, and largest displacement in
-// spacings. The two multiplied fill a signed 32-bit word.
+// Fixed-point steps in the sums for a weight of 1 times a displacement of one particle spacing; and the largest
+// displacement of a particle, in spacings. The two multiplied fill a signed 32-bit word.
 const float MOTION_UNITS = 2097152.0;
 const float MOST_SPACINGS = 1000.0;
 
@@ -26,7 +26,8 @@ uint surfaces() {
     return push.level == 0u ? 1u : 2u;
 }
 
-// Number of surfaces of a texel, for a loop instead of a branch, for CPU drivers (docs/performance.md).
+// Number of surfaces that a texel's pixels show, from the texel's entry in `fronts` (1 also without any). It bounds a
+// loop, because CPU drivers run branches slowly (docs/performance.md).
 uint surfaces_of(vec2 front) {
     return front.y < EMPTY ? 2u : 1u;
 }

@@ -3,5 +3,6 @@
 // particles outside of the grid get CROWDED. Needs nothing.
 
 const uint SHAPED_WORDS = 10u;
-// A sum that stands for enough neighbours. With a reach of 4, real sums inside water exceed it.
+// Value of the sum of neighbours' weights that stands for enough neighbours. Inside water the sum is 32 with a reach
+// of 2.5 spacings, and more than this value with 4.
 const float CROWDED = 64.0;

@@ -1,9 +1,9 @@
 // A foam sprite as it is drawn, by quads or by invocations. Needs frame.glsl, random.glsl, whole_steps.glsl,
 // gradient_noise.glsl, surface_foam.glsl, pattern.glsl, kernel.glsl.
 
-// A sprite in the foam's depth has DEPTH_GROWTH times the particle's amount of foam (0 to 1) as its relative size, at
-// most 1. So it reaches full size while the foam is hardly visible yet: the division into front layer and foam behind
-// it changes at the sprite's outline, which would show.
+// Factor for the sprites from which the foam's depth is found: their size relative to the full one is DEPTH_GROWTH
+// times the particle's amount of foam (0 to 1), at most 1. So they reach full size while the foam is hardly visible:
+// at a sprite's outline the division into front layer and foam behind it changes, which would show.
 const float DEPTH_GROWTH = 8.0;
 
 struct FoamPlane {
@@ -15,7 +15,8 @@ struct FoamPlane {
     float texel; // width of a texel at its centre
 };
 
-// The noise that tears the sprite: the sprite's own noise, or the finest octave of the pattern.
+// Noise that varies the amount of foam within a sprite, as if it were torn: the sprite's own noise, or the finest
+// octave of the foam's pattern.
 struct FoamNoise {
     vec3 place;  // at its centre
     vec3 along;  // change to the end of its half-axes
@@ -54,7 +55,8 @@ FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
     uint id = floatBitsToUint(sprite.rest.x);
     FoamNoise noise;
     if (has_pattern()) {
-        // Each of the two phases has half of the sprites, so that each texel has some of both.
+        // Two phases of the pattern cross-fade. By its id a sprite has one of them, so that each texel has sprites of
+        // both.
         uint phase = pcg(id) >> 31;
         float width = frame.particle.y * frame.foam_octaves.x * OCTAVES[2];
         mat3 turn = mat3(frame.world);
@@ -92,8 +94,8 @@ vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float dept
     // The front layer ends softly within a spacing, so that foam does not pop when it passes the layer's end.
     float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
     float first = front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0;
-    // This measure of the distance is bounded, so that steps can hold the sum, and gives most weight to changes of
-    // near foam, which hides the rest.
+    // `far` grows with the distance behind the front layer. It is bounded by 1, so that steps can hold the sum, and
+    // gives most weight to changes of near foam, which hides the rest.
     float behind = max(depth - front - frame.particle.y, 0.0);
     float far = behind / (behind + frame.particle.y);
     return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + rounding_up(own.chance, texel));

@@ -5,7 +5,8 @@
 // exact in any order.
 const float NOISE_PARTS = 65536.0;
 
-// A Gaussian that ends smoothly, also in its slope, which is used for shading.
+// Profile of a noise sprite (rho2: squared distance from its centre, 1 at its edge): a Gaussian that ends smoothly,
+// also in its slope, which is used for shading.
 float noise_kernel(float rho2) {
     float left = max(1.0 - rho2, 0.0);
     return left * left * exp(-2.0 * rho2);

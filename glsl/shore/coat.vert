@@ -1,7 +1,7 @@
 #version 460
 // Pass `composite`, raster: one quad per run (adjacent 8x8 tiles of a row) with foam on the scene's own water
 // surface.
-// Reads: list. Writes: its corners, values that are constant over it.
+// Reads: list. Writes: the quad's corners, values that are constant over the quad.
 
 #include "frame.glsl"
 #include "coat_light.glsl"

@@ -17,7 +17,8 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint PACKETS = 0;
 // 1: the foam part of a particle is not counted as water.
 layout(constant_id = 1) const uint FOAM = 0;
-// 1: later passes visit the host's particles again and need to know which lie in packets.
+// 1: the shader records which of the host's particles lie in packets, because later passes visit the host's particles
+// again.
 layout(constant_id = 2) const uint MEMBERS = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
@@ -129,7 +130,8 @@ uint classify(uint index, out vec4 sphere, out vec4 shape, out float share) {
         shape = seen_shape(at + 3u);
         return classify_ellipsoid(ellipsoid_of(vec4(centre, radius), shape));
     }
-    // The half-axis of the thickness sprite is larger than the sphere's radius, so it bounds sphere and sprite.
+    // The half-axis of the thickness sprite is larger than the sphere's radius, so one test with it bounds both
+    // sphere and sprite.
     float reach = radius * frame.particle.z / frame.particle.x;
     if (!in_frustum(centre, reach)) {
         return NONE;
@@ -181,7 +183,8 @@ void append(uint kind, vec4 sphere, vec4 shape, float share) {
     barrier();
 }
 
-// Marks all particles of the packet, visible or not, because the sun sees other particles than the camera.
+// Sets the bits in `members` of all particles of the packet, visible or not, because the sun sees other particles
+// than the camera.
 void enter(Packet packet) {
     uint past = (packet.past + 31u) >> 5;
     for (uint word = (packet.first >> 5) + gl_LocalInvocationIndex; word < past; word += gl_WorkGroupSize.x) {
@@ -209,8 +212,8 @@ void main() {
         enter(packet);
     }
     vec3 centre = (frame.view * vec4(packet.middle, 1.0)).xyz;
-    // The bounding sphere of the packet's box of centres, enlarged by the half-axis of a sprite, is a conservative
-    // bound.
+    // Conservative test: the packet's box contains only the particles' centres, so its bounding sphere is enlarged by
+    // the half-axis of a sprite.
     if (!in_frustum(centre, packet.reach + frame.particle.z)) {
         return;
     }

@@ -105,15 +105,17 @@ void main() {
     } else {
         float device = texelFetch(scene_depth, scene_texel(pixel), 0).x;
         float scene = eye_depth(device);
-        // EMPTY also without a scene: with a reversed infinite depth, infinity is 1/0, or negative by rounding.
+        // Without a scene the depth z is EMPTY too: with a reversed infinite depth, infinity is 1/0, or negative by
+        // rounding.
         z = device == frame.before_lens.w || !(scene > 0.0 && scene < EMPTY) ? EMPTY : scene;
     }
-    // `change`: the point's position in the eye space of the previous frame minus its position in the current one.
-    // For points at infinity both positions are directions.
+    // The vector `change` is the visible point's position in the previous frame's eye space minus its position in
+    // this frame's. For points at infinity both positions are directions.
     bool sky = z >= EMPTY;
     vec3 here = vec3(slope, -1.0) * (sky ? 1.0 : z) - moved;
     vec3 change = mat3(frame.before) * here - moved + (sky ? vec3(0.0) : frame.before[3].xyz);
-    // A point that was behind the eye had no position on the screen: it is placed just before the eye.
+    // A point that was behind the eye in the previous frame had no position on the screen: its depth there is raised
+    // to that of the near plane.
     float before = max((sky ? 1.0 : z) - change.z, sky ? 1.0e-3 : frame.before_lens.z);
     vec2 slope_change = (change.xy + slope * change.z) / before;
     vec2 vector = slope * frame.lens_change.xy - frame.lens_change.zw - slope_change * frame.before_lens.xy;

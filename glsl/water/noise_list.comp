@@ -37,7 +37,8 @@ void visit(uint index) {
     }
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + index * push.density_stride];
-        // As in cull.comp, 0 marks a particle that was just emitted. It is not spray, nor is a particle with NaN.
+        // As in cull.comp, a density of 0 marks a particle that was just emitted. Such a particle is not spray, nor
+        // is one whose density is NaN.
         if (density > 0.0 && density < frame.density.x) {
             return;
         }

@@ -28,11 +28,12 @@ layout(push_constant, std430) uniform Push {
 
 layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; };
 layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
-// For each particle, in the order of the grid: the vector to the mean of the neighbours in units of the reach, and
-// the weight of the ellipsoid, 0 for a sphere to 1.
+// For each particle, in the order of the grid. xyz: vector from it to the weighted mean of itself and its neighbours,
+// in units of the reach; w: weight of the ellipsoid, 0 for a sphere to 1.
 layout(set = 0, binding = 5, std430) writeonly buffer Shifts { vec4 shifts[]; };
 
-// Fixed-point steps per unit. Addends are at most 1, so the sums over 27 full buckets fit in 32 bits.
+// Fixed-point steps per unit of a sum. Addends are at most 1, so the sums over 27 full buckets (MOST_IN_BUCKET
+// particles) fit in 32 bits.
 const float STEPS = 65536.0;
 
 // Sums of the neighbours' weights between which the shape of spray changes from a ball to an ellipsoid. A single
@@ -43,9 +44,9 @@ const vec2 BESIDE_SPRAY = vec2(0.1, 0.6);
 // of two particles alone the sum is at most 1, for a particle in a line of them 2.9.
 const vec2 ALONE = vec2(1.5, 2.5);
 
-// Films: water that is one particle thick, on a floor or a wall. Limits between which a particle gradually counts as
-// part of a film: the ratio of the smallest to the middle variance, the ratio of the middle to the largest, and the
-// sum of the neighbours' weights (because three particles always lie in a plane).
+// A film is water one particle thick, on a floor or a wall. Three values decide gradually, each between two limits,
+// whether a particle is part of a film: FLAT limits the ratio of the smallest to the middle variance, BROAD that of
+// the middle to the largest, SOME the sum of the neighbours' weights (because three particles always lie in a plane).
 const vec2 FLAT = vec2(0.02, 0.06);
 const vec2 BROAD = vec2(0.15, 0.3);
 const vec2 SOME = vec2(2.5, 4.5);
@@ -53,7 +54,8 @@ const vec2 SOME = vec2(2.5, 4.5);
 // Variance, in squares of the reach, up to which it counts as 0: Jacobi rotations leave rounding errors.
 const float NO_VARIANCE = 1.0e-6;
 
-// Half-axes proportional to the variances, with the product 1; the longest is at most `ratio` times the shortest.
+// Returns half-axes of an ellipsoid, proportional to the variances along them and with the product 1; the longest is
+// at most `ratio` times the shortest.
 vec3 axes_of(vec3 variances, float ratio) {
     float most = max(variances.x, max(variances.y, variances.z));
     if (most <= NO_VARIANCE) {

@@ -32,9 +32,9 @@ layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
 
-// With foam: the words of the compute path of `surface_foam` per texel. The first is the depth of the frontmost foam
-// (that of the scene if no foam lies before it), the second that of the scene, both as bits. Reading them is
-// faster than reading two images.
+// With foam: for each texel FOAM_WORDS words of the compute path of `surface_foam`. The first is the depth of the
+// frontmost foam (that of the scene if no foam lies before it), the second that of the scene, both as the bits of a
+// float. Reading them is faster than reading two images.
 layout(constant_id = 10) const uint FOAM_WORDS = 5;
 layout(set = 0, binding = 8, std430) readonly buffer FoamWords { uint foam_words[]; };
 
@@ -49,13 +49,15 @@ struct Sprite {
     float scale; // units per amplitude of 1
 };
 
-// Units per amplitude of 1. A particle with a smaller radius has a smaller sprite that holds the same volume.
+// Returns the fixed-point units per amplitude of 1 for a sphere of this radius. A particle with a smaller radius has
+// a smaller sprite that holds the same volume.
 float units(float radius) {
     float grown = frame.particle.x / radius;
     return UNITS * grown * grown;
 }
 
-// The sprite of a particle at its full size, its amount scaled by the fraction of the particle that is water.
+// Returns the sprite of particle `index` at the particle's full size. The thickness that it adds is scaled by the
+// fraction of the particle that is water.
 Sprite sprite_of(uint index) {
     Ellipsoid body = ellipsoid_in(visible, index);
     float water = FOAM == 1u ? shares[index] : 1.0;
@@ -77,16 +79,17 @@ Sprite sprite_of(uint index) {
     return sprite;
 }
 
-// Texels that the disc covers. The bounds are exact, because the disc is parallel to the image plane.
+// Returns the texels that the sprite's disc covers (first x and y, last x and y). The bounds are exact, because the
+// disc is parallel to the image plane.
 ivec4 span(Sprite sprite) {
     float inverse = 1.0 / -sprite.centre.z;
     vec4 slopes = vec4(sprite.centre.xy - sprite.reach, sprite.centre.xy + sprite.reach) * inverse;
     return pixel_span(pixel_bounds(slopes, frame.thick_slope), frame.thick_extent.xy);
 }
 
-// Adds to two sums: to the low word of each and, if that overflows, 1 to the number of carries. All additions are in
-// one loop: a CPU driver runs the invocations one by one at each atomic operation in the code, even those that add
-// nothing.
+// Adds `amount` to sum `at` and `more` to sum `other`, both rounded to whole units: to the low word of a sum and, if
+// that overflows, 1 to its number of carries. All additions are in one loop: a CPU driver runs the invocations one by
+// one at each atomic operation in the code, even those that add nothing.
 void add(uint at, float amount, uint other, float more) {
     uint word = 2u * at;
     uint units = uint(amount + 0.5);
@@ -136,8 +139,8 @@ void splat(ivec2 texel, Sprite sprite) {
     }
 }
 
-// Narrows a box of texels to those blocks of 16x16 pixels that have a boundary which the sphere may be in front of or
-// close to (front layer or window).
+// Narrows the sprite's box of texels to those blocks of 16x16 pixels with a boundary between two layers of water that
+// the sprite's centre lies before or at most a spacing behind (front layer or window).
 ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of a block's texels
