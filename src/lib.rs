@@ -28,7 +28,8 @@
 //! State that outlives a frame is kept in separate objects, which several views can share. The first three are
 //! updated once per simulation step:
 //!
-//! - [`SurfaceFoamState`] holds which of the water's particles are foam ([`SurfaceFoamState::record_step`]).
+//! - [`SurfaceFoamState`] holds amount and age of the foam on each water particle
+//! ([`SurfaceFoamState::record_step`]).
 //! - [`Generator`] emits, moves and ages whitewater: spray, foam and bubbles that are particles of their own.
 //! - [`bubbles::BlobSimulation`] simulates blobs of bubble foam.
 //! - [`shore::ShoreMap`] holds the distance to the shore. It is updated only when, and where, the land has changed.
@@ -154,8 +155,8 @@
 //! # Where it differs from its sources
 //!
 //! The header of each pass states its differences; `docs/differences.md` in the repository collects the main ones.
-//! `water` follows Bagar 2010, `WhitewaterSettings` Akinci et al. 2013 and Ihmsen et al. 2012, `bubbles` Huszár and
-//! Szécsi, `shore` a blog and a tutorial.
+//! Module `water` follows Bagar 2010. Whitewater particles ([`WhitewaterSettings`]) are drawn after Akinci et al.
+//! 2013 and emitted after Ihmsen et al. 2012. `bubbles` follows Huszár and Szécsi, `shore` a blog and a tutorial.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

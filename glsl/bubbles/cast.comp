@@ -13,8 +13,8 @@ layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 4, r32ui) uniform uimage2D front;
 layout(push_constant, std430) uniform Push { uint most; } push;
 
-// Radius within which a blob casts a shadow, relative to its own: the films farther out let light through, and must
-// not lie in the shadow of their own core.
+// Radius of the ball that casts a blob's shadow, relative to the blob's radius. The soap films outside of this ball
+// let light through, and with a larger ball they would lie in the shadow of their own blob.
 const float CORE = 0.78;
 
 void main() {

@@ -23,7 +23,8 @@ float rate_of(uint j) {
 #include "generate_water.glsl"
 #include "generate_stages.glsl"
 
-// Fraction of foam of an age that is still alive: lifetimes are uniform between min and max.
+// Returns the fraction of foam that is still alive `seconds` after its emission: lifetimes are uniformly distributed
+// between min and max.
 float left_of(float seconds) {
     float rest = push.life_most - seconds;
     return seconds < push.life_least ? 1.0 : clamp(rest / max(push.life_most - push.life_least, 1.0e-20), 0.0, 1.0);

@@ -43,8 +43,8 @@ BlobRay blob_ray(Blob blob, WorldRay ray, vec2 span) {
                    blob.ball.w * ray.scale, span * inverse);
 }
 
-// Opacity of the blob's core, its opaque inside, behind the point `past` where the ray leaves the bubble that it hit
-// (Sec. 4.4).
+// Returns the opacity of the blob's core, the foam behind its outer bubbles (Sec. 4.4). `past` is the point, in the
+// blob's space, where the ray leaves the bubble that it hit.
 float core_opacity(vec3 past) {
     return 1.0 - smoothstep(bubbly.core.x, bubbly.core.y, length(past));
 }

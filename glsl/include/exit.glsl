@@ -37,8 +37,9 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
-// Slope per pixel of the front sheet's thickness alone, without the water behind the air. Texels in which `front` is
-// not in front of the boundary show another surface; they get the mean thickness of the other texels.
+// Returns the slope per pixel of the thickness of the front sheet (layer of water); water behind it counts only where
+// no air lies between. Texels in which the depth `front` is not in front of the boundary between the sheets show
+// another surface; they get the mean thickness of the other texels.
 vec2 sheet_slope(vec2 pixel, float front) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 middle = ivec2(floor(h + 0.5));
@@ -111,9 +112,10 @@ vec2 prism_offset(vec2 pixel, float front, float beyond) {
     return PRISM * slope * max(beyond - front, 0.0) / (frame.texel.xy * max(beyond, front));
 }
 
-// `behind`: the scene's colour as refracted by the front surface alone. `covers`: the sheet is the front one of two.
-// `pool`: how far the back sheet touches the scene, 0 to 1. With 1 the ray that leaves the front sheet shows
-// `behind`, which includes the water of the back sheet, because a march would find the dry scene.
+// Returns the light that enters the front sheet (layer of water) from behind. `behind`: the scene's colour as
+// refracted by the front surface alone. `covers`: there is a second sheet behind this one. `pool`: how far the back
+// sheet touches the scene, 0 to 1. With 1 the ray that leaves the front sheet shows `behind`, which includes the
+// water of the back sheet, because a march would find the dry scene.
 Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers, float pool) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);
@@ -153,15 +155,16 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
 
     Met met = march(from, along, pool < 1.0 && !total ? int(EXIT) : 0);
     met.share *= 1.0 - pool;
-    // A ray that leaves the sheet downwards and meets no visible scene counts as not refracted.
+    // If a ray leaves the sheet (layer of water) downwards and meets no scene on the screen, it counts as not
+    // refracted.
     float bent = BENT * mix(1.0, BENT_BEFORE, pool);
     vec3 world = mat3(frame.world) * along;
     float sky = bent * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     met.share *= bent;
     vec3 back = mat3(frame.world) * inward;
     float back_sky = bent * smoothstep(-0.3, 0.0, dot(back, frame.up.xyz));
-    // Weight of the far surface. It is 0 for a thin film, whose two surfaces are parallel, and for water that touches
-    // the scene and so has no air behind it.
+    // `air` is the weight of the refraction at the far surface of the water. It is 0 for a thin film, whose two
+    // surfaces are parallel, and for water that touches the scene and so has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);
     vec3 seen = (1.0 - met.share - sky) * behind;
     for (bool any = met.share > 0.0; any; any = false) {

@@ -10,8 +10,9 @@ struct Met {
     float share; // visible fraction: 0 for no hit, fading near the view's edge
 };
 
-// Length of the first step in heights of the picture, and length of a ray in multiples of the depth at its start. A
-// ray towards the eye ends at the latest after three quarters of the way to the eye's plane.
+// MARCH_FIRST is the length of the first step in heights of the picture, MARCH_FAR the max length of a ray in
+// multiples of the eye depth at its start. A ray towards the eye ends after three quarters of the way to the eye's
+// plane, or earlier.
 const float MARCH_FIRST = 1.0 / 128.0;
 const float MARCH_FAR = 64.0;
 // A point of the ray hits the scene if it is behind the scene's visible front by at most this distance: the change of
@@ -96,7 +97,8 @@ Met march(vec3 from, vec3 along, int steps) {
         before = z;
         next = min(next * growth, whole);
     }
-    // The step that hit may be half of the picture wide. Bisection refines it here, and a secant step below.
+    // The step in which the march hits the scene may be half of the picture wide. This loop bisects it; below, a
+    // secant step follows.
     for (int i = 0; i < MARCH_HALVES && met; ++i) {
         float middle = 0.5 * (low + high);
         vec3 p = a + way * middle;

@@ -1,6 +1,7 @@
-// One bit for each particle of a chunk: whether it is in one of the host's packets (ranges of particles with a
-// bounding box). If the host gives packets, particles outside of all packets are treated as absent (thesis Sec. 4.3).
-// In the includer, push.packets is 1 if there are packets, and MEMBERS is the number of the binding. Reads: members.
+// Bit mask with one bit for each particle of a chunk: whether it is in one of the host's packets (ranges of particles
+// with a bounding box). If the host gives packets, particles outside of all packets are treated as absent (thesis
+// Sec. 4.3). The includer defines MEMBERS, the binding of the mask; its push.packets is 1 if there are packets.
+// Reads: members.
 
 layout(set = 0, binding = MEMBERS, std430) readonly buffer Members { uint members[]; };
 

@@ -59,7 +59,8 @@ Water water_point(vec3 ray, float z) {
     return w;
 }
 
-// Width of a pixel in scene units: the side of a square of the same area.
+// Returns the width of a pixel on the water's surface in scene units: the side of a square with the area that the
+// pixel covers there.
 float width_of(Water w) {
     return sqrt(abs(determinant(w.across)));
 }

@@ -17,7 +17,8 @@ vec4 noise_at(vec2 p, float scale, float width) {
     return textureLod(shore_noise, p * scale, level_of(width * scale * shore.web.w));
 }
 
-// The web at a point: its mean, the mean of its square, and its slope on each axis.
+// Samples the web (the texture of shoreline foam) at a mip level: x is its mean, y the mean of its square, zw its
+// slope on each axis.
 vec4 web_at(vec2 uv, float level) {
     return textureLod(shore_web, uv, level);
 }
@@ -64,7 +65,8 @@ struct Place {
 Place place_at(vec2 p, mat2 across, vec2 dv) {
     float width = sqrt(abs(determinant(across)));
     Noises noises = noises_at(p, width);
-    // Factor of the wave's mean over a pixel. The pixel is taken as a normal distribution with the variance of a box.
+    // `kept` is the factor by which the mean over a pixel reduces the wave's amplitude. The pixel's filter is taken
+    // as a normal distribution with the variance of a box.
     float frequency = shore.waves.x + noises.sum.x;
     float kept = exp(-frequency * frequency * dot(dv, dv) / 24.0);
     vec4 levels = vec4(0.0);

@@ -8,8 +8,8 @@ layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 layout(set = 0, binding = 9) uniform sampler2D foam_thickness;
 
-// Depth of the frontmost foam if the foam's opacity is at least a half, otherwise EMPTY: thinner foam gets the motion
-// of the surface behind it.
+// For motion vectors: returns the eye depth of the frontmost foam at a pixel if the foam's opacity is at least a
+// half, otherwise EMPTY, so that thinner foam gets the motion of the surface behind it.
 float shown_foam(vec2 pixel) {
     if (FOAM == 0u) {
         return EMPTY;

@@ -10,5 +10,6 @@ struct SpraySprite {
 // divided by the root of torn_of.
 const float SMALLEST_DROPLET = 0.2;
 const float DROPLET_RANGE = 2.135;
-// Half-axis of the largest droplet relative to the mean one: of a particle that is only spray.
+// Half-axis of the largest droplet relative to the mean one. A particle that is only spray has it, because there
+// torn_of is LEAST_TORN.
 const float LARGEST_DROPLET = (SMALLEST_DROPLET + DROPLET_RANGE) * inversesqrt(LEAST_TORN);

@@ -73,8 +73,8 @@ void main() {
     } else {
         ivec2 own = ivec2(at);
         float web = web_of(own);
-        // The slope is a difference over two texels, converted to a change per width of the image. The image repeats,
-        // so its edges have neighbours too.
+        // The slope of the web is the difference between the texels on both sides, converted to a change per width of
+        // the image. The image repeats, so texels at its edges have neighbours too.
         vec2 slope = vec2(web_of(own + ivec2(1, 0)) - web_of(own - ivec2(1, 0)),
                           web_of(own + ivec2(0, 1)) - web_of(own - ivec2(0, 1)));
         value = vec4(web, web * web, 0.5 * float(push.size) * slope);

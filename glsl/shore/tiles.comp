@@ -14,8 +14,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 const float NONE = -3.0e38;
 
-// Limits of the scene's device depth. Device depths are compared without conversion to eye depth, which saves work
-// per texel. They are negated if necessary, so that nearer depths are greater.
+// Two limits that decide by the scene's device depth whether a pixel of a tile may have foam. Device depths are
+// compared without conversion to eye depth, which saves work per texel. They are negated if necessary, so that nearer
+// depths are greater.
 struct Range {
     vec4 seen;    // the surface is hidden where the scene's depth is greater
     vec4 contact; // no contact foam where it is less
@@ -26,9 +27,9 @@ vec4 device(vec4 reciprocal) {
     return abs(frame.depth.x) * reciprocal - (frame.depth.x < 0.0 ? -frame.depth.y : frame.depth.y);
 }
 
-// The range for a tile. `least` and `most` bound the reciprocal eye depth of the surface in the tile. `part` is the
-// factor with which distances along the view count for contact foam. The range has a margin for rounding; pixels are
-// tested again.
+// Returns the limits of scene depth for a tile. `least` and `most` bound the reciprocal eye depth of the water's
+// surface in the tile. `part` is the factor from a distance along the view axis to the distance that contact foam
+// measures. The limits have a margin for rounding, because pixels are tested again.
 Range range_of(vec4 least, vec4 most, vec4 part) {
     const float SPARE = 1.0e-5;
     float ulps = 2.5e-7 * (1.0 + abs(frame.depth.y));
@@ -40,12 +41,14 @@ Range range_of(vec4 least, vec4 most, vec4 part) {
     return range;
 }
 
-// Reciprocal of the eye depth at which a ray meets the level water surface; 0 if the ray misses it.
+// Returns the reciprocal of the eye depth at which a pixel's view ray, in eye space, meets the level water surface; 0
+// if the ray misses it.
 float level_on(vec3 ray) {
     return shore.height.w == 0.0 ? 0.0 : max(-dot(shore.height.xyz, ray) / shore.height.w, 0.0);
 }
 
-// The range for a surface that need not be level, at 2x2 pixels whose first one is `first`.
+// Returns the limits of scene depth for the 2x2 pixels from pixel `first` on, from the depth of a water surface that
+// need not be level.
 Range range_at_four(vec2 first) {
     vec4 own, part;
     for (int i = 0; i < 4; ++i) {
@@ -60,8 +63,8 @@ Range range_at_four(vec2 first) {
 void main() {
     vec2 first = vec2(TILE * gl_GlobalInvocationID.xy);
     bool inside = all(lessThan(first, frame.extent.xy));
-    // On a level surface, the reciprocal of the eye depth, `part` and the horizontal position p of each pixel in a tile
-    // lie between their values at the tile's corners.
+    // On a level surface, the values of a tile's pixels lie between those at the tile's corners: the reciprocal of
+    // the eye depth, the factor `part` of range_of, and the horizontal position p.
     float least = EMPTY, most = 0.0, part = EMPTY;
     vec2 low = vec2(EMPTY), high = vec2(-EMPTY);
     for (int i = 0; i < 4; ++i) {
@@ -96,9 +99,9 @@ void main() {
     Range range = range_of(vec4(least), vec4(most), vec4(part));
     float side = sign(frame.depth.x);
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
-    // The greatest, so nearest, scene depth that does not hide the surface. For a surface that need not be level, it
-    // is relative to the depth at which contact foam begins. Texels outside the picture may be included, because
-    // pixels are tested again.
+    // `nearest` is the scene's greatest, so nearest, device depth among the texels that do not hide the water's
+    // surface. If the surface need not be level, the depth at which contact foam begins is subtracted. Texels outside
+    // the picture may be included, because pixels are tested again.
     vec4 nearest = vec4(NONE);
     for (int row = 0; row < (asked ? HALF : 0); ++row) {
         for (int column = 0; column < HALF; ++column) {
@@ -114,8 +117,8 @@ void main() {
     float found = max(max(nearest.x, nearest.y), max(nearest.z, nearest.w));
     lines = asked && lines && found > NONE;
     contacts = asked && contacts && found > (GENERAL == 1u ? 0.0 : range.contact.x);
-    // Each call has a constant index of its list: with one variable index, NVIDIA 580.159 listed no tile that has
-    // both kinds of foam.
+    // Each call of `adds` has a constant as list number: with one call and a variable number, NVIDIA 580.159 listed
+    // no tile that has both kinds of foam.
     if (lines && contacts) {
         adds(3u);
     } else if (lines) {

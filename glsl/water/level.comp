@@ -42,7 +42,8 @@ void main() {
     barrier();
     ivec2 block = corner - own.rect.xy + ivec2(gl_LocalInvocationID.xy);
     if (all(lessThan(block, own.rect.zw))) {
-        // A tile that only neighbours one which needs this level is EMPTY: it does not contribute to the smoothing.
+        // `mark` is 2 in tiles that need this level. Other tiles, which only neighbour one of these, are filled with
+        // EMPTY: they do not contribute to the smoothing.
         float z = EMPTY;
         ivec2 end = mark == 2u ? min((block + 1) * edge, ivec2(frame.extent.xy)) : ivec2(0);
         for (int y = block.y * edge; y < end.y; ++y) {

@@ -49,8 +49,8 @@ void splat(ivec2 pixel, Sprite s) {
     if (!(bits < pixels[own].scene)) {
         return;
     }
-    // Most particles lose the comparison: a read is cheaper than an atomic. The value may be outdated when it is
-    // used; then the atomic has no effect.
+    // Most particles lie behind the stored depth, and a read is cheaper than an atomic. If another invocation has
+    // meanwhile stored a nearer depth, the atomic has no effect.
     if (bits <= uint(pixels[own].front >> 32)) {
         atomicMin(pixels[own].front, uint64_t(bits) << 32 | with_of(s.search, place, w));
     }

@@ -62,8 +62,8 @@ impl Soap {
         &self.image
     }
 
-    /// `water` holds depth and thickness of the water. Before and after, both images are in the state in which
-    /// fragment shaders sample them.
+    /// Records the pass. `water` has the images of the water's depth and thickness; both are in the state in which
+    /// fragment shaders sample them, before the call and after it.
     pub fn record(
         &self,
         r: &Recording<'_>,

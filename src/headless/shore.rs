@@ -91,9 +91,9 @@ impl Shores {
 }
 
 impl Headless {
-    /// Sets shoreline and contact foam of the next frames, with [`Config::shore`](crate::Config::shore):
-    /// surface, mask and bias. The shoreline is that of [`shore_strip`](Self::shore_strip) or
-    /// [`shore_map`](Self::shore_map) if there is one.
+    /// Sets the water surface, mask and bias of shoreline and contact foam for the next frames; `None` draws neither.
+    /// It needs [`Config::shore`](crate::Config::shore). The shoreline is that of [`shore_strip`](Self::shore_strip)
+    /// or [`shore_map`](Self::shore_map) if one was set.
     pub fn shore(&mut self, shore: Option<Shore>) {
         self.shores.shore = shore;
     }

@@ -26,9 +26,9 @@ use crate::water::Recording;
 const LEVEL: u32 = 3;
 /// Maximum number of tiles per run (glsl/include/shore_runs.glsl).
 const LONGEST: u32 = 16;
-/// Number of lists. Three are of tiles that may contain only shoreline foam, only contact foam, or both on the host's
-/// surface. The fourth is of runs: neighbouring tiles of a row that have foam. The fifth is of tiles that may contain
-/// contact foam on the particles' water.
+/// Number of lists of screen tiles. Three are of tiles that on the host's water surface may contain only shoreline
+/// foam, only contact foam, or both kinds. The fourth is of runs: neighbouring tiles of a row that have foam. The
+/// fifth is of tiles that may contain contact foam on the particles' water.
 const LISTS: u32 = 5;
 /// Arguments of an empty draw and of five empty dispatches, with their tile counts (glsl/include/shore_lists.glsl).
 const NO_TILES: [[u32; 4]; 6] =

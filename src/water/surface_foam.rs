@@ -58,7 +58,8 @@ pub const SPRITE: u64 = 64;
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Shading passes read the foam's velocity.
 const DRIFT_READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
-/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
+/// Last uses of the images of foam depth and thickness in a frame, for which the next frame waits: those of
+/// [`AFTER`], or a copy of the layer by the host.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 #[repr(C)]
@@ -170,8 +171,8 @@ impl Blended {
     }
 }
 
-/// Whether each sprite stores the visibility of the sun. If shadows come as a screen-space mask it does not, because
-/// the mask is applied per pixel.
+/// Whether each foam sprite stores how much of the sun it sees: with a light map or the host's shadow map. A shadow
+/// mask over the screen does not need this, because it is applied per pixel.
 fn lit(config: &Config) -> bool {
     config.light_map_size.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
 }

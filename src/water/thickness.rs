@@ -62,7 +62,8 @@ enum Path {
     },
 }
 
-/// Pipelines of the compute path for the thickness of the front layer and of the window around the boundary.
+/// Compute pipelines for two layers of water: they add up the thickness of the front layer, and that of the water in
+/// a window of depths around the boundary between the layers.
 struct Apart {
     small: Pipeline,
     large: Pipeline,

@@ -70,8 +70,8 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Report what particle files hold
     ///
-    /// For each frame it prints the format, the number of particles, bounds, spacing, the meaning of each attribute,
-    /// the up axis, and what is missing for foam.
+    /// For each frame 'whitewater info' prints the format, the number of particles, bounds, spacing, the meaning of
+    /// each attribute, the up axis, and what is missing for foam.
     #[command(after_help = EXIT_CODES)]
     Info(InfoArgs),
     /// Compare two pictures
@@ -89,10 +89,10 @@ pub struct RenderArgs {
     /// Particle files: a folder that holds one sequence, file names, a pattern such as 'fluid_*.bgeo' or
     /// 'fluid_%04d.bgeo', or one file that holds all frames
     ///
-    /// Use %d for numbers without leading zeros. These files can hold all frames: a table with a column of times,
-    /// XYZ, a LAMMPS dump, VTKHDF, XDMF, Tecplot with several zones, a NumPy array of shape (frames, particles, 3)
-    /// and a JSON list of frames. The frames in such a file are counted from 0. 'whitewater info' lists what the
-    /// files hold.
+    /// In a pattern, %d stands for a frame number without leading zeros. These files can hold all frames: a table
+    /// with a column of times, XYZ, a LAMMPS dump, VTKHDF, XDMF, Tecplot with several zones, a NumPy array of shape
+    /// (frames, particles, 3) and a JSON list of frames. The frames in such a file are counted from 0. 'whitewater
+    /// info' lists what the files hold.
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Draw bubble foam: one, slope, box, or a .json file of blobs, alone or with particles
@@ -235,8 +235,8 @@ pub struct RenderArgs {
 pub enum Whitewater {
     /// They are emitted from the water's particles.
     Generate,
-    /// They are read from files. `kind` is the kind of all particles; if it is `None`, the files store each
-    /// particle's kind.
+    /// The whitewater particles are read from files. `kind` is the kind of all of them; if it is `None`, the files
+    /// store each particle's kind.
     Files { kind: Option<u32>, files: String },
 }
 
@@ -334,7 +334,8 @@ pub struct DrawArgs {
     pub layers: String,
     /// PNG exposure: 'auto', or stops relative to it
     ///
-    /// 'auto' depends on the environment's light alone, so it is the same in all frames of a sequence.
+    /// The exposure 'auto' is found from the environment's light alone, so it is the same in all frames of a
+    /// sequence.
     #[arg(long, value_name = "auto|STOPS", default_value = "auto", value_parser = exposure, allow_hyphen_values = true)]
     pub exposure: f32,
     /// PNG tone map: aces, agx, neutral or linear

@@ -183,8 +183,8 @@ fn pieces(folder: &Path, names: &[String]) -> HashSet<String> {
     found
 }
 
-/// Patterns of the sequences in a list of names, and the number of files in each. A number with a decimal point or
-/// exponent is a time and counts as a whole: if only its last digits varied in the pattern, each file would be a
+/// Returns the pattern of each sequence in a list of file names, and the number of its files. A number with a decimal
+/// point or exponent is a time and becomes a `*` as a whole: if only its last digits did, each file would be a
 /// sequence of its own.
 fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     let mut timed: BTreeMap<String, Vec<&String>> = BTreeMap::new();

@@ -18,15 +18,17 @@ use crate::whitewater_source::{Columns, Sizes};
 
 /// Default max number of whitewater particles alive at once.
 const MOST: u32 = 1_000_000;
-/// Fraction of the max number of particles that is alive in the steady state, in which as many are emitted as die.
+/// Fraction of the max number of whitewater particles that the chosen emission rates keep alive in the steady state,
+/// in which as many are emitted as die.
 const FULL: f64 = 0.5;
 /// Quantile of the potentials, over all probed frames, that becomes the upper limit.
 const NEARLY_ALL: f64 = 0.999;
 /// Lower limit of a potential as a part of its upper limit.
 const LEAST: f32 = 0.1;
-/// Min values of the upper limits of trapped air, wave crests, and speed (for energy), so that water at rest emits
-/// nothing. Trapped air and speed are in units of √(gravity · spacing), the speed after a fall through half a
-/// spacing. The values lie in the middle of limits that artists chose.
+/// Min values of the upper limits of the emission potentials trapped air, wave crest and energy, so that water at
+/// rest emits nothing. The limit of energy is given as a speed. Trapped air and this speed are in units of √(gravity
+/// · spacing), the speed after a fall through half a spacing. The values lie in the middle of limits that artists
+/// chose.
 const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
 /// Max number of whitewater particles that one water particle emits per second; more would form a cloud around it.
 const MOST_RATE: f64 = 4000.0;
@@ -44,7 +46,8 @@ pub struct Generate {
     seconds: Option<f32>,
     probes: Vec<Particles>,
     found: Option<GeneratorSettings>,
-    /// Mean number of particles of each kind in a column that holds any, in the probed frames.
+    /// Mean number of emitted particles of each kind (foam, spray, bubbles) in a vertical column that holds any of
+    /// that kind, over the probed frames; `None` if there are none.
     columns: [Option<f32>; 3],
 }
 
@@ -244,8 +247,8 @@ impl Generate {
 mod tests {
     use super::*;
 
-    /// A pool whose particles tremble at a tenth of √(gravity · spacing): its upper limits are the floors, and its
-    /// potentials are below all lower limits.
+    /// Test: a pool whose particles tremble at a tenth of √(gravity · spacing) emits nothing. The upper limits that
+    /// are found are [`FLOORS`], and the particles' potentials are below all lower limits.
     #[test]
     fn a_calm_pool_makes_nothing() {
         for spacing in [0.02_f32, 0.5] {
@@ -258,7 +261,8 @@ mod tests {
         }
     }
 
-    /// The upper limit is the tenth largest potential of 10 000 particles, also if most have a potential of 0.
+    /// Test: the upper limit of each emission potential is its quantile [`NEARLY_ALL`], the tenth largest value of 10
+    /// 000 particles, also if most have a potential of 0.
     #[test]
     fn limits_are_by_nearly_all_particles() {
         let wild: Vec<_> = (0..10_000_u16).map(|i| [100.0 + f32::from(i); 4]).collect();

@@ -68,7 +68,8 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     ))
 }
 
-/// The frames of the inputs as one sequence or, if two files have the same frame number, of each input by itself.
+/// Lists the frames of all inputs as one sequence. If two files have the same frame number, it lists the frames of
+/// one input after those of another, and each file once.
 fn expand(inputs: &[String]) -> Result<Vec<Frame>, SequenceError> {
     match sequence::expand(inputs, None).map(frames::in_files) {
         Err(SequenceError::Twice { .. }) if inputs.len() > 1 => {

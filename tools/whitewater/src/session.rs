@@ -351,7 +351,8 @@ impl<'a> Session<'a> {
         (self.look.foam.is_some() || made) && self.look.fps.is_some()
     }
 
-    /// Number of the last simulated frame; `None` if the foam simulation has just started and no frame was simulated.
+    /// Number of the last frame that the foam simulation has passed, simulated or skipped; `None` if it has just
+    /// started.
     pub fn passed(&self) -> Option<u64> {
         self.memory.passed
     }

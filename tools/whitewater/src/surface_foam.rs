@@ -15,13 +15,14 @@ use crate::settings::{FoamBy, SurfaceFoamTable};
 const CALM: f64 = 0.95;
 /// Max share of a frame's particles that foam or still carry foam; with foam everywhere no water would be visible.
 const MOST: f64 = 0.3;
-/// Lower limit of the threshold for trapped air: the speed of water after a fall through this many spacings. Particles
-/// of calm water tremble at half that speed, so that water at rest, and water that flows or falls as a whole, stays
-/// clear.
+/// Lower limit of the speed of trapped air at which water foams, as a height of fall in spacings: the speed that
+/// water has after this fall. Particles of calm water tremble at half that speed, so that water at rest, and water
+/// that flows or falls as a whole, stays clear.
 const FALL: f32 = 0.125;
-/// Default of [`SurfaceFoamTable::turbulence`] in sequences. Jets from nozzles have 0.003 to 0.08 (Ervine et al. 1980);
-/// this value is chosen by eye: a free jet is glassy at its mouth, and whiter the faster it falls. In single frames the
-/// default is 0, because without a history of the foam the front of a smooth surge would be white.
+/// Default of [`SurfaceFoamTable::turbulence`] in sequences: the speed of the eddies that particles do not resolve, divided
+/// by the speed of the water relative to the frame's mean velocity. For jets from nozzles this ratio is 0.003 to 0.08
+/// (Ervine et al. 1980); the value here is chosen by eye: a free jet is glassy at its mouth, and whiter the faster it
+/// falls. In single frames the default is 0, because otherwise the front of a smooth surge would be white.
 pub const TURBULENCE: f32 = 0.12;
 /// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
@@ -30,10 +31,11 @@ const GRAVITY: f32 = 9.81;
 /// intensity on the rate of air entrainment by plunging water jets"; Chanson 1996, "Air bubble entrainment in
 /// free-surface turbulent shear flows").
 pub const ONSET: f32 = 1.0;
-/// If less than this share of a frame's particles exceeds that speed, the frame is calm.
+/// A frame is calm if less than this share of its particles differs from the frame's median velocity by [`ONSET`]. If
+/// all frames are calm, no water foams.
 const STIRRED: f64 = 0.001;
-/// Min ratio of the mean velocity's length to the median deviation from the mean velocity, for water to count as flowing as a
-/// whole. The mean velocity then does not count for foam.
+/// Water counts as flowing as a whole if its median velocity is more than this many times as long as the median
+/// deviation of the particles' velocities from it. Foam by speed then ignores the median velocity.
 const UNIFORM: f32 = 2.0;
 
 /// Settings of foam formation for frames of a sequence and their times in seconds; `None` if no water foams or
@@ -286,8 +288,8 @@ mod tests {
         assert!(of(Foaming::Auto, &frame).is_none() && of(Foaming::From(7.0), &frame).is_none());
     }
 
-    /// Water that moves with the wind does not foam, and water at rest in wind does: the Weber number uses the relative
-    /// velocity (Eq. 3.1 of the thesis), in any unit.
+    /// Test: water that moves with the wind does not foam, and water at rest in wind does, because the Weber number
+    /// uses the velocity relative to the wind (Eq. 3.1 of the thesis). This holds for its reduced and its full form.
     #[test]
     fn water_foams_by_its_speed_through_the_air() {
         let frame = csv();
@@ -385,8 +387,9 @@ mod tests {
         assert_eq!(of(1.5), None);
     }
 
-    /// Water that trembles weakly, flows as a whole or is slow does not foam. By speed, only water does whose velocity
-    /// differs from the flow, the median velocity of all particles, by at least [`ONSET`].
+    /// Test of foam by speed: water that trembles weakly, flows as a whole or is slower than 1 m/s does not foam.
+    /// Otherwise only particles foam whose velocity differs by at least [`ONSET`] from the common flow: the median
+    /// velocity of all particles if the water flows as a whole, else 0.
     #[test]
     fn air_is_not_drawn_in_by_calm_water() {
         let noise = |i: usize, seed: usize| ((i * 7919 + seed * 104_729) as f32).sin();
@@ -440,8 +443,8 @@ mod tests {
         );
     }
 
-    /// In each of ten frames a different 4 % of the particles is fast, less than a twentieth. Those that were fast
-    /// within a lifetime are more than three tenths.
+    /// Test of the limit [`MOST`]: in each of ten frames a different 4 % of the particles is fast, less than the
+    /// twentieth that may foam. The particles that were fast within a lifetime of foam are more than three tenths.
     #[test]
     fn no_more_than_three_tenths_foam_at_a_time() {
         let mut frames: Vec<Particles> = (0..10)

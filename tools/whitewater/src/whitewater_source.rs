@@ -79,8 +79,8 @@ fn kind_of(number: u32) -> usize {
     usize::try_from(number).ok().filter(|kind| *kind < KINDS).unwrap_or(0)
 }
 
-/// The radius of each particle is divided by a whole number from 1 to this one, chosen per particle. (Akinci et al.
-/// 2013, Sec. 2.1, have 5; with only five sizes single particles stand out.)
+/// Number of sizes of whitewater particles: the radius of each is divided by a whole number from 1 to this one,
+/// chosen per particle. (Akinci et al. 2013, Sec. 2.1, have 5; with only five sizes single particles stand out.)
 pub const VARIETY: u32 = 8;
 /// Mean thickness that one foam particle adds to a column, if its radius is the column's width: the area π of its
 /// disc, times the mean of its squared size (1 to 1 / [`VARIETY`]), times the mean of its profile 1 - x^2.25 over the
@@ -96,15 +96,15 @@ const SHARE: f32 = {
 /// Wanted opacity of a column with the mean number of particles. It is reached if they are spread evenly and the
 /// radius is within its limits; a few randomly placed particles leave gaps and hide less on average.
 const HIDDEN: f32 = 0.8;
-/// [`Sizes::half`] for few particles: the centre of a single particle, with a thickness of 1, then has an opacity of
-/// 1 / (1 + 0.12), like a drop of white water.
+/// Half-intensity thickness ([`Sizes::half`]) if a file has few whitewater particles. In the centre of a single
+/// particle the thickness is 1, so the opacity is 1 / (1 + 0.12), that of a drop of white water.
 const FEW: f32 = 0.12;
 /// Each particle is drawn as several copies if a column that holds any foam (or any spray) has on average fewer
 /// particles than the first number. The second number is the max number of copies of a particle, the third the max
 /// number of all drawn particles.
 const COPIES: (f32, u32, usize) = (100.0, 24, 3_000_000);
-/// Max distance of copies from their particle, in spacings, for foam, spray and bubbles. The vertical distance of
-/// foam is at most a third of its number here.
+/// Max distance of a copy from the particle that it copies, in spacings, for foam, spray and bubbles. A copy of foam
+/// is vertically at most a third of this distance away.
 const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
 /// Min and max radius in spacings. The search for shadows does not resolve smaller spheres, and larger ones are seen
 /// as single balls.
@@ -424,8 +424,9 @@ impl Part {
     }
 }
 
-/// Number of drawn particles for each particle of a file, from the sparser kind of foam and spray. `most` is the
-/// number of particles in the fullest frame.
+/// Number of particles drawn for each particle of a file. `columns` is the mean number per column of each kind; the
+/// sparser one of foam and spray decides. `most` is the number of particles in the fullest frame, which limits the
+/// copies.
 fn copies(columns: [Option<f32>; KINDS], most: usize) -> u32 {
     let (wanted, copies, all) = COPIES;
     let fewest = columns.into_iter().take(2).flatten().fold(f32::INFINITY, f32::min);
@@ -482,9 +483,9 @@ mod tests {
         power / (half + power)
     }
 
-    /// Opacity of the same patch of foam, 40 by 40 columns, made of different numbers of particles: 0.25 to 0.35 with
-    /// a thousand, [`HIDDEN`] with ten thousand to a million, more with ten million. With the library's radius and
-    /// half-intensity thickness it would be below 0.02 with ten thousand.
+    /// Test: the size and number of copies that are chosen give the same patch of foam, 40 by 40 columns, an opacity
+    /// of 0.25 to 0.35 if it has a thousand particles, [`HIDDEN`] with ten thousand to a million, more with ten
+    /// million. With the radius and half-intensity thickness of the paper ten thousand would give less than 0.02.
     #[test]
     fn ten_thousand_and_ten_million_read_as_foam() {
         let of = |n: f32, spacing: f32| {

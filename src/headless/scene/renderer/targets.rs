@@ -19,8 +19,9 @@ pub struct Targets {
 }
 
 impl Targets {
-    /// Created for each record, because the frame's views may change. The multisampled images of the slot's
-    /// previous record, which is complete, are reused if they fit.
+    /// Creates the framebuffers of a slot for one recorded frame; the next frame may have other image views.
+    /// `earlier`, the multisampled images of the slot's previous frame, which is complete, are reused if their size
+    /// fits.
     pub fn new(
         gpu: &Gpu,
         frame: &SceneFrame<'_>,

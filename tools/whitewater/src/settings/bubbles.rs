@@ -10,7 +10,8 @@ use super::table::{table, words};
 /// different blobs, number of bubbles in each. Each foam particle becomes a small cluster whose bubbles are seen one
 /// by one.
 const CROSSFADED: (u32, u32, u32) = (65_536, 32, 9);
-/// Opaque and outer radius of the core of such a cluster; little of it is opaque.
+/// Core of a blob that replaces a foam particle, in radii of the blob: the core is opaque up to the first radius and
+/// ends at the second, so little of it is opaque.
 const CLUSTER: [f32; 2] = [0.25, 0.9];
 
 table! {
@@ -62,8 +63,8 @@ words!(FresnelWord of FilmFresnel { Exact, Schlick, Source });
 words!(SpectrumWord of Spectrum { Three, Whole });
 
 impl BubbleTable {
-    /// The configuration of passes. Its number of blobs holds only with `crossfade`, where blobs replace whitewater
-    /// foam; otherwise the caller sets it.
+    /// Returns the configuration of the bubble passes. Its `max_blobs` is right only with `crossfade`, where blobs
+    /// replace whitewater foam; otherwise the caller sets `max_blobs` to the number of its blobs.
     pub fn config(&self) -> BubbleConfig {
         let mut standard = BubbleConfig::new(1);
         if self.crossfade.is_some() {
