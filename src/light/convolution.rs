@@ -2,7 +2,7 @@
 //! depth of their own with the map reconstruct the filtered result of the comparison from these images (Annen,
 //! Mertens, Bekaert, Seidel, Kautz, *Convolution Shadow Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
 //!
-//! Differences, and their reasons:
+//! Differences from that paper, and their reasons:
 //! - Depths are normalised between the nearest and the farthest texel of the map, which the GPU finds. So any
 //!   projection works, infinite ones too, and the transition from light to shadow is as short as the scene's depth
 //!   range allows. Empty texels count as behind everything. The series is periodic, so the normalised depths keep
@@ -38,16 +38,16 @@ use crate::water::settings::{ShadowFilter, Shadows};
 
 /// Side length, in texels of the shadow map, of the block that a workgroup reads when the pass finds the depth range.
 const SPAN_BLOCK: u32 = 128;
-/// Bytes of the span, which holds the least and the greatest depth of the map.
+/// Size in bytes of the buffer `span`, which holds the least and the greatest depth of the host's shadow map.
 const SPAN: u64 = 16;
-/// Format of a page before filtering, and after filtering along one axis. Every device can store and sample this
-/// format.
+/// Format of a page (the image of two Fourier terms) before filtering, and after filtering along one axis. Every
+/// device can store and sample this format.
 const PAGE: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
 /// Access by shading passes, and by the vertex shader of spray.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
-/// Last uses of the basis in a frame, for which the next frame waits: those of [`AFTER`], or a copy of the layer by
-/// the host.
+/// Last uses of the image `basis` in a frame, for which the next frame waits before it writes the image: sampling by
+/// shading passes ([`AFTER`]), or a copy by the host.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 /// Configuration of convolution shadow maps ([`Shadows::Convolution`]).
@@ -163,8 +163,9 @@ fn weights(terms: u32, settings: &ShadowFilter) -> impl Iterator<Item = f32> + u
     })
 }
 
-/// Half the width of the ramp from shadow to light: the distance from the step at which the steepened series first
-/// reaches 1, or its first maximum if it does not reach 1.
+/// Half the width of the ramp by which the Fourier series replaces the step from shadow to light, in normalised
+/// depths: the distance from the step at which the series, steepened by `settings.scale`, first reaches 1, or that of
+/// its first maximum if it does not reach 1.
 fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     const STEPS: u32 = 256;
     // The first maximum is not beyond this, for every damping in range.
@@ -348,8 +349,9 @@ mod tests {
         0.5 + settings.scale * sum
     }
 
-    /// With the default settings the reconstructed light is 1 from distance r to distance 1 − r of the step, where r
-    /// is half the width of the ramp, and 1 half a period. A larger `scale` makes the ramp shorter.
+    /// With the default settings the reconstructed light is 1 at all distances from the step between r and 1 − r,
+    /// where r is half the width of the ramp, and the series repeats after a distance of 2. A larger `scale` makes
+    /// the ramp shorter.
     #[test]
     fn the_ramp_ends_where_the_light_is_whole() {
         for terms in [4, 8, 16] {

@@ -10,17 +10,19 @@ pub const RADIUS_PER_SPACING: f32 = 0.656;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Splat {
-    /// Point sprites with fixed-function blending, and quads for sprites larger than the device's largest point.
+    /// Particles are drawn as point sprites with fixed-function blending; those larger than the device's largest
+    /// point are drawn as quads.
     Raster,
     /// A compute shader with atomics.
     Compute,
 }
 
-/// How pixels with water, foam or spray are shaded. Both paths give the same picture.
+/// How the pass `composite` shades the pixels with water, foam or spray: by a render pass or by a compute shader.
+/// Both give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
-    /// A render pass over the tiles that show water, foam, spray, whitewater particles or bubble foam. The output is
-    /// a colour attachment.
+    /// The pixels are shaded in a render pass over the tiles that show water, foam, spray, whitewater particles or
+    /// bubble foam. The output is a colour attachment.
     Raster,
     /// A compute shader over the same tiles. The output is a storage image.
     Compute,
@@ -55,18 +57,21 @@ crate::contract::with!(SurfaceNoiseSettings);
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShadowFilter {
-    /// Width of the box filter in texels of the host's map, [0, 256], default 3, which is the footprint of the filter
-    /// of [`Shadows::Map`]. It is never narrower than a texel of the library's own filtered image.
+    /// Width of the box filter of the shadow, in texels of the host's shadow map, [0, 256], default 3, which is the
+    /// footprint of the filter of [`Shadows::Map`]. The filter is never narrower than a texel of the image that the
+    /// pass `convolution` makes from this map.
     pub width: f32,
-    /// Damping α of the Fourier terms, [0, 2], default 1. Without damping (0) the visibility of the sun oscillates by
-    /// a twentieth (ringing) in lit and in shadowed areas. With more damping a shadow starts farther from its caster.
+    /// Damping α of the Fourier terms, [0, 2], default 1. Without damping (0) the reconstructed visibility of the sun
+    /// oscillates by a twentieth (ringing) in lit and in shadowed areas, unless `scale` is above 1.1, which clips
+    /// this. With more damping a shadow starts farther from its caster.
     pub damping: f32,
     /// Depth bias of the shadow, as a fraction of the depth over which the reconstructed visibility rises from one
     /// half to 1; [0, 1]. With 1, the default, a point that touches its occluder is lit. With 0 it is half in shadow,
     /// and shadows begin closer to their caster.
     pub offset: f32,
     /// Factor by which the reconstructed visibility is steepened around one half, [1, 4], default 1.25. The soft edge
-    /// of a shadow becomes narrower by the same factor. Values above 1.04 clip the remaining ringing.
+    /// of a shadow becomes narrower by the same factor. With the default damping, values above 1.04 clip the
+    /// remaining ringing.
     pub scale: f32,
 }
 
@@ -96,7 +101,8 @@ pub enum DebugView {
     BackWater,
     /// Adds foam.
     SurfaceFoam,
-    /// Adds the water in front of the foam, or all water where there is no foam.
+    /// Adds the water in front of the frontmost foam (all water where there is no foam). Reflections, highlights and
+    /// spray are still missing.
     FrontWater,
     /// Adds reflections, highlights and spray: the complete picture.
     #[default]
@@ -107,8 +113,9 @@ pub enum DebugView {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Rule {
-    /// The thesis' rule (Sec. 3.1): `r_w / (C d)` iterations, where r_w is a radius in the world and C d the width of
-    /// a pixel at depth d. Each iteration moves a pixel in proportion to the curvature of the surface.
+    /// The thesis' rule (Sec. 3.1): a pixel at depth d gets `r_w / (C d)` iterations, where r_w is a radius in the
+    /// world and the product `C d` is the width of the pixel in the world. Each iteration changes the pixel's depth
+    /// in proportion to the surface's curvature.
     Source,
     /// Mean curvature flow that smooths over the same width along the surface at any distance and slant.
     ConstantWidth,
@@ -120,11 +127,12 @@ pub enum Rule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Smoothing {
-    /// Raster passes. An occlusion query every fifth iteration stops the rest on the GPU.
+    /// One raster pass per iteration. In every fifth iteration an occlusion query counts the active pixels; if there
+    /// are none, the GPU skips the remaining iterations.
     Query(Gate),
     /// One dispatch per iteration, over the tiles that still have active pixels.
     Tiles,
-    /// Several iterations per dispatch in shared memory, over the tiles that have active pixels.
+    /// Each compute dispatch runs several iterations in shared memory, over the tiles that still have active pixels.
     Fused,
 }
 
@@ -322,8 +330,8 @@ pub struct Ellipsoids {
     /// d has the weight `1 − (d/reach)³`. The time of the pass `shape`, which fits them, grows with the cube of this
     /// radius.
     pub reach: f32,
-    /// Maximum ratio of the longest to the shortest half-axis, [1, 8], default 2.5 (the paper: 4). 1 gives
-    /// spheres.
+    /// Maximum ratio of the longest to the shortest half-axis of a particle's ellipsoid, [1, 8], default 2.5 (the
+    /// paper: 4). 1 gives spheres.
     pub ratio: f32,
     /// Sum of the neighbours' weights at which a particle becomes a complete ellipsoid, [0, 64], default 8. Below
     /// half of this sum it is a sphere, as small drops are (in the paper it is one up to 25 neighbours); in between
@@ -483,8 +491,8 @@ impl Medium {
         Self::Source { base: [0.306, 0.545, 0.957], falloff: [0.784 * k, 0.784 * k, 0.588 * k, k] }
     }
 
-    /// The medium with absorption and scattering multiplied by `share`, [0, ∞). 0.1 is a tenfold dilution, or a
-    /// scene ten times as large as the object it shows. Emission stays.
+    /// The medium with absorption and scattering (of [`Medium::Source`] its falloffs) multiplied by `share`, [0, ∞).
+    /// 0.1 is a tenfold dilution, or a scene ten times as large as the object it shows. Emission stays.
     pub fn thinned(self, share: f32) -> Self {
         let times = |k: [f32; 3]| k.map(|k| share * k);
         match self {
@@ -558,13 +566,14 @@ pub struct WeberSettings {
 pub const SURFACE_TENSION: f32 = 0.0728;
 
 impl WeberSettings {
-    /// The full Weber number `ρ v² l / σ` in SI units, for a particle spacing in metres.
+    /// The full Weber number `ρ v² l / σ` in SI units, with the particle `spacing` in metres as l. A particle foams
+    /// at and above the Weber number `threshold`.
     pub fn weber(spacing: f32, threshold: f32) -> Self {
         Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
     }
 
-    /// The full Weber number of water whose particle spacing and speeds are in scene units, with this number of scene
-    /// units per metre.
+    /// The full Weber number `ρ v² l / σ` of water whose `spacing` l and speeds v are in scene units. A metre has
+    /// `units_per_metre` scene units; densities are in kg/m³.
     pub fn weber_in(spacing: f32, units_per_metre: f32, threshold: f32) -> Self {
         let scale =
             spacing / (units_per_metre * units_per_metre * units_per_metre * SURFACE_TENSION);
@@ -625,11 +634,12 @@ pub struct SurfaceFoamSettings {
     /// softly over one more spacing. (With the thesis' 7 spacings drops of foam in front of other foam show as discs,
     /// because at each drop the layer starts at the drop and ends before the other foam.)
     pub front_depth: f32,
-    /// Speed at which a foam sprite is stretched to twice its width, spacings per second, (0, ∞), default 21.
+    /// Speed at and above which a foam sprite is twice as long, along its motion, as it is wide. Spacings per second,
+    /// (0, ∞), default 21.
     pub motion_threshold: f32,
     /// Strength of a noise that each sprite has on its own, as in the thesis, 0 (off, default) to 1. It fades out
-    /// where its cells are smaller than two texels of the thickness image. Either this or [`pattern`](Self::pattern)
-    /// has to be 0.
+    /// where its cells are smaller than two texels of the thickness image. Either this strength or
+    /// [`pattern`](Self::pattern) has to be 0.
     pub noise: f32,
     /// Speed at which [`noise`](Self::noise) changes: number of its cells that pass through a sprite per second of
     /// the particle's age, [0, 1e3], default 2.
@@ -951,18 +961,18 @@ impl SpraySettings {
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 #[non_exhaustive]
 pub struct SurfaceNoiseSettings {
-    /// Height of a noise value of 1, in drawn radii, [0, 16], default 0.336, 0 = flat. (The publication gives
-    /// this number as the weight of the derivatives, in a unit of its own.)
+    /// Height that a noise value of 1 adds to the water's surface, in drawn radii, [0, 16], default 0.336, 0 = flat.
+    /// (The publication gives this number as the weight of the noise's derivatives, in a unit of its own.)
     pub weight: f32,
     /// How fast a particle's noise fades with the particle's depth below the surface, [0, 64], default 2: by a factor
     /// of e per `drawn radius / falloff`.
     pub falloff: f32,
     /// Half-axis of a particle's noise in drawn radii, (0, 8], default 2.
     pub size: f32,
-    /// Noise cells per drawn radius, (0, 16], default 1: somewhat finer than the particles.
+    /// Number of cells of a particle's noise per drawn radius, (0, 16], default 1: somewhat finer than the particles.
     pub cells: f32,
-    /// Amount of the noise's foam per noise value of 1, where an amount of 1 or more is full foam, [0, 64], default
-    /// 0: no such foam.
+    /// Amount of the baseline's foam where the noise is 1 or −1; elsewhere the amount is proportional to the noise's
+    /// magnitude. An amount of 1 or more is full foam. [0, 64], default 0: no such foam.
     pub foam: f32,
     /// Albedo of that foam, linear RGB, 0 to 1, default grey 0.5.
     pub color: [f32; 3],
@@ -976,7 +986,8 @@ impl Default for SurfaceNoiseSettings {
 
 impl SurfaceNoiseSettings {
     #[cfg(feature = "diagnostics")]
-    /// The baseline, with its foam. The paper gives no foam strength; this value makes it visible.
+    /// The baseline's surface noise (van der Laan et al. 2009) with its foam. The paper gives no strength of this
+    /// foam; a strength `foam` of 1 makes it visible.
     pub const SOURCE: Self =
         Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 1.0, color: [0.5; 3] };
 
@@ -1022,7 +1033,8 @@ impl Default for SurfaceFoamSettings {
 mod tests {
     use super::*;
 
-    /// Integrates the kernel `√(1 − ρ²)·exp(−2ρ²)` over a disc by the midpoint rule in u = ρ².
+    /// The constant is right: the mean of the kernel `√(1 − ρ²)·exp(−2ρ²)` over its unit disc is computed by the
+    /// midpoint rule in u = ρ².
     #[test]
     fn a_sprite_of_the_source_holds_as_many_volumes() {
         let steps = 10_000_u32;
@@ -1040,9 +1052,10 @@ mod tests {
 
     /// Red, green and blue of the presets, nm.
     const WAVES: [f64; 3] = [610.0, 550.0, 465.0];
-    /// Absorption of pure water at these wavelengths, per metre (Pope and Fry 1997, Table 3).
+    /// Absorption of pure water at the three wavelengths `WAVES`, per metre (Pope and Fry 1997, Table 3).
     const WATER: [f64; 3] = [0.2644, 0.0565, 0.0101];
-    /// Absorption of chlorophyll at these wavelengths over that at 440 nm (Mobley 1994, Table 3.7).
+    /// Absorption of chlorophyll at the three wavelengths `WAVES`, divided by that at 440 nm (Mobley 1994, Table
+    /// 3.7).
     const CHLOROPHYLL: [f64; 3] = [0.252, 0.357, 0.8935];
 
     /// Scattering of water (Morel 1974), from its value at 400 nm.
@@ -1053,8 +1066,9 @@ mod tests {
     const FRESH: f64 = 0.00583;
     const SEA: f64 = 0.00758;
 
-    /// Absorption, and twice the backscattering, of water with this much chlorophyll (mg/m³) and dissolved matter
-    /// (per metre at 443 nm).
+    /// Absorption, and twice the backscattering, per metre at the wavelengths `WAVES`: of water with this much
+    /// `chlorophyll` (mg/m³) and with `dissolved` matter (its absorption per metre at 443 nm). `water`: scattering of
+    /// pure water at 400 nm.
     fn alive(chlorophyll: f64, dissolved: f64, water: f64) -> [[f64; 3]; 2] {
         let molecules = molecules(water);
         let absorption = [0, 1, 2].map(|i| {
@@ -1069,8 +1083,8 @@ mod tests {
         [absorption, scattering]
     }
 
-    /// Absorption, and twice the backscattering, of water with this many g/m³ of silt or flour, which absorbs and
-    /// scatters this many m²/g.
+    /// Absorption, and twice the backscattering, per metre at the wavelengths `WAVES`: of water with `grams` g/m³ of
+    /// silt or rock flour, of which a gram absorbs `absorbs` m² (at 443 nm) and scatters `scatters` m².
     fn silted(grams: f64, [absorbs, scatters]: [f64; 2], dissolved: f64) -> [[f64; 3]; 2] {
         let molecules = molecules(FRESH);
         let absorption = [0, 1, 2].map(|i| {
@@ -1139,8 +1153,8 @@ mod tests {
         assert!((luminance * paper / 6770.0 - 1.0).abs() < 0.01, "{luminance}");
     }
 
-    /// Jerlov's table gives the attenuation of sunlight with depth: absorption plus backscattering, over the mean
-    /// cosine of a high sun under water (Gordon 1989).
+    /// The preset `OCEAN` attenuates sunlight with depth as Jerlov's table says, within a fifth. The attenuation is
+    /// absorption plus backscattering, divided by the mean cosine of a high sun's light under water (Gordon 1989).
     #[test]
     fn the_ocean_is_jerlovs() {
         let table = [
