@@ -25,11 +25,11 @@
 //!
 //! `tools/embed` in the repository is a complete small host.
 //!
-//! State that outlives a frame is kept in separate objects, which several views can share. The first three are
-//! updated once per simulation step:
+//! State that outlives a frame is kept in separate objects, which several views can share. The first three of this
+//! list are updated once per simulation step:
 //!
 //! - [`SurfaceFoamState`] holds amount and age of the foam on each water particle
-//! ([`SurfaceFoamState::record_step`]).
+//!   ([`SurfaceFoamState::record_step`]).
 //! - [`Generator`] emits, moves and ages whitewater: spray, foam and bubbles that are particles of their own.
 //! - [`bubbles::BlobSimulation`] simulates blobs of bubble foam.
 //! - [`shore::ShoreMap`] holds the distance to the shore. It is updated only when, and where, the land has changed.

@@ -73,8 +73,8 @@ Seen blob_seen(Blob blob, WorldRay world) {
     return seen;
 }
 
-// Corrects an approximate hit: returns the layer with the bubble that is exactly at the pixel, and sets `depth` to
-// that bubble's exact depth.
+// Corrects an approximate hit, a `layer` (blob and bubble) at `depth`: returns the layer with the bubble of this blob
+// that the pixel's ray `world` hits, and sets `depth` to that bubble's exact depth.
 uint exact_layer(Blob blob, WorldRay world, uint layer, inout float depth) {
     vec2 span;
     in_blob(blob, world, span);

@@ -6,12 +6,12 @@
 // Needs frame.glsl, surface.glsl, march.glsl, `Sheet` and `fresnel` of shade.glsl, and `scene_at`. Reads: thickness,
 // scene colour and depth, environment.
 
-// Weight of the light from the directions into which the far surface bends rays. Water in the air has ripples finer
-// than its particles, so the other half of the light comes straight through. With weight 1, every crown of a splash
-// and every drop would have saturated blots.
+// Weight of the light from the directions into which the far surface bends rays; the rest of the light comes straight
+// through, because water in the air has ripples finer than its particles. With weight 1, every crown of a splash and
+// every drop would have saturated blots.
 const float BENT = 0.5;
-// Factor on BENT for a sheet (layer of water) in front of more water, because many bent rays hit the water behind
-// instead of the sky.
+// Factor on BENT (the weight of bent light) for a sheet, a layer of water, in front of more water, because many bent
+// rays hit the water behind instead of the sky.
 const float BENT_BEFORE = 0.5;
 // Angle by which a sheet in front of more water deflects a ray, divided by the slope of the sheet's thickness. For a
 // prism this ratio is n - 1 = 0.33. It is smaller here because most of the slope is noise of the particles.
@@ -76,13 +76,15 @@ vec3 into_water(Sheet sheet) {
 // depth of the scene straight behind the pixel. While no length behind the scene is known, each step at most doubles
 // the length. Objects in front of the water are ignored.
 const int BED_LOOKS = 5;
-// Part of the interval between both lengths that each step leaves at either end.
+// Part of the interval between the two ray lengths: false position keeps each new length at least this far from both
+// of them.
 const float BED_ENDS = 0.1;
 vec2 bed_offset(Sheet sheet, vec2 pixel) {
     vec3 inside = into_water(sheet);
     float z = -sheet.at.z;
     float along = max(-inside.z, FLATTEST);
-    // Length of the ray, and how much deeper than the ray's end the scene is there.
+    // `before` and `beyond` each hold the length of the refracted ray, and by how much the scene at the ray's end is
+    // deeper than this end.
     vec2 before = vec2(0.0, max(met_depth(pixel) - z, 0.0));
     vec2 beyond = vec2(-1.0);
     float far = before.y / along;

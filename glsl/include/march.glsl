@@ -58,12 +58,13 @@ vec2 on_plane(vec3 a, vec3 b) {
     float closes = way.z - dot(rise, way.xy);
     float most = MOST_MOVED * size.y * abs(closes);
     vec2 moved = way.xy * (gap * sign(closes));
-    // Without a division by 0: `closes` is 0 for a ray along the plane.
+    // The max avoids a division by 0: `closes` is 0 for a ray parallel to the plane.
     float far = length(moved);
     return b.xy + moved * (most < far ? MOST_MOVED * size.y / far : 1.0 / max(abs(closes), 1.0e-30));
 }
 
-// Marches from a point before the scene along a unit vector; with 0 steps there is no hit.
+// Marches from the eye-space point `from`, in front of the scene, along a unit vector; returns the pixel where the
+// ray meets the scene, and share 0 if it does not. With 0 steps there is no hit.
 Met march(vec3 from, vec3 along, int steps) {
     float reach = MARCH_FAR * -from.z;
     reach = min(reach, along.z > 0.0 ? 0.75 * -from.z / along.z : reach);
@@ -112,8 +113,8 @@ Met march(vec3 from, vec3 along, int steps) {
     float scene = 1.0 / (a.z + way.z * high) - high_gap;
     float deep = abs(1.0 / (a.z + way.z * high) - 1.0 / (a.z + way.z * low));
     met = met && high_gap <= MARCH_STEEP * deep + MARCH_DEEP * scene;
-    // If there is no scene at the point before the hit, or if the first step hits, there is no secant: take the hit
-    // itself.
+    // The secant needs a sampled point of the ray in front of the scene. If there is none (`low` is still 0), or if
+    // the scene's depth is empty there, take the hit itself.
     float part = low > 0.0 && low_gap > -0.5 * EMPTY ? low_gap / (low_gap - high_gap) : 1.0;
     Met result;
     result.at = a.xy + way.xy * mix(low, high, part);

@@ -2,10 +2,10 @@
 // block. Horizontal positions p are in scene units along the two level axes of the world. Needs frame.glsl.
 // Reads: the block of shoreline and contact foam.
 
-// 0: the usual case: the water's surface is level, the shore coordinate v comes from a map of distances or a strip,
-// there are at most two look-ups in the noise and two in the foam texture, and the scene's depth has the frame's
-// size. 1: the general case. The two are separate pipelines, because a CPU driver executes both sides of branches and
-// evaluates loop counts one lane at a time.
+// GENERAL is 0 in the usual case: the water's surface is level, the shore coordinate v comes from a map of distances
+// or a strip, there are at most two look-ups in the noise and two in the foam texture, and the scene's depth has the
+// frame's size. It is 1 in the general case. The two are separate pipelines, because a CPU driver executes both sides
+// of branches and evaluates loop counts one lane at a time.
 layout(constant_id = 3) const uint GENERAL = 1;
 const int LOOKS = GENERAL == 1u ? 6 : 2;
 const int LAYERS = GENERAL == 1u ? 4 : 2;
@@ -33,7 +33,8 @@ layout(set = 0, binding = 1, std140) uniform ShoreFrame {
     vec4 mask_part;     // its first texel; opacity on the host's surface and on the particles'
 } shore;
 
-// A point of the water's surface at a pixel, with its derivatives per pixel.
+// The point of the host's water surface that a pixel shows, with its derivatives per pixel; p is its horizontal
+// position.
 struct Water {
     float z;     // eye depth; 0 or less without a surface
     vec3 ray;    // eye space, at depth 1
@@ -70,7 +71,8 @@ float scene_of(float device_depth) {
     return device_depth == frame.before_lens.w ? 0.0 : eye_depth(device_depth);
 }
 
-// Whether the water's surface at depth z is visible in front of the solid at depth `scene` (0 or less: no solid).
+// Whether the water's surface at eye depth z is visible: unless a solid, at eye depth `scene` (0 or less: no solid),
+// is in front of it by more than a margin (surface_part.w).
 bool seen_before(float z, float scene) {
     return z > 0.0 && z < EMPTY && !(scene > 0.0 && scene + shore.surface_part.w < z);
 }

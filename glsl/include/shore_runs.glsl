@@ -1,4 +1,5 @@
-// A run of adjacent tiles of 8x8 pixels in a row, in one word: the first tile, and the number of tiles.
+// A run of adjacent tiles of 8x8 pixels in a row, in one word: the first tile (low 28 bits), and the number of tiles
+// minus 1.
 
 const uint LONGEST = 16u;
 

@@ -43,16 +43,16 @@ Noises noises_at(vec2 p, float width) {
     return noises;
 }
 
-// The mix of waves and web minus the threshold, its change per pixel to the right and down, and the variance of the
-// detail that is too fine for the pixel.
+// Shoreline foam at a point: the mix of waves and foam texture minus the threshold (foam where it is positive), its
+// change per pixel to the right and down, and the variance of the detail that is too fine for the pixel.
 struct Mixed {
     float over;
     vec2 change;
     float variance;
 };
 
-// Values shared by the pixels around a point. The noises change little from one pixel to the next, so their change is
-// neglected.
+// Values of shoreline foam that the pixels around a point share. The noises change little from one pixel to the next,
+// so their change is neglected.
 struct Place {
     vec4 noise;     // sums of the noises
     vec2 moved;     // p, displaced by them
@@ -76,7 +76,8 @@ Place place_at(vec2 p, mat2 across, vec2 dv) {
     return Place(noises.sum, p + noises.moved, across, dv, kept, levels);
 }
 
-// The mix of waves and web at an offset in pixels from a point.
+// Evaluates shoreline foam, the mix of waves and foam texture, at an offset in pixels from the point of `place`; `v`
+// is the shore coordinate there.
 Mixed mixed_at(Place place, float v, vec2 off) {
     vec4 noise = place.noise;
     float frequency = shore.waves.x + noise.x;

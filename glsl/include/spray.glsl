@@ -6,8 +6,8 @@ struct SpraySprite {
     uvec4 shape;   // of its droplets and mist, in the world (axes.glsl); sum of its neighbours' weights
 };
 
-// Half-axis of the smallest droplet relative to the mean one, and how much larger the largest is, before both are
-// divided by the root of torn_of.
+// Half-axes of droplets relative to the mean one: that of the smallest, and that of the largest minus that of the
+// smallest, both before they are divided by the square root of torn_of.
 const float SMALLEST_DROPLET = 0.2;
 const float DROPLET_RANGE = 2.135;
 // Half-axis of the largest droplet relative to the mean one. A particle that is only spray has it, because there

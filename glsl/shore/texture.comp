@@ -27,8 +27,8 @@ vec4 before_at(uvec2 at) {
     return vec4(unpackHalf2x16(halves[word]), unpackHalf2x16(halves[word + 1u]));
 }
 
-// The host's image at a texel of this level: bilinear, or, if the image has more texels, the mean over those that the
-// texel covers. The image repeats.
+// Samples the host's image at a texel of this mip level: bilinear, or, if the image has more texels than the level,
+// the mean over those that the texel covers. The image repeats.
 float host_at(ivec2 at) {
     vec2 step = push.part.zw / float(push.size);
     ivec2 taps = max(ivec2(ceil(step)), ivec2(1));

@@ -19,8 +19,8 @@ layout(local_size_x = 64) in;
 #include "whitewater_push.glsl"
 #include "whitewater_streams.glsl"
 
-// The words of whitewater_words.glsl. Reads and atomics use one declaration, because a driver may assume that two
-// declarations are different memory.
+// A pixel's words of whitewater_words.glsl as a struct. Plain reads and atomics use this one declaration of the
+// buffer, because a driver may assume that two declarations are different memory.
 struct Pixel {
     uint64_t front; // depth of the frontmost in the high word, its attributes in the low word
     uint scene;

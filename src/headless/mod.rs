@@ -121,7 +121,8 @@ pub struct Headless {
     active_samples: Option<(vk::Buffer, u32)>,
     bubble_words: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
-    /// If the environment's picture contains the sun: the environment without the sun, which lights the scene.
+    /// The environment without the sun, which lights the scene; set if the host gives such a picture beside one that
+    /// contains the sun.
     without_sun: Option<Environment>,
     context: Context,
     device: Device,
@@ -262,7 +263,7 @@ impl Headless {
         self.run_parts(|this, cmd| record(this, cmd).map(|()| cmd))
     }
 
-    /// Times of the last step of a kind, pass by pass; empty before the first.
+    /// GPU times of the last step of a kind of simulation, pass by pass; empty before the first step.
     pub fn step_timings(&mut self, which: Stepped) -> Vec<Timing> {
         let slot = Slot(0);
         let times = match which {

@@ -167,7 +167,7 @@ impl Headless {
         result
     }
 
-    /// Time of the last step of the map in nanoseconds; `None` before the first.
+    /// GPU time of the last step of the map of shore distances in nanoseconds; `None` before the first.
     pub fn shore_map_time(&mut self) -> Option<f64> {
         let (map, _) = self.shores.map.as_mut()?;
         map.timings(Slot(0)).first().map(|timing| timing.nanoseconds)

@@ -36,7 +36,8 @@ use crate::gpu::target::Target;
 /// Bytes of a sprite.
 const SPRITE: u64 = 16;
 
-/// Last uses in a frame: by `composite`, or the host's copy of the layer.
+/// Last uses of the noise image in a frame, for which the next frame waits: by `composite`, or the host's copy of the
+/// layer.
 const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ);
 
 #[repr(C)]
@@ -120,8 +121,8 @@ impl Noise {
         &self.target.image
     }
 
-    /// `list` is the list of `cull`, whose counts are read. `depth` is the water's depth, sampled by fragment
-    /// shaders.
+    /// Records the pass for the particles in `list`, the list of pass `cull`, whose counts are read. `depth` is the
+    /// image of the water's depth, which fragment shaders sample.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -29,8 +29,8 @@ pub(super) struct Segment<'a> {
 pub(super) enum Stored {
     /// Text; other values may follow the last one.
     Words,
-    /// Text of an XML element that holds these values only. Errors are reported at the element: its byte
-    /// offset and its line.
+    /// Text of an XML element that has no other values than this segment's. Its byte offset and its line are for
+    /// error messages.
     OwnWords(u64, Place),
     /// Binary, with the byte offset at which errors are reported.
     Bytes(Encoding, u64),

@@ -27,7 +27,7 @@ pub(super) fn beside(folder: &Path, file: &str) -> PathBuf {
     if file.contains('\\') && !path.exists() { folder.join(file.replace('\\', "/")) } else { path }
 }
 
-/// Text of a list with one of these extensions; `None` for any other file.
+/// Returns the text of a short file whose name has one of the extensions; `None` for any other file.
 pub(super) fn text(path: &Path, extensions: &[&str]) -> Option<String> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
     let short = std::fs::metadata(path).is_ok_and(|meta| meta.len() <= LONGEST);
@@ -130,7 +130,7 @@ pub(super) fn lists(file: &Path) -> Option<PathBuf> {
 /// A file, and its time if the list has it.
 pub(super) type Timed = (PathBuf, Option<f64>);
 
-/// The frames listed in a file, with their times; `None` for any other file.
+/// Returns the frames that a PVD or `.series` file lists, with their times; `None` for a file of another kind.
 ///
 /// # Errors
 /// A description of the expected form.

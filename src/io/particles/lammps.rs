@@ -17,7 +17,7 @@ use super::table::Table;
 use super::text::Text;
 use super::xyz::{self, Basis};
 
-/// Beginnings of a dump. A unit or a time may precede the step number.
+/// Byte strings with one of which a dump begins. A unit or a time may precede the step number.
 pub(super) const STARTS: [&[u8]; 3] = [b"ITEM: TIMESTEP", b"ITEM: UNITS", b"ITEM: TIME"];
 
 /// Max number of lines before the atoms.
@@ -139,9 +139,9 @@ fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadE
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Renames one column of each axis to the axis (`x`): the position as it is (`x`), else without the box's periods
-/// (`xu`), else scaled (`xs`), else scaled and without the periods (`xsu`). Returns the axes that are scaled, with
-/// the names of their columns in the file.
+/// Renames one column of each axis to the axis (`x`): the position as it is (`x`), else unwrapped, that is, not
+/// wrapped into the periodic box (`xu`), else scaled (`xs`), else scaled and unwrapped (`xsu`). Returns the axes that
+/// are scaled, with the names of their columns in the file.
 fn choose(names: &mut [String]) -> Vec<(usize, String)> {
     let mut scaled = Vec::new();
     for (i, axis) in AXES.into_iter().enumerate() {
@@ -175,8 +175,8 @@ enum Kind {
     None,
     /// Each line has both ends of a side.
     Straight,
-    /// Each line has both ends, along an axis, of the upright box that encloses the tilted one, and a tilt: xy,
-    /// xz, yz.
+    /// Tilted box: each of the three lines has both ends of the upright box that encloses it, along one axis, and
+    /// then a tilt: xy, xz, yz.
     Tilted,
     /// Each line has an edge, and a coordinate of the origin.
     General,

@@ -132,7 +132,8 @@ pub struct RenderArgs {
     /// Orbit the camera once around its target, in this many frames or seconds of the film (4s) [default: 96
     /// frames for one file; the drawn frames for a sequence]
     ///
-    /// A single file is drawn once for each frame of the orbit, numbered from 1. A sequence plays during the orbit.
+    /// With --turntable a single file is drawn once for each frame of the orbit; these are numbered from 1. A
+    /// sequence plays during the orbit.
     #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
     pub turntable: Option<Turntable>,
     /// Particle radius of the solver, half the rest spacing, in metres (after --unit or --scale), or the name of the
@@ -254,7 +255,8 @@ pub struct DrawArgs {
     /// File to write: .exr (linear light, all layers), .png, or .mp4 (a film of all frames, H.264, at --fps);
     /// may be given twice
     ///
-    /// In the file names of a sequence, the frame number replaces %04d, or is put before the extension.
+    /// In the output names of a sequence, the frame number replaces %04d; in a name without it, the number is put
+    /// before the extension.
     #[arg(short, long = "output", required = true, value_name = "OUT")]
     pub outputs: Vec<PathBuf>,
     /// Size in pixels
@@ -262,8 +264,8 @@ pub struct DrawArgs {
     pub size: (u32, u32),
     /// Render at N times the width and height and average: 1, 2 or 4 [default: 2, or 1 if --samples applies]
     ///
-    /// It smooths outlines, drops and the refraction of fine ripples. --timings measures the frame at the larger
-    /// size.
+    /// A larger render smooths outlines, drops and the refraction of fine ripples. --timings measures the frame at
+    /// the larger size.
     #[arg(long, value_name = "N", value_parser = times_as_large)]
     pub supersample: Option<u32>,
     /// Motion blur: exposure time in seconds, centred on the frame, such as 1/50 or 0.02; 0 for none [default:
@@ -357,9 +359,12 @@ pub struct DrawArgs {
     /// Surface foam: auto, none, or a Weber number as threshold [default: auto]
     ///
     /// 'auto' needs velocities. Foam forms where the water traps air, that is, where neighbouring particles move
-    /// towards each other, in sequences also where it is fast: on at most 5 % of the particles of a frame, and on none
-    /// in water that rests, flows or falls as a whole or is slower than 1 m/s. In a sequence at most 30 % of the particles carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed
-    /// gives. If particles have ids, foam forms and decays over time; earlier frames are read for that.
+    /// towards each other, and in sequences also where it is fast: on at most 5 % of the particles of the up to 16
+    /// frames that are read to find the threshold, and on none in water that rests, flows or falls as a whole or is
+    /// slower than 1 m/s. If
+    /// particles have ids, at most 30 % of the particles of such a frame carry foam at a time. A number for WHEN is
+    /// the threshold of the Weber number that each particle's own speed gives. If particles have ids, foam forms and
+    /// decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,
     /// The former name of --surface-foam
@@ -502,8 +507,8 @@ pub struct CompareArgs {
 pub struct PatternArgs {
     /// Picture whose white areas are foam: .png, .exr or .hdr; or web:SEED or noise:SEED for a built-in texture
     ///
-    /// Its luminance decides what is white; transparent pixels are no foam. The texture can be repeated without
-    /// seams.
+    /// A pixel of the picture is white by its luminance; transparent pixels are no foam. The texture that is written
+    /// can be repeated without seams.
     #[arg(value_name = "IN|web:SEED|noise:SEED", value_parser = crate::pattern::named)]
     pub input: Source,
     /// Texture to write: .png (16-bit grey, linear) or .exr (32-bit float, channel Y)
@@ -512,8 +517,8 @@ pub struct PatternArgs {
     /// .exr and from 0 to 1 in a .png.
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Distance from the lines at which the value reaches 0, texels [default: the largest distance in the
-    /// picture]
+    /// Distance from the lines of foam at which the texture's value has fallen to 0, texels [default: the largest
+    /// distance in the picture]
     #[arg(long, value_name = "TEXELS", value_parser = positive)]
     pub reach: Option<f32>,
     /// Black areas are foam

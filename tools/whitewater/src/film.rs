@@ -15,8 +15,8 @@ use openh264::formats::YUVBuffer;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::output;
 
-/// Max number of pixels along the longer edge and along the shorter one: the encoder's limit, level
-/// 5.2.
+/// Max number of pixels of a film along its longer edge and along its shorter edge: the limit of the H.264 encoder,
+/// level 5.2.
 const MOST: (u32, u32) = (3840, 2160);
 /// Min quantizer, 0 (lossless) to 51; a step of 6 doubles the error.
 const QUANTIZER: u8 = 18;

@@ -211,7 +211,7 @@ fn patterns(names: &[String]) -> BTreeMap<String, usize> {
     patterns
 }
 
-/// Range of the last number with a decimal point or exponent in a name, before the extension.
+/// Byte range of the last number with a decimal point or exponent in a file name, before the extension.
 fn time(name: &str) -> Option<Range<usize>> {
     let digit = |at: usize| name.as_bytes().get(at).is_some_and(u8::is_ascii_digit);
     let run = |from: usize| (from..name.len()).find(|at| !digit(*at)).unwrap_or(name.len());
@@ -307,7 +307,7 @@ fn without_ranks(name: &str) -> String {
     out + rest
 }
 
-/// Advice for a file that this program does not read but can be converted.
+/// Returns advice on how to convert a file that this program does not read; `None` if it has none.
 pub fn unread(name: &str) -> Option<&'static str> {
     let name = name.to_lowercase();
     let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);

@@ -34,7 +34,7 @@ const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
 const MOST_RATE: f64 = 4000.0;
 /// Limits while the table's are unset.
 const ANY: PotentialRange = PotentialRange { min: 0.0, max: 1.0 };
-/// How far spray may fly beyond the water, as a part of the water's width.
+/// How far spray may fly beyond the water on each horizontal axis, as a part of the water's width on this axis.
 const ASIDE: f32 = 0.1;
 
 /// Emission of whitewater, and the probed frames from which its settings are found.
@@ -51,8 +51,8 @@ pub struct Generate {
     columns: [Option<f32>; 3],
 }
 
-/// Limits of trapped air, wave crests and energy, from the particles' potentials. `fall` is gravity times spacing,
-/// half the squared speed after a fall through a spacing.
+/// Finds the limits between which emission by trapped air, wave crests and energy rises, from the particles'
+/// potentials. `fall` is gravity times spacing, half the squared speed after a fall through a spacing.
 fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [PotentialRange; 3] {
     let floors = [FLOORS[0] * fall.sqrt(), FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall];
     [0, 1, 2].map(|which| {
@@ -63,8 +63,8 @@ fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [PotentialRange; 3] {
 }
 
 impl Generate {
-    /// `bounds` are those of the water in the probed frames, `seconds` the duration of the
-    /// sequence, if there is one. Fails if a value of the table is out of range.
+    /// Prepares the emission. `bounds` are those of the water in the probed frames `probes`, `seconds` is the
+    /// duration of the sequence, if there is one. Fails if a value of `table` is out of range.
     pub fn new(
         table: GenerateTable,
         spacing: f32,
@@ -100,7 +100,8 @@ impl Generate {
         self.probes.iter().map(|frame| frame.positions.len()).max().unwrap_or(0)
     }
 
-    /// The settings. The first call finds them from the probed frames and also returns a message.
+    /// Returns the settings of the emission. The first call finds them from the probed frames, and also returns a
+    /// message that says what was found.
     pub fn settings(
         &mut self,
         headless: &mut Headless,
@@ -146,8 +147,8 @@ impl Generate {
         ))
     }
 
-    /// Mean number of whitewater particles of each kind in a column that holds any, if each probed frame emits by
-    /// itself. In a sequence there are about as many.
+    /// Returns the mean number of whitewater particles of each kind in a vertical column that holds any of the kind,
+    /// if each probed frame emits as a frame of its own. In a sequence a column has about as many.
     fn count(
         &self,
         headless: &mut Headless,

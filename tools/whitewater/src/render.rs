@@ -326,9 +326,8 @@ impl Warnings {
     }
 }
 
-/// Runs the foam simulation over the frames before `frame` that it has not reached yet, from the start of the
-/// sequence, so that the result does not depend on which range of frames is drawn. Frames that cannot be read are
-/// skipped.
+/// Runs the foam simulation over all frames of the sequence that are before `frame` and that it has not simulated
+/// yet, so that the result does not depend on which range of frames is drawn. Frames that cannot be read are skipped.
 fn remember(
     reader: &mut Reader<'_>,
     session: &mut Session<'_>,

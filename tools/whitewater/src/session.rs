@@ -292,8 +292,8 @@ impl<'a> Session<'a> {
     }
 
     /// Draws the frames of a scene that has no particles. If there are several frames, those whose output files all
-    /// exist are skipped unless `--overwrite` is given. In the progress line of a drawn frame, `word` stands before
-    /// the time.
+    /// exist are skipped unless `--overwrite` is given. For each drawn frame the progress line shows `word`, then the
+    /// seconds it took.
     pub fn frames_without_particles(
         &mut self,
         frames: &[u64],

@@ -38,9 +38,9 @@ const STIRRED: f64 = 0.001;
 /// deviation of the particles' velocities from it. Foam by speed then ignores the median velocity.
 const UNIFORM: f32 = 2.0;
 
-/// Settings of foam formation for frames of a sequence and their times in seconds; `None` if no water foams or
-/// velocities are missing. A threshold does not transfer from one simulation to another, so if neither `wanted` nor the
-/// table sets one, it is found from the frames.
+/// Finds the settings of foam formation from some frames of a sequence and their times in seconds; `None` if no water
+/// foams or velocities are missing. A threshold does not transfer from one simulation to another, so if neither
+/// `wanted` (--surface-foam) nor `table` (the settings file) sets one, it is found from the frames.
 pub fn settings(
     wanted: Foaming,
     (table, by): (&SurfaceFoamTable, FoamBy),
@@ -103,7 +103,7 @@ pub fn settings(
 #[derive(Clone, Copy, Debug)]
 struct Flow {
     mean: Vec3,
-    /// Deviation from the mean velocity: the median, and the quantile at 1 - [`STIRRED`].
+    /// Distance of the particles' velocities from `mean`: its median, and as `fast` its quantile at 1 - [`STIRRED`].
     deviation: f32,
     fast: f32,
 }
@@ -130,9 +130,10 @@ impl Flow {
     }
 }
 
-/// Substitute for the velocities, if foam is driven by trapped air: vectors whose length is the speed at which air is
-/// trapped. Of two independent causes the squares add up: the approach of neighbours, and the eddies that particles do
-/// not resolve, whose speed is `turbulence` times that of the particle relative to the frame's mean velocity.
+/// Returns substitutes for the velocities, if foam is driven by trapped air: for each particle a vector whose length
+/// is the speed at which air is trapped. This is √(a² + e²), with a the speed at which neighbours approach, and e the
+/// speed of the eddies that particles do not resolve: `turbulence` times the particle's speed relative to the frame's
+/// mean velocity.
 pub fn drive(particles: &Particles, spacing: f32, turbulence: f32) -> Option<Vec<[f32; 3]>> {
     let velocities = particles.velocities.as_ref()?;
     // Unlike the median, the mean does not jump from frame to frame where two bodies of water collide.
@@ -160,8 +161,9 @@ pub fn quantile(mut numbers: Vec<f32>, share: f64) -> Option<f32> {
     (at < numbers.len()).then(|| *numbers.select_nth_unstable_by(at, f32::total_cmp).1)
 }
 
-/// The threshold at which no frame has more than [`MOST`] of its particles with foam, that is, above the threshold
-/// within the lifetime of foam; `None` without ids. It is based on the given frames.
+/// Returns the Weber number as threshold at which in none of the given frames more than [`MOST`] of the particles
+/// carry foam, that is, have exceeded it in this frame or in one less than foam's lifetime earlier; `None` without
+/// ids.
 fn of_lifetimes(
     frames: &[Particles],
     seconds: &[f32],
@@ -202,7 +204,8 @@ fn numbers(frame: &Particles, foam: &WeberSettings, spray: f32) -> Vec<(usize, f
         .collect()
 }
 
-/// Seconds between two frames: the median, over particles with the same id, of displacement over speed.
+/// Estimates the seconds between two frames: the median, over particles with the same id, of the displacement along
+/// the particle's mean velocity, divided by its mean speed.
 pub fn seconds(first: &Particles, second: &Particles) -> Option<f32> {
     let (ids, velocities) = (first.ids.as_ref()?, first.velocities.as_ref()?);
     let later = second.ids.as_ref()?.iter().zip(&second.positions);

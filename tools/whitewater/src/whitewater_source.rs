@@ -19,7 +19,8 @@ use crate::generate::Generate;
 use crate::placing::Placing;
 use crate::settings::SettingsFile;
 
-/// Number of probed frames, from which the longest lifetime and the particles' density are found.
+/// Number of probed whitewater frames, from which the longest lifetime and the number of particles per column are
+/// found.
 const PROBES: usize = 16;
 
 /// Source of the whitewater particles.
@@ -99,15 +100,15 @@ const HIDDEN: f32 = 0.8;
 /// Half-intensity thickness ([`Sizes::half`]) if a file has few whitewater particles. In the centre of a single
 /// particle the thickness is 1, so the opacity is 1 / (1 + 0.12), that of a drop of white water.
 const FEW: f32 = 0.12;
-/// Each particle is drawn as several copies if a column that holds any foam (or any spray) has on average fewer
-/// particles than the first number. The second number is the max number of copies of a particle, the third the max
-/// number of all drawn particles.
+/// Each whitewater particle is drawn as several copies if a column that holds any foam (or any spray) has on average
+/// fewer particles than the first number here. The second is the max number of copies of a particle, the third the
+/// max number of all drawn particles.
 const COPIES: (f32, u32, usize) = (100.0, 24, 3_000_000);
 /// Max distance of a copy from the particle that it copies, in spacings, for foam, spray and bubbles. A copy of foam
 /// is vertically at most a third of this distance away.
 const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
-/// Min and max radius in spacings. The search for shadows does not resolve smaller spheres, and larger ones are seen
-/// as single balls.
+/// Min and max radius of a whitewater particle, in spacings of the water. The search for shadows does not resolve
+/// smaller spheres, and larger ones are seen as single balls.
 const RADII: [f32; 2] = [0.1, 0.14];
 
 /// Size and opacity of whitewater particles. For the same splash a file may hold ten thousand or ten million
@@ -216,7 +217,8 @@ impl Files {
         Ok(Some(files))
     }
 
-    /// Reads some frames of the whole sequence, so that the results do not depend on which range of frames is drawn.
+    /// Reads at most [`PROBES`] frames, spread over the whole sequence, so that lifetime and density that are found
+    /// do not depend on which range of frames is drawn.
     fn look(&mut self, spacing: f32) {
         let step = self.frames.len().div_ceil(PROBES).max(1);
         let (mut longest, mut columns, mut here) = (None, Columns::default(), 0);
@@ -333,7 +335,8 @@ impl Reading {
         self.files.iter().map(|(parts, _)| parts.total() * copies).sum()
     }
 
-    /// Reads the particles and uploads them. They stay on the device until the next upload.
+    /// Reads the frame's whitewater particles from its files and uploads them. They stay on the device until the next
+    /// upload.
     pub fn upload(self, headless: &mut Headless) -> Outcome<()> {
         let mut upload = headless.whitewater_parts(self.total())?;
         let mut first = 0;
@@ -477,7 +480,7 @@ mod tests {
         }
     }
 
-    /// Opacity of a column of `n` foam particles (Akinci et al. 2013, Sec. 2.3).
+    /// Returns the opacity, 0 to 1, of a column of `n` foam particles (Akinci et al. 2013, Sec. 2.3).
     fn hidden(n: f32, radius: f32, half: f32) -> f32 {
         let power = (SHARE * n * radius * radius).powf(1.25);
         power / (half + power)
