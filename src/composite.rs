@@ -1,10 +1,10 @@
 //! Pass `composite`: combines the layers of all techniques and writes the output. (The only other pass that writes it
 //! is `lit`.)
 //!
-//! It shades only the screen tiles with water, foam, spray, whitewater particles or bubble foam, and in them only
-//! pixels that show one of these. Two paths shade alike: a render pass that draws one instance per tile, and a
-//! compute shader that stores to the output. It follows the thesis, Sec. 3.2.3 and 4.9; glsl/include/shade.glsl
-//! states the differences.
+//! Pass `composite` shades only the screen tiles with water, foam, spray, whitewater particles or bubble foam, and in
+//! them only pixels that show one of these. Two paths shade alike: a render pass that draws one instance per tile,
+//! and a compute shader that stores to the output. The shading follows the thesis, Sec. 3.2.3 and 4.9;
+//! glsl/include/shade.glsl states the differences.
 
 use ash::vk;
 
@@ -36,8 +36,8 @@ pub fn way(config: &Config) -> Shading {
     config.composite.unwrap_or(DEFAULT_SHADING)
 }
 
-/// Whether every device can blend this output format. For other formats the fragment shader reads the scene's colour
-/// and blends itself.
+/// Returns whether every device can blend this output format. For other formats the fragment shader reads the scene's
+/// colour and blends itself.
 fn blends(output: vk::Format) -> bool {
     use vk::Format as F;
     matches!(
@@ -188,8 +188,8 @@ impl Composite {
         }
     }
 
-    /// A framebuffer for the host's output; only the raster path needs one. It is kept until the slot is recorded
-    /// again.
+    /// Returns a framebuffer for the host's output; `None` on the compute path, which needs none. The renderer keeps
+    /// it until the same slot is recorded again.
     pub fn framebuffer(
         &self,
         gpu: &Gpu,
@@ -204,8 +204,8 @@ impl Composite {
         }
     }
 
-    /// Before and after the pass all layers are in the state in which fragment shaders sample them; compute shaders
-    /// can also sample the layers of `whitewater` and `bubbles`.
+    /// Records pass `composite`. Before and after it all layers are in the state in which fragment shaders sample
+    /// them; compute shaders can also sample the layers of `whitewater` and `bubbles`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

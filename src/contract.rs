@@ -3,7 +3,8 @@
 //! [`Camera`], [`Previous`], [`Settings`]) and of a foam step ([`SurfaceFoamStep`]); results of a call of `record`
 //! ([`Recorded`], [`Layer`], [`MemoryUse`]).
 //!
-//! The module `check` validates a frame, and the module `frame` derives the shaders' uniform values from it.
+//! The types only carry data: the module `check` validates a frame, and the module `frame` derives the shaders'
+//! uniform values from it.
 
 use std::sync::Arc;
 
@@ -507,8 +508,8 @@ pub struct Particles {
     /// particles are at rest.
     pub velocities: Option<Stream>,
     /// Ids that identify particles from frame to frame (u32), for the noise in foam and the droplets of spray. Read
-    /// under the same conditions as the velocities, and with `Config.noise` for the surface noise. With `None` the
-    /// index is used.
+    /// only with [`Config::surface_foam`] or [`Config::spray`], and with `Config.noise` for the surface noise. With
+    /// `None` the index is used.
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
@@ -518,7 +519,7 @@ pub struct Particles {
     /// [`SurfaceFoamState::foam`](crate::SurfaceFoamState::foam), at a stride of 8. Needs [`Config::surface_foam`].
     /// With `None` there is no foam.
     pub surface_foam: Option<Stream>,
-    /// Last use of all these buffers before `record`; the layout is ignored. Use
+    /// Last use of all buffers of these water particles before `record`; the layout is ignored. Use
     /// [`access::NOTHING`](crate::access::NOTHING) for buffers that the CPU wrote before the submission.
     pub before: Access,
     /// First use of these buffers after `record` (layout ignored).
@@ -572,7 +573,7 @@ impl Particles {
         Self { surface_foam: Some(foam), ..self }
     }
 
-    /// Sets the last use of the buffers before the frame, and their next use after it.
+    /// Sets the last use of the water particles' buffers before `record`, and their first use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -588,13 +589,13 @@ pub struct WhitewaterParticles {
     pub positions: Stream,
     /// Kind of each particle (u32): 0 foam, 1 spray, 2 bubble. `None`: all are foam.
     pub kinds: Option<Stream>,
-    /// Radii (f32, scene units, (0, ∞)). With `None`, and for radii of 0 or less, [`WhitewaterSettings::radius`] is
-    /// used.
+    /// Radii of the whitewater particles (f32, scene units, (0, ∞)). With `None`, and for radii of 0 or less,
+    /// [`WhitewaterSettings::radius`] is used.
     pub radii: Option<Stream>,
     /// Relative age (f32), 0 new to 1 gone. Particles of 1 or more are not drawn. `None`: all are new.
     pub ages: Option<Stream>,
-    /// Ids that identify particles from frame to frame (u32), for the variation of sizes. With `None` the index is
-    /// used.
+    /// Ids that identify whitewater particles from frame to frame (u32), for the variation of sizes. With `None` the
+    /// index is used.
     pub ids: Option<Stream>,
     /// Number of particles.
     pub count: Count,
@@ -617,7 +618,8 @@ pub struct WhitewaterParticles {
 }
 
 impl WhitewaterParticles {
-    /// Foam particles with only positions, in buffers that the CPU wrote before the submission.
+    /// Whitewater particles that are all foam, with only positions, in buffers that the CPU wrote before the
+    /// submission.
     pub fn new(positions: Stream, count: Count) -> Self {
         Self {
             positions,
@@ -657,7 +659,7 @@ impl WhitewaterParticles {
         Self { ids: Some(ids), ..self }
     }
 
-    /// Sets the last use of the buffers before the frame, and their next use after it.
+    /// Sets the last use of the whitewater particles' buffers before `record`, and their first use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -711,7 +713,7 @@ impl Blobs {
         Self { ids: Some(ids), ..self }
     }
 
-    /// Sets the last use of the buffers before the frame, and their next use after it.
+    /// Sets the last use of the blobs' buffers before `record`, and their first use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -720,8 +722,8 @@ impl Blobs {
 
 /// Shoreline and contact foam of one frame, an overlay on water. The library only reads it.
 ///
-/// The scene's depth image ([`Frame::scene_depth`]) should contain everything in and below the water, but not the
-/// water's surface. If it contains the surface too, set [`bias`](Self::bias).
+/// For shoreline and contact foam, the scene's depth image ([`Frame::scene_depth`]) should contain everything in and
+/// below the water, but not the water's surface. If it contains the surface too, set [`bias`](Self::bias).
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Shore {
@@ -757,8 +759,9 @@ impl Shore {
 pub enum Surface {
     /// A level surface at this height along [`Settings::up`].
     Level(f32),
-    /// A surface of any shape, as a depth image in the camera's convention. It may have any size, is only sampled,
-    /// and must not be the image of the scene's depth. Foam treats the surface as locally level.
+    /// A water surface of any shape, as a depth image in the camera's depth convention. The image may have any size,
+    /// is only sampled, and must not be the image of the scene's depth. Shoreline and contact foam treat the surface
+    /// as locally level.
     Depth(HostImage),
 }
 
@@ -791,8 +794,8 @@ impl Triangles {
         self.indices.map_or(self.vertices, |(_, count)| count)
     }
 
-    /// Validates the triangles. The three names are those of the fields of vertices, indices and counts, for the
-    /// error.
+    /// Validates that the buffers hold the vertices and indices, and that the number of corners is a multiple of
+    /// three. For the error, the three names are those of the host's fields of vertices, indices and counts.
     pub(crate) fn check(
         &self,
         [positions, indices, count]: [&'static str; 3],
@@ -830,7 +833,8 @@ pub struct Strip {
 #[derive(Clone, Copy, Debug)]
 pub struct ShoreDistances {
     pub(crate) view: vk::ImageView,
-    /// Minimum corner and side length of the map in scene units, and its number of texels along each axis.
+    /// The map of distances to the shore: its minimum corner and side length in scene units, and its number of texels
+    /// along each axis.
     pub(crate) corner: [f32; 2],
     pub(crate) edge: f32,
     pub(crate) size: u32,
@@ -866,7 +870,7 @@ pub struct SurfaceFoamStep<'a> {
 }
 
 impl<'a> SurfaceFoamStep<'a> {
-    /// A step with only velocities, in buffers that the CPU wrote before the submission.
+    /// A foam step without densities and ids: only velocities, in a buffer that the CPU wrote before the submission.
     pub fn new(
         slot: Slot,
         velocities: Stream,
@@ -890,7 +894,7 @@ impl<'a> SurfaceFoamStep<'a> {
         Self { ids: Some(ids), ..self }
     }
 
-    /// Sets the last use of the buffers before the step, and their next use after it.
+    /// Sets the last use of the particles' buffers before the foam step, and their first use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -908,7 +912,8 @@ pub struct GeneratorStep<'a> {
     pub positions: Stream,
     /// World-space velocities (3×f32, scene units per second).
     pub velocities: Stream,
-    /// Ids (u32), constant from step to step, for the random numbers. `None`: the index is used.
+    /// Ids of the fluid's particles (u32), constant from step to step, for the random numbers. `None`: the index is
+    /// used.
     pub ids: Option<Stream>,
     /// Number of particles, at most [`GeneratorConfig::max_fluid`](crate::whitewater::GeneratorConfig).
     pub count: Count,
@@ -925,7 +930,8 @@ pub struct GeneratorStep<'a> {
 }
 
 impl<'a> GeneratorStep<'a> {
-    /// The first step, for particles without ids, in buffers that the CPU wrote before the submission.
+    /// A generation step with number 0, for fluid particles without ids, in buffers that the CPU wrote before the
+    /// submission.
     pub fn new(
         slot: Slot,
         [positions, velocities]: [Stream; 2],
@@ -960,7 +966,7 @@ impl<'a> GeneratorStep<'a> {
         Self { number, ..self }
     }
 
-    /// Sets the last use of the buffers before the step, and their next use after it.
+    /// Sets the last use of the fluid particles' buffers before the generation step, and their first use after it.
     #[must_use]
     pub fn with_access(self, before: Access, after: Access) -> Self {
         Self { before, after, ..self }
@@ -979,8 +985,9 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera from two matrices, each given as four columns of four numbers or as a type that converts to them.
-    /// Matrices of cgmath, nalgebra and mint convert; those of glam do with `to_cols_array_2d`.
+    /// A camera from a view matrix and a projection matrix, each given as four columns of four numbers or as a type
+    /// that converts to them. Matrices of cgmath, nalgebra and mint convert; those of glam do with
+    /// `to_cols_array_2d`.
     pub fn new(view: impl Into<[[f32; 4]; 4]>, projection: impl Into<[[f32; 4]; 4]>) -> Self {
         Self { view: view.into(), projection: projection.into() }
     }
@@ -1035,9 +1042,9 @@ pub struct Previous {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Shadow {
-    /// The image. With [`Shadows::Map`] and [`Shadows::Convolution`] it is the scene's depth from the light, of any
-    /// size. With [`Shadows::Mask`] it has one channel over the view, 1 where the sun shines on the fluid and 0 where
-    /// it does not. `rect` is the part that is used.
+    /// The shadow map or mask. With [`Shadows::Map`] and [`Shadows::Convolution`] it is the scene's depth from the
+    /// light, of any size. With [`Shadows::Mask`] it has one channel over the view, 1 where the sun shines on the
+    /// fluid and 0 where it does not. `rect` is the part that is used.
     pub image: HostImage,
     /// View-projection matrix of the shadow map, from world space to the map's clip space: four columns, standard or
     /// reversed depth. Not read if `image` is a mask.
@@ -1048,7 +1055,7 @@ pub struct Shadow {
 }
 
 impl Shadow {
-    /// A shadow map with its view-projection matrix and without a bias. The matrix is not read for a mask.
+    /// A shadow map with its view-projection matrix, or a mask, for which the matrix is not read. The bias is 0.
     pub fn new(image: HostImage, view_projection: impl Into<[[f32; 4]; 4]>) -> Self {
         Self { image, view_projection: view_projection.into(), bias: 0.0 }
     }
@@ -1247,7 +1254,8 @@ pub struct Settings {
     pub(crate) ladder: DebugView,
 }
 
-/// Defaults for a particle spacing of 0.05 and scene units of one metre, under the default [`Sky`](crate::Sky).
+/// Default settings, for a particle spacing of 0.05 scene units and scene units of one metre, under the default
+/// [`Sky`](crate::Sky).
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -1272,9 +1280,10 @@ impl Settings {
     /// with +y up. All lengths, speeds and optical densities of all looks follow from these two numbers. For another
     /// sky see [`with_light`](Self::with_light).
     ///
-    /// Values that belong to a frame or a simulation step are left to the host: radii of whitewater particles,
-    /// [`Shore::bias`], gravity of [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and
-    /// [`GeneratorSettings`], and [`WeberSettings::weber_in`].
+    /// Values that belong to a frame or a simulation step do not follow from the two numbers; the host sets them:
+    /// radii of whitewater particles, [`Shore::bias`], gravity of
+    /// [`BlobSimulationSettings`](crate::bubbles::BlobSimulationSettings) and [`GeneratorSettings`], and the Weber
+    /// number's scale ([`WeberSettings::weber_in`]).
     pub fn new(spacing: f32, units_per_metre: f32) -> Self {
         let mut settings = Self::default();
         settings.water.spacing = spacing;
@@ -1386,7 +1395,7 @@ pub struct Layer {
     pub view: vk::ImageView,
     /// Its format.
     pub format: vk::Format,
-    /// Its size in texels; some layers have a lower resolution than the picture. For `water.surface` and
+    /// The layer's size in texels; some layers have a lower resolution than the picture. For `water.surface` and
     /// `water.iterations` it is the size at [`Config::smoothing_level`]. Their images are larger: they also hold the
     /// coarser levels, at which near water is smoothed, and the back layer. `Diagnostics::levels` (feature
     /// `diagnostics`) tells where.

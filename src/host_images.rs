@@ -86,7 +86,8 @@ pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
     Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
 }
 
-/// Resources for the sun's shadows. The scene's depth and the frame's uniforms are bound in place of unused ones.
+/// Returns the resources with which shaders compute the sun's shadows. For those that do not exist in this
+/// configuration, the scene's depth and the frame's uniforms are bound and not read.
 pub fn sunlight(
     frame: &Frame<'_>,
     (light, convolving, bubbles): (Option<&Light>, Option<&Convolving>, Option<&Bubbles>),

@@ -115,7 +115,7 @@ void main() {
     vec3 here = vec3(slope, -1.0) * (sky ? 1.0 : z) - moved;
     vec3 change = mat3(frame.before) * here - moved + (sky ? vec3(0.0) : frame.before[3].xyz);
     // A point that was behind the eye in the previous frame had no position on the screen: its depth there is raised
-    // to that of the near plane.
+    // to that of the near plane (for points at infinity, to 1e-3).
     float before = max((sky ? 1.0 : z) - change.z, sky ? 1.0e-3 : frame.before_lens.z);
     vec2 slope_change = (change.xy + slope * change.z) / before;
     vec2 vector = slope * frame.lens_change.xy - frame.lens_change.zw - slope_change * frame.before_lens.xy;

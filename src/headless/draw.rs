@@ -34,9 +34,10 @@ pub enum Background<'a> {
 }
 
 impl Headless {
-    /// Sets the sphere in which water and foam cast shadows and caustics, if
-    /// [`Config::light_map_size`](crate::Config::light_map_size) is set. With [`Shadows::Map`] or
-    /// [`Shadows::Convolution`], the scene's shadows on water and foam come from the scene's own shadow map.
+    /// Sets the sphere that contains the water and foam that cast shadows and caustics and the part of the scene that
+    /// receives them, for [`Config::light_map_size`](crate::Config::light_map_size). The scene's own shadows on water
+    /// and foam need no sphere: with [`Shadows::Map`] or [`Shadows::Convolution`] they come from the scene's shadow
+    /// map.
     pub fn region(&mut self, region: LightVolume) {
         self.region = Some(region);
     }

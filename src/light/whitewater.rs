@@ -1,10 +1,10 @@
 //! Pass `whitewater_light`: a map of whitewater as seen from the sun (future work of Akinci et al. 2013, Sec. 4).
 //!
-//! One invocation per particle reads the host's streams directly, independent of the camera. Sums use fixed-point
-//! steps, so the order of the particles does not matter. Each texel has three sums: the thickness t (as for the
-//! camera), t·d and t·d², with d the particle's position along the light. They give the amount of whitewater, and
-//! mean and standard deviation of its position. From these follows how much whitewater lies between the sun and a
-//! point, and so how much sunlight reaches the point (glsl/include/sunlight.glsl).
+//! In pass `whitewater_light`, one invocation per particle reads the host's streams directly, independent of the
+//! camera. Sums use fixed-point steps, so the order of the particles does not matter. Each texel has three sums: the
+//! thickness t (as for the camera), t·d and t·d², with d the particle's position along the light. They give the
+//! amount of whitewater, and mean and standard deviation of its position. From these follows how much whitewater lies
+//! between the sun and a point, and so how much sunlight reaches the point (glsl/include/sunlight.glsl).
 //! Reads: the host's streams, front. Writes: whitewater, RGBA16F: thickness, mean distance along the light in scene
 //! units, and its standard deviation.
 
@@ -197,8 +197,8 @@ impl Whitewater {
         Ok(())
     }
 
-    /// The words from the first to the last row. A row takes a multiple of 256 bytes, because the side length is a
-    /// multiple of 16, so every device can bind at the start of any row.
+    /// Returns the part of the buffer `words` from the first to the last row of the map. A row takes a multiple of
+    /// 256 bytes, because the side length is a multiple of 16, so every device can bind at the start of any row.
     fn words_of(&self, [first, last]: [u32; 2]) -> Resource {
         let row = WORDS * u64::from(self.image.extent.width);
         let (first, count) = (u64::from(first), u64::from(last - first + 1));

@@ -1,7 +1,8 @@
 //! Pass `web`: computes two textures of shoreline and contact foam with all mip levels, once: the foam texture,
 //! called web, and the noise. The web can be computed again from an image of the host.
 //!
-//! Reads: texels. Writes: the web (mean, mean of the square, slope on each axis) and the noise, RGBA16F.
+//! Reads: texels that the CPU computed, or the host's image of the web. Writes: the texture web (mean, mean of the
+//! square, slope on each axis) and the noise, RGBA16F.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -107,8 +108,9 @@ impl Texture {
         [(0, Resource::buffer(&self.floats)), (1, Resource::buffer(&self.halves)), (2, image)]
     }
 
-    /// Records the computation of all levels and their copy to the image. If the first level comes from an image of
-    /// the host, `host` holds the pipeline, the descriptor set and the part of the image for it.
+    /// Records the computation of all mip levels of this texture and their copy to its image. If the first level
+    /// comes from an image of the host, `host` holds the pipeline, the descriptor set and the part of the image for
+    /// it.
     fn record(
         &self,
         gpu: &Gpu,

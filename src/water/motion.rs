@@ -1,20 +1,20 @@
 //! Pass `motion`: motion vectors, for motion blur, denoising and temporal anti-aliasing.
 //!
-//! Not in the sources. A motion vector is the position of the visible point in this frame minus its position in the
-//! previous frame, in pixels of the frame (row 0 on top). For water and foam it contains the surface's own motion and
-//! the camera's. For the scene it contains only the camera's motion, at the scene's depth or, for the background, at
-//! infinity (only rotation). A pixel with water has the motion of the front surface, not of what is visible through
-//! the water. It has the motion of foam if the foam's opacity is at least a half. Spray has no motion of its own: a
-//! pixel with droplets has the motion of the surface behind them.
+//! Pass `motion` is not in the sources (thesis and papers). A motion vector is the position of the visible point in
+//! this frame minus its position in the previous frame, in pixels of the frame (row 0 on top). For water and foam it
+//! contains the surface's own motion and the camera's. For the scene it contains only the camera's motion, at the
+//! scene's depth or, for the background, at infinity (only rotation). A pixel with water has the motion of the front
+//! surface, not of what is visible through the water. It has the motion of foam if the foam's opacity is at least a
+//! half. Spray has no motion of its own: a pixel with droplets has the motion of the surface behind them.
 //!
-//! The surface's own motion is the mean velocity of the particles near it, weighted by the thickness that each adds.
-//! A particle counts fully if its depth differs from the surface's by at most one drawn radius, and not at all from
-//! three radii. Sums are integers at the resolution of the thickness, one set for the nearest and one for the
-//! farthest surface of each texel's pixels, so that both sides of an outline keep their motion: a pixel uses the set
-//! of its own surface.
+//! The water surface's own motion is the mean velocity of the particles near it, weighted by the thickness that each
+//! adds. A particle counts fully if its depth differs from the surface's by at most one drawn radius, and not at all
+//! from three radii. Sums are integers at the resolution of the thickness image, one set for the nearest and one for
+//! the farthest surface of each texel's pixels, so that both sides of an outline keep their motion: a pixel uses the
+//! set of its own surface.
 //!
-//! The format is RG32F: with half floats a vector of a hundred pixels could be wrong by a thirty-second of a pixel,
-//! one of a thousand pixels by half a pixel.
+//! The image of pass `motion` is RG32F: with half floats a vector of a hundred pixels could be wrong by a
+//! thirty-second of a pixel, one of a thousand pixels by half a pixel.
 //! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface, scene depth.
 //! Writes: motion, RG32F, every pixel.
 

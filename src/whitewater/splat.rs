@@ -1,12 +1,12 @@
 //! Pass `splat`: depth and normal of the frontmost whitewater particle, and the thickness of all (Akinci et al.
 //! 2013, Sec. 2.1 to 2.3; passes 3 to 5).
 //!
-//! One invocation per particle uses integer atomics: depths are compared as bits and sums use fixed-point steps, so
-//! the order of the particles does not matter. Depth and thickness are written in one pass, so that a particle is
-//! read once for both. With 64-bit atomics, the attributes of the frontmost particle are the low bits of a word whose
-//! high bits are its depth; with 32-bit atomics, a second pass writes them. No list of projected particles is stored:
-//! for millions of particles it would take most of the memory. `quads` is the alternative path, which rasterizes
-//! quads.
+//! The compute paths of pass `splat` run one invocation per particle and use integer atomics: depths are compared as
+//! bits and sums use fixed-point steps, so the order of the particles does not matter. Depth and thickness are
+//! written in one pass, so that a particle is read once for both. With 64-bit atomics, the attributes of the
+//! frontmost particle are the low bits of a word whose high bits are its depth; with 32-bit atomics, a second pass
+//! writes them. No list of projected particles is stored: for millions of particles it would take most of the memory.
+//! `quads` is the alternative path, which rasterizes quads.
 //! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
 use crate::gpu::memory::MemoryLocation;
@@ -61,8 +61,8 @@ struct Targets {
     words: Buffer,
     /// Foam depth, total intensity, depths of fluid and scene.
     occluders: Image,
-    /// Foam thickness in front of the fluid's surface, behind it, and the latter weighted by `d / (d + spacing)` at
-    /// the distance d behind the surface.
+    /// Image with three channels: foam thickness in front of the fluid's surface, behind it, and the latter weighted
+    /// by `d / (d + spacing)` at the distance d behind the surface.
     thickness: Image,
     /// World normal of the frontmost particle, search radius.
     normal: Image,
@@ -185,13 +185,13 @@ impl Sprites {
         &self.targets.occluders
     }
 
-    /// Foam thickness in front of the fluid's surface, behind it, and the latter weighted by `d / (d + spacing)` at
-    /// the distance d behind the surface.
+    /// Returns the image with three channels: foam thickness in front of the fluid's surface, behind it, and the
+    /// latter weighted by `d / (d + spacing)` at the distance d behind the surface.
     pub fn thickness(&self) -> &Image {
         &self.targets.thickness
     }
 
-    /// World normal of the frontmost particle, and the search radius of its ambient occlusion.
+    /// Image: xyz is the world normal of the frontmost particle, w the search radius of its ambient occlusion.
     pub fn normal(&self) -> &Image {
         &self.targets.normal
     }
@@ -205,8 +205,8 @@ impl Sprites {
         }
     }
 
-    /// `water` is the depth of the frontmost spheres of the water. Before and after, the image is in the state in
-    /// which pass `depth` leaves it.
+    /// Records pass `splat`. `water` is the depth image of the water's frontmost spheres; before and after, it is in
+    /// the state in which pass `depth` leaves it.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -106,9 +106,9 @@ impl Chunks {
         16 * u64::from(self.count)
     }
 
-    /// Push constants from which a shader computes the number of particles in each chunk, and the buffer with the
-    /// count on the GPU. If the host gives the count instead, that buffer is `unread` (any buffer). `group_size` is
-    /// the number of particles per workgroup, 0 for quads.
+    /// Returns the push constants from which a shader computes the number of particles in each chunk, and the buffer
+    /// in which it finds the count on the GPU. If the host gives the count instead, that buffer is `unread` (any
+    /// buffer). `group_size` is the number of particles per workgroup, 0 if quads are drawn instead of dispatched.
     pub fn counting(
         &self,
         particles: Option<&WhitewaterParticles>,
@@ -126,8 +126,8 @@ impl Chunks {
         (Counting { count, from_gpu, chunks, chunk_size, group_size }, buffer)
     }
 
-    /// For each chunk, binds its streams and the resources `own`, pushes what `push` makes of its offsets, and calls
-    /// `act` with its index.
+    /// For each chunk of particles, binds the chunk's streams and the caller's resources `own`, pushes the constants
+    /// that `push` makes of the streams' offsets and strides, and calls `act` with the chunk's index.
     pub fn each<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -179,13 +179,15 @@ impl Chunks {
 /// Capacity of a chunk's list of large particles (glsl/include/whitewater_cover.glsl). A large particle that does not
 /// fit is processed by a single invocation, like a small one.
 const ROOM: u64 = 16_384;
-/// Bytes of a chunk's list: dispatch arguments and the number of large particles, then their indices.
+/// Bytes of a chunk's list of large particles: dispatch arguments and the number of these particles in 4 words, then
+/// their indices.
 const LIST: u64 = 4 * (4 + ROOM);
 
 /// A shader over the pixels of each particle (glsl/include/whitewater_cover.glsl): one invocation per particle, or
 /// a group per host packet; then a group per large particle.
 pub struct Covering {
-    /// Pipelines for default particle shapes, and for other shapes or the paper's falloff behind the water's surface.
+    /// Pipelines of the shader: first those for default particle shapes, then those for other shapes or the paper's
+    /// falloff behind the water's surface.
     ways: [Ways; 2],
     list: Buffer,
 }
@@ -198,8 +200,8 @@ struct Ways {
 }
 
 impl Covering {
-    /// `name` is that of the list of large particles. `constants` are further specialization constants of the shader,
-    /// with ids other than 1 to 3.
+    /// `name` is the debug name of the buffer with the lists of large particles. `constants` are further
+    /// specialization constants of the shader, with ids other than 1 to 3.
     pub fn new(
         gpu: &Gpu,
         name: &str,
@@ -238,8 +240,9 @@ impl Covering {
         self.list.size
     }
 
-    /// Records the dispatches over all chunks. `arguments` holds their indirect arguments, which are already visible.
-    /// Atomics accumulate the results in any order, so chunks need no barriers between them.
+    /// Records the shader's dispatches over all chunks of particles. The buffer `arguments` holds their indirect
+    /// arguments; a barrier has already made it visible. Atomics accumulate the results in any order, so chunks need
+    /// no barriers between them.
     pub fn record<P: NoUninit>(
         &self,
         r: &Recording<'_>,

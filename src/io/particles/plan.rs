@@ -15,8 +15,8 @@ const CHECKED: usize = 1 << 12;
 /// Particles read at a time to find their times.
 const PART: usize = 1 << 16;
 
-/// Columns that are stored together in a file. The tracks of a file can be read side by side, a part of the
-/// particles at a time.
+/// Columns that are stored together in a file. Several tracks hold different columns of the same particles; they can
+/// be read side by side, a part of the particles at a time.
 pub(super) struct Track<'a> {
     /// Empty columns.
     pub(super) columns: Vec<Column>,
@@ -41,8 +41,8 @@ pub(super) trait Stream: Send {
         room: &mut Vec<u8>,
     ) -> Result<usize, ReadError>;
 
-    /// Called after the last particle: checks what follows. Returns the number of decompressed bytes, if that
-    /// is limited for all tracks together.
+    /// Checks what follows the last particle in the file, after all have been read. Returns the number of bytes
+    /// decompressed for this track if that is limited for all tracks together, otherwise 0.
     fn finish(&mut self) -> Result<u64, ReadError> {
         Ok(0)
     }

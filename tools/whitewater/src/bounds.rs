@@ -26,13 +26,13 @@ const REACH: f32 = 100.0;
 const CELL: f32 = 3.0;
 /// Min number of particles in a cell that is water and not spray.
 const DENSE: usize = 5;
-/// Min share of all particles that a connected body of such cells has to hold, in order to belong to the bulk.
+/// Min share of all particles that a body (connected cells of water) has to hold, in order to belong to the bulk.
 const BODY: f32 = 0.05;
 /// How far spray may reach beyond the bulk to the sides and upwards, as a part of the bulk's longest side. Below the
 /// bulk is the floor that the water stands on, so the limit there is one grid cell.
 const SPRAY: f32 = 0.5;
-/// If particles above the bulk fly farther than [`SPRAY`] and are ignored, the bounds still reach this far above the
-/// bulk, as a part of its longest side.
+/// Part of the bulk's longest side by which the bounds still reach above the bulk, if particles above it fly farther
+/// than [`SPRAY`] and are ignored.
 const SPLASH: f32 = 0.15;
 /// Particles farther away than [`SPRAY`] are ignored if on that side they are fewer than this share of all particles.
 const STRAY: f32 = 0.08;
@@ -203,8 +203,8 @@ mod tests {
         assert_eq!(Bounds::of_bulk(&[[f32::NAN; 3]]), None);
     }
 
-    /// If 3 % of the particles leaked below or were thrown out, the bounds stay close to the rest; a splash is part
-    /// of the bulk.
+    /// The bounds stay close to the water if 3 % of the particles leaked below it or were thrown out; a splash is
+    /// part of the bulk and inside the bounds.
     #[test]
     fn what_leaked_or_flew_away_does_not_count() {
         let block: Vec<[f32; 3]> = (0..4000)

@@ -47,7 +47,8 @@ pub fn in_files(frames: Vec<Frame>) -> Vec<Frame> {
     steps.into_iter().map(of).collect()
 }
 
-/// An error about the inputs, with advice if the pattern has the wrong padding or the syntax of another program.
+/// Makes a failure of an error about the input files, with advice if the file pattern has the wrong padding of the
+/// number or the placeholder of another program.
 pub fn advised(error: SequenceError) -> Failure {
     let advice = match &error {
         SequenceError::NotFound { input } => foreign(input),

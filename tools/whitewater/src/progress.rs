@@ -10,8 +10,8 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::out;
 
-/// Time after which a running step is first reported. It is reported again when it has run ten times as long, and
-/// then each time that its running time has doubled.
+/// Time after which a step that still runs is first reported on stderr, if there is no bar. It is reported again when
+/// it has run ten times as long, and then each time that its running time has doubled.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// The current step.
@@ -96,7 +96,8 @@ impl Progress {
         }
     }
 
-    /// Counts one more item, successful or not. `line` is printed if there is no bar.
+    /// Counts one more item, successful or not. `line` is shown beside the bar; it is printed if there is no bar or
+    /// only one item.
     pub fn advance(&mut self, line: &str) {
         self.done += 1;
         if let Some(bar) = &self.bar

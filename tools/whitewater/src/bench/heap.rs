@@ -63,7 +63,8 @@ impl CpuHeap {
         }
     }
 
-    /// One substep. The grid sorts the balls, so that those of a bucket are adjacent, in the order of their ids.
+    /// Advances the blobs by one substep of `dt` seconds. The grid sorts the balls, so that those of a bucket are
+    /// adjacent, in the order of their ids.
     fn part(&mut self, dt: f32) {
         let grid = Grid::new(&mut self.balls, self.cells);
         let mut moved = self.balls.clone();
@@ -145,7 +146,8 @@ impl CpuHeap {
         (share * push, share * ROUND / own.radius * n.cross(across))
     }
 
-    /// Contact with a solid: a penalty force along the normal, and friction in proportion to that force.
+    /// Applies the contact with a solid (direction out of it, distance) to the speed and spin of a ball: a penalty
+    /// force along the normal, and friction at most in proportion to that force.
     fn touch(
         &self,
         (n, distance): (Vec3, f32),

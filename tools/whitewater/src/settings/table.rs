@@ -5,8 +5,9 @@
 /// Each field of the part is a key or listed as an exception; the test `no_field_is_forgotten` compares `FIELDS` with
 /// the fields of the part.
 ///
-/// `keys` lists fields, each with the type that it has in the file. `optional` lists fields that are an `Option`
-/// themselves. `not` lists fields that are not keys. `beside` lists keys that are not fields; `of` leaves them unset.
+/// Arguments: `keys` lists fields of the part, each with the type that it has in the file. `optional` lists fields
+/// that are an `Option` themselves. `not` lists fields that are not keys. `beside` lists keys that are not fields;
+/// `of` leaves them unset.
 macro_rules! table {
     (
         $(#[$about:meta])* $table:ident of $part:ident

@@ -34,7 +34,7 @@ table! {
     not { medium, ellipsoids, wavelets }
     beside {
         medium: MediumTable,
-        /// Steps of the reflection march; determines a pass and is not part of the settings.
+        /// Steps of the march for reflections, which configure pass `composite` and are not part of the settings.
         mirror_steps: u32,
         exit: ExitWord,
         kernels: KernelWord,
@@ -178,7 +178,8 @@ impl WaterTable {
         self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
     }
 
-    /// Makes light that leaves the water go straight on, unless the file sets `exit`.
+    /// Makes light go straight on where it leaves water for air ([`Exit::Straight`]), unless the settings file sets
+    /// `exit`.
     pub fn leave_straight(&mut self) {
         self.exit.get_or_insert(Exit::Straight.into());
     }
@@ -258,8 +259,8 @@ table! {
     optional {}
     not { time }
     beside {
-        /// The keys from here on are not part of the look; they set which water foams. `by`: the speed in the Weber
-        /// number.
+        /// This key and the following ones are not part of the look; they set which water foams. `by` selects the
+        /// speed in the Weber number.
         by: FoamBy,
         /// Speed of the eddies that particles do not resolve, relative to the water's speed. It adds to the speed at
         /// which neighbours approach.
@@ -281,7 +282,7 @@ table! {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Weber {
-    /// The reduced form of the source's demo, which does not depend on the unit of length.
+    /// The Weber number as the source's demo reduces it, which does not depend on the unit of length.
     Reduced,
     /// `ρ v² l / σ` in SI units.
     Full,
@@ -291,15 +292,16 @@ pub enum Weber {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FoamBy {
-    /// The speed at which neighbours approach a particle: trapped air (Ihmsen et al. 2012).
+    /// The speed at which neighbours approach a particle is the speed in the Weber number: trapped air (Ihmsen et al.
+    /// 2012).
     Air,
     /// The particle's speed through the air (Bagar 2010).
     Speed,
 }
 
 impl SurfaceFoamTable {
-    /// The speed in the Weber number. The default is trapped air; a threshold or wind applies to the particles' own
-    /// speed.
+    /// Returns the speed in the Weber number, from `by` in the settings file. By default it is that of trapped air,
+    /// but the particles' own speed with the thesis' preset, a threshold or wind.
     pub fn by(&self, wanted: Foaming, thesis: bool) -> FoamBy {
         let own = thesis || self.threshold.is_some() || self.air.is_some();
         let own = own || matches!(wanted, Foaming::From(_));
@@ -321,7 +323,8 @@ impl SurfaceFoamTable {
         })
     }
 
-    /// The complete table of a look and of foam formation, from this table and `found`.
+    /// Returns the complete table: the look from `look`; threshold, lifetime, air and seed from `found` or, without
+    /// it, from this table; `by` and `weber` from this table. What the table lacks is the default.
     pub fn all(&self, look: &SurfaceFoamSettings, found: Option<&WeberSettings>) -> Self {
         let said = self.formation(&WaterSettings::default());
         // The other values are found, or follow from the spacing.

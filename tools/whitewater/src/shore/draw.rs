@@ -52,8 +52,8 @@ pub struct Shores {
     pub config: ShoreConfig,
     shore: Shore,
     land: Land,
-    /// Size and texels of a user's picture of the web (the pattern of foam), and of one that masks contact foam and
-    /// is laid over the view.
+    /// Size and texels of a user's picture of the web (the pattern of foam), and in the next field those of a picture
+    /// that masks contact foam and is laid over the view.
     web: Option<([u32; 2], Vec<f32>)>,
     mask: Option<([u32; 2], Vec<f32>)>,
 }

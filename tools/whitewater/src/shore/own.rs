@@ -54,7 +54,8 @@ fn joined(path: &Path, meshes: &[&Mesh]) -> Outcome<Strip> {
     Ok(strip)
 }
 
-/// Whether the file is OBJ. The reader flips v in OBJ files to 1 - v, as pictures need it.
+/// Whether the file's extension is OBJ. For these files the reader turns v to 1 - v, as pictures need it; a strip
+/// needs the original v.
 fn is_obj(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"))
 }
