@@ -529,7 +529,8 @@ struct Since {
 }
 
 impl Since {
-    /// The changes are 0 if there is no previous frame. The previous frame's camera is already checked.
+    /// The changes of camera and lens since the previous frame; 0 if there is none. The previous frame's camera is
+    /// already checked.
     fn new(lens: &Lens, frame: &Frame<'_>) -> Self {
         let before = frame.previous.and_then(|p| Some((Lens::new(&p.camera).ok()?, p.dt)));
         let (then, dt) = before.unwrap_or((*lens, 0.0));
@@ -545,8 +546,8 @@ impl Since {
     }
 }
 
-/// Radiance of foam with this albedo, lit by the irradiance of level ground: its bubbles face all directions, and on
-/// average receive as much light.
+/// Radiance of foam with this albedo, lit by the irradiance of level ground (albedo / π of it): bubbles of foam face
+/// all directions, and on average receive as much light as level ground.
 fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
     let [r, g, b] = light.irradiance.map(|c| c * std::f32::consts::FRAC_1_PI);
     [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
@@ -571,8 +572,8 @@ fn falloff_mean(n: f32, m: f32) -> f32 {
     (sum / f64::from(steps)) as f32
 }
 
-/// The sun's irradiance on a surface that faces it, divided by 2π. The irradiance is the sun's part of that on level
-/// ground, divided by the sine of the sun's elevation; a sine below 0.1 counts as 0.1.
+/// The sun's irradiance on a surface that faces it, divided by 2π. This irradiance is that of level ground minus that
+/// of level ground in the shade, divided by the sine of the sun's elevation; a sine below 0.1 counts as 0.1.
 pub fn sun_on(settings: &Settings) -> [f32; 4] {
     let light = &settings.light;
     let height = settings.upward().dot(light.toward()).max(0.1);
@@ -706,8 +707,8 @@ fn leaves(water: &WaterSettings) -> f32 {
     (comes_in(water) / (n * n)).max(1.0e-3)
 }
 
-/// Uniforms `bed` and `bed_light`: how the water's surface changes the light that falls on, and comes from, the
-/// ground below.
+/// Computes the uniforms `bed` and `bed_light`: how the water's surface changes the light that passes down to the
+/// ground below and back up from it.
 fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let per_light = |e: f32| std::f32::consts::PI / e.max(1.0e-9);
     let [r, g, b] = light.irradiance.map(per_light);
@@ -760,8 +761,8 @@ fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]
     }
 }
 
-/// Diffuse reflectance of a half space with this absorption and scattering per scene unit (van de Hulst 1980), below
-/// a surface that lets the share `leaves` of the light out. The surface's own reflection is not included.
+/// Diffuse reflectance of a half space with this absorption and scattering per scene unit (van de Hulst 1980). The
+/// surface above it lets the share `leaves` of the light from below out; its own reflection is not included.
 fn reflectance(absorption: f32, scattering: f32, leaves: f32) -> f32 {
     let extinction = absorption + scattering;
     if extinction <= 0.0 {
@@ -824,8 +825,8 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
 mod tests {
     use super::*;
 
-    /// Compares with the closed form `(2/n) B(2/n, m + 1)` with the beta function B: 1/(m + 1) for n = 2 and 2/((m +
-    /// 1)(m + 2)) for n = 1.
+    /// Compares `falloff_mean(n, m)` with its closed form `(2/n) B(2/n, m + 1)`, B being the beta function: 1/(m + 1)
+    /// for n = 2 and 2/((m + 1)(m + 2)) for n = 1.
     #[test]
     fn the_mean_of_a_falloff_is_its_integral() {
         for m in [0.1_f32, 0.4, 1.0, 2.5, 16.0] {
@@ -844,8 +845,8 @@ mod tests {
         Camera::new(view.to_cols_array_2d(), projection.to_cols_array_2d())
     }
 
-    /// For every projection convention the lens has to recover the depth and the slope of a point from its
-    /// projection.
+    /// A `Lens` recovers the depth and the slope of a point from the point's projection, for every convention of
+    /// projections.
     #[test]
     fn lens_inverts_every_projection() {
         let mut off_axis = Mat4::perspective_rh(0.8, 1.5, 0.1, 50.0);

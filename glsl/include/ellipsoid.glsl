@@ -65,8 +65,8 @@ float ellipsoid_nearest(Ellipsoid e) {
     if (ELLIPSOIDS == 0u) {
         return -e.sphere.z - e.sphere.w;
     }
-    // Rounding must not put this depth behind a hit on the ellipsoid, so it is less by 1.0e-5 of the root and of the
-    // depth.
+    // Rounding must not put this nearest depth of the ellipsoid behind a hit of a ray on it, so 1.0e-5 of both terms,
+    // centre depth and root, is subtracted.
     return -e.sphere.z * (1.0 - 1.0e-5) - 1.00001 * sqrt(ellipsoid_dual(e, e.sphere.w)[2].z);
 }
 
@@ -92,8 +92,8 @@ struct Disc {
     float area;   // product of the half-axes
 };
 
-// The disc of an ellipsoid scaled by `scale`. Half-axes below a pixel are widened to one. The thickness at the centre
-// must be divided by `area`, so that the sprite keeps its volume.
+// The thickness sprite of an ellipsoid with axes multiplied by `scale`. Half-axes below a pixel are widened to one.
+// The thickness at the centre must be divided by `area`, so that the sprite keeps its volume.
 Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
     mat3 b = ellipsoid_dual(e, scale * e.sphere.w);
     float depth = -e.sphere.z;

@@ -3,6 +3,7 @@
 // requirements of cells.glsl.
 // Reads: the grid (ends of the buckets, places).
 //
+// The particles near a position are read like this:
 //     for (int c = 0; c < 27; ++c) {
 //         ivec3 cell = neighbour_cell(position, c);
 //         uvec2 range = range_of(cell);

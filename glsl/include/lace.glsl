@@ -15,7 +15,8 @@ const float BUBBLE_STRAY = 0.3;
 const vec3 BUBBLE_CELLS = vec3(1.0, 0.4, 0.16);
 const vec3 BUBBLE_BEGIN = vec3(0.0, 31.7, 77.3);
 const vec3 BUBBLE_PART = vec3(0.42, 0.34, 0.24);
-// Mean of `bubbles_at`, which is used instead where cells are less than 1.5 pixels wide.
+// Mean of `bubbles_at`, used in its place for bubbles whose cells are less than 1.5 pixels wide, and in part up to 4
+// pixels.
 const float BUBBLE_MEAN = 0.232;
 // A gradient noise warps the bubbles. DRAWN_CELL: width of its cells. DRAWN: distance by which it displaces a point
 // where its slope is 1. Both are in cells of the large bubbles. RAGGED: weight with which the noise's value is added
@@ -31,12 +32,12 @@ const vec2 COVERS = vec2(0.33, 0.127);
 // Half the range of amounts of foam over which the edge of a thread fades: max(THREAD_ENDS.x, THREAD_ENDS.y w), where
 // w is the width of a pixel in cells of the large bubbles.
 const vec2 THREAD_ENDS = vec2(0.04, 0.7);
-// One half of a thread's opacity fades over a wider range of amounts of foam than the other, like single bubbles at
-// the thread's edge. This is the min half-width of that range.
+// One half of a thread's opacity fades at the thread's edge over a wider range of amounts of foam than the other
+// half, as foam of single bubbles does. This is the min half-width of that range.
 const float EDGE_ENDS = 0.16;
 
 // Foam that has just closed over a bubble is thin, so that bubbles show in it: where the amount of foam just closes a
-// point, the opacity is lower by SHEER. Where the amount is greater by CLOSED, it is not lower.
+// point, the opacity is multiplied by 1 - SHEER. Where the amount is greater by CLOSED, it is not reduced.
 const float SHEER = 0.45;
 const float CLOSED = 0.45;
 

@@ -16,8 +16,9 @@ const uint BACK = 4u; // the first level of the back sheet
 layout(set = 0, binding = 7, std140) uniform Levels {
     Level level[7];
     ivec4 atlas; // size of the images; tiles per row; number of levels coarser than the first
-    // x: square of the smoothing width in texels of the first level at depth 1, divided by a quarter of the iteration
-    // limit (see nearness); y: (C_x / C_y)^2; z: depth falloff; w: 0.
+    // For `nearness`. x: square of the smoothing width in texels of the first level at depth 1, divided by a quarter
+    // of the iteration limit; y: square of a texel's width over its height in the world; z: depth falloff, scene
+    // units; w: 0.
     vec4 near;
 } levels;
 
@@ -54,8 +55,8 @@ float nearness(float z, vec2 slope) {
     return levels.near.x * foreshortened(slope) / (z * z);
 }
 
-// The level that shows at a point of this nearness, and `fade`, how far the next level has faded in. The fade depends
-// on distance and not on time, so that a frame does not depend on previous frames.
+// The smoothing level that shows where `nearness` is `near`, and `fade`, how far the next level has faded in, 0 to 1.
+// The fade depends on distance and not on time, so that a frame does not depend on previous frames.
 uint shown_level(float near, out float fade) {
     float doubled = log2(max(near, 1.0));
     float level = floor(0.5 * doubled);

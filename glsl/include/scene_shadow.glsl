@@ -2,7 +2,7 @@
 // maps.)
 // Needs frame.glsl, convolution.glsl. Reads: shadow map or mask, its basis and span.
 
-// 0: no shadow, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
+// Source of the shadow. 0: no shadow, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
 layout(constant_id = 11) const uint SHADOW = 0;
 // Number of terms of the Fourier basis.
 layout(constant_id = 13) const int TERMS = 16;
@@ -11,7 +11,8 @@ layout(set = 0, binding = 16) uniform sampler2D shadow_map;
 layout(set = 0, binding = 18) uniform sampler2D shadow_basis;
 layout(set = 0, binding = 19, std140) uniform Span { uvec4 span; };
 
-// Position in the shadow map, 0 to 1, and depth. Outside the map everything is lit.
+// Position of a point in the shadow map, 0 to 1, and its depth. Outside the map, where `inside` is false, everything
+// is lit.
 vec3 shadow_place(vec3 eye, out bool inside) {
     vec4 clip = frame.shadow * vec4(eye + frame.sun_direction.xyz * frame.shadow_map.x, 1.0);
     vec3 at = clip.xyz / clip.w;

@@ -17,7 +17,7 @@ const int BLOCK_BITS = 4;
 
 // The boundary at a full-resolution pixel.
 float boundary_at(ivec2 pixel) {
-    // A shift divides by the texel's width in pixels, a power of two: a float division may round down, and CPUs have
-    // no vector division of integers.
+    // The pixel is divided by the width of a texel in pixels, a power of two, by a shift: a float division may round
+    // down, and CPUs have no vector division of integers.
     return boundary_of(pixel >> findMSB(int(frame.thick_extent.z)));
 }

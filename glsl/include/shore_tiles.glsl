@@ -23,8 +23,8 @@ vec2 pixel_of(vec2 first, int i) {
     return first + vec2(i == 1 || i == 2 ? 1.5 : 0.5, i < 2 ? 1.5 : 0.5);
 }
 
-// Scene depths at the 2x2 pixels from `first` on, in the order of a gather; `texel` is 1 / size of the image. Pixels
-// outside the picture may be read.
+// Scene depths, as stored, at the 2x2 pixels whose first corner is `first`, in the order of textureGather; `texel` is
+// 1 / size of the depth image. Some pixels may lie outside the picture.
 vec4 scene_at_four(vec2 first, vec2 texel) {
     if (GENERAL == 0u) {
         return textureGather(scene_depth, (first + 1.0 + frame.scene_origin.xy) * texel);

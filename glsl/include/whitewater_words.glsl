@@ -13,7 +13,7 @@ const uint WORDS = 8u;
 
 // Fixed-point steps per thickness of 1.
 const float STEPS = 65536.0;
-// No more is added above this, so that any number of particles may lie on one spot.
+// Above this sum of thickness no more is added to it, so that any number of particles may lie on one spot.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 pixel) {

@@ -5,10 +5,11 @@
 #include "frame.glsl"
 #include "scene_color.glsl"
 
-// 1: blended onto the output, which holds the scene's colour; alpha is the fraction of the scene that remains.
+// 1: the foam is blended onto the output, which holds the scene's colour; alpha is the fraction of the scene that
+// remains. 0: it is mixed here.
 layout(constant_id = 0) const uint BLENDED = 1;
 
-// An input of the fragment shader instead of the uniform block, which a CPU driver would read again for each pixel.
+// Light of the foam, from the vertex shader. A CPU driver would read it again for each pixel from a uniform block.
 layout(location = 0) flat in CoatLight light;
 layout(location = 4) flat in vec2 target;
 

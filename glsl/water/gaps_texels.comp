@@ -19,7 +19,8 @@ layout(push_constant, std430) uniform Push {
     int rows;
 } push;
 
-// A boundary lies in the middle of its air, but at most this far behind the water in front of the air, in spacings.
+// A boundary between two layers of water lies in the middle of the air between them, but at most this far behind the
+// nearer layer, in spacings.
 const float BEYOND = 2.0;
 // Min distance, in spacings, of a boundary from the ends of the depth range that all chosen airs share, if there is
 // room.
@@ -46,17 +47,18 @@ struct Cells {
     uvec4 words[3];
 };
 
-// One air of each of the four cells, between the depths `from` and `to`. If `behind` is true: the first air whose
-// middle is behind the surface at depth z and that begins at `after` or farther. Otherwise: the last air whose middle
-// is before the surface. Without such an air `to` is -1. `body`: 0 if the water behind the air is a drop, 1 if it is
-// a body.
+// One air (depth range without water) of each of the four cells, between the depths `from` and `to`. If `behind` is
+// true: the first air whose middle is behind the surface at depth z and that begins at `after` or farther. Otherwise:
+// the last air whose middle is before the surface. Without such an air `to` is -1. `body`: 0 if the water behind the
+// air is a drop, 1 if it is a body of water.
 void airs_of(Cells cells, float z, float after, bool behind, out vec4 from, out vec4 to, out vec4 body) {
     float size = SLICE * frame.particle.y;
     from = vec4(EMPTY);
     to = vec4(-1.0);
     body = vec4(0.0);
     for (int k = 0; k < AIRS; ++k) {
-        // The last air that fits is kept. The order is reversed to find the first one behind the surface.
+        // The last of the cell's airs that fits is kept. Their order is reversed to find the first one behind the
+        // surface.
         int i = behind ? AIRS - 1 - k : k;
         for (int c = 0; c < 4; ++c) {
             uint word = cells.words[i >> 1][c] >> (16 * (i & 1));
@@ -113,7 +115,8 @@ float boundary_of(ivec2 p) {
         vec4 to;
         vec4 body;
         airs_of(cells, z, after, behind, from, to, body);
-        // The air nearest to the surface; below, the airs of other cells that overlap it count with it.
+        // Of all four cells' airs, the one nearest to the surface; below, the airs of other cells that overlap it
+        // count with it.
         vec2 first = vec2(EMPTY, -1.0);
         for (int i = 0; i < 4; ++i) {
             bool nearer = to[i] >= 0.0 && (behind ? from[i] < first.x : to[i] > first.y);
@@ -137,8 +140,8 @@ float boundary_of(ivec2 p) {
         float at = rest > 0.0 ? clamp(sum / weight, all.x + edge, all.y - edge) : sum / weight;
         boundary = better ? at : boundary;
         most = better ? open : most;
-        // Continues behind the surface until an air is wide enough or none is left. If there was none at all, looks
-        // before the surface.
+        // Airs farther behind the surface are examined until one is wide enough or none is left. If there was none at
+        // all behind it, airs before the surface are.
         there = behind && (weight > 0.0 ? open < 0.5 : boundary == EMPTY);
         behind = weight > 0.0;
         after = first.y;

@@ -32,8 +32,9 @@ layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; 
 shared uint most;
 shared uint nearest_bits;
 
-// Depth of a block of pixels, from the water in front of the scene and without single drops. `best` is the nearest
-// depth, drops included; `other` tells whether something other than water is drawn in the block.
+// The depth that represents a block of pixels for the smoothing: that of its nearest water in front of the scene,
+// single drops ignored. `best` is the nearest depth, drops included; `other` tells whether something other than water
+// is drawn in the block.
 float reduced(ivec2 block, out float best, out bool other) {
     ivec2 extent = ivec2(frame.extent.xy);
     other = foam_beside(block << LEVEL, 1 << LEVEL);
@@ -57,7 +58,8 @@ float reduced(ivec2 block, out float best, out bool other) {
             }
         }
     }
-    // A surface counts as a drop if it covers less than a quarter of the block's pixels, which needs more than four.
+    // A surface counts as a drop if it covers less than a quarter of the block's pixels with water, so a block of up
+    // to four pixels has none.
     return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 
@@ -76,7 +78,7 @@ void main() {
         imageStore(smooth_a, block, vec4(z));
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));
-        // Iterations + 1, because a tile with nothing to smooth still has to be shaded.
+        // A tile's work is its iterations + 1, because a tile with nothing to smooth still has to be shaded.
         if (z < EMPTY || other) {
             atomicMax(most, plan_count(planned) + 1u);
         }
@@ -89,7 +91,8 @@ void main() {
     if (gl_LocalInvocationIndex == 0u) {
         float near = uintBitsToFloat(nearest_bits);
         uint coarsest = near < 0.8 ? 0u : min(uint(0.5 * log2(1.25 * near)) + 1u, uint(levels.atlas.w));
-        // The limit is 0.9 and not 1, because a pixel's ray may be almost a texel away from the ray of its block.
+        // A coarser level shows from a nearness of 1 on. The limit is 0.9, because a pixel's ray may be almost a
+        // texel away from its block's.
         uint shows = near < 0.9 ? 0u : 1u;
         tile_work[gl_WorkGroupID.y * levels.atlas.z + gl_WorkGroupID.x] = most | coarsest << 16 | shows << 24;
     }

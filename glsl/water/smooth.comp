@@ -60,7 +60,8 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
     vec4 b;
     fetch_rows(p - ivec2(0, 1), first, last, a, b);
     int k = 0;
-    // The loop's condition is at its end, as in main; the first row always lies in the level.
+    // The loop's condition is at its end, for CPU drivers as in main; the first row of the columns always lies in the
+    // level.
     do {
         vec4 c;
         vec4 d;

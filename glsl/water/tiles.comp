@@ -12,8 +12,8 @@ layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer List { uint list[]; };
-// [0]: arguments of a draw of all tiles with work (4, n, 0, 0). After it arguments of dispatches {x, 1, 1, n}: one
-// for each iteration, and at the end one over all tiles with work.
+// Arguments of indirect commands. [0]: a draw of all n tiles with work (4, n, 0, 0). [1] to [257]: dispatches {x, 1,
+// 1, n} of each iteration over n tiles. [258]: a dispatch over all tiles with work.
 layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -52,8 +52,8 @@ void main() {
         arguments[258] = uvec4(min(sum, push.most_groups), 1u, 1u, sum);
     }
     barrier();
-    // Iteration i runs the tiles that need at least i - 1 iterations. The one iteration more than needed copies all
-    // pixels of a tile, so that both images hold the result.
+    // Iteration i, from 1, runs the tiles that need at least max(i - 1, 1) iterations. The one iteration more than
+    // needed copies all pixels of a tile, so that both images hold the result.
     for (uint i = lane + 1u; i <= 257u; i += 256u) {
         uint least = max(i, 2u);
         uint n = first[least] + histogram[least];

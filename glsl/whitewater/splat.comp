@@ -19,8 +19,8 @@ layout(constant_id = 0) const uint FRONTMOST = 0;
 #include "whitewater_push.glsl"
 #include "whitewater_streams.glsl"
 
-// Two entries per pixel. Reads of entries and atomics on words use one declaration, because a driver may assume that
-// two declarations are different memory.
+// Words of the pixels: two uvec4 entries per pixel. Reads of entries and atomics on single words use one declaration,
+// because a driver may assume that two declarations are different memory.
 layout(set = 0, binding = 6, std430) buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
 

@@ -15,6 +15,7 @@ void main() {
     Met m = meet();
     float amount = whitewater_amount(m.p, m.f, m.rr);
     vec3 all = whitewater_shares(amount, m.depth, uintBitsToFloat(words[m.at + FLUID]));
-    // Thicknesses are rounded to whole steps, as in the compute path: sums up to 256 are exact in any order.
+    // Thicknesses are rounded to whole steps of 1 / STEPS, as in the compute path, so that their sums up to 256 are
+    // exact in any order.
     shares = vec4(floor(all * STEPS + 0.5) / STEPS, 0.0);
 }

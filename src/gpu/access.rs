@@ -284,7 +284,7 @@ pub enum Synchronization {
 }
 
 /// # Safety
-/// `pointer` points to `count` elements; it may be null if `count` is 0.
+/// `slice` requires that `pointer` points to `count` elements; it may be null if `count` is 0.
 unsafe fn slice<'a, T>(pointer: *const T, count: u32) -> &'a [T] {
     match count {
         0 => &[],

@@ -16,7 +16,8 @@ pub struct ImageDesc<'a> {
     pub extent: vk::Extent2D,
     /// Format of the image and its view.
     pub format: vk::Format,
-    /// A second format of the same class for a second view (`R32_UINT` atomics on `R32_SFLOAT`).
+    /// Format of an optional second view of the image, of the same compatibility class as the
+    /// first: for example `R32_UINT`, for atomics on an `R32_SFLOAT` image.
     pub alias: Option<vk::Format>,
     /// Usage.
     pub usage: vk::ImageUsageFlags,

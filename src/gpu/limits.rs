@@ -116,7 +116,8 @@ pub fn of(config: &Config, int64_atomics: bool) -> Vec<Limit> {
     most
 }
 
-/// Whether a renderer of a configuration may use a shader, by its file under `glsl/`.
+/// Whether a renderer with the configuration `config` may use the shader whose path under `glsl/` is `file`.
+/// Shaders that only other objects use, such as a `Generator`, do not count.
 fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
     let Some((folder, name)) = file.split_once('/') else {
         // The path of the composite.

@@ -87,15 +87,17 @@ impl Memory {
 /// implements it in a few lines around the allocator that it has (VMA, its own, any version of `gpu_allocator`)
 /// and sets it with [`Host::with_allocator`](crate::Host::with_allocator).
 ///
-/// Without one, the context creates a `gpu_allocator` of its own. `Mutex<gpu_allocator::vulkan::Allocator>`, of
-/// the version re-exported as [`crate::gpu_allocator`], implements it too: hand in an `Arc` of it.
+/// Without an allocator from the host, the context creates a `gpu_allocator` of its own. A host can also hand in an
+/// `Arc` of a `Mutex<gpu_allocator::vulkan::Allocator>`, of the version re-exported as [`crate::gpu_allocator`],
+/// which implements this trait.
 ///
-/// It is called only in construction, `reconfigure`, `resize`, `collect` and `destroy`, from the thread that
-/// calls these.
+/// The allocator is called only in construction, `reconfigure`, `resize`, `collect` and `destroy` of what a context
+/// makes, from the thread that calls these.
 ///
 /// # Safety
-/// The memory belongs to the device, has the requested type, size and alignment, overlaps no other memory, and
-/// stays until [`free`](Self::free). It is persistently mapped and coherent if the location says so.
+/// Memory from [`allocate`](Self::allocate) belongs to the device, has the requested type, size and alignment,
+/// overlaps no other memory, and stays until [`free`](Self::free). It is persistently mapped and coherent if the
+/// location says so.
 pub unsafe trait Allocate: Send + Sync {
     /// Allocates memory for one object.
     ///
@@ -109,7 +111,7 @@ pub unsafe trait Allocate: Send + Sync {
     /// Frees memory.
     ///
     /// # Safety
-    /// It comes from `allocate` of this allocator, and objects bound to it have been destroyed.
+    /// `memory` comes from `allocate` of this allocator, and all objects bound to it have been destroyed.
     unsafe fn free(&self, memory: Memory);
 }
 

@@ -28,7 +28,8 @@ impl RetireList {
         self.retire(std::mem::replace(old, new));
     }
 
-    /// Call when a slot has finished: its work is complete, or it was never submitted.
+    /// Call when a slot's work is complete, or was never submitted: drops the objects that waited for this slot
+    /// alone.
     pub fn collect(&mut self, slot: u32) {
         self.out &= !(1 << slot);
         for (mask, _) in &mut self.waiting {

@@ -56,7 +56,8 @@ impl Shader {
     }
 }
 
-/// Asserts at compile time that a `repr(C)` struct has the layout of the shader's block.
+/// Asserts at compile time that the listed members of a `repr(C)` struct have the offsets that they have in the
+/// shader's block.
 macro_rules! assert_layout {
     ($shader:expr, $block:literal, $type:ty { $($member:ident),+ $(,)? }) => {
         $(const _: () = assert!(
