@@ -55,12 +55,14 @@ Sprite sprite_at(uint i) {
     float texel = frame.light_map.y;
     s.depth = seen.z;
     s.f = footprint_at(seen.xy * frame.light_map.x, vec2(s.p.radius / texel), s.p.kind);
-    // The position of a particle is that of its far end, so that a particle of any size does not shade itself. A
-    // particle between the sun and the map's region shades all of the region; one behind the region shades nothing.
+    // The position of a particle along the light is that of its far end, so that a particle of any size does not
+    // shade itself. A particle between the sun and the region that the light map covers shades all of the region;
+    // one behind the region shades nothing.
     float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
     // Particles behind the eye cast shadows too.
     bool there = world.w < 1.0 && all(lessThan(abs(s.p.centre), vec3(EMPTY))) && place < frame.light_map.x;
-    // The fraction of the particle that is drawn as a blob casts its shadow as a blob, so only the rest counts here.
+    // Near the camera a particle can be drawn partly as a blob of bubble foam (cross-fade). That fraction of it
+    // casts its shadow as a blob, so only the rest counts here.
     float kept = 1.0;
     for (bool handed = frame.whitewater.z > 0.0 && may_be_blob(s.p, length(s.p.centre)); handed; handed = false) {
         kept = kept_of(s.p);
@@ -95,7 +97,8 @@ void splat(ivec2 texel, Sprite s) {
         return;
     }
     float amount = whitewater_amount(s.p, s.f, rr);
-    // If the picture fades out particles behind the water's surface, their shadow fades out likewise.
+    // If whitewater particles fade out behind the water's surface in the picture (`Submerged::Falloff`), their
+    // shadows fade out likewise.
     if (SHAPED == 1u && frame.whitewater.w > 0.0) {
         float depth = s.depth - sqrt(1.0 - rr) * s.p.radius;
         amount = whitewater_shares(amount, depth, texelFetch(front, texel, 0).x).x;
@@ -110,11 +113,13 @@ ivec4 inside(ivec4 box) {
     return ivec4(max(box.xy, ivec2(0, push.first)), min(box.zw, ivec2(int(frame.light_map.x) - 1, push.last)));
 }
 
-// Whether a particle with its centre in this sphere may shade any of the rows.
+// Whether a particle whose centre lies in a sphere (`middle` in world space, radius `reach`) may shade any of the
+// light map's rows that are bound.
 bool shows(vec3 middle, float reach) {
     vec3 seen = (frame.to_light * (frame.view * vec4(middle, 1.0))).xyz;
-    // How far from `middle` a shadow may reach, in texels: the sphere's radius, the largest radius of a particle, and
-    // the half-axis to which small particles are enlarged.
+    // How far the shadow of a particle in the sphere may reach from the sphere's centre `middle`, in texels of the
+    // light map: the sum of the sphere's radius, the largest radius of a particle, and the half-axis to which small
+    // particles are enlarged.
     float texel = frame.light_map.y;
     float wider = (reach + frame.whitewater.x) / texel + LEAST_REACH;
     vec2 at = seen.xy * frame.light_map.x;

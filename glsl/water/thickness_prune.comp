@@ -1,8 +1,9 @@
 #version 460
-// Pass `thickness`, raster path, with two layers of water: removes the boundary between the layers in texels where
-// all water belongs to one of them, as thickness_apart.comp does on the compute path. Not in the thesis.
-// Reads: thickness, sheets, boundaries, scene depth. Writes: sheets (RGBA32F: front, back, window, boundary as
-// found), boundaries.
+// Pass `thickness`, raster path, with two layers of water: removes the boundary (the depth that separates the
+// layers) in texels where all water belongs to one layer, as thickness_apart.comp does on the compute path. Not in
+// the thesis.
+// Reads: thickness, sheets, boundaries, scene depth. Writes: sheets (RGBA32F: thickness of the front layer, of the
+// back layer, and of the water near the boundary; the boundary as found), boundaries.
 
 #include "frame.glsl"
 #include "kernel.glsl"
@@ -21,7 +22,8 @@ void main() {
     }
     uint at = uint(p.y) * uint(frame.thick_extent.x) + uint(p.x);
     vec4 blended = imageLoad(sheets, p);
-    // An amount that the compute path's fixed point would round to zero does not count as water here either.
+    // A thickness of water that the fixed point of the compute path would round to zero does not count as water on
+    // this raster path either.
     float step = frame.particle.w / UNITS;
     vec2 sums = mix(blended.xy, vec2(0.0), lessThan(blended.xy, vec2(0.5 * step)));
     float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(p) + 0.5) * frame.thick_extent.z), 0).x);

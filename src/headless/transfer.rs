@@ -186,9 +186,9 @@ impl Headless {
 
     /// A layer of the last frame by its name; `None` if no layer has that name.
     ///
-    /// - Layers of the smoothing (`water.surface`, `water.iterations`) have the resolution that is configured
-    ///   for the smoothing; each texel is taken from the smoothing level that is shown there. `water.back` is
-    ///   the smoothed depth of the back layer of water.
+    /// - `water.surface` (the smoothed depth of the front layer of water) and `water.iterations` have the resolution
+    ///   that is configured for the smoothing; each texel is taken from the smoothing level that is shown there.
+    ///   `water.back` is the smoothed depth of the back layer.
     /// - `water.thickness.front` and `.back` are the parts of `water.thickness` in front of and behind the
     ///   frontmost foam (T_wf and T_wb of the thesis; without foam everything is in front).
     /// - `water.sheet.front` and `.back` are the thicknesses of the front and the back layer of water, channels

@@ -62,7 +62,8 @@ fn desc(config: &Config) -> ImageDesc<'static> {
 
 /// The pass.
 pub struct Shore {
-    /// Pipelines for most frames, and for the general case (glsl/include/shore.glsl), one per tile list.
+    /// Compute pipelines of the foam: three for the usual case of most frames, and three for the general case
+    /// (glsl/include/shore.glsl), one per list of tiles.
     shade: [[Pipeline; 3]; 2],
     strip: Pipeline,
     strip_tiles: Pipeline,

@@ -33,8 +33,8 @@ const MOST_CHUNK: u32 = 1 << 21;
 /// Maximum bytes of a part of a hash table: every device can bind this much, so a state that was saved on one device
 /// fits any other.
 const MOST_PART: u64 = 1 << 27;
-/// If there are several parts, each has a multiple of this number of rows: 64 rows are 1280 bytes, a multiple of
-/// every device's offset alignment.
+/// If a hash table has several parts, each has a multiple of this number of rows: 64 rows are 1280 bytes, a multiple
+/// of every device's offset alignment.
 const PART_UNIT: u64 = 64;
 /// If there are several chunks of particles, each holds a multiple of this number: the foam of 32 particles is 256
 /// bytes, a multiple of every device's offset alignment.
@@ -178,7 +178,7 @@ impl Classify {
         ROW * u64::from(self.parts.all())
     }
 
-    /// The table that holds the state after an odd or even number of steps.
+    /// Returns the hash table that holds the foam state after an odd (`odd`) or an even number of steps.
     pub fn table(&self, odd: bool) -> &Buffer {
         &self.tables[usize::from(odd)]
     }
@@ -213,7 +213,8 @@ impl Classify {
         gpu.barriers(cmd, &[], &[buffer(table, used, COMPUTE_READ_WRITE)]);
     }
 
-    /// Records one step, from the table that holds the state to the other one.
+    /// Records one step: reads the hash table that holds the state (`odd` as in [`table`](Self::table)), and writes
+    /// the new state to the other table.
     pub fn record(
         &self,
         gpu: &Gpu,

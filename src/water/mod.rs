@@ -129,8 +129,9 @@ impl Recording<'_> {
 pub(crate) struct Beside<'a> {
     /// The maps rendered from the sun, which use the counts of `cull`.
     pub light: Option<&'a Light>,
-    /// Whitewater (spray, foam and bubbles as particles of their own). It and the blobs of bubble foam have to be
-    /// drawn before `reduce`, so that the tiles in which they appear are listed too.
+    /// Whitewater (spray, foam and bubbles as particles of their own), if there is any. Whitewater and the blobs
+    /// of bubble foam have to be drawn before the pass `reduce`, so that the tiles in which they appear are shaded
+    /// too.
     pub whitewater: Option<(&'a Whitewater, Option<&'a WhitewaterParticles>)>,
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
     /// [`SpraySettings::strand_ratio`].
@@ -400,7 +401,8 @@ impl Water {
         self.motion.as_ref().map(|motion| motion.layer(frame))
     }
 
-    /// Layers of a frame of this size for the host, in the state in which `composite` left them.
+    /// Lists the images of the water passes that the host can read as named layers: those of a frame of the size
+    /// `frame`, in the state in which the pass `composite` left them.
     pub fn kept(&self, frame: vk::Extent2D, access: Access) -> Vec<Layer> {
         let layer = |name, image: &Image, level, access| Layer {
             name,

@@ -3,8 +3,9 @@
 //! or more not to the depth of a single drop. From this unsmoothed depth it computes the plan: each pixel's number of
 //! smoothing iterations and their step size.
 //!
-//! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan, each tile's
-//! work; clears the work of the coarser levels' tiles and the counters of `level`.
+//! Reads: water depth, scene depth. Writes: water depth (emptied where the scene hides the water), both smoothing
+//! images, plan, each tile's work (what has to be done in it); clears the work of the coarser levels' tiles and the
+//! counters of the pass `level`.
 
 use ash::vk;
 
@@ -33,7 +34,8 @@ pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 /// Depths that are reduced.
 pub struct Depths<'a> {
     pub water: &'a Image,
-    /// Depth of foam, and the image of spray: tiles with either are shaded too, even without water.
+    /// Depth of surface foam, and the image of spray. Tiles that show foam or spray are shaded too, even without
+    /// water.
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
     /// Whitewater depth.

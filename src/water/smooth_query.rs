@@ -55,7 +55,8 @@ pub struct Query {
     copy: Pipeline,
     write_gate: Pipeline,
     pool: Owned<vk::QueryPool>,
-    /// Number of pixels active in the fifth iteration of each block; 0 for blocks that did not run.
+    /// Number of pixels that are active in the last of the five iterations of each block; 0 for blocks that were
+    /// skipped.
     pub results: Buffer,
     /// One word per block, [`PREDICATE_STRIDE`] apart.
     pub predicates: Buffer,
@@ -185,7 +186,8 @@ impl Query {
         }
     }
 
-    /// Before, both images are in the layout GENERAL; after, fragment shaders can sample both.
+    /// Records all blocks of the smoothing. Before, both smoothing images (`images`) are in the layout GENERAL;
+    /// after, fragment shaders can sample both.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -294,9 +296,10 @@ impl Query {
         Ok(())
     }
 
-    /// Works around a bug of lavapipe up to 22.3, which applies the count buffer of the last `drawIndirectCount` to
-    /// every later indirect draw of the command buffer. After an empty draw with a count of 1, only later indirect
-    /// draws of more than one command remain wrong, which the library does not record but a host may.
+    /// Works around a bug of lavapipe (Mesa's CPU driver) up to 22.3, which applies the count of the last
+    /// `drawIndirectCount` to every later indirect draw of the command buffer. So this records an empty draw with a
+    /// count of 1. Later indirect draws of one command are then right; only those of several commands stay wrong,
+    /// which the library does not record but a host may.
     fn forget_draw_count(&self, r: &Recording<'_>, image: &Image) {
         self.begin(r, image, 0);
         // SAFETY: inside a render pass; the copy's pipeline, set and constants are still bound;

@@ -29,7 +29,7 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// Kinds of tiles: one layer or two, without or with foam, first level only or not.
+/// Number of kinds of tiles: one layer of water or two, without or with foam, first smoothing level only or not.
 pub const KINDS: u32 = 8;
 /// Byte offset of the dispatches in the arguments: after one draw per kind.
 pub const DISPATCHES: u64 = 16 * KINDS as u64;
@@ -38,8 +38,9 @@ pub const DISPATCHES: u64 = 16 * KINDS as u64;
 pub struct Split {
     split: Pipeline,
     end: Pipeline,
-    /// Tiles of each kind, in this order: one layer, two layers, one with foam, two with foam; then these four kinds
-    /// with coarser levels. Each list has room for all tiles of the first level.
+    /// Indices of the tiles, one list for each kind of tile, in this order: one layer of water, two layers, one with
+    /// foam, two with foam; then these four kinds with coarser smoothing levels. Each list has room for all tiles of
+    /// the first level.
     pub lists: Buffer,
     lengths: Buffer,
     /// Draws, then dispatches, one per kind.

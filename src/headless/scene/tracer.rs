@@ -11,14 +11,15 @@ use super::{Mesh, Scene};
 
 /// Rays per vertex.
 const RAYS: usize = 64;
-/// Rays per vertex of the backdrop that is not near the meshes: `FEW` over the hemisphere, or `FEWEST` for
-/// farther vertices, and `SUNS` to the sun. `PENUMBRA` is the tangent of the angular radius that the sun is
-/// given, larger than the real one, because leaves blur shadows.
+/// Rays per vertex of the backdrop: `FEW` over the hemisphere for vertices not near the meshes, `FEWEST` for
+/// farther ones; and `SUNS` to the sun, for farther vertices one. `PENUMBRA` is the tangent of the angular radius
+/// that the sun is given, larger than the real one, because leaves blur shadows.
 const FEW: usize = 6;
 const FEWEST: usize = 4;
 const SUNS: usize = 2;
 const PENUMBRA: f32 = 0.06;
-/// Distance from the scene's centre up to which the backdrop is lit by rays, in multiples of `Around::near`.
+/// Distance from the scene's centre up to which rays are traced for the light of the backdrop, in multiples of
+/// `Around::near`, the distance up to which it counts as near the meshes.
 const FAR: f32 = 14.0;
 
 struct Triangle {
@@ -303,7 +304,8 @@ fn directions(count: usize) -> Vec<Vec3> {
         .collect()
 }
 
-/// Bakes the light of the backdrop: near the meshes with as many rays as theirs, with few rays elsewhere.
+/// Bakes the light of the backdrop: near the meshes with as many rays per vertex as for the meshes, farther away
+/// with few rays, and very far away without rays.
 pub struct Around {
     all: Tracer,
     /// Finds whether the backdrop hides the sun; the meshes' own shadow is in the shadow map.

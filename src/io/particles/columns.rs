@@ -114,8 +114,8 @@ impl std::fmt::Display for Attribute {
 pub(super) enum Data {
     F32(Vec<f32>),
     F64(Vec<f64>),
-    /// Unsigned 64-bit values above `i64::MAX` are clamped to it. [`to_ids`](Self::to_ids) refuses ids of that
-    /// size.
+    /// Integers of any width. Unsigned 64-bit values above `i64::MAX` are clamped to it;
+    /// [`to_ids`](Self::to_ids) refuses ids of that size.
     Int(Vec<i64>),
 }
 
@@ -201,8 +201,8 @@ impl Data {
         }
     }
 
-    /// All values as ids, modulo 2^32. The error is the index of the first value that is negative, fractional or
-    /// too large to be exact.
+    /// Returns all values as ids of particles, modulo 2^32. The error is the index of the first value that is
+    /// negative, fractional or too large to be exact.
     pub(super) fn to_ids(&self) -> Result<Vec<u32>, usize> {
         let id = |i: usize| match self {
             // `i64::MAX` stands for all larger values, see `Data::Int`.
@@ -218,7 +218,8 @@ impl Data {
         if values.len() < self.len() { Err(values.len()) } else { Ok(values) }
     }
 
-    /// All values, or the index of the first that is not an integer in the range of `u32`.
+    /// Returns all values as `u32`, or as the error the index of the first value that is not an integer in the
+    /// range of `u32`.
     pub(super) fn to_u32(&self) -> Result<Vec<u32>, usize> {
         let mut values = Vec::with_capacity(self.len());
         values.extend((0..self.len()).map_while(|i| self.u32(i)));
@@ -393,8 +394,8 @@ pub(super) struct Column {
 /// The result of a reader.
 #[derive(Debug, Default)]
 pub(super) struct Table {
-    /// Number of components and values of the positions, if the format stores them apart from the named
-    /// columns; otherwise they are searched among the columns.
+    /// Number of components of a position, and the values of all positions, if the format stores them apart
+    /// from the named columns; otherwise the positions are searched among these columns.
     pub(super) positions: Option<(usize, Data)>,
     pub(super) columns: Vec<Column>,
     pub(super) attributes: Vec<Attribute>,
@@ -577,7 +578,8 @@ impl<'a> Search<'a> {
 }
 
 impl Roles {
-    /// `placed` is the index of the column of positions, if the format stores them apart.
+    /// Finds the column of each role by name. `placed` is the index of the column of positions, if the format
+    /// stores them apart from the named columns.
     pub(super) fn find(
         shapes: &[Shape<'_>],
         placed: Option<usize>,

@@ -12,20 +12,22 @@ use super::source::Content;
 use super::tecplot;
 use super::text::Text;
 
-/// Max number of lines that are searched for the names, without and with comment lines.
+/// Max number of lines at the start of a file that are searched for the names of the columns: `LINES` without
+/// counting comments, `ALL` with comments.
 const LINES: usize = 64;
 const ALL: usize = 4096;
 
 /// The beginning of a table.
 pub(super) struct Heading {
-    /// Separator of the fields; `None` for white space, which may come with other separators.
+    /// Separator of the fields, such as a comma; `None` for white space, perhaps together with semicolons.
     pub(super) delimiter: Option<u8>,
     /// Names of the columns; empty without a line of names.
     pub(super) names: Vec<String>,
     /// Where the rows begin: byte offset, and number of lines before.
     pub(super) at: u64,
     pub(super) line: u64,
-    /// Number of lines before the names (or rows) that are neither empty nor comments.
+    /// Number of lines before the line of names (without names: before the rows) that are neither empty nor
+    /// comments.
     pub(super) passed: u64,
 }
 
@@ -154,7 +156,8 @@ pub(super) fn number_with_comma(field: &[u8]) -> Option<f64> {
     parse_number(&field)
 }
 
-/// If the fields of a table are vectors such as `"(1, 2, 3)"`, the name of the column with the positions.
+/// Finds a column of positions whose fields are whole vectors such as `"(1, 2, 3)"`. Returns its name; `None` if
+/// there is none, or if the heading has names of positions.
 pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
     if have_positions(&heading.names) {
         return None;
@@ -169,8 +172,9 @@ pub(super) fn in_a_cell(lines: &[Line], heading: &Heading) -> Option<String> {
     all.find(|(name, field)| is_position(name) && vector(field)).map(|(name, _)| name)
 }
 
-/// If the first line from index `from` on (comments do not count) has no numbers, but the next has, the first may
-/// hold units or a rule. Returns the index of that first line, and the line of numbers.
+/// Finds a line of units, or a rule, between the names and the rows. Such a line is the first one from index
+/// `from` on (comments do not count) if it has no numbers, but the next line has. Returns its index, and that
+/// line of numbers.
 fn below(lines: &[Line], from: usize) -> Option<(usize, &Line)> {
     let mut all = lines.iter().enumerate().skip(from).filter(|(_, line)| !is_comment(&line.text));
     let ((at, units), (_, row)) = (all.next()?, all.next()?);

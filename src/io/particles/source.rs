@@ -118,7 +118,8 @@ impl<'a> Content<'a> {
         Some(source).filter(|_| self.piece.packing != Packing::None)
     }
 
-    /// Opens a range. `spare` is a source that is read on to the range if possible, instead of starting anew.
+    /// Opens the bytes from `start` to `end` of the content. `spare` is a source opened earlier: if possible
+    /// it is read on to `start`, instead of decompressing anew from the beginning.
     pub(super) fn reach(
         &self,
         spare: Option<Source<'a>>,
@@ -365,7 +366,8 @@ pub(super) fn truncated(what: &str, offset: u64, needed: u64, found: u64) -> Rea
     ReadError::Truncated { what: what.into(), offset, needed, found }
 }
 
-/// Parses a header from as much of the beginning as is needed; `parse` also returns its length in bytes.
+/// Parses the header of a file: calls `parse` with more and more of the beginning, until that is enough.
+/// `parse` returns the parsed header and its length in bytes.
 pub(super) fn header<T>(
     source: &mut Source<'_>,
     mut parse: impl FnMut(&[u8]) -> Result<(T, u64), ReadError>,

@@ -149,8 +149,8 @@ impl Grid {
         sum
     }
 
-    /// Distance to the nearest (`rank` 1), second or third neighbour; `None` if fewer than `rank` lie within
-    /// two cells.
+    /// Distance from the point `p` to its nearest (`rank` 1), second or third neighbour; `None` if fewer than
+    /// `rank` neighbours lie within two widths of a grid cell.
     fn neighbour(&self, p: [f32; 3], rank: usize) -> Option<f32> {
         let [x, y, z] = self.cell_of(p);
         let mut best = [f32::INFINITY; 3];
@@ -183,7 +183,8 @@ impl Grid {
     }
 }
 
-/// The cubic spline kernel with smoothing length 1, as a fraction of the rest density.
+/// The cubic spline kernel at the distance q, in smoothing lengths: the fraction of the rest density that a
+/// particle adds there.
 fn spline(q: f32) -> f32 {
     let (near, far) = ((1.0 - q).max(0.0), (2.0 - q).max(0.0));
     (0.25 * far.powi(3) - near.powi(3)) * std::f32::consts::FRAC_1_PI
@@ -193,7 +194,8 @@ fn squared(p: [f32; 3], q: [f32; 3]) -> f32 {
     p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-/// Keeps the three smallest squared distances. Distance 0 (the point itself and its duplicates) does not count.
+/// Inserts the squared distance `new` in `best`, which keeps the three smallest. Distance 0 (the point itself
+/// and its duplicates) does not count.
 fn insert(best: &mut [f32; 3], new: f32) {
     let [a, b, c] = *best;
     if new <= 0.0 || new >= c {

@@ -21,7 +21,8 @@ use crate::water::{Window, capacity, each_once};
 
 /// Maximum number of groups per dispatch; their invocations loop over the remaining items.
 pub const MOST_GROUPS: u32 = 4096;
-/// Max number of particles per chunk; a binding limits it further, depending on the stride.
+/// Max number of fluid particles per chunk (the particles of one dispatch). The device's max size of a binding limits
+/// it further, depending on the stride of the host's streams.
 const MOST_CHUNK: u32 = 1 << 24;
 
 /// Words of the counts (glsl/include/generate_types.glsl).

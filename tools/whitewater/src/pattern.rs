@@ -121,7 +121,8 @@ fn of_picture(path: &Path, args: &PatternArgs) -> Outcome<Layers> {
     Ok(layers)
 }
 
-/// Texture from a user's picture: its size, and the luminance of its unchanged values, 0 where it is transparent.
+/// Reads a texture from a user's picture. Returns the picture's size in pixels, and the luminance of each pixel,
+/// computed from the stored values (not linearized); 0 where the picture is transparent.
 pub fn values(path: &Path) -> Outcome<([u32; 2], Vec<f32>)> {
     let picture = picture::read(path)?;
     let size = [picture.width as u32, picture.height as u32];

@@ -33,8 +33,8 @@ const ALIKE: f32 = 1.26;
 /// number by more than [`MOST`], the common radius is larger.
 const BASE: f64 = 0.05;
 const MOST: usize = 8;
-/// A particle stands for the water in a cube whose edge is twice its radius. A ball with a radius of this many
-/// particle radii has the same volume.
+/// A particle stands for the water in a cube whose edge is twice the particle's radius. A ball with the cube's volume
+/// has this many times the particle's radius.
 const BALL: f32 = 1.2407;
 
 /// Whether an attribute is taken as radii.
@@ -165,7 +165,8 @@ impl Split {
         Some(Self { base, most })
     }
 
-    /// Splits the large particles of a frame. Returns the number of particles before, if any was split.
+    /// Splits the large particles of a frame. Returns the number of particles before the split; `None` if none was
+    /// split.
     pub fn apply(&self, particles: &mut Particles) -> Option<usize> {
         let radii = of(particles)?;
         let count = radii.len();
@@ -341,7 +342,8 @@ mod tests {
         assert!((2000..=8000).contains(&many.positions.len()), "{}", many.positions.len());
     }
 
-    /// The points fill the ball: all halves of its volume hold equally many, and so do all eighths.
+    /// The points fill the ball evenly: an eighth of them lie within half its radius, and half of them on either side
+    /// of a plane through its centre.
     #[test]
     fn copies_are_even() {
         let all: Vec<Vec3> = (0..512).map(|k| even(k, 512) / 0.85).collect();
