@@ -1,6 +1,7 @@
 #version 460
-// Pass `heap`, order: sorts the blobs of each bucket by id, so that sums over them are the same in every run. Only
-// the first few, those with the lowest ids, are sorted: with all blobs on one spot a full sort would hang a device.
+// Pass `heap`, order: sorts the blobs of each bucket of the neighbour grid by id, so that sums over them are the same
+// in every run. Only the blobs with the lowest ids, MOST_IN_BUCKET of them, are sorted, and only they are read later:
+// with all blobs on one spot a full sort would hang a device.
 // Reads: balls, drifts, spins, ids, buckets. Writes: order, heaped.
 
 #include "heap.glsl"

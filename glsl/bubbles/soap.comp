@@ -290,8 +290,8 @@ void main() {
     }
     float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
     // Where a pixel's layers leave a hole, it is filled up to the maximum opacity (Sec. 5) of these layers, or of all
-    // blobs if pass `peel` has found more opaque ones behind. The comparison allows 1/1024 because `peel` blends
-    // opacities in half precision.
+    // blobs if pass `peel` has found more opaque ones behind. The comparison allows 1/1024 because `peel` by
+    // billboards blends opacities in half precision.
     most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
     float plug = bubbly.mirror.w > 0.5 ? max(most - covered, 0.0) : 0.0;
     color += through_medium(plug * body, vec3(plug), metres).rgb;

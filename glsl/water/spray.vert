@@ -32,15 +32,19 @@ layout(location = 8) flat out vec2 turn;   // cosine and sine from the noise's a
 const uint PLACE = 0x5370u;
 // First counter of the random numbers that a particle has once.
 const uint SPINDLE = 4096u;
-// Sums of an ellipsoid's squared half-axes (3 for a ball) between which droplets change from a random spindle to this
-// ellipsoid, which is fitted to the neighbours.
+// The droplets of a particle fill either a random spindle or the ellipsoid that is fitted to its neighbours. Up to
+// the first sum of the ellipsoid's squared half-axes (3 for a ball) they fill the spindle, from the second on the
+// ellipsoid, and in between a mix.
 const float BALL = 3.0;
 const float FLAT = 3.6;
-// Root of the sum of squared half-axes of the ellipsoid that the droplets fill, divided by the scatter radius.
+// Size of the ellipsoid that the droplets of a particle fill: the square root of the sum of its squared half-axes,
+// divided by the scatter radius (the radius of the ball that droplets fill otherwise).
 const float STRAND = 0.7;
-// An ellipse counts as a circle if the difference of its squared half-axes is less than this times their sum.
+// An ellipse counts as a circle, without a longer half-axis, if the difference of its squared half-axes is less than
+// this fraction of their sum.
 const float ROUND = 1.0e-3;
-// Sums of the neighbours' weights between which mist fades in: two or three particles alone are drops without mist.
+// A spray particle's mist fades in between these two sums of its neighbours' weights, so that two or three particles
+// alone are drops without mist.
 const vec2 CROWD = vec2(1.0, 6.0);
 // Maximum number of octaves of the mist's noise.
 const float OCTAVES = 5.0;
@@ -54,8 +58,9 @@ vec3 direction_of(uint id, uint number) {
     return vec3(ring * cos(turn), ring * sin(turn), level);
 }
 
-// Half-axes of the projection of mist on a plane with the axes `onto`. The covariances of its shape and of its streak add
-// up. `longer` becomes the direction of the longer half-axis, unless the ellipse is a circle.
+// Returns the half-axes, longer first, of the ellipse as which a particle's mist is projected on the plane with the
+// axes `onto`: the covariances of its ellipsoid `shape` and of its `streak` (motion) are added. `longer` becomes the
+// direction of the longer half-axis, and is left as it is for a circle.
 vec2 mist_ellipse(mat3 shape, vec3 streak, mat2x3 onto, inout vec3 longer) {
     mat2x3 seen = frame.spray_cloud.y * (shape * transpose(mat3(frame.view)) * onto);
     vec2 along = streak * onto;
@@ -78,8 +83,9 @@ void main() {
     uint number = 5u * (gl_InstanceIndex % droplets);
     chance = chance_of(id, number);
     bool several = droplets > 1u;
-    // Droplets are distributed uniformly in a ball. If a particle has several, the ball is stretched to a spindle of
-    // random direction and size, so that some particles look like a burst and some hardly torn.
+    // The droplets of a particle are distributed uniformly in a ball. If there are several, the ball is squeezed to a
+    // spindle of random direction and size, so that some particles look like a wide burst and others like one hardly
+    // torn drop.
     vec3 off = direction_of(id, number);
     off *= frame.spray.z * pow(uniform_of(PLACE, id, number + 2u), 1.0 / 3.0);
     vec3 axis = direction_of(id, SPINDLE);
@@ -113,9 +119,10 @@ void main() {
     vec3 level = normalize(cross(side, normal));
     vec3 e1 = speed > still_below ? motion / speed : level;
     vec3 e2 = cross(e1, normal);
-    // A streak covers a larger area than the droplet, but each point for a shorter time, so its optical depth is
-    // divided by the ratio of the areas. A sprite narrower than 1.4 pixels is widened to that, to avoid flicker; its
-    // optical depth is divided likewise.
+    // A droplet that moves during the exposure becomes a streak. The streak covers a larger area than the droplet,
+    // but each point for a shorter time, so its optical depth is that of the droplet divided by the ratio of the
+    // areas. A sprite narrower than 1.4 pixels is widened to that, to avoid flicker; its optical depth is divided
+    // likewise.
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
@@ -129,24 +136,26 @@ void main() {
     float crowd = smoothstep(CROWD.x, CROWD.y, uintBitsToFloat(sprite.shape.w));
     float thick = mist ? frame.spray_cloud.x * torn * torn * torn * crowd : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
-    // Visibility of the sun, one value for all colours: around spray there is more white foam than coloured water.
+    // Visibility of the sun from a droplet. The three colour channels are averaged to one value, because around spray
+    // there is more white foam than coloured water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     float direct = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
     amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z);
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
-    // Cells of the mist's noise are one drawn radius wide, and lengthened by the streak. Cells of the finest octave
-    // are at least a pixel wide.
+    // Cells of the mist's noise are one drawn particle radius wide, and longer by the streak. The number of octaves
+    // is such that cells of the finest octave are at least a pixel wide.
     vec2 cell = frame.particle.x + abs(vec2(dot(motion, e1), dot(motion, e2))) * frame.spray.w;
     float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(min(cell.x, cell.y) / pixel), 0.0, OCTAVES) : 0.0;
     grain = vec3(axes / cell, mist ? octaves : 0.0);
-    // The noise is lengthened along the streak, but does not turn with it, because the streak of a particle that
-    // hardly moves has a random direction that changes from frame to frame.
+    // The noise in mist is lengthened along the particle's streak, but its axes stay those of the view, because the
+    // streak of a particle that hardly moves has a random direction that changes from frame to frame.
     turn = vec2(dot(e1, level), dot(e1, upright));
     along = e1 / axes.x;
     across = e2 / axes.y;
 
     vec2 corner = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // One pixel wider on each side, so that snapping of vertex positions does not cut the footprint.
+    // The quad is one pixel wider than the droplet's ellipse on each side, so that the snapping of vertices to the
+    // rasteriser's grid does not cut the ellipse.
     vec3 at = centre + corner.x * e1 * (axes.x + pixel) + corner.y * e2 * (axes.y + pixel);
     bool drawn = float(gl_InstanceIndex % droplets) < kept;
     bool whole = drawn && depth > 2.0 * (axes.x + pixel) && depth > frame.depth.z;

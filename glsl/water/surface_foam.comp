@@ -26,7 +26,8 @@ layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprite
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 
-// Max number of texels in a sprite's box that one invocation processes alone; it is the upper end of a size class.
+// Max number of texels of a sprite's box for which one invocation processes the sprite alone; a larger sprite is
+// shared by the workgroup. The number is the upper end of a size class.
 const int SMALL = 1023;
 
 // Number of size classes: two per power of two of the number of texels.
@@ -45,9 +46,9 @@ struct Splat {
     ivec4 box;   // texels that it may cover
 };
 
-// Bounds of the ellipse on one axis of the image, as slopes, from the two tangent planes through the eye; unbounded
-// if the ellipse reaches the plane through the eye. They are computed relative to the centre's slope, so that they
-// are exact for small sprites.
+// Bounds of a foam sprite's ellipse on one axis of the image, as slopes (x / depth or y / depth), from the two
+// tangent planes through the eye; ±1e10 if the ellipse comes near the eye's own plane (depth 0). They are computed
+// relative to the centre's slope, so that they are exact for small sprites.
 vec2 touching(vec2 centre, vec2 half1, vec2 half2) {
     float from = centre.x / -centre.y;
     vec2 w = vec2(half1.x + from * half1.y, half2.x + from * half2.y);
@@ -80,12 +81,14 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Adds to the sum of all foam and to the sums after it, most of which get 0. Any number of sprites may lie on one
-// spot: an addition to a word that is already half full is subtracted again. All additions are in one loop: a CPU
-// driver runs the invocations one by one at each atomic operation in the code, even those that add nothing.
+// Adds `steps` to the texel's sums of thickness from `word` on, most of which get 0. Any number of sprites may lie on
+// one spot: an addition to a word that is already half full is subtracted again, so no word overflows. All additions
+// share one atomic operation in a loop: a CPU driver runs the invocations one by one at each atomic operation in the
+// code, even those that add nothing.
 void add(uint word, uvec4 steps) {
     do {
-        // A zero must not count as an overflow: it would be subtracted again forever.
+        // If the word was half full before the addition, the addition is undone in the next round. An addition of 0
+        // must not be undone, as this would repeat forever.
         bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec4(0u - steps.x, steps.yzw) : uvec4(steps.yzw, 0u);
         word += over ? 0u : 1u;
@@ -105,14 +108,15 @@ void splat(ivec2 texel, Splat s) {
     uint at = words_of(texel);
     uint front = words[at + FRONT];
     if (THICK == 0u) {
-        // Most sprites are behind the scene or other sprites: a read is cheaper than an atomic.
+        // The atomic minimum is skipped if a read shows that it would change nothing: a read is cheaper, and most
+        // sprites are behind the scene or behind other sprites.
         if (floatBitsToUint(depth) < front) {
             atomicMin(words[at + FRONT], floatBitsToUint(depth));
         }
         return;
     }
     uint scene = words[at + SCENE];
-    // Distance to the scene along z; not positive where the scene hides the sprite.
+    // Distance along z from the foam sprite to the scene behind it; 0 or less where the scene hides the sprite.
     float before = uintBitsToFloat(scene) - depth;
     if (!(before > 0.0)) {
         return;
@@ -137,7 +141,9 @@ uint class_of(int texels) {
     return min(2u * power + (power > 0u ? n >> (power - 1u) & 1u : 0u), CLASSES - 1u);
 }
 
-// Invocations in lockstep wait for the one with the most texels, so the sprites of a group are sorted by size class.
+// Returns the index in the workgroup of the sprite that this invocation processes; `own` is the number of texels of
+// its original sprite. Invocations in lockstep wait for the one with the most texels, so the sprites of a workgroup
+// are sorted by size class.
 uint in_order(int own) {
     uint local = gl_LocalInvocationIndex;
     if (local < CLASSES) {

@@ -31,7 +31,8 @@ void main() {
     float widened;
     float axis = drawn_axis(sphere.w * frame.particle.z / frame.particle.x, -sphere.z, frame.thick_slope, widened);
     disc = vec4(sphere.xyz, 1.0 / axis);
-    // A particle with a smaller radius has a smaller sprite that holds the same volume.
+    // All particles have the same volume: the thickness at a sprite's centre is multiplied by (drawn radius / own
+    // radius)², so a smaller sprite holds as much water.
     float grown = frame.particle.x / sphere.w;
     amplitude = share * frame.particle.w * grown * grown / widened;
     vec2 reach = vec2(axis);

@@ -1,7 +1,7 @@
 #version 460
-// Pass `thickness`, compute path with foam, last part: converts two sums from fixed point to scene units: all water,
-// and the water in front of the frontmost foam (T_wf, thesis Sec. 3.2.2). In texels without foam the second is all
-// water too.
+// Pass `thickness`, compute path with foam, last part: converts the sums of two thicknesses from fixed point to scene
+// units: that of all water, and that of the water in front of the frontmost foam (T_wf, thesis Sec. 3.2.2), which in
+// texels without foam is that of all water too.
 // Reads: sums, foam depth. Writes: thickness (RG32F).
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `splat`, first part: clears all pixels and stores the depths of scene and fluid, which particles read many
-// times (Akinci et al. 2013, passes 1 and 2). It also computes the arguments of the dispatches over the particles.
+// Pass `splat`, first part: clears each pixel's words and stores in them the eye depths of scene and fluid, which
+// particles read many times (Akinci et al. 2013, passes 1 and 2). It also computes the arguments of the dispatches
+// over the particles.
 // Reads: scene depth, water depth, depth of the host's own fluid, count. Writes: words, arguments.
 
 #include "frame.glsl"
@@ -12,8 +13,8 @@ layout(set = 0, binding = 1, std430) writeonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
-// For each chunk the arguments of an indirect dispatch (xyz) and the number of particles (w). With quads they are the
-// arguments of an indirect draw.
+// Four words for each chunk of whitewater particles. Compute paths: workgroups of an indirect dispatch (xyz) and
+// number of particles (w). Quads: arguments of an indirect draw.
 layout(set = 0, binding = 5, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 // Depth of the host's own fluid, in the camera's convention.
 layout(set = 0, binding = 6) uniform sampler2D fluid_depth;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `splat` by quads, last part: converts the frontmost particle's attributes to images, and the thickness to
-// intensity (Akinci et al. 2013, Sec. 2.3; pass 5).
+// Pass `splat` by quads, last part: for each pixel, writes depth and normal of the frontmost whitewater particle to
+// images, and converts the summed thickness to the foam's intensity (Akinci et al. 2013, Sec. 2.3; pass 5).
 // Reads: words, the frontmost, foam thickness. Writes: depths of foam, fluid and scene with the foam's intensity, foam
 // normal.
 

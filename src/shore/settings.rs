@@ -49,13 +49,14 @@ impl ShoreConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Edge {
-    /// The fraction of the pixel that foam covers, from the derivatives of the thresholded value and the variance of
-    /// its detail finer than the pixel. Default, because edges neither crawl nor sparkle.
+    /// A pixel gets the fraction of it that foam covers, estimated from the screen-space derivatives of the value
+    /// that is compared with the threshold and from the variance of its detail finer than the pixel. Default, because
+    /// edges of foam neither crawl nor sparkle.
     Smooth,
     /// A pixel is foam or not, as in the blog.
     Clip,
-    /// The average of four alpha-to-coverage samples: the fraction of [`Smooth`](Self::Smooth), quantised to quarters
-    /// and dithered over 2×2 pixels.
+    /// A pixel gets the covered fraction of [`Smooth`](Self::Smooth), quantised to quarters and dithered over 2×2
+    /// pixels, as the average of four alpha-to-coverage samples would be.
     Coverage,
 }
 
@@ -63,7 +64,7 @@ pub enum Edge {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ShoreSettings {
-    /// Time in seconds, finite, default 0. All motion is computed from it in 64 bits.
+    /// Time in seconds, finite, default 0. All motion of shoreline and contact foam is computed from it in 64 bits.
     pub time: f64,
     /// Time after which all motion repeats, seconds, [0.1, 1e6]. For that, each speed is rounded to a whole number of
     /// cycles per period. `None` (default): no repetition.
@@ -75,7 +76,8 @@ pub struct ShoreSettings {
 }
 
 impl ShoreSettings {
-    /// Converts this look, whose lengths are in metres, to scene units, for a number of scene units per metre.
+    /// Returns these settings, whose lengths are in metres, with lengths and velocities in scene units, of which a
+    /// metre has `units_per_metre`.
     #[must_use]
     pub fn in_units(mut self, units_per_metre: f32) -> Self {
         let longer = |length: &mut f32| *length *= units_per_metre;
@@ -113,7 +115,8 @@ impl ShoreSettings {
 /// Zero-mean seamless noise over the water's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Maximum value, [-1000, 1000], in the unit of the quantity to which the noise is added.
+    /// Amplitude: the noise varies between minus and plus this value. [-1000, 1000], in the unit of the quantity to
+    /// which the noise is added.
     pub amplitude: f32,
     /// Repetitions of the noise texture per scene unit, [0, 100]. The coarsest cells of the noise are a quarter of a
     /// repetition wide.
@@ -141,10 +144,10 @@ impl Noise {
 ///     + texture_weight · (web + a'·v + b' + n₃) ≥ threshold + n₂
 /// ```
 ///
-/// where the shore coordinate v is 0 at the foam's seaward edge, 1 at the shore line and 2 at the foam's inland edge
-/// (the blog, Sec. IV to VIII). The phase advances with `speed`. a and b are `wave_slope` and `wave_offset`, a' and
-/// b' are `texture_slope` and `texture_offset`. `web` is the foam texture. n₁, n₂ and n₃ are `frequency_noise`,
-/// `threshold_noise` and `rise_noise`.
+/// In this condition for foam the shore coordinate v is 0 at the foam's seaward edge, 1 at the shore line and 2 at
+/// the foam's inland edge (the blog, Sec. IV to VIII). The phase advances with `speed`. a and b are `wave_slope` and
+/// `wave_offset`, a' and b' are `texture_slope` and `texture_offset`. `web` is the foam texture. n₁, n₂ and n₃ are
+/// `frequency_noise`, `threshold_noise` and `rise_noise`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ShorelineSettings {
@@ -159,8 +162,8 @@ pub struct ShorelineSettings {
     /// Wave speed in radians of phase per second, [-1000, 1000], default -0.9. With a negative speed waves run
     /// towards the shore; with a positive one, as in the blog, out to sea.
     pub speed: f32,
-    /// Share of the waves' motion that is an oscillation instead of a constant `speed`, 0 (none) to 1 (all), default
-    /// 0.35.
+    /// Share of the waves' motion that is an oscillation to and fro instead of an advance with `speed`, 0 (none) to 1
+    /// (all), default 0.35.
     pub swing: f32,
     /// Amplitude of the oscillation, radians, [0, 1000], default 2.2.
     pub swing_amplitude: f32,
@@ -168,9 +171,9 @@ pub struct ShorelineSettings {
     pub swing_period: f32,
     /// Noise added to the frequency, radians per unit of v. Default: amplitude 5, scale 1/90 per scene unit.
     pub frequency_noise: Noise,
-    /// Noise added to the speed, radians per second. Default: amplitude 0.35, scale 1/90 per scene unit. At each
-    /// place the added speed oscillates around 0, because with a constant one the phases of different places would
-    /// drift apart without limit.
+    /// Noise added to the wave speed, radians per second. Default: amplitude 0.35, scale 1/90 per scene unit. At each
+    /// place the added speed oscillates over time around 0, because with a constant added speed the phases of
+    /// different places would drift apart without limit.
     pub speed_noise: Noise,
     /// Period of the oscillation of `speed_noise`, seconds, [0.1, 1e6], default 11.
     pub speed_period: f32,
@@ -178,8 +181,8 @@ pub struct ShorelineSettings {
     pub wave_slope: f32,
     /// Offset b of the waves, [-100, 100], default -0.75.
     pub wave_offset: f32,
-    /// Lower limit of the waves' term `sin(…) + a·v + b + n₃`, [-100, 100]. `None` (default): no limit. The blog's
-    /// first steps use 0.
+    /// Lower limit at which the waves' term `sin((frequency + n₁)·v + phase) + a·v + b + n₃` is clamped before it is
+    /// weighted, [-100, 100]. `None` (default): no limit. The blog's first steps use 0.
     pub floor: Option<f32>,
     /// Weight of the waves in the mix, [0, 100], default 0.34.
     pub wave_weight: f32,
@@ -191,8 +194,8 @@ pub struct ShorelineSettings {
     pub texture_offset: f32,
     /// Layers of the foam texture. Default: two.
     pub layers: [TextureLayer; LAYERS],
-    /// Noise by which the foam texture's positions are displaced, scene units. Default: amplitude 0.7, scale 1/18 per
-    /// scene unit.
+    /// Noise that displaces the positions at which the foam texture is looked up, scene units. Default: amplitude
+    /// 0.7, scale 1/18 per scene unit.
     pub texture_warp: Noise,
     /// Velocity at which the noise of `texture_warp` moves, scene units per second, [-1000, 1000], default 0.35 and
     /// 0.2.
@@ -201,11 +204,11 @@ pub struct ShorelineSettings {
     pub threshold: f32,
     /// Noise added to the threshold. Default: amplitude 0.1, scale 1/90 per scene unit.
     pub threshold_noise: Noise,
-    /// Noise added to `wave_offset` and `texture_offset`, so that the foam's reach varies along the shore. Default:
-    /// amplitude 0.22, scale 1/90 per scene unit.
+    /// Noise n₃ added to both `wave_offset` and `texture_offset`, so that the foam reaches less or more far along the
+    /// shore. Default: amplitude 0.22, scale 1/90 per scene unit.
     pub rise_noise: Noise,
-    /// Noise by which the positions of the foam texture and of all other noises are displaced, but not v, scene
-    /// units. Default none.
+    /// Noise that displaces the positions at which the foam texture and all other noises are looked up, scene units.
+    /// The shore coordinate v is not displaced. Default: none.
     pub warp: Noise,
     /// Range of v over which foam fades out at its seaward edge and at its inland edge, [0.001, 1], default 0.2.
     pub fade: f32,
@@ -287,13 +290,14 @@ pub struct ContactSettings {
     pub particle_depth: Option<f32>,
     /// How the distance between water surface and scene is measured.
     pub measure: Measure,
-    /// Strength of the mask, 0 (none) to 1 (no foam where the mask is black), default 0.8.
+    /// Strength of the mask that removes contact foam, 0 (no effect) to 1 (no foam where the mask is black), default
+    /// 0.8.
     pub mask: f32,
-    /// If the application gives no mask, the foam texture serves as mask: its repetitions per scene unit, [0, 100],
-    /// default 1/2.2.
+    /// Repetitions per scene unit, [0, 100], default 1/2.2, of the foam texture where it serves as mask of contact
+    /// foam, because the application gives no mask.
     pub mask_scale: f32,
-    /// Velocity of the foam texture that serves as mask, scene units per second, [-1000, 1000], default 0.05 and
-    /// 0.03.
+    /// Velocity of the foam texture where it serves as mask of contact foam, scene units per second, [-1000, 1000],
+    /// default 0.05 and 0.03.
     pub mask_speed: [f32; 2],
     /// Albedo of contact foam, linear RGB, 0 to 1, default the tutorial's (0.8, 0.85, 0.92 in sRGB). If `lit` is 0,
     /// it is the radiance that the foam emits, [0, ∞).
@@ -327,12 +331,14 @@ impl Default for ContactSettings {
 /// How the distance between the water's surface and the scene behind it is measured, at each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
-    /// The distance from the surface to the scene along the pixel's ray, as in the tutorial's program. Default.
+    /// The distance from the water's surface to the scene along the pixel's view ray, as in the tutorial's program.
+    /// Default.
     Distance,
-    /// The difference between the depths of scene and surface along the view axis, as in the tutorial's text.
+    /// The eye depth of the scene less that of the water's surface at the pixel (along the view axis), as in the
+    /// tutorial's text.
     View,
-    /// The difference between the heights of surface and scene. Where the scene is not below the surface, there is no
-    /// foam.
+    /// The height of the water's surface less that of the scene which the pixel shows behind it. Where this is not
+    /// positive, there is no contact foam.
     Vertical,
 }
 
@@ -346,7 +352,8 @@ impl ShoreSettings {
         self.contact.check()
     }
 
-    /// Phase, 0 to 1, of a motion with `rate` cycles per second, at the time of these settings.
+    /// Phase, 0 to 1 cycle, at `self.time` of a motion that repeats `rate` times per second. With a `period`, `rate`
+    /// is rounded to a whole number of cycles per period.
     pub(crate) fn turned(&self, rate: f64) -> f64 {
         let rate = match self.period {
             Some(period) => (rate * f64::from(period)).round() / f64::from(period),
@@ -355,7 +362,8 @@ impl ShoreSettings {
         (rate * self.time).rem_euclid(1.0)
     }
 
-    /// The phase of the waves in radians, and the factor with which `speed_noise` is added to it.
+    /// Returns the phase of the waves at the settings' time in radians, and the factor in seconds with which
+    /// `speed_noise` (radians per second) is multiplied before it is added to the phase.
     pub(crate) fn phases(&self) -> [f32; 2] {
         let s = &self.shoreline;
         let (by, seconds) = (f64::from(s.swing_amplitude), f64::from(s.swing_period));

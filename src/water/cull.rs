@@ -1,10 +1,10 @@
 //! Pass `cull`: turns the host's particles into the library's list of visible spheres (thesis Sec. 4.3).
 //!
 //! Drops particles with NaN or infinite positions, leaves out those of low density (they are spray), culls the rest
-//! against the frustum, and writes the survivors without gaps as eye-space spheres of 16 bytes: small sprites from
-//! the front of the list, large ones from its back. The passes that draw water read only this list, by indirect draws
-//! and dispatches. Unlike in the thesis the test runs on the GPU, and if the host gives no packets (groups of
-//! particles with a bounding box) each particle is tested.
+//! against the frustum, and writes the survivors without gaps as eye-space spheres of 16 bytes (32 with the shape of
+//! an ellipsoid): small sprites from the front of the list, large ones from its back. The passes that draw water read
+//! only this list, by indirect draws and dispatches. Unlike in the thesis the test runs on the GPU, and if the host
+//! gives no packets (groups of particles with a bounding box) each particle is tested.
 //!
 //! If the particles exceed the range of one storage-buffer binding they are processed in chunks, each with its own
 //! counts and its own part of the list.
@@ -57,7 +57,8 @@ const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DRO
 
 /// Maximum number of particles per chunk: 65 535 groups of 64.
 const MOST_CHUNK: u32 = 1 << 21;
-/// Maximum number of workgroups over large sprites; if there are more sprites, a group processes several.
+/// Maximum number of workgroups in a dispatch over large sprites, which get a workgroup each; if there are more
+/// sprites than that, a workgroup processes several.
 const MOST_LARGE_GROUPS: u32 = 4096;
 
 #[repr(C)]
@@ -110,8 +111,9 @@ struct EndPush {
     most_groups: u32,
 }
 
-/// A chunk's number of particles is a multiple of this, so that its part of each buffer begins at a multiple of 256
-/// bytes: 16 spheres are 256 bytes, and so are 64 water shares (one word per particle), which exist only with foam.
+/// Returns the number of which each chunk's number of particles is a multiple, so that a chunk's part of each buffer
+/// begins at a multiple of 256 bytes: 16 spheres are 256 bytes, and so are 64 water shares (one word per particle),
+/// which exist only with foam.
 pub fn chunk_unit(config: &Config) -> u32 {
     if config.surface_foam { 64 } else { 16 }
 }
@@ -167,7 +169,7 @@ pub struct SphereList {
     /// Centre and radius of each sphere, followed by the shape of an ellipsoid (glsl/include/ellipsoid.glsl):
     /// small sprites from the front of each chunk's part, large ones from its back.
     pub spheres: Buffer,
-    /// The fraction of each particle that is water; the rest is foam. `None` without foam.
+    /// The fraction of each visible particle that is water; the rest is foam. `None` without foam.
     pub shares: Option<Buffer>,
     /// One bit per host particle: whether it belongs to a packet. Used by passes that read the host's particles
     /// again.
@@ -225,8 +227,8 @@ impl SphereList {
         })
     }
 
-    /// A list for the host's particles: as [`new`](Self::new), with water shares if the configuration has foam, and
-    /// with packet members if later passes read the host's particles again.
+    /// A list for the host's particles: as [`new`](Self::new), but with a buffer of water shares if the configuration
+    /// has foam, and with one of packet members if later passes read the host's particles again.
     fn of_host(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
         let mut list = Self::new(gpu, config, name)?;
         if goes_over_particles(config) {
@@ -348,7 +350,8 @@ impl Cull {
         Ok(())
     }
 
-    /// Records the computation of a list's dispatch arguments from its counts. Draws take the counts as they are.
+    /// Records the dispatch of cull_end.comp, which computes from a list's counts of spheres the arguments of the
+    /// dispatches over it. Indirect draws use the counts as they are.
     fn record_end(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         r.descriptors.bind(gpu, cmd, &self.end, &[(1, Resource::buffer(&list.counts))])?;
@@ -374,8 +377,9 @@ impl Cull {
         self.record_end(r, list)
     }
 
-    /// `small_limit` is the maximum size of small sprites in pixels. With `inside`, a sprite whose centre is not on
-    /// the screen counts as large, whatever its size.
+    /// Records pass `cull` over all chunks of the host's particles. `small_limit` is the maximum size of small
+    /// sprites in pixels. With `inside`, a sprite whose centre is not on the screen counts as large, whatever its
+    /// size.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -513,8 +517,8 @@ pub fn most(particles: &Particles, max_particles: u32) -> u32 {
     streams(particles).map(capacity).fold(max_particles, u32::min)
 }
 
-/// Number of particles for which a stream holds a value of `bytes` bytes. After the last value the stream may end
-/// before a full stride.
+/// Number of particles for which a stream holds a whole value of `bytes` bytes. The last value may end the stream:
+/// its stride need not be complete.
 pub fn capacity((stream, bytes): (&Stream, u64)) -> u32 {
     match stream.size.saturating_sub(stream.offset).checked_sub(bytes) {
         Some(left) => u32::try_from(left / u64::from(stream.stride.max(4)) + 1).unwrap_or(u32::MAX),
@@ -527,8 +531,8 @@ pub fn buffers_of(particles: &Particles) -> Vec<vk::Buffer> {
     each_once(streams(particles), particles.count, particles.packets.map(|p| p.buffer))
 }
 
-/// The buffers that hold the streams (each given with the size of its values in bytes) and the count, if it is on the
-/// GPU, and the other buffer; each buffer once.
+/// Returns each buffer once that holds a stream (`streams` gives each stream with the size of a value in bytes), the
+/// count (if it is on the GPU), or that is `other`.
 pub fn each_once<'a>(
     streams: impl Iterator<Item = (&'a Stream, u64)>,
     count: Count,
@@ -557,7 +561,8 @@ fn streams(particles: &Particles) -> impl Iterator<Item = (&Stream, u64)> {
     all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
 }
 
-/// The part of a stream that is bound: it begins at a given particle, and is as long as a binding may be.
+/// A part of a host's stream (values of one attribute of the particles) to bind as a storage buffer: it begins at a
+/// given particle and is as long as the stream and the device's limit for a binding allow.
 #[derive(Clone, Copy)]
 pub struct Window {
     pub resource: Resource,
@@ -568,8 +573,8 @@ pub struct Window {
 }
 
 impl Window {
-    /// `None` if the stream ends before the particle `first`. The number of particles was limited to what the streams
-    /// hold, so there is nothing to process then.
+    /// The window of a stream that begins at the particle `first`; `None` if the stream ends before it. The number of
+    /// particles was limited to what the streams hold, so a chunk without a window has no particles.
     pub fn new(gpu: &Gpu, stream: &Stream, first: u32) -> Option<Self> {
         let start = stream.offset + u64::from(first) * u64::from(stream.stride);
         let aligned = start - start % gpu.limits.min_storage_buffer_offset_alignment.max(4);
@@ -584,8 +589,9 @@ impl Window {
         })
     }
 
-    /// Windows of `stream` and of optional other streams. In place of an absent stream, `stream` is bound and not
-    /// read. `None` if any present stream ends before the particle `first`.
+    /// Windows, from the particle `first` on, of `stream` and of the optional streams `others`. The window of an
+    /// absent stream is that of `stream` with stride 0, which is bound but not read. `None` if any present stream
+    /// ends before that particle.
     pub fn all<const N: usize>(
         gpu: &Gpu,
         stream: &Stream,
@@ -607,7 +613,8 @@ impl Window {
 mod tests {
     use super::*;
 
-    /// Each chunk holds a multiple of the unit, and together they hold all particles. No chunk is empty.
+    /// Each chunk has room for a multiple of `chunk_unit` particles, and all chunks together for all particles. No
+    /// chunk is superfluous.
     #[test]
     fn any_number_of_particles_has_its_chunks() {
         let range = 1 << 27;
