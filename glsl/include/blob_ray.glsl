@@ -30,7 +30,7 @@ WorldRay world_ray(vec2 slope) {
     return WorldRay(along * inverse, inverse);
 }
 
-// The part of the ray in a blob's bounding ball, not before the near plane; false if there is none.
+// Whether the ray meets a blob's bounding ball; `span` is the part of the ray in the ball, not before the near plane.
 bool in_blob(Blob blob, WorldRay ray, out vec2 span) {
     bool meets = ball_hits(vec3(0.0), ray.direction, blob.ball, span);
     span.x = max(span.x, frame.depth.z / ray.scale);

@@ -108,7 +108,8 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
     return clamp(at, vec2(0.5), frame.extent.xy - 0.5) - pixel;
 }
 
-// Offset in pixels of the image of water at depth `beyond`, seen through a sheet at depth `front` as through a prism.
+// Returns the offset in pixels of the image of water at eye depth `beyond`, seen through a sheet (layer of water) at
+// eye depth `front` as through a prism.
 vec2 prism_offset(vec2 pixel, float front, float beyond) {
     vec2 slope = sheet_slope(pixel, front) / (frame.texel.xy * front);
     return PRISM * slope * max(beyond - front, 0.0) / (frame.texel.xy * max(beyond, front));

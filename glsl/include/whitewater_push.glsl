@@ -1,4 +1,5 @@
-// Offsets of a chunk's streams in pass `splat`. An absent stream has a stride of 0.
+// Offsets and strides of a chunk's particle streams in pass `splat`, in 32-bit words. An absent stream has a stride
+// of 0.
 
 layout(push_constant, std430) uniform Push {
     uint position_word;

@@ -319,7 +319,7 @@ impl<'a> Session<'a> {
     }
 
     /// Advances the foam simulation to a frame that is not drawn. [`make_room`](Self::make_room) has to be called
-    /// before.
+    /// before it.
     pub fn pass(&mut self, number: u64, particles: &Particles) -> Outcome<()> {
         self.step(number, "", particles, false)
     }
