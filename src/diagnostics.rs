@@ -1,4 +1,4 @@
-//! The renderer's own buffers after a record, for tests and tools, not for hosts.
+//! The renderer's own buffers, which tests and tools read after a frame was recorded; hosts do not need them.
 
 #![cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // then nobody reads it
 
@@ -8,14 +8,15 @@ use bytemuck::{Pod, Zeroable};
 #[cfg(doc)]
 use crate::contract::Config;
 
-/// The renderer's own buffers after a record, with the feature `diagnostics`. Their layout follows the shaders.
+/// The renderer's own buffers, valid after `record`, with the crate feature `diagnostics`. The shaders define their
+/// layout.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Diagnostics {
     /// With [`Smoothing::Query`](crate::water::Smoothing), which runs the smoothing in blocks of five iterations: a
-    /// buffer, and its number of `u32`, one per block: the number of samples that were still active in the block's
-    /// last iteration (5, 10, …). It is 0 for a block that was skipped; the last block is not counted. Transfer
-    /// source; last written by a transfer.
+    /// buffer of one `u32` per block, and the number of blocks. Each `u32` is the number of samples that were still
+    /// active in the block's last iteration (5, 10, …). It is 0 for a block that was skipped; the last block is not
+    /// counted. Transfer source; last written by a transfer.
     pub active_samples: Option<(vk::Buffer, u32)>,
     /// Particle statistics.
     pub counts: Option<ParticleCounts>,
@@ -26,8 +27,8 @@ pub struct Diagnostics {
     /// foam; a tile is 16×16 texels of its level. In record i, 1 to 257, the fourth word is the number of tiles that
     /// iteration i processes. Transfer source; last written by a compute shader, read as indirect arguments.
     pub tiles: Option<vk::Buffer>,
-    /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness, row by row: the eye
-    /// depth at which the two layers of water are separated, 1e10 where there is only one layer. Transfer source;
+    /// With [`Config::sheets`] of 2: a buffer of one `f32` per texel of the frame's thickness image, row by row: the
+    /// eye depth at which the two layers of water are separated, 1e10 where there is only one layer. Transfer source;
     /// last written by a compute shader, read by compute and fragment shaders.
     pub sheets: Option<vk::Buffer>,
     /// With [`Kernels::Ellipsoids`](crate::water::Kernels): a buffer of 40 bytes per particle. These hold the
@@ -62,9 +63,9 @@ pub struct SmoothingLevels {
     pub level: [SmoothingLevel; 7],
     /// Size of the images (x, y), tiles per row, number of coarser levels.
     pub atlas: [i32; 4],
-    /// Four numbers: the iterations that the first level needs at eye depth 1 on the optical axis, divided by a
-    /// quarter of the maximum number of iterations; the square of a pixel's width over its height; the depth
-    /// difference in scene units up to which neighbouring texels belong to one surface; 0.
+    /// Four constants: the iterations that the first level needs at eye depth 1 on the optical axis, divided by a
+    /// quarter of the maximum number of iterations; (width / height of a pixel)²; the depth difference in scene units
+    /// up to which neighbouring texels belong to one surface; 0.
     pub near: [f32; 4],
 }
 
@@ -74,11 +75,11 @@ pub struct SmoothingLevels {
 pub struct SmoothingLevel {
     /// First texel (x, y) and size, in texels.
     pub rect: [i32; 4],
-    /// Scale (x, y) and offset (z, w) from a point of the level, in texels with centres at +0.5, to the slope (xy /
-    /// eye depth) of its view ray.
+    /// Scale (x, y) and offset (z, w) that convert a point of this smoothing level, in texels with centres at +0.5,
+    /// to the slope (xy / eye depth) of the view ray through it.
     pub slope: [f32; 4],
-    /// Size of a texel in the world per unit of eye depth, in x and y; side length of a texel in pixels of the
-    /// output; 0.
+    /// Texels of this smoothing level. x, y: size of a texel in the world per unit of eye depth; z: side length of a
+    /// texel in pixels of the output; w: 0.
     pub texel: [f32; 4],
 }
 

@@ -77,7 +77,8 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Allocates all memory for a configuration, and creates the pipelines that the context does not have yet.
+    /// Creates a renderer: allocates all memory for a configuration, and creates the pipelines that the context does
+    /// not have yet.
     ///
     /// # Errors
     /// Bad configuration, missing features, no memory; Vulkan errors.
@@ -123,9 +124,9 @@ impl Renderer {
     /// true. It removes the environment: call [`record_environment`](Self::record_environment) after it.
     ///
     /// # Safety
-    /// `cmd` is recording outside a render pass and is submitted before any `record`. It belongs to no slot: its work
-    /// has to be complete before `resize` and `reconfigure`, which is certain once a frame that was recorded after it
-    /// has finished.
+    /// `cmd`, in which the set-up is recorded, is recording outside a render pass, and is submitted before any frame.
+    /// The set-up belongs to no slot: its GPU work has to be complete before `resize` and `reconfigure`, which is
+    /// certain once a frame that was recorded after it has finished.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         (self.set_up, self.surrounded) = (true, false);
         self.environment.record_setup(&self.gpu, cmd);
@@ -147,8 +148,8 @@ impl Renderer {
     /// No [`Config::shore`], a bad image or slot; Vulkan errors.
     ///
     /// # Safety
-    /// Those of [`record_environment`](Self::record_environment). It counts as one of the four environments that may
-    /// be recorded before the slot is collected.
+    /// The conditions of [`record_environment`](Self::record_environment) hold. A foam texture counts as one of the
+    /// four environments that may be recorded before the slot is collected.
     pub unsafe fn record_foam_texture(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -170,11 +171,11 @@ impl Renderer {
     /// [`EnvironmentSource::Black`] for no reflection.
     ///
     /// # Errors
-    /// [`Error::NotRecorded`] before the set-up; a bad slot or up direction; Vulkan errors.
+    /// [`Error::NotRecorded`] without a recorded set-up; an error for a bad slot or up direction; Vulkan errors.
     ///
     /// # Safety
-    /// Those of [`record`](Self::record), which may follow in the same slot and command buffer. At most four
-    /// environments are recorded before the slot is collected.
+    /// The conditions of [`record`](Self::record) hold; a frame may follow in the same slot and command buffer. At
+    /// most four environments are recorded with a slot before it is collected.
     pub unsafe fn record_environment(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -195,19 +196,19 @@ impl Renderer {
 
     /// Records one frame: water over the scene, into the output.
     ///
-    /// It never submits, waits, creates pipelines or allocates device memory. It records one acquire and one release
-    /// barrier per host image. Every [`Error::BadInput`] is found before the first command.
+    /// `record` never submits, waits, creates pipelines or allocates device memory. It records one acquire and one
+    /// release barrier per host image. It finds every [`Error::BadInput`] before it records the first command.
     ///
     /// # Errors
-    /// [`Error::BadInput`] names the bad field. [`Error::NotRecorded`] means that the set-up or an environment has
-    /// not been recorded. Both are returned before any command is recorded; after any other error discard the command
-    /// buffer.
+    /// `record` returns [`Error::BadInput`] with the name of a bad field, and [`Error::NotRecorded`] if the set-up or
+    /// an environment has not been recorded. It returns both before it records any command; after any other error
+    /// discard the command buffer.
     ///
     /// # Safety
-    /// `cmd` is a primary command buffer of the host's queue family, recording, outside a render
-    /// pass, with no active query or conditional rendering; the frame's handles are alive until
-    /// the slot comes back; the slot's earlier work is complete; command buffers are submitted to
-    /// one queue in the order they were recorded.
+    /// `cmd`, in which the frame is recorded, is a primary command buffer of the host's queue family. It is
+    /// recording, outside a render pass, with no active query or conditional rendering. The frame's handles stay
+    /// alive until the slot's GPU work is complete; the slot's earlier work is complete already. Command buffers are
+    /// submitted to one queue in the order they were recorded.
     pub unsafe fn record(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -217,9 +218,9 @@ impl Renderer {
         unsafe { self.record_frame(cmd, frame, None) }.map(|(recorded, _)| recorded)
     }
 
-    /// Like [`record`](Self::record). With `read_back` the host reads the smoothing's occlusion queries back and
-    /// decides when the smoothing ends, for which the frame is split into several command buffers. Also returns the
-    /// last of them.
+    /// Records a frame like [`record`](Self::record). With `read_back` the host reads the smoothing's occlusion
+    /// queries back and decides when the smoothing ends, for which the frame is split into several command buffers.
+    /// Returns what `record` returns, and the last of these command buffers.
     pub(crate) unsafe fn record_frame<'a>(
         &'a mut self,
         cmd: vk::CommandBuffer,
@@ -433,13 +434,13 @@ impl Renderer {
     /// Reports that the slot's GPU work has finished. Frees objects that `resize` and `reconfigure` replaced, if no
     /// frame in flight uses them any more. Call it after waiting for the slot at the beginning of a frame.
     ///
-    /// The caller promises that the work has finished; there is no parameter for a fence or a timeline value. The
-    /// library sees no submission, so it could not associate a fence or a value with one, and an engine that counts
-    /// frames may have neither. A slot that never finishes only costs memory. Work in flight with other slots is not
-    /// affected.
+    /// `collect` has no parameter for a fence or a timeline value: the caller promises that the slot's GPU work has
+    /// finished. The library sees no submission, so it could not associate a fence or a value with one, and an engine
+    /// that counts frames may have neither. A slot that never finishes only costs memory. Work in flight with other
+    /// slots is not affected.
     ///
     /// # Safety
-    /// All GPU work that was recorded with the slot is complete, or will never be submitted.
+    /// All GPU work that was recorded with the slot to be collected is complete, or will never be submitted.
     pub unsafe fn collect(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.has_environment = false;
@@ -451,8 +452,8 @@ impl Renderer {
     /// Reports that the command buffer recorded last with this slot was discarded.
     ///
     /// # Safety
-    /// Those of [`collect`](Self::collect): that command buffer will never be submitted, and earlier work of the slot
-    /// is complete.
+    /// The conditions of [`collect`](Self::collect) hold: the command buffer that was recorded last with the slot
+    /// will never be submitted, and earlier work of the slot is complete.
     pub unsafe fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();

@@ -1,4 +1,4 @@
-//! State of a body of water that outlives a frame and is shared by its views.
+//! State of the surface foam on a body of water, which outlives a frame and is shared by all views.
 
 use std::sync::Arc;
 
@@ -37,8 +37,8 @@ struct StateSlot {
     timer: Timer,
 }
 
-/// State of the surface foam on one body of water: for each particle id its phase between water and foam. All views
-/// share it, and each simulation step advances it once.
+/// State of the surface foam on one body of water: for each particle id its phase, which is water, foam, or the
+/// transition from one to the other. All views share the state, and each simulation step advances it once.
 pub struct SurfaceFoamState {
     gpu: Arc<Gpu>,
     config: SurfaceFoamStateConfig,
@@ -54,8 +54,8 @@ pub struct SurfaceFoamState {
 }
 
 impl SurfaceFoamState {
-    /// Creates pipelines and allocates memory: per particle 60 bytes for its phase, and 8 for its foam amount and
-    /// age.
+    /// Creates the pipelines of the foam simulation and allocates its memory: per particle 60 bytes for the phase
+    /// between water and foam, and 8 for foam amount and age.
     ///
     /// # Errors
     /// Bad configuration; no memory; Vulkan errors.
@@ -97,15 +97,15 @@ impl SurfaceFoamState {
         }
     }
 
-    /// Records one step of the simulation. It never submits, waits or allocates device memory.
+    /// Records one step of the surface foam's simulation. It never submits, waits or allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`] with the field, before the first command; after any other error discard
-    /// the command buffer and call [`abandon`](Self::abandon).
+    /// `record_step` returns [`Error::BadInput`] with the field before it records a command; after any other error
+    /// discard the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
-    /// Those of [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded,
-    /// before the frames that show them.
+    /// The conditions of [`Renderer::record`](crate::Renderer::record) hold. Foam steps are submitted in the order
+    /// they were recorded, before the frames that show them.
     pub unsafe fn record_step(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -129,7 +129,8 @@ impl SurfaceFoamState {
         Ok(())
     }
 
-    /// Records a reset: all particles are water again. Earlier steps can no longer be reverted.
+    /// Records a reset of the foam: all particles are water again. [`abandon`](Self::abandon) cannot revert steps
+    /// before it.
     ///
     /// # Safety
     /// Those of [`record_step`](Self::record_step).
@@ -157,7 +158,8 @@ impl SurfaceFoamState {
         self.classify.record_copy(&self.gpu, cmd, self.odd, (to, offset), true);
     }
 
-    /// Records the restoration of a saved state. Earlier steps can no longer be reverted.
+    /// Records the restoration of a saved state of the foam. [`abandon`](Self::abandon) cannot revert steps before
+    /// it.
     ///
     /// # Safety
     /// Those of [`record_save`](Self::record_save), with transfer-source usage.

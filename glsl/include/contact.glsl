@@ -19,8 +19,8 @@ float eased(float x) {
     return x * x / (2.0 * (x * x - x) + 1.0);
 }
 
-// Pattern of contact foam at a point of the surface: its value, 0 to 1, and the change per pixel to the right and
-// down.
+// The pattern that modulates contact foam, at point `p` of the water's surface. x: its value, 0 to 1. yz: the change
+// of this value per pixel to the right and down.
 vec3 pattern_at(vec2 pixel, vec2 p, mat2 across) {
     float scale = shore.contact_mask.x;
     float level = level_of(sqrt(abs(determinant(across))) * scale * shore.web.z);

@@ -17,15 +17,17 @@ float iterations(float z, vec2 slope, vec2 c, out float share) {
     return RULE == RULE_FIXED ? frame.smoothing.w : floor(SOURCE_RADIUS * r / width) + 1.0;
 }
 
-// Whether a level shows at a point of this nearness, or would show if the point needed a quarter more or a fifth
-// fewer iterations. This margin puts the edges of a level's smoothed regions where the level does not show.
+// Whether a level of the smoothing shows at a point, or would show if the point needed a quarter more or a fifth
+// fewer iterations. `near` is the number of iterations that the point needs at level 0, divided by a quarter of the
+// iteration limit. The margin puts the edges of a level's smoothed regions where the level does not show.
 bool wanted_at(float near, uint level, bool finest, bool coarsest) {
     float here = near * exp2(-2.0 * float(level)); // in its own iterations
     return (finest || here >= 0.2) && (coarsest || here <= 2.5);
 }
 
-// The plan of a texel of a level (0 to 3); 0 without water, or where the level is not wanted. `finest` and `coarsest`
-// tell whether the level is the finest or coarsest of its layer of water.
+// The packed plan of the smoothing (number of iterations and step size) for a texel of a level of resolution (0 to
+// 3). It is 0 without water, or where the picture does not show the level. `finest` and `coarsest` tell whether the
+// level is the finest or coarsest of its layer of water.
 uint plan_pixel(float z, vec2 pixel, Level at, uint level, bool finest, bool coarsest) {
     vec2 slope = ray_slope(pixel + 0.5, at.slope);
     if (z >= EMPTY || !wanted_at(nearness(z, slope), level, finest, coarsest)) {

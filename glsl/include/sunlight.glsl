@@ -93,7 +93,8 @@ float past_soap(LightTexels t) {
 vec3 through_fluid(vec3 eye) {
     LightTexels t = light_texels(eye);
     vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
-    // Sums what is lost instead of what is kept, so that the sum is exactly 0 where there is neither water nor foam.
+    // Sums the fraction of sunlight that is absorbed instead of the fraction that passes, so that the sum is exactly
+    // 0 where there is neither water nor foam.
     vec3 lost = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);

@@ -52,11 +52,13 @@ float smoothed_at(Level level, ivec2 texel) {
 // Weight of a rim texel in the slope, relative to a complete texel. The last particle of a body of water curves away
 // within a pixel or two; with full weight it would reflect the horizon, as a row of white dots along every outline.
 const float RIM = 1.0 / 64.0;
-// Largest slope (depth per width) of a drop, which is a place where complete texels have at most 1/63 of the weight.
+// Largest slope (change of depth per width) of a drop. A drop is a place where complete texels, whose four neighbours
+// all belong to their surface, have at most 1/63 of the weight.
 const float RIM_SLOPE = 1.5;
 
-// `front` is the depth of the pixel's own surface. A negative value asks for the first surface at or behind the depth
-// -front: that of the nearest such texel among the four or, without one, among those beside the four.
+// Returns the smoothed surface at a pixel. `front` is the depth of the pixel's own surface. If it is negative, the
+// surface at or behind the depth -front is asked for: that of the nearest texel with such a depth among the four
+// around the pixel or, if none of them has one, among the four texels beside these.
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
     vec2 h = pixel / level.texel.z - 0.5;
@@ -65,8 +67,8 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     ivec2 last = level.rect.zw - 1;
     s.base = base;
 
-    // The four texels in the order left-up, right-up, left-down, right-down, and the neighbours of each.
-    // Vectors, because an array would live in memory.
+    // The depths of the four texels around the pixel, in the order left-up, right-up, left-down, right-down, and of
+    // the neighbours of each. They are in vectors, because an array would live in memory.
     vec2 texel = 1.0 / vec2(levels.atlas.xy);
     ivec2 corner = level.rect.xy + base;
     vec4 upper_left = textureGather(smoothed, vec2(corner) * texel);
@@ -87,7 +89,7 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     vec4 right = vec4(row1.zw, row2.zw);
     vec4 up = vec4(row0, row1.yz);
     vec4 down = vec4(row2.yz, row3);
-    // For the texels that will replace those beyond the edge: they have no neighbour on that side.
+    // The texels at the image's edge, which will replace those beyond it, have no neighbour on that side.
     if (base.x < 0) { left.yw = vec2(EMPTY); }
     if (base.x >= last.x) { right.xz = vec2(EMPTY); }
     if (base.y < 0) { up.zw = vec2(EMPTY); }
@@ -103,8 +105,8 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     if (base.y >= last.y) { z.zw = z.xy; dx.zw = dx.xy; dy.zw = dy.xy; trust.zw = trust.xy; }
 
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    // The two texels above or below the four, and the two to their left or right, in each case on the side that the
-    // pixel is nearer to.
+    // The depths of the two texels above or below the four around the pixel, and of the two to the left or right of
+    // the four, in each case on the side that the pixel is nearer to.
     bvec2 after = greaterThan(f, vec2(0.5));
     vec4 beside = vec4(after.y ? row3 : row0, after.x ? vec2(row1.w, row2.w) : vec2(row1.x, row2.x));
     bvec4 outside = bvec4(base.x < 0, base.x >= last.x, base.y < 0, base.y >= last.y);
@@ -123,7 +125,8 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     s.found = dot(own, vec4(whole));
     s.covered = front < EMPTY ? sum : 0.0;
     if (lost) {
-        // At full resolution the pixel is one of the four texels. The other three have weight 0: exclude them.
+        // At full resolution the pixel is one of the four texels, and the other three have weight 0: these are
+        // excluded from the search for the texel nearest in depth.
         off = mix(off, vec4(2.0 * EMPTY), equal(w, vec4(0.0)));
         float least = min(min(off.x, off.y), min(off.z, off.w));
         own = off.x == least ? vec4(1, 0, 0, 0) : off.y == least ? vec4(0, 1, 0, 0)

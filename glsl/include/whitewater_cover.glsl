@@ -11,8 +11,8 @@ layout(constant_id = 1) const uint PACKETS = 0;
 layout(constant_id = 2) const uint LARGE = 0;
 
 layout(set = 0, binding = 9, std430) readonly buffer HostPackets { uint packets[]; };
-// For each chunk: dispatch arguments (4 words; the last is the number of large particles), then the particles that
-// fit.
+// For each chunk its large particles: three words of dispatch arguments, one of the number of large particles, then
+// the indices of those that fit.
 layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
 
 #include "packets.glsl"
@@ -47,8 +47,8 @@ void cover_one(uint i, uint past) {
         uint head = LIST * push.chunk;
         uint slot = atomicAdd(list[head + 3u], 1u);
         if (slot < ROOM) {
-            // An atomic, because synchronization validation would attribute a plain store to the dispatch for large
-            // particles too, which shares the shader but not this branch.
+            // The index is stored by an atomic, because synchronization validation would attribute a plain store to
+            // the dispatch for large particles too, which shares the shader but not this branch.
             atomicExchange(list[head + 4u + slot], i);
             atomicMax(list[head], slot + 1u);
             left = 0;

@@ -20,7 +20,7 @@ ivec4 inside(ivec4 box) {
 // the scene hides them.
 bool shows(vec3 middle, float reach) {
     vec3 centre = (frame.view * vec4(middle, 1.0)).xyz;
-    // The largest radius of a particle, plus the widest to which sub-pixel particles are enlarged.
+    // The largest radius of a particle, plus the largest to which sub-pixel particles are enlarged, scene units.
     float wider = frame.whitewater.x + LEAST_REACH * max(frame.texel.x, frame.texel.y) * (length(centre) + reach);
     return in_frustum(centre, reach + wider);
 }
@@ -30,7 +30,7 @@ bool shows(vec3 middle, float reach) {
 // word that was half full already is subtracted again.
 void add(uint word, uvec3 steps) {
     do {
-        // A zero must not count as an overflow: it would be subtracted again forever.
+        // An addend of 0 must not count as an overflow: the loop would subtract it again forever.
         bool over = atomicAdd(WORD(word), steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
         word += over ? 0u : 1u;
@@ -40,7 +40,7 @@ void add(uint word, uvec3 steps) {
     } while (any(notEqual(steps, uvec3(0u))));
 }
 
-// Adds to the thickness of a pixel at this squared distance from the centre.
+// Adds the thickness of particle `p` to a pixel. `rr` is the pixel's squared distance from the centre, in radii.
 void thicken(uint at, Whitewater p, Footprint f, float rr, float depth, float fluid) {
     float amount = whitewater_amount(p, f, rr);
     vec3 shares = whitewater_shares(amount, depth, fluid);

@@ -45,7 +45,8 @@ ivec4 span(Ellipsoid body, Level level) {
     return pixel_span(pixel_bounds(slopes, level.slope), vec2(level.rect.zw));
 }
 
-// Narrows a box of texels to those blocks of 16x16 pixels that have a boundary in front of the sphere's centre.
+// Narrows a box of texels to those blocks of 16x16 pixels in which a boundary between two layers of water lies in
+// front of the sphere's centre.
 ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
     // From the centre of each texel.

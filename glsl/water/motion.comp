@@ -51,9 +51,9 @@ struct Sprite {
     ivec4 box;   // texels that it may cover; empty: none
 };
 
-// Least half-axis of a sprite in texels. If the ray of one of a texel's pixels meets the particle's sphere, then the
-// texel's centre is at most the radius plus 0.71 texels from the sphere's centre. A sprite this wide reaches that
-// far.
+// Least half-axis of a sprite in texels. If the ray of one of a texel's pixels meets a particle's sphere of radius r,
+// then the texel's centre is at most r + 0.71 texels from the sphere's centre. With this minimum, the sprite of a
+// small particle reaches that far.
 const float LEAST_AXIS = 1.5;
 // Largest number of texels that one invocation handles alone.
 const int SMALL = 64;
@@ -169,8 +169,8 @@ void splat(ivec2 texel, Sprite s) {
 // The smallest rectangle of the sprite's box that holds all texels in which the sprite lies near a surface. In a deep
 // body of water it is empty for most particles.
 ivec4 near_surfaces(Sprite s) {
-    // Inside the sprite, the depth of a foam sprite's plane differs from its centre's by at most the sum of the
-    // half-axes.
+    // The plane of a foam sprite may be tilted. Inside the sprite, its depth differs from the depth of the sprite's
+    // centre by at most the sum of the sprite's half-axes.
     float tilt = s.normal.z == 1.0 ? 0.0 : inversesqrt(dot(s.along, s.along)) + inversesqrt(dot(s.across, s.across));
     float reach = 3.0 * frame.particle.x + 1.001 * tilt;
     ivec4 part = ivec4(s.box.zw + 1, s.box.xy - 1);
@@ -210,7 +210,7 @@ void visit(uint index, bool foamy) {
 void main() {
     uint count = counts.particles;
     uint local = gl_LocalInvocationIndex;
-    // All invocations of a group run the same number of iterations, because of the barriers.
+    // All invocations of a workgroup run this loop the same number of times, because the loop contains barriers.
     for (uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x; first < count;
          first += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
         if (local == 0u) {

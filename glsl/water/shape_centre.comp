@@ -23,7 +23,8 @@ layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; 
 layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Shifts { vec4 shifts[]; };
 
-// Fixed-point steps per unit. Addends are at most 1, so the sums over 27 full buckets fit in 32 bits.
+// Fixed-point steps per unit of the sums of displacements and weights. Addends are at most 1, so the sums over 27
+// full buckets of the grid fit in 32 bits.
 const float STEPS = 65536.0;
 
 void visit(uint i) {

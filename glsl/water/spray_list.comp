@@ -45,8 +45,8 @@ void visit(uint index) {
         return;
     }
     float density = densities[push.density_word + index * push.density_stride];
-    // 0 marks a particle that was just emitted and has no density yet. NaN counts as 0: comparisons with it are
-    // false.
+    // A density of 0 marks a particle that was just emitted and has no density yet: it is not spray. NaN counts as 0,
+    // because comparisons with it are false.
     float share = density > 0.0 ? share_of_spray(density) : 0.0;
     if (!(share > 0.0)) {
         return;
@@ -61,8 +61,9 @@ void visit(uint index) {
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
     velocity = mat3(frame.view) * velocity;
-    // Droplets lie within the scatter radius of the particle's centre; `reach` adds their sizes and streaks. A
-    // particle nearer to the eye than the scatter radius is not drawn, because it would fill the picture.
+    // The droplets of a particle lie within the scatter radius around its centre; `reach`, the radius for culling,
+    // adds their sizes and streaks. A particle nearer to the eye than the scatter radius is not drawn, because it
+    // would fill the picture.
     uvec4 shape = uvec4(pack_axes(mat3(1.0)), floatBitsToUint(CROWDED));
     if (push.shape_stride > 0u) {
         at = push.shape_word + index * push.shape_stride;

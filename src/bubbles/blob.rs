@@ -5,7 +5,7 @@
 //! of one hexagon of this spacing per bubble, and bubbles that are closer than that push each other apart along the
 //! shell.
 //!
-//! No transcendental function is used: a seed gives the same blob on every machine.
+//! The generation of a blob uses no transcendental function, so that a seed gives the same blob on every machine.
 
 use glam::DVec3;
 
@@ -18,7 +18,8 @@ pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
 const CANDIDATES: u32 = 8;
 /// Iterations of the repulsion between bubbles.
 const ROUNDS: u32 = 40;
-/// Greatest relative deviation of a radius from the mean, and of a bubble's centre from the shell, in its radii.
+/// Greatest deviation of a bubble's radius from the mean radius, as a part of it (`SPREAD`), and of a bubble's centre
+/// from the shell, in radii of the bubble (`OFF_SHELL`).
 const SPREAD: f64 = 0.3;
 const OFF_SHELL: f64 = 0.15;
 
@@ -123,7 +124,8 @@ impl Blob {
 mod tests {
     use super::*;
 
-    /// Pairs of adjacent bubbles: no third bubble is nearer to the midpoint between them.
+    /// Pairs of adjacent bubbles of a blob. Two bubbles are adjacent if no third bubble's centre is nearer to the
+    /// midpoint between their centres than they are.
     fn neighbours(blob: &Blob) -> Vec<(usize, usize)> {
         let at = |i: usize| DVec3::from([0, 1, 2].map(|k| f64::from(blob.bubbles[i][k])));
         let n = blob.bubbles.len();

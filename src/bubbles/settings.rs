@@ -35,8 +35,8 @@ pub struct BubbleConfig {
     pub map_size: u32,
     #[cfg(not(feature = "diagnostics"))]
     pub(crate) map_size: u32,
-    /// Maximum number of steps of the search along a ray, 1 to 64. Default 10, as [`Impostor::steps`] gives for the
-    /// default impostor.
+    /// Maximum number of steps in the search for the first bubble along a ray, 1 to 64. Default 10, as
+    /// [`Impostor::steps`] gives for the default impostor.
     #[cfg(feature = "diagnostics")]
     pub steps: u32,
     #[cfg(not(feature = "diagnostics"))]
@@ -103,12 +103,12 @@ impl BubbleConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Impostor {
-    /// A cube map of the distance from the blob's centre to its surface: in the paper 64 texels per side, with at
-    /// most 20 steps along a ray. The walls between bubbles are not drawn.
+    /// A blob is drawn from a cube map of the distance from its centre to its surface: in the paper 64 texels per
+    /// side, with at most 20 search steps along a ray. The walls between bubbles are not drawn.
     Distance,
-    /// A cube map of the id of the outermost bubble in each direction: in the paper 128 texels per side, with 10
-    /// steps along a ray. The ray is intersected exactly with the bubble's sphere, and the walls between bubbles are
-    /// drawn. Default.
+    /// A blob is drawn from a cube map of the id of its outermost bubble in each direction: in the paper 128 texels
+    /// per side, with 10 search steps along a ray. The ray is intersected exactly with the sphere of the bubble
+    /// found, and the walls between bubbles are drawn. Default.
     Ids,
 }
 
@@ -130,17 +130,18 @@ impl Impostor {
     }
 }
 
-/// How the nearest blobs of a pixel are found. Both ways give the same picture.
+/// How the nearest blobs of a pixel are found: by lists per tile, or by depth peeling. Both ways give the same
+/// picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum BubbleSort {
-    /// Each pixel walks the list of blobs that touch its 16×16 tile once, front to back, and keeps the nearest.
-    /// Default. All lists together have `128 · tiles + 4 · max_blobs` entries, one for each tile that a blob touches;
-    /// if they do not suffice, the farthest blobs are dropped.
+    /// The nearest blobs of a pixel come from a list of the blobs that touch its 16×16 tile: the pixel walks the list
+    /// once, front to back. Default. All lists together have `128 · tiles + 4 · max_blobs` entries, one for each tile
+    /// that a blob touches; if they do not suffice, the farthest blobs are dropped.
     Tiles,
-    /// Depth peeling, as in the paper (Sec. 5; Everitt 2001): all blobs are drawn once per layer, where only
-    /// fragments behind the previous layer are kept, and once more for the maximum opacity. Takes 22 bytes per pixel
-    /// more than `Tiles`.
+    /// The nearest blobs of a pixel are found by depth peeling, as in the paper (Sec. 5; Everitt 2001): all blobs are
+    /// drawn once per layer, and each draw keeps the nearest fragments behind the previous layer. Another draw finds
+    /// the maximum opacity. Takes 22 bytes per pixel more than `Tiles`.
     Peel,
 }
 
@@ -166,10 +167,11 @@ impl Default for Film {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum FilmFresnel {
-    /// Fresnel's equations for both polarisations, with Airy's sum over the reflections in the film for each.
-    /// Default.
+    /// The film's reflectance by Fresnel's equations for both polarisations, with Airy's sum over the reflections in
+    /// the film for each. Default.
     Exact,
-    /// Schlick's approximation of Fresnel's equations, with Airy's sum over the reflections in the film.
+    /// The film's reflectance by Schlick's approximation of Fresnel's equations, with Airy's sum over the reflections
+    /// in the film.
     Schlick,
     /// As in the paper: a face reflects `R = 1 − cos θ`, and the film `min(4 R sin²(φ / 2), 1)`, with φ the phase
     /// difference of the light from both faces. Unlike in print, where it is `sin² φ` with the angle outside the
@@ -183,8 +185,8 @@ pub enum FilmFresnel {
 pub enum Spectrum {
     /// One wavelength each for red, green and blue, as in the paper.
     Three,
-    /// 81 wavelengths from 380 to 780 nm. Default. A pixel costs as much as with `Three`, because both are look-ups
-    /// in a precomputed table.
+    /// A film's interference is evaluated at 81 wavelengths from 380 to 780 nm. Default. A pixel costs as much as
+    /// with `Three`, because both are look-ups in a precomputed table.
     Whole,
 }
 

@@ -1,10 +1,10 @@
 //! Pass `caustics`: sunlight focused and spread by the water's surface (caustics mapping, Shah, Konttinen,
 //! Pattanaik 2007, with one photon per texel instead of a mesh).
 //!
-//! The light map's front, the first water surface as seen from the sun, is smoothed with the same width as the water
-//! on the screen. At this surface the sunlight of each texel is refracted, and added, with integer atomics, to the
-//! texel of the map where it leaves the water again. Sunlight that the host's scene blocks, according to its shadow
-//! map, is left out.
+//! Caustics: the light map's front, the first water surface as seen from the sun, is smoothed with the same width as
+//! the water on the screen. At this surface the sunlight of each texel is refracted, and added, with integer atomics,
+//! to the texel of the map where it leaves the water again. Sunlight that the host's scene blocks, according to its
+//! shadow map, is left out.
 //! Reads: front, thickness, shadow map. Writes: caustics, R32F, sunlight relative to that without water.
 
 use crate::gpu::memory::MemoryLocation;

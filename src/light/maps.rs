@@ -1,7 +1,7 @@
 //! Pass `light`: maps of water and surface foam as seen from the sun.
 //!
-//! Every particle is drawn, independent of the camera, directly from the host's streams, without a list. Particles in
-//! culled packets are included, because they cast shadows into the view.
+//! Pass `light` draws every particle into maps as seen from the sun, independent of the camera, directly from the
+//! host's streams, without a list. Particles in culled packets are included, because they cast shadows into the view.
 //! Reads: the counts and the members of `cull` (which particles are in a packet), the host's particles. Writes:
 //! front, R32F, position of the first surface along the light, in scene units; thickness, RGBA32F, of water and of
 //! foam along the light in scene units, then each of the two multiplied by its position along the light.
@@ -25,8 +25,8 @@ use crate::water::{self, Recording, SphereList, Window};
 
 /// Access by compute, by shading passes, and by the vertex shader of spray.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
-/// Last uses of a map in a frame, for which the next frame waits: those of [`AFTER`], or a copy of the layer by the
-/// host.
+/// Last uses of a light map (front or thickness) in a frame, for which the next frame waits: those of [`AFTER`], or a
+/// copy of the layer by the host.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 #[repr(C)]

@@ -1,10 +1,10 @@
 //! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
 //!
-//! It computes the exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a billboard by
-//! N_z·r (the z component of the sphere's normal, times the radius), which is wrong off the axis and near the camera.
-//! Two paths give the same picture: sprites with MIN blending, and a compute shader with integer atomics on the same
-//! image.
-//! Reads: the list of `front`. Writes: depth, R32F, EMPTY where there is no water.
+//! Pass `depth` computes the exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a
+//! billboard by N_z·r (the z component of the sphere's normal, times the radius), which is wrong off the axis and
+//! near the camera. Two paths give the same picture: sprites with MIN blending, and a compute shader with integer
+//! atomics on the same image.
+//! Reads: the list of spheres of pass `front`. Writes: depth, R32F, EMPTY where there is no water.
 
 use ash::vk;
 
@@ -190,7 +190,8 @@ impl Depth {
     }
 }
 
-/// The compute path is faster than sprites, on lavapipe at every size and on an H200 (docs/performance.md).
+/// Spheres are splatted by compute by default, which is faster than by sprites, on lavapipe at every size and on an
+/// H200 (docs/performance.md).
 pub const DEFAULT_SPLAT: Splat = Splat::Compute;
 
 /// Draws the sprites of all chunks inside a render pass: points, then quads.

@@ -37,8 +37,9 @@ impl<const N: usize> Over<'_, N> {
         self.binding + 1 + N as u32
     }
 
-    /// Records the dispatch over one chunk of `list`. `own` are the other resources of the pass. `push` returns its
-    /// push constants, given the index of the chunk's first particle, the positions and the streams.
+    /// Records the dispatch of a pass over the particles of one chunk of `list`. `own` are the resources of the pass
+    /// besides uniforms, positions and streams. `push` returns the push constants, given the index of the chunk's
+    /// first particle, the positions and the streams.
     pub fn record<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -77,9 +78,10 @@ pub struct Sprites {
 }
 
 impl Sprites {
-    /// `shader`, specialized by `constants`, lists the sprites. Its bindings are, in this order, the frame's
-    /// uniforms, positions, streams, `Counts`, sprites, packet members, and those of the pass. `read` is how the
-    /// sprites are read afterwards: by a draw's vertex shader, or by compute.
+    /// Creates a buffer for sprites and the pipeline that fills it, from `shader` specialized by `constants`. The
+    /// shader's bindings are, in this order, the frame's uniforms, positions, streams, `Counts`, sprites, packet
+    /// members, and those of the pass. `read` is how the sprites are read afterwards: by a draw's vertex shader, or
+    /// by compute.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -99,8 +101,9 @@ impl Sprites {
         })
     }
 
-    /// Records the dispatch that lists the sprites. `list` is the list of `cull`, whose counts are read; it is in the
-    /// state [`LIST_USE`] before and after. `own` and `push` have the meaning that they have in [`Over::record`].
+    /// Records the dispatches, one per chunk, that list the sprites. `list` is the list of pass `cull`, whose counts
+    /// are read; it is in the state [`LIST_USE`] before and after. `own` and `push` have the meaning that they have
+    /// in [`Over::record`].
     pub fn record<P: NoUninit, const N: usize>(
         &self,
         r: &Recording<'_>,
@@ -153,9 +156,9 @@ impl Sprites {
         Ok(())
     }
 
-    /// Processes the sprites by a dispatch outside a render pass; `Counts` are binding 4. There are exactly as many
-    /// groups as the sprites need, because a CPU distributes groups to its threads in advance: with many empty groups
-    /// at the end, one thread would get all the work.
+    /// Processes the listed sprites by one indirect dispatch per chunk, outside a render pass; `Counts` are binding
+    /// 4. There are exactly as many workgroups as the sprites need, because a CPU distributes groups to its threads
+    /// in advance: with many empty groups at the end, one thread would get all the work.
     pub fn splat(
         &self,
         r: &Recording<'_>,

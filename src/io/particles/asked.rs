@@ -35,7 +35,8 @@ impl Asked {
         self.extras.iter().any(|name| name == plain)
     }
 
-    /// Whether an attribute with this name may be used, so that a reader need not unpack the others.
+    /// Whether an attribute with this name may be used, because its name is known or was asked for. A reader need not
+    /// unpack the others.
     pub(super) fn wants(&self, name: &str) -> bool {
         let name = names::plain(name);
         names::known(&name) || self.has(&name)

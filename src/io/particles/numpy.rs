@@ -49,8 +49,8 @@ impl Header {
         self.members.first().map_or(AttributeType::Other, |member| member.ty)
     }
 
-    /// The rows of an array. `vector` says that the values are vectors with one component per dimension of
-    /// space.
+    /// How an array divides into rows, one per particle. `vector` says that its values are vectors with one component
+    /// per dimension of space.
     fn rowed(&self, name: &str, vector: bool) -> Result<Rowed, ReadError> {
         let rowed = self.in_rows(name, vector)?;
         // In Fortran order, the elements of one frame of several are not contiguous.
@@ -86,8 +86,9 @@ impl Header {
         }
     }
 
-    /// Rows of the array's values, which begin after a header of `header` bytes; the array seen as rows; and warnings
-    /// about the array. `placed` says that the values are positions, whatever the name.
+    /// Returns the rows of the array as they are stored after a header of `header` bytes; the number of rows and of
+    /// values in each; and warnings about the array. `placed` says that the values are positions, whatever the
+    /// array's name.
     fn rows(
         &self,
         header: u64,
@@ -329,7 +330,8 @@ pub(super) fn times(input: &Input<'_>, zip: bool) -> Result<Vec<Option<f64>>, Re
     Ok(times)
 }
 
-/// Max number of frames in a file, and max number of bytes of their times.
+/// Max number of frames in a file (`MOST`), and max number of bytes read from the array of the frames' times
+/// (`TIMES`).
 const MOST: usize = 1 << 20;
 const TIMES: u64 = 16 << 20;
 
@@ -369,7 +371,8 @@ pub(super) struct Arrays {
     pub(super) warnings: Vec<String>,
 }
 
-/// Reads the headers of the arrays in a zip; `None` if one cannot be read row by row.
+/// Reads the headers of the arrays in an NPZ file. `None` if one array's compression or order of values prevents
+/// reading it row by row.
 pub(super) fn arrays(input: &Input<'_>, asked: &Asked) -> Result<Option<Arrays>, ReadError> {
     let mut archive = zip::ZipArchive::new(input.section()).map_err(bad_zip)?;
     let (mut table, mut chosen) = choose(&mut archive, asked)?;
@@ -419,7 +422,7 @@ fn bad_zip(error: zip::result::ZipError) -> ReadError {
     ReadError::malformed("a sound zip of arrays", error.to_string(), Place::Unknown)
 }
 
-/// The arrays of a zip that are used besides those with a known name.
+/// The arrays of an NPZ file that are used although their names are not known ones.
 #[derive(Default)]
 struct Chosen {
     /// Structured arrays, for their fields.

@@ -146,7 +146,7 @@ struct OnCells {
 /// Where the points of cells are listed.
 struct List {
     cells: u64,
-    /// The list of points, and from version 5.0 on one of offsets before it.
+    /// Where the list of the cells' points is in the file and, from version 5.0 on, the list of offsets into it.
     points: Found,
     offsets: Option<Found>,
 }
@@ -197,7 +197,8 @@ struct Reader<'a> {
     found: Vec<Found>,
     points: Option<Found>,
     time: Option<f64>,
-    /// Number of cells that are not points, their type, and the number of cells that are points.
+    /// Number of cells that are not points (`cells`), the type of these (`cell`), and the number of cells that are
+    /// points (`vertices`).
     cells: u64,
     cell: &'static str,
     vertices: u64,
@@ -205,7 +206,8 @@ struct Reader<'a> {
     rows: Option<u64>,
     of: Of,
     on_cells: OnCells,
-    /// The first list of vertices or cells, and the number of cells in other lists.
+    /// The file's first list of cells, if these are vertices or of mixed types, and the number of cells in other
+    /// lists.
     list: Option<List>,
     others: u64,
     asked: Asked,
@@ -538,7 +540,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Skips values. `keep` says that they may be used; text is then checked for numbers if `check` is set.
+    /// Skips `count` values. `keep` says that they may be used; in a text file they are then checked to be numbers if
+    /// `check` is set.
     fn values(
         &mut self,
         ty: AttributeType,

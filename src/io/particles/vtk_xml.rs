@@ -30,7 +30,8 @@ pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>,
     plan_files(&[(Path::new(""), content.clone())], Vec::new(), asked)
 }
 
-/// Plans to read pieces in several files that form one frame. Errors name the file, if it has a name.
+/// Plans the reading of pieces that are in several files and together form one frame. An error names its file, if
+/// that has a path.
 pub(super) fn plan_files<'a>(
     files: &[(&Path, Content<'a>)],
     warnings: Vec<String>,
@@ -87,7 +88,8 @@ fn length(array: &Array<'_>) -> u64 {
     values / (array.components.max(1) as u64)
 }
 
-/// Adds the attributes of cells to those of points, if cells are particles. Returns the tracks that read them.
+/// Adds the attributes of cells to those of points, if each cell is a particle. Returns the tracks that read the
+/// values of the added attributes.
 fn join_cells<'a>(
     on_cells: OnCells<'a>,
     points: u64,
@@ -156,7 +158,8 @@ impl<'a> Grid<'a> {
         Plan::new(tracks, about, limit)
     }
 
-    /// Adds the pieces of a file; false if the head lacks texts that cannot be read in place.
+    /// Adds the pieces of a file to the grid. Returns false if `head`, which leaves out long texts, lacks one that is
+    /// needed and cannot be read from its place in the file.
     fn read(&mut self, content: &Content<'a>, head: &Head) -> Result<bool, ReadError> {
         let document = head.parse()?;
         let root = document.root_element();
@@ -411,7 +414,8 @@ impl<'a> Reader<'_, 'a> {
         Ok((name, usize::try_from(components).unwrap_or(usize::MAX), ty))
     }
 
-    /// Number of cells in a piece and their type, if most of them are more than points.
+    /// Returns the number of cells in a piece and the word for their type, if most of them are not single points;
+    /// otherwise 0.
     fn mesh(&mut self, piece: &Node<'_, '_>) -> (u64, &'static str) {
         let number = |name: &str| piece.attribute(name).and_then(|n| n.trim().parse().ok());
         let polygons =
@@ -430,8 +434,8 @@ impl<'a> Reader<'_, 'a> {
         if 2 * more > types.len() { (cells, "cells") } else { (0, "") }
     }
 
-    /// Finds the attributes of a piece's cells, and whether the cells are its points; false if the head lacks a text
-    /// that cannot be read in place.
+    /// Finds the attributes of a piece's cells, and whether each cell is one of its points. Returns false if the
+    /// head, which leaves out long texts, lacks one that is needed and cannot be read from its place in the file.
     fn cells(
         &mut self,
         piece: &Node<'_, '_>,
@@ -515,8 +519,8 @@ impl<'a> Reader<'_, 'a> {
         Ok(true)
     }
 
-    /// The first of `count` values of an array. The result of an error is `None`, because these values do not
-    /// concern the particles.
+    /// Reads an array of `count` values, at most its first 1024. The result of an error is `None`, because these
+    /// values do not concern the particles.
     fn peek(&mut self, array: &Node<'_, '_>, count: u64) -> Option<Vec<f64>> {
         let budget = self.budget;
         let (name, _, ty) = self.described(array).ok()?;
@@ -546,7 +550,8 @@ impl<'a> Reader<'_, 'a> {
         }
     }
 
-    /// Position of an array's `count` values; `None` if the head lacks a text that cannot be read in place.
+    /// The place of an array's `count` values in the file; `None` if the values are in a text that the head leaves
+    /// out and that cannot be read from its place.
     fn segment(
         &mut self,
         array: &Node<'_, '_>,

@@ -39,8 +39,9 @@ pub struct Sample {
 }
 
 impl Blur {
-    /// `None` if nothing is blurred. Missing arguments default to those of a photograph ([`SHUTTER`], [`LENS`]) if
-    /// `photograph` is set, otherwise to no blur. `focus` is the focus distance.
+    /// Chooses the blur of a picture; `None` if nothing is blurred. Missing arguments default to those of a
+    /// photograph ([`SHUTTER`], [`LENS`]) if `photograph` is set, otherwise to no blur. `focus` is the focus distance
+    /// in scene units.
     pub fn of(args: &DrawArgs, photograph: bool, focus: f32) -> Option<Self> {
         let usual = |value: f32| if photograph { value } else { 0.0 };
         let seconds = args.shutter.unwrap_or(usual(SHUTTER));

@@ -14,13 +14,14 @@ const DEFAULT_FOV: f32 = 40.0;
 /// Vertical field of view in degrees of a camera that is found from the particles: neither
 /// wide-angle nor telephoto.
 const FOUND_FOV: f32 = 36.0;
-/// Height of the horizon in the view of such a camera, from the picture's middle (0) to its upper edge (1): the sky
-/// takes a seventh of the picture's height.
+/// Height of the horizon in the view of a camera that is found from the particles, from the picture's middle (0) to
+/// its upper edge (1): the sky takes 15 % of the picture's height.
 const HORIZON: f32 = 0.7;
 /// Min and max angle of the camera's axis below the horizontal, radians, whatever the field of view is.
 const LEAST_PITCH: f32 = 0.14;
 const MOST_PITCH: f32 = 0.52;
-/// Max angle below the horizontal, in degrees, of the line from the eye to the middle of the floor.
+/// Max angle below the horizontal, in degrees, at which a camera that is found from the particles sees the middle of
+/// the floor.
 const HIGHEST: f32 = 27.0;
 /// Max distance of the framed points from the picture's middle, as a part of half its height (`FILLED`) and of half
 /// its width (`WIDTH`).
@@ -258,8 +259,8 @@ impl CameraFile {
         Ok(Camera::of(Mat4::look_at_rh(eye, target, up), projection))
     }
 
-    /// A three-quarter view: the horizon is below the upper edge by a seventh of the picture's height, and the water
-    /// is in the lower part. The camera is as near as it can be while the bulk of the water of every frame is in the
+    /// A three-quarter view: the horizon is below the upper edge by 15 % of the picture's height, and the water is in
+    /// the lower part. The camera is as near as it can be while the bulk of the water of every frame is in the
     /// picture.
     pub fn of_particles(
         frames: &[&[[f32; 3]]],
@@ -570,7 +571,7 @@ mod tests {
         }
     }
 
-    /// For every shape of the water the horizon is below the upper edge by a seventh of the picture's height, and the
+    /// For every shape of the water the horizon is below the upper edge by 15 % of the picture's height, and the
     /// camera looks down on the water so steeply that near walls hide little.
     #[test]
     fn the_horizon_is_in_the_picture() {

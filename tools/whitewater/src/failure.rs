@@ -140,7 +140,8 @@ impl From<SequenceError> for Failure {
     }
 }
 
-/// The drawn size is `--size` times `--supersample`, so if it is too large, the message names both.
+/// Makes the failure for an error. The drawn size is `--size` times `--supersample`, so if this size is too large,
+/// the message names both.
 pub fn too_large(error: Error, supersample: u32) -> Failure {
     let of_size = matches!(error, Error::BadInput { field: "Config.extent", .. });
     let failure = Failure::from(error);

@@ -167,8 +167,8 @@ mod tests {
 
     const SPACING: f32 = 0.05;
 
-    /// A jet of 30 layers of 10 by 6 particles, which starts at this height and moves in the direction `along`, and
-    /// water at rest below it.
+    /// Particles of a test, and their velocities: a jet of 30 layers of 10 by 6 particles, which starts at `height`
+    /// and moves in the direction `along`, and water at rest below it.
     fn jet(along: Vec3, speed: f32, height: f32) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         let right = along.cross(Vec3::Y).normalize();
         let up = right.cross(along);

@@ -105,7 +105,8 @@ struct Side {
     sign: f32,
     /// Coordinate on the axis.
     at: f32,
-    /// Quantiles of the water's height along the side: 25 % (`level`) and 90 % (`highest`).
+    /// Height of the water's surface along this side of the box: its 25 % quantile (`level`) and its 90 % quantile
+    /// (`highest`).
     level: f32,
     highest: f32,
     /// Height up to which the water touches the side.
@@ -114,7 +115,8 @@ struct Side {
 
 /// Thickness of the outermost layer of particles in spacings; within it, some are pressed farther out than others.
 const LAYER: f32 = 0.9;
-/// Distance from the end of freely running water to the wall of the box, as a part of the water's width.
+/// Distance from the place where freely running water ends to the wall of the box on that side, as a part of the
+/// longer horizontal side of the water's bounds.
 const FREE: f32 = 0.3;
 
 /// Sides of the box in which the particles stand or run; `None` if fewer than two sides hold the water. The box is
@@ -395,7 +397,8 @@ pub fn exposure(set: SetArg) -> f32 {
     if set == SetArg::Pool { 0.3 } else { 0.0 }
 }
 
-/// The light of a set, if it has its own. `towards_eye` is the direction from the water to the camera.
+/// The light of a set (the surroundings that `--set` chooses); `None` if the set has no light of its own.
+/// `towards_eye` is the direction from the water to the camera.
 pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
     let key = side_light(towards_eye);
     let grey = |from: f32, to: f32, d: Vec3| Vec3::splat(from + (to - from) * (0.5 + 0.5 * d.y));
@@ -440,7 +443,8 @@ fn round_length(rough: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// A block of water with a spacing of 0.1, optionally with a corner cut off.
+    /// Particles of a test: a block of water with a spacing of 0.1 scene units, and with a corner cut off if `cut` is
+    /// set.
     fn block(cut: bool) -> Vec<[f32; 3]> {
         let cells = (0..20).flat_map(|x| (0..6).flat_map(move |y| (0..30).map(move |z| (x, y, z))));
         cells
@@ -501,7 +505,8 @@ mod tests {
         assert!(basin(&[[0.0; 3]]).is_none());
     }
 
-    /// If a few particles at the floor are pressed outwards, no gap opens between the wall and the water above them.
+    /// If a few particles at the floor are pressed outwards, the wall of the basin stays at the median of the
+    /// outermost particles: no gap opens between it and the water above them.
     #[test]
     fn walls_touch_most_of_the_water() {
         let right = |points: &[[f32; 3]]| {
@@ -569,7 +574,8 @@ mod tests {
         assert!(edges(&on_wall(1)).is_empty(), "drops");
     }
 
-    /// If a high dam stands in only one frame, the first or another, panes as high as the dam hold it.
+    /// If a high dam of water stands in only one frame, the first or another, the panes of glass on the basin's walls
+    /// are as high as the dam.
     #[test]
     fn panes_hold_the_dam_that_falls() {
         let dam: Vec<_> =

@@ -47,11 +47,12 @@ use report::{Format, Report, Row};
 pub struct BenchArgs {
     /// Particle counts: 16k, 64k, 256k, 1m or any number
     ///
-    /// A larger count resolves the same pool of water more finely. With --shore, the time that shore foam adds to a
-    /// frame is reported relative to the frame time of this pool.
+    /// A larger count of particles resolves the same pool of water more finely. With --shore, the time that shore
+    /// foam adds to a frame is reported relative to the frame time of this pool.
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
-    /// Picture sizes [default: 1280x720; for a sea the paper's, 800x600 or 1280x960; for bubbles 640x480]
+    /// Picture sizes [default: 1280x720; for a sea 800x600 or 1280x960, as in the paper about whitewater; for bubbles
+    /// 640x480]
     #[arg(long, value_delimiter = ',', value_parser = parse_size)]
     size: Vec<(u32, u32)>,
     /// Measure the whitewater particles of a procedural sea instead of water
@@ -81,8 +82,8 @@ pub struct BenchArgs {
     /// Sampling of the ambient occlusion of whitewater [default: fast]
     #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
     occlusion: Vec<sea::OcclusionArg>,
-    /// Sort whitewater particles along a space-filling curve, and cull packets of consecutive particles outside the
-    /// view
+    /// Sort the sea's whitewater particles along a space-filling curve, group consecutive ones to packets, and skip
+    /// packets outside the view
     #[arg(long, requires = "sea")]
     packets: bool,
     /// Degrees by which a sea's camera is turned to the left [default: 0]
@@ -162,7 +163,7 @@ pub enum Path {
     ReadBack,
     /// One layer of water
     OneSheet,
-    /// With foam: the highest 5 % of the particles are foam by half or more, the next 2.5 % by less
+    /// With surface foam: the highest 5 % of the pool's particles are foam by half or more, the next 2.5 % by less
     Foam,
     /// With spray: the highest 2.5 % of the particles are spray only
     Spray,
@@ -172,8 +173,8 @@ pub enum Path {
     Noise,
     /// With shadows and caustics of the water, in maps of 512² texels
     Light,
-    /// Shadows of a plate over the pool, or of a shore's land, by percentage-closer filtering of a map of 2048²
-    /// texels
+    /// With shadows that a plate casts on the pool, or a shore's land on its surroundings, by percentage-closer
+    /// filtering of a map of 2048² texels
     Pcf,
     /// The shadows of 'pcf', by convolution shadow maps at the library's default size
     Convolution,
@@ -187,7 +188,7 @@ pub enum Path {
     Baseline,
     /// The baseline with its noise and foam
     BaselineNoise,
-    /// As `render` draws a file by default: surface foam, spray and mist, shadows, caustics and a basin
+    /// With all that `render` draws of a file by default: surface foam, spray and mist, shadows, caustics and a basin
     Render,
     /// Shores, as all paths below: shore coordinate v from a distance map
     Map,
