@@ -70,7 +70,7 @@ pub struct Equirectangular {
     /// without the sun, because the light of the sun is added separately, with its shadows, and would otherwise count
     /// twice. Reflections show `image`.
     pub without_sun: Option<HostImage>,
-    /// Factor on the radiance, [0, ∞), default 1. The product is clamped to 65 000.
+    /// Factor on the image's radiance, [0, ∞), default 1. The scaled radiance is clamped to 65 000.
     pub scale: f32,
     /// Right-handed rotation of the image around up, radians, finite, default 0. For +y up, content along −z moves
     /// towards −x.

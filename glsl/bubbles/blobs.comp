@@ -36,7 +36,7 @@ layout(push_constant, std430) uniform Push {
     uint from_gpu;
 } push;
 
-// Rotation from the world to the blob's space. The host's rotation is the inverse.
+// Quaternion from the world to the blob's space: the inverse of the host's, or the identity if that is invalid.
 vec4 turn_of(uint index) {
     vec4 q = vec4(0.0, 0.0, 0.0, 1.0);
     if (push.turn_stride > 0u) {
@@ -81,7 +81,7 @@ void place(uint index) {
     blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
     ball.w *= merged(ball.w, length(centre), blob.id);
     good = good && ball.w > 0.0;
-    // A blob around the eye has no bounds on the screen; the near plane clips it.
+    // A blob around the eye is listed, although it has no bounds on the screen; the near plane clips it.
     blob.ball = good ? vec4(mat3(frame.world) * centre, ball.w) : blob.ball;
     if (good && in_frustum(centre, ball.w)) {
         blob.nearest = max(-centre.z - ball.w, 0.0);

@@ -1,6 +1,7 @@
 #version 460
-// Pass `heap`, grid: the first dispatch counts the blobs of each bucket, the second enters them. Between the two the
-// counts are replaced by their exclusive prefix sums, which the second turns into inclusive ones.
+// Pass `heap` (simulation of blobs), grid of neighbours: the first dispatch counts the blobs of each bucket, the
+// second enters their indices. Between the two the counts are replaced by their exclusive prefix sums, which the
+// second turns into inclusive ones.
 // Reads: balls. Writes: buckets, order.
 
 #include "heap.glsl"

@@ -51,7 +51,8 @@ void visit(uint i) {
     axes_of(ahead, x, y);
     uint seed = step_seed();
     uint id = places[i].id;
-    // The emitting fluid particle counts as a neighbour of the new particle, as it will in later steps.
+    // The emitting fluid particle counts as a neighbour in the choice of the new particle's kind, as it will in later
+    // steps.
     uint kind = kind_of(uint(uintBitsToFloat(normals[i].w)) + 1u);
     // In a snapshot, the first random numbers are used by the stages.
     uint random = SNAPSHOT == 0u ? 1u : 32u;
@@ -72,7 +73,8 @@ void visit(uint i) {
         uint slot = order < counts.free ? free_slots[order] : counts.high + beyond;
         float radius = 0.5 * push.spacing * sqrt(uniform_of(seed, id, 4u * k + random));
         float along = way * uniform_of(seed, id, 4u * k + random + 1u);
-        // The angle is shifted by half a turn, because sines are exact only near 0; the minus below shifts it back.
+        // The random angle is taken from −π to π, not from 0 to 2π, because sines are exact only near 0; the minus
+        // sign of `off` makes up for the half turn.
         float turn = 6.28318531 * (uniform_of(seed, id, 4u * k + random + 2u) - 0.5);
         vec3 off = -radius * (cos(turn) * x + sin(turn) * y);
         float age = 0.0;

@@ -28,7 +28,8 @@ void main() {
         vec3 d = cube_direction(texel, SIZE);
         float weight = pow(1.0 + dot(uv, uv), -1.5);
         vec3 c = textureLod(environment, d, max(lod, 0.0)).rgb;
-        // Where ground or backdrop hide the sky's lower half, it is left out: light from them is baked per vertex.
+        // If the scene's ground or backdrop hide the lower half of the environment, that half is faded out: the
+        // light of ground and backdrop is baked per vertex.
         c *= scene.sun_direction.w > 0.5 ? smoothstep(-0.1, 0.1, d.y) : 1.0;
         float y[9] = float[9](
             0.282095,

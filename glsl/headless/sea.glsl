@@ -103,8 +103,8 @@ float phase(int i, vec2 at, vec2 unrest) {
     return dot(wave.xy, at) + wave.w + dot(scene.shifts[i].xy, unrest);
 }
 
-// The surface at a pixel: its ray and the intersection; the filtered slope; and the variance of the slopes
-// too fine for the pixel: along x, along z, both.
+// The sea's surface at a pixel: its ray and the intersection; the filtered slope; and of the slopes too fine for the
+// pixel the variance along x, along z, and their covariance.
 struct Surf {
     vec3 ray;
     Place place;
@@ -150,8 +150,9 @@ vec3 wobble(Surf s, float depth) {
     return vec3(aside.x, 0.0, aside.y);
 }
 
-// Transmittance of hazy air over a distance. Over the sea salt and smoke scatter more than the air itself. Their
-// scattering is proportional to the wavelength to the power of -1.3 (atmosphere.glsl), so blue light is lost first.
+// Transmittance of hazy air over a distance. Over the sea, salt and smoke scatter more light than the air itself
+// does. Their scattering is proportional to the wavelength to the power of -1.3 (atmosphere.glsl), so blue light is
+// lost first.
 vec3 clear_air(float distant) {
     // `mix` instead of a conditional: if a specialization constant chooses between vectors, lavapipe
     // 22.3 selects only the first component.
@@ -208,7 +209,8 @@ float caustics(vec3 at, float depth) {
     for (int i = 0; i < WAVES; ++i) {
         vec4 wave = scene.waves[i];
         float square = dot(wave.xy, wave.xy);
-        // The sun's disc blurs the caustics, and so does a bed far beyond the focus of the waves.
+        // The caustics of a wave are blurred by the width of the sun's disc, and on a bed that lies far beyond the
+        // wave's focus.
         float focus = bent * wave.z * square;
         float blurred = exp(-4.0e-6 * depth * depth * square) / (1.0 + 28.0 * focus * focus);
         // The shortest waves are faded out: the last few would look like a lattice.
@@ -285,8 +287,8 @@ vec3 glint(vec2 slope, vec3 hidden, vec3 v) {
 // Water over a surface `depth` below its own.
 vec3 water(vec3 under, float depth, Surf s) {
     vec3 v = -normalize(s.ray);
-    // A slope that turns away from the eye by more than the line of sight rises is hidden by the crest before it, so
-    // slopes are limited.
+    // A slope that falls away from the eye more steeply than the line of sight is hidden by the crest before it. So
+    // the slope's component away from the eye is limited, smoothly.
     vec2 e = normalize(v.xz + vec2(1.0e-6, 0.0));
     float rises = v.y / max(length(v.xz), 1.0e-3);
     float open = rises - dot(s.slope, e);
@@ -315,7 +317,8 @@ vec2 plate_middle(ivec2 cell) {
     return 0.15 + 0.7 * vec2(hash(ivec3(cell, 41)), hash(ivec3(cell, 43)));
 }
 
-// Distance to the border with the next plate, in cells, and a random number of the plate.
+// The crust of lava consists of plates. Returns the distance to the border with the next plate, in cells, and a
+// random number of the plate.
 vec2 plate(vec2 p) {
     ivec2 cell = ivec2(floor(p));
     vec2 f = fract(p);
@@ -370,7 +373,8 @@ vec3 lava(Place place, vec3 lit) {
     float width = 1.2 * sqrt(length(place.across) * length(place.down));
     vec2 heat = lava_heat(place.at, scene.flow.z, width);
     if (scene.lava.w > 0.0) {
-        // Two copies of the flow are cross-faded, so that the end of the loop equals its beginning.
+        // In a picture sequence that loops, two copies of the flow of lava are cross-faded, so that the end of the
+        // loop equals its beginning.
         vec2 other = lava_heat(place.at, scene.flow.w, width);
         heat = mix(heat, other, scene.scattering.w);
     }

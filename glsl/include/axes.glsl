@@ -2,9 +2,9 @@
 // Turk 2013, Eq. 16: the inverse of G without 1/h). It is stored as six 16-bit numbers, whose steps move the surface
 // by less than a 5000th of the radius. Needs nothing.
 
-// Largest absolute value of an element. It suffices for ellipsoids with the sphere's volume whose longest half-axis
-// is at most 8 times the shortest: this half-axis is at most 4 radii if they are elongated, and less if they are
-// flat.
+// Largest absolute value that an element of the matrix can store. It suffices for ellipsoids with the sphere's
+// volume whose longest half-axis is at most 8 times the shortest: this half-axis is at most 4 radii if they are
+// elongated, and less if they are flat.
 const float MOST_AXIS = 4.0;
 
 uvec3 pack_axes(mat3 axes) {

@@ -21,7 +21,7 @@ layout(set = 0, binding = 13, std430) readonly buffer Neighbours { uvec4 neighbo
 
 const uint NO_BUBBLE = 0xffffffffu;
 
-// Where a ray with unit direction intersects a ball; false if it does not.
+// Intersects a ray with unit direction with a ball. `hits`: distances along the ray; false if it misses.
 bool ball_hits(vec3 origin, vec3 direction, vec4 ball, out vec2 hits) {
     vec3 to = ball.xyz - origin;
     float along = dot(to, direction);
@@ -81,8 +81,8 @@ BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
     float step = (span.y - span.x) / float(STEPS);
     uint last = NO_BUBBLE;
     uint i = 0u;
-    // The loop tests its condition at the top. With the test at the end, one driver gives all lanes the values of the
-    // iteration in which the last lane ends.
+    // This loop tests its condition at the top. If a loop tests it at the end, one driver gives all lanes of a
+    // subgroup the values of the iteration in which the last lane ends.
     bool more = true;
     while (more) {
         float t = span.x + (float(i) + 0.5) * step;
@@ -166,7 +166,7 @@ BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span)
         } while (i < max(STEPS, COARSE + 1u));
     }
     hit.t = max(0.5 * (from + to), 0.0);
-    // Mean chord of a bubble of mean size, because it is not known which bubble was hit.
+    // The exit lies behind the hit by the mean chord of a bubble of mean size, because the bubble is not known.
     hit.past = hit.t + 4.0 / 3.0 * mean_radius();
     return hit;
 }

@@ -81,8 +81,8 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
         float sum = same.x + same.y + same.z + same.w;
         weights = sum > 1.0e-3 ? same / sum : weights;
     }
-    // Texels without water do not count: the scene hides the water at their centre, but need not hide it at this
-    // pixel.
+    // The mean of the water's thickness omits texels without water: the scene hides the water at the texel's centre,
+    // but need not hide it at this pixel.
     vec2 sum = vec2(0.0);
     vec4 wet = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
@@ -98,8 +98,8 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
     return share > 0.0 ? sum / share : vec2(0.0);
 }
 
-// Whether there is air between two sheets (layers of water): 1 air, 0 water. `window` is the thickness of the water
-// in the window, the range around the boundary between the two sheets.
+// Amount of air between two sheets (layers of water), from 0 (water) to 1 (air). `window`: thickness of the water in
+// the window, a range of depth around the boundary between the two sheets.
 float air(float window) {
     return 1.0 - smoothstep(0.1 * frame.particle.y, 0.6 * frame.particle.y, window);
 }
@@ -125,7 +125,7 @@ vec4 sheet_thickness(ivec2 base, vec4 weights, float front, inout float boundary
     return sum;
 }
 
-// Whether one of the four scene-depth texels around a point is nearer than z.
+// Whether one of the four scene-depth texels around the point `at`, in pixels, is nearer to the eye than z.
 bool stands_before(vec2 at, float z) {
     // Stay inside the view: its image may hold other views beside it.
     vec2 size = frame.scene_depth.zw;
@@ -157,8 +157,9 @@ bool hidden_at(vec2 q, float z) {
 // different directions, and large offsets would make a mosaic.
 const float MOST_BENT = 1.0 / 16.0;
 
-// Max iterations of the search in `refracted` for the end of the free offset: two, then bisection of the largest
-// offset (1/16 of a picture height of 16384 pixels) down to half a pixel.
+// Max number of looks at the scene in `refracted`, which searches for the end of the free offset: two at whole
+// offsets, then bisection of the largest offset (1/16 of a picture height of 16384 pixels, 1024 pixels) down to half
+// a pixel.
 const int MOST_LOOKS = 14;
 
 // Limits an offset in pixels smoothly to MOST_BENT.
@@ -173,7 +174,8 @@ vec2 bent(vec2 offset) {
 // seam, and the whole free length would lead all pixels nearby to the obstacle's edge and smear it.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
     float far = length(offset);
-    // In units of the offset: the farthest point known to be free, and the nearest known to be blocked.
+    // Multiples of the offset: `free` is the farthest known to be free of obstacles, `blocked` the nearest known to
+    // be blocked (3: none yet).
     float free = 0.0;
     float blocked = 3.0;
     int looks = 0;
@@ -184,13 +186,14 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
         blocked = hidden ? part : blocked;
         ++looks;
     } while (free < 2.0 && (blocked - free) * far >= 0.5 && looks < MOST_LOOKS);
-    // Keep a pixel and a half away: antialiasing may have blended the edge into its neighbours.
+    // The look-up stays a pixel and a half away from the obstacle: antialiasing may have blended the obstacle's edge
+    // into its neighbours.
     float part = free < 2.0 ? clamp(0.5 * (free - 1.5 / max(far, 1.0)), 0.0, 1.0) : 1.0;
     return scene_at(pixel + offset * part);
 }
 
-// Whether to follow Listing A.20: reflection and highlight are added with a weight, and all foam lies at the
-// depth of the frontmost.
+// Whether to follow Listing A.20 of the thesis: reflection and highlight are added with a weight (`with_mirrored`),
+// and all foam lies at the depth of the frontmost foam.
 bool by_source() {
     return frame.ambient.w > 0.5;
 }
@@ -229,8 +232,8 @@ const vec2 FILLED = vec2(0.5, 0.7);
 // Least cosine between the view axis and a ray through a sheet.
 const float FLATTEST = 0.25;
 
-// Length of the refracted ray to the scene, relative to the length of the unrefracted ray, if both reach the same
-// depth below a level surface. Under a vertical surface the ratio is 1.
+// Length of the refracted ray from the surface to the scene, divided by the length of the unrefracted ray to the same
+// depth below the surface. That holds for a level surface; as the surface becomes vertical, the ratio goes to 1.
 float bent_way(vec3 n, vec3 v, vec3 up) {
     float ratio = frame.bed.w;
     float facing = max(dot(n, v), 0.0);
@@ -297,7 +300,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     sheet.mirror = w * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
     if (MIRROR > 0u && marched) {
-        // A march finds the scene on the reflected ray, which may point in any direction.
+        // A march finds the scene along the reflected ray. What it finds is reflected even if the ray points below
+        // the horizon.
         bool asked = sheet.mirror > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
         Met met = march(position, to, asked ? int(MIRROR) : 0);
         float free = (1.0 - met.share) * sky;
@@ -327,8 +331,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     return sheet;
 }
 
-// The sheet without reflection and highlight, unless the ladder (a debug view that adds layer after layer) is at its
-// last rung.
+// Returns the sheet (layer of water). Its reflection and highlight are set to 0, unless the ladder (a debug view that
+// adds layer after layer) is at its last rung.
 Sheet on_ladder(Sheet sheet) {
     float whole = frame.target.z >= WHOLE ? 1.0 : 0.0;
     sheet.mirror *= whole;
@@ -432,8 +436,8 @@ bool beside(vec2 pixel) {
     return FOAM == 1u && foam_seen(pixel).depth < EMPTY || spray_at(ivec2(pixel));
 }
 
-// Weighted mean of the depths of the frontmost foam in the four texels. The least of these depths would change in
-// steps from pixel to pixel.
+// Mean of the depths of the frontmost foam in the four texels around the pixel, with the weights `foam.shown`. The
+// least of the four depths would change in steps from pixel to pixel.
 float foam_middle(FoamTexels foam) {
     vec4 w = mix(vec4(0.0), foam.shown, lessThan(foam.z, vec4(EMPTY)));
     float sum = w.x + w.y + w.z + w.w;
@@ -461,8 +465,8 @@ const vec2 SHAPE_WAYS[4] = vec2[](vec2(1.0, 0.0), vec2(0.70710678), vec2(0.0, 1.
 // Cosine of the angle between the foam's normal and the sun: at the first value foam is unlit, at the second fully
 // lit. The range is wide because light scatters in foam.
 const vec2 SHAPE_LIT = vec2(-0.5, 0.6);
-// Fraction of skylight that foam loses in a hollow whose surroundings are all nearer to the eye by at least the
-// sampling distance.
+// Fraction of skylight that foam loses at most: in a hollow whose surroundings are all nearer to the eye by at least
+// `reach`, the distance of the samples.
 const float SHAPE_HOLLOW = 0.6;
 
 // By how much the foam at a point between texels is farther from the eye than depth z, clamped to ±reach. Texels
@@ -491,17 +495,17 @@ vec2 shape_light(vec2 pixel, float z) {
         slope += way * beyond;
         hollow += max(-beyond, 0.0);
     }
-    // For eight points on a circle, the squares of either coordinate sum to four.
+    // The squares of either coordinate of eight points on the unit circle sum to 4: hence a quarter of the sum.
     vec3 normal = normalize(vec3(0.25 * slope / metres, 1.0));
     return vec2(smoothstep(SHAPE_LIT.x, SHAPE_LIT.y, dot(normal, frame.sun_direction.xyz)),
                 1.0 - SHAPE_HOLLOW * hollow / (8.0 * reach));
 }
 
-// The surface foam at a pixel (thesis Sec. 3.2.3). The more foam lies in the front layer, right behind the frontmost
-// foam, the nearer its colour is to the front colour (Listing A.20; Eq. 3.9 swaps front and back colour). The
-// visibility of the sun is a mean over the sprites of the front layer, which each carry the visibility at their
-// centre. (The thesis evaluates it at the mean of nine depths.) A shadow of each single sprite would show the
-// sprite's outline.
+// The surface foam at a pixel (thesis Sec. 3.2.3). Its colour goes from the back colour to the front colour as the
+// foam in the front layer, a range of depth right behind the frontmost foam, becomes thicker (Listing A.20; Eq. 3.9
+// swaps the two colours). Each sprite of foam has the visibility of the sun at its centre, and the pixel takes the
+// mean over the sprites of the front layer. (The thesis evaluates the visibility at the mean of nine depths.) A
+// shadow with an edge inside a sprite would show the sprite's outline.
 Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     Foam foam;
     vec4 t = vec4(0.0);
@@ -532,12 +536,14 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
         foam.kept = through_lace(pixel, z, foam.kept, local);
         torn = false;
     }
-    // Distance of the foam's middle behind the frontmost foam. `far` omits the first spacing of this distance; it is
-    // added again for distant foam, so that its depth does not change when it becomes the frontmost. Dense foam is
-    // seen at its front, which lies before its middle by the thickness of the foam.
+    // `middle`: distance of the foam's middle behind the frontmost foam. `far / (1 − far)` is this distance in
+    // spacings, less its first spacing. The factor adds that spacing to distant foam (`far` near 1), so that foam
+    // keeps its depth when it becomes the frontmost. Dense foam is seen at its front, which lies before its middle by
+    // the thickness of the foam.
     float middle = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
     foam.behind = max(middle - t.x * (1.0 - foam.kept), 0.0);
-    // The alternative is the thesis program's other rule: a power of the front layer's relative thickness.
+    // Weight of the front colour. `power` above 0 selects the thesis program's other rule: this power of the front
+    // layer's relative thickness.
     float power = frame.foam_front.w;
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
     float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * along * t.y * local);
@@ -559,8 +565,8 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     return foam;
 }
 
-// Radiance of whitewater particles (Akinci et al. 2013, Sec. 2.5). `light`: rgb the light that they gather, w their
-// shadow.
+// Returns the radiance of whitewater particles (Akinci et al. 2013, Sec. 2.5). `light`: rgb the light that reaches
+// them, w the strength of the shadow on them.
 vec3 whitewater_color(vec4 light) {
     vec3 shadow = clamp(light.w * frame.whitewater_shadow.rgb, 0.0, 1.0);
     vec3 whole = frame.whitewater_color.rgb * light.rgb;
@@ -591,8 +597,9 @@ vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 back
     // Particle foam in front of the surface lies over it.
     float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
     first = by_source() ? 1.0 : first;
-    // Foam in front of the surface has no water before it, so its distance from the surface is subtracted. The first
-    // four spacings of this distance do not count: within the width of a drop a pixel may show no sphere of the drop.
+    // `apart`: gap by which the frontmost foam lies before the water's surface. The gap holds no water, so it is
+    // subtracted from the foam's distance `behind`. Its first four spacings do not count: within the width of a drop
+    // a pixel may show no sphere of the drop.
     float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
     before += max(foam.behind - apart, 0.0);
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
@@ -638,7 +645,8 @@ Surface towards(Surface surface, Surface other, float fade) {
     return surface;
 }
 
-// The front water surface at a pixel, and the light that comes from this surface itself.
+// The front water surface at a pixel, and the light that this surface itself sends to the eye: its reflection and the
+// sun's highlight.
 struct Face {
     float z;      // depth
     float mirror; // reflectance: the rest of the light comes from below
@@ -677,7 +685,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         share = covers ? thick.yz : thick.yw;
     }
     if (SHEETS == 2u) {
-        // The first level of the back sheet corresponds to the second of the front sheet.
+        // The back sheet (farther layer of water) is smoothed at half resolution, so its first level corresponds to
+        // the front sheet's second.
         uint behind_shown = NEAR == 1u ? shown_level(nearness(covers ? boundary : front, slope), fade) : 0u;
         fade = behind_shown > 0u ? fade : 0.0;
         behind_shown = BACK + max(behind_shown, 1u) - 1u;
@@ -690,8 +699,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             fading = false;
         }
         if (covers) {
-            // As the air between two sheets closes, they become one gradually, so that the coarse cells from which
-            // the boundary is found do not show.
+            // Where the air between the two sheets (layers of water) is thinner than four spacings they become one
+            // gradually, so that the coarse cells from which their boundary is found do not show.
             float open = smoothstep(1.0, 4.0, (other.z - surface.z - t) / frame.particle.y);
             open = other.covered > 0.0 ? open : 1.0;
             t += (1.0 - open) * share.y;
@@ -699,8 +708,8 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
             back = behind(other, pixel, share.y, share.x);
             beyond = other.covered > 0.0 ? mix(surface.z, other.z, share.x) : 0.0;
         }
-        // The reduction widens a near surface by one texel over the surface behind it; undo that, or it leaves
-        // rims.
+        // The reduction widens a near surface by one texel over the surface behind it. The pixel shows the one behind
+        // again; otherwise it leaves rims.
         float lost = covers || !surface.widened ? 0.0 : (1.0 - surface.found) * other.found;
         surface.z = mix(surface.z, other.z, lost);
         surface.dz = mix(surface.dz, other.dz, lost);
@@ -708,10 +717,10 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     face = Face(surface.z, 0.0, vec3(0.0));
 
-    // Water thinner than one layer of particles is a drop: it keeps the shape of its sphere.
+    // Water thinner than one layer of particles is a drop: it has the slope of its particle's sphere, unsmoothed.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
-    // For the front sheet only: the noise belongs to the particles of its surface.
+    // `ripple`, the surface noise, is only for the front sheet (layer of water): it belongs to the particles there.
     vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);
     Sheet sheet = sheet_of(surface, pixel, t, ripple, true);
     Foam foam;
@@ -720,9 +729,9 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     if (FOAM == 1u) {
         foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
         behind_boundary = foam.depth >= boundary;
-        // `past`: the pixel lies between the spheres of the front sheet and shows the back sheet. Of the front sheet
-        // only its foam is drawn, with the water in this foam. With SHEETS = 1 the condition is false at compile
-        // time, so a CPU driver skips the code that depends on it.
+        // `past`: the pixel lies between the spheres of the front sheet (the nearer layer of water) and shows the
+        // back sheet. Of the front sheet only the foam is then drawn, with the water in this foam. With SHEETS = 1
+        // `past` is false at compile time, so a CPU driver skips the code that depends on it.
         past = SHEETS == 2u && !behind_boundary && front >= boundary && front < EMPTY;
         // Foam behind the air between two sheets belongs to the back sheet.
         if (covers && behind_boundary) {
@@ -859,8 +868,8 @@ vec3 shade(vec2 pixel, float front) {
     }
     if (SHORE == 1u && frame.target.z >= FOAM_TOO) {
         float amount = texelFetch(shore_foam, ivec2(pixel), 0).w;
-        // The visibility of the sun in the foam's image belongs to the host's surface behind. This computes it at the
-        // particles' water surface.
+        // The visibility of the sun in the foam's image belongs to the host's water surface behind. Contact foam on
+        // the particles' water needs that at its own surface, computed here.
         float lost = 0.0;
         for (bool go = SHADOW + CAST > 0u && amount > 0.0; go; go = false) {
             lost = sun_lost(face.z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);

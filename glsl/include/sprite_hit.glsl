@@ -1,4 +1,5 @@
-// The fragment of a sprite in a plane. Needs frame.glsl and the outputs of surface_foam.vert or spray.vert.
+// Intersects the ray of a fragment with the plane of its flat sprite. Needs frame.glsl and the outputs of
+// surface_foam.vert or spray.vert.
 
 #include "plane.glsl"
 

@@ -3,12 +3,13 @@
 
 // Distance between nodes in pixels.
 const float DRIFT_CELL = 16.0;
-// Fixed-point steps for the weight of a whole sprite at a node, and for a speed of one particle spacing per second;
-// max speed in steps.
+// Fixed-point steps: `DRIFT_WHOLE` for the weight of a whole sprite at a node, `DRIFT_STEPS` for a speed of one
+// particle spacing per second. `DRIFT_MOST`: max speed along an axis, in steps.
 const float DRIFT_WHOLE = 63.0;
 const float DRIFT_STEPS = 2.0;
 const float DRIFT_MOST = 1023.0;
-// Sum of weights above which no more is added to a node, so that sums of weighted velocities fit 32 bits.
+// Sum of the weights at a node, in fixed-point steps, from which on no sprite is added to the node, so that sums of
+// weighted velocities fit 32 bits.
 const int DRIFT_FULL = 1 << 20;
 
 ivec2 drift_nodes() {

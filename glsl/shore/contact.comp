@@ -30,7 +30,8 @@ void main() {
     vec2 pixel = vec2(texel) + 0.5;
     float scene = scene_of(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
-    // The smoothed surface is at most `frame.surface.w` behind the unsmoothed one, so this distance is a lower bound.
+    // Lower bound of the contact distance: the smoothed surface, at which `far` is computed, is at most
+    // `frame.surface.w` behind the unsmoothed one.
     float near = contact_distance(ray, front + frame.surface.w, scene) * shore.contact.y;
     bool go = front < EMPTY && scene > 0.0 && near < 1.0;
     for (; go; go = false) {

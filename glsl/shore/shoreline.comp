@@ -22,8 +22,8 @@ layout(set = 0, binding = 8, rgba8) uniform image2D foam;
 #include "shore_lists.glsl"
 #include "shore_drawn.glsl"
 
-// Foam that the tiles may have. 1: shoreline, 2: contact, 3: both. One pipeline each instead of branches, for CPU
-// drivers (docs/performance.md).
+// Kinds of foam that this pipeline computes: 1 shoreline, 2 contact (around objects), 3 both. One pipeline each
+// instead of branches, for CPU drivers (docs/performance.md).
 layout(constant_id = 1) const uint PARTS = 3;
 
 #include "shore_light.glsl"
@@ -36,7 +36,8 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     vec3 places[3];
     places[0] = ray * scene;
     for (int i = 1; i < 3; ++i) {
-        // Of the two neighbouring pixels on an axis, takes the one whose depth is nearer to the pixel's own.
+        // For the slope of the bed, takes on each screen axis the one of the two neighbouring pixels whose depth is
+        // nearer to the pixel's own.
         vec2 to = i == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
         float best = EMPTY;
         for (int k = -1; k < 2; k += 2) {
@@ -85,7 +86,7 @@ bool shaded(uvec2 texel, bool listed, float device, Mixed mixed, float v, float 
     }
     bool foams = line + amount > 0.0;
     if (foams) {
-        // With a strip (a mesh of the host along the shore), the strip's foam is already in the image.
+        // If the host gives a strip (a mesh along the shore), its shoreline foam is already in the image and is kept.
         float strip = PARTS == 2u ? imageLoad(foam, ivec2(texel)).x : 0.0;
         imageStore(foam, ivec2(texel), vec4(max(line, strip), amount, sun_lost(ray * z, pixel), 0.0));
     }
@@ -117,7 +118,7 @@ bool shaded_alone(uvec2 texel, bool listed) {
     return shaded(texel, listed, device, mixed, v, pattern);
 }
 
-// 2x2 pixels of a level surface; values that change little between them are computed once.
+// Shades the foam of 2x2 pixels of a level surface at once; values that change little between them are computed once.
 bool shaded_together(uvec2 first, bool listed) {
     vec2 middle = vec2(first) + 1.0;
     Water w = water_at(middle);
@@ -136,7 +137,8 @@ bool shaded_together(uvec2 first, bool listed) {
     vec2 texture_size = vec2(textureSize(scene_depth, 0));
     vec4 devices = textureGather(scene_depth, (middle + frame.scene_origin.xy) / texture_size).wzxy;
     bool foams = false;
-    // Unrolled, because in a loop a CPU driver reads buffers for each lane separately.
+    // The loop over the four pixels is unrolled, because in a loop a CPU driver reads buffers for each lane
+    // separately.
     [[unroll]] for (int i = 0; i < 4; ++i) {
         uvec2 to = uvec2(i & 1, i >> 1);
         vec2 off = vec2(to) - 0.5;

@@ -9,7 +9,7 @@
 
 layout(local_size_x = 64) in;
 
-// A row of the tables. The key is id + 1, or 0 for an empty row.
+// A row of the hash tables: a particle's state. The key is its id + 1, or 0 for an empty row.
 struct Row {
     uint key;
     uint phase; // phase in the lowest two bits, number of transitions above
@@ -24,7 +24,7 @@ layout(set = 0, binding = 3, std430) readonly buffer Ids { uint ids[]; };
 layout(set = 0, binding = 4, std430) readonly buffer HostCount { uint host_count; };
 layout(set = 0, binding = 5, std430) readonly buffer Old { Row old_rows[]; };
 layout(set = 0, binding = 6, std430) buffer New { Row new_rows[]; };
-// Foam and age of each particle of the chunk, in the order of the step's streams.
+// Output: the foam (0 to 1) and its age, for each particle of the chunk, in the order of the step's streams.
 layout(set = 0, binding = 7, std430) writeonly buffer Foam { vec2 foam[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -65,8 +65,8 @@ float weber(uint i) {
     precise float z = velocities[at + 2u] - push.air_z;
     precise float square = (x * x + y * y) + z * z;
     float density = push.density_stride > 0u ? densities[push.density_word + i * push.density_stride] : 0.0;
-    // 0 marks a particle that was just emitted and has no density yet. NaN counts as 0: comparisons with it are
-    // false.
+    // A density of 0 marks a particle that was just emitted and has no density yet: it gets the rest density. So does
+    // NaN, because comparisons with it are false.
     density = density > 0.0 ? density : push.rest_density;
     precise float number = (density * square) * push.scale;
     return number;
@@ -165,8 +165,9 @@ void main() {
         return;
     }
     if (push.id_stride == 0u) {
-        // Without ids no state can be kept. Then foam rises linearly from 0 at half the threshold to 1 at one and a
-        // half times the threshold; with NaN it is 0, because comparisons with NaN are false.
+        // Without ids no state can be kept, so the foam follows from the Weber number alone: 0 up to half the
+        // threshold, then linear up to 1 at one and a half times the threshold; for NaN it is 0, because comparisons
+        // with NaN are false.
         float ramp = weber(i) / push.threshold - 0.5;
         foam[i] = vec2(ramp > 0.0 ? min(ramp, 1.0) : 0.0, 0.0);
         return;

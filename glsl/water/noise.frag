@@ -18,7 +18,8 @@ layout(location = 0) out float noise;
 void main() {
     float depth = -centre.z;
     vec2 slope = ray_slope(gl_FragCoord.xy * frame.noise_image.z, frame.slope);
-    // The offset lies in the plane of the centre's depth, as for thickness sprites.
+    // Offset of the pixel's ray from the particle's centre, in the plane of the centre's depth, as for thickness
+    // sprites.
     vec2 off = slope * depth - centre.xy;
     vec2 place = off / frame.noise.w;
     float rho2 = dot(place, place);
@@ -26,7 +27,8 @@ void main() {
     if (surface >= EMPTY || rho2 >= 1.0) {
         discard;
     }
-    // How far the particle's nearest point is behind the surface: a particle at the surface counts fully.
+    // How far the particle's nearest point is behind the surface, in scene units: at 0 or less the particle counts
+    // fully.
     float below = max(depth - frame.particle.x - surface, 0.0);
     float amount = noise_kernel(rho2) * exp(-below * frame.noise.z);
     // Along the world's axes, so that it does not turn with the camera.

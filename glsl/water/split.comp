@@ -15,8 +15,8 @@ layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// Eight lists of tiles: with one layer of water, with two layers, these two with foam, and these four with coarser
-// levels. Each list has room for all tiles.
+// Eight lists of tiles, each with room for all tiles. 0: one layer of water; 1: two layers; 2, 3: the same with
+// foam; 4 to 7: as 0 to 3, with coarser levels of the smoothing that may show.
 layout(set = 0, binding = 3, std430) writeonly buffer Lists { uint lists[]; };
 layout(set = 0, binding = 4, std430) buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 5) uniform sampler2D foam_depth;
@@ -54,7 +54,8 @@ void split(uint tile) {
             if (SHEETS == 2u && boundary_of(p) < EMPTY) {
                 found |= 1u;
             }
-            // Both are tested: the sprites of the depth are narrower, and a thickness below one step is stored as 0.
+            // A texel has foam if the depth or the thickness shows it: the sprites of the depth are narrower, and a
+            // thickness below one step is stored as 0.
             if (FOAM == 1u && (texelFetch(foam_depth, p, 0).x < EMPTY || texelFetch(foam_thickness, p, 0).x > 0.0)) {
                 found |= 2u;
             }

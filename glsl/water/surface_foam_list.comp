@@ -1,8 +1,8 @@
 #version 460
 // Pass `surface_foam`, first part: lists the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2). A particle
-// that is partly spray has less foam in proportion.
-// Reads: Counts (particles), positions, foam, velocities, ids, densities, members, shadow maps. Writes: Counts (foam),
-// sprites.
+// that its low density makes partly spray has only the rest of its foam.
+// Reads: Counts (particles), positions, foam, velocities, ids, densities, members, shadow maps. Writes: Counts
+// (foam), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -71,8 +71,8 @@ void visit(uint index) {
         return;
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
-    // `reach`: an upper bound of the half-axes of the particle's foam sprite, in scene units. A particle whose centre
-    // lies between the eye and the near plane, or behind the eye, has no sprite.
+    // `reach`: upper bound of the half-axes of the particle's foam sprite, in scene units, for the test whether it is
+    // in the view. A particle whose centre is behind the eye or before the near plane gets no sprite in any case.
     float texel = -centre.z * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
     float reach = max(2.0 * FOAM_AXIS * frame.particle.x, LEAST_FOAM_AXIS * texel);
     if (-centre.z <= frame.depth.z || !in_frustum(centre, reach)) {

@@ -8,8 +8,9 @@
 #include "whitewater_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 1: each pixel of a 4x4 block has only a sixteenth of the samples, so the blur must combine at least such a block.
-// It then reaches 4 pixels or more, across depth gaps up to the width of 8 pixels, however small the particles are.
+// 1: each pixel of a 4x4 block has only a sixteenth of the occlusion samples, so the blur must combine at least such
+// a block. It then reaches 4 pixels or more, across depth gaps up to the width of 8 pixels, however small the
+// particles are.
 layout(constant_id = 1) const uint FAST = 0;
 const float BLOCK = FAST == 1u ? 4.0 : 0.0;
 layout(set = 0, binding = 1) uniform sampler2D occluders;

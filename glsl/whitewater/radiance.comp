@@ -18,8 +18,8 @@
 #include "whitewater_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 1: look up the environment in the directions of the points, as in the paper; 0: look it up once,
-// prefiltered.
+// 1: light of the environment is the mean of look-ups in the directions of the points, as in the paper; 0: it is one
+// look-up in the irradiance map.
 layout(constant_id = 0) const uint SAMPLED = 0;
 // 1: each pixel of a 4x4 block uses a sixteenth of the points, and `blur` combines the pixels. A sixteenth consists
 // of pairs of opposite points, so an occluder that fills half of the sphere hides half of the points, whatever its
@@ -40,8 +40,8 @@ layout(set = 0, binding = 5) uniform samplerCube environment;
 // rgb: light; a: shadow.
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D radiance;
 
-// Weight of the direction to the eye, which is added to the open direction: in haze no direction is more open than
-// others.
+// Weight of the direction to the eye. It is added to the open direction (where the samples are least occluded), which
+// is arbitrary in haze that is equally dense on all sides.
 const float TO_EYE = 0.02;
 
 // Occlusion of a point of a sphere. x: from 0 to 1; an occluder counts less the farther it is in front of the point,
@@ -49,7 +49,8 @@ const float TO_EYE = 0.02;
 vec2 hidden(vec4 there, float depth, float reach) {
     vec3 opacity = vec3(there.y, frame.whitewater_opacity.xy);
     vec3 before = depth - there.xzw;
-    // Clamped to 1: an empty layer has the depth EMPTY, so far behind the point that the square would overflow.
+    // `near` is clamped to 1: a layer without water or foam has the depth EMPTY, so far behind the point that the
+    // square of `near` would overflow.
     vec3 near = clamp(1.0 - before / reach, 0.0, 1.0);
     opacity = mix(vec3(0.0), opacity, greaterThan(before, vec3(0.0)));
     return min(vec2(dot(near * near, opacity), dot(vec3(1.0), opacity)), 1.0);
@@ -144,7 +145,8 @@ void main() {
         }
     }
     vec2 parts = sum.z > 0.0 ? sum.xy / sum.z : vec2(0.0);
-    // The open direction: the direction in which there is less occlusion than in the mean over all directions.
+    // The open direction: the sum of the vectors to the samples, each weighted by the mean occlusion of all minus its
+    // own.
     vec3 open = parts.y * whole - dark + vec3(0.0, 0.0, max(TO_EYE * sum.z, 1.0e-6));
     float told = told_of(0.5 * with.w * frame.extent.y);
     vec3 facing = mix(mat3(frame.world) * normalize(open), with.xyz, told);
@@ -153,11 +155,12 @@ void main() {
     if (told < 1.0) {
         imageStore(normals, pixel, vec4(normal, with.w));
     }
-    // The environment does not contain the sun. Foam scatters light, so it is lit also where it is turned a little
-    // away from the sun.
+    // Sunlight is added, because the environment does not contain the sun. Foam scatters light, so it is lit up to an
+    // angle of 120° between its normal and the sun, instead of 90°.
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.whitewater_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
-    // The environment is looked up in the directions of the first sphere's points, even if there are no passes.
+    // The environment is looked up in the directions of the points of the first sphere, even if `passes` is 0, so
+    // that no occlusion is sampled.
     uvec2 first = samples_of(0.5 * search_of(with.w, 1u) * frame.extent.y, pixel, 1u);
     vec3 light = gathered(normal, first) + sun;
     float share = parts.x * frame.whitewater_opacity.z;

@@ -97,7 +97,8 @@ pub(crate) fn bytes_bound(extent: vk::Extent2D, bubbles: &BubbleConfig) -> (u64,
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Bubbles {
-    /// Precomputed data. After a `reconfigure` it is that of the previous renderer, if it still fits.
+    /// Results of the passes `film`, `impostor` and `core`, computed once. A `reconfigure` takes them over from the
+    /// previous renderer if the new settings need the same.
     templates: Arc<Templates>,
     near: Option<near::Near>,
     lists: lists::Lists,
@@ -154,8 +155,8 @@ impl Bubbles {
         self.templates.record_setup(gpu, cmd);
     }
 
-    /// Pass `near`, if it is enabled. Returns whether it has acquired the particles' buffers, which are then in the
-    /// compute-read state.
+    /// Records pass `near`, if it is enabled. Returns whether it was: then the buffers of the whitewater particles
+    /// are already acquired from the host, and in the compute-read state.
     pub fn record_near(
         &self,
         r: &mut Recording<'_>,
@@ -222,7 +223,8 @@ impl Bubbles {
         self.soap.image()
     }
 
-    /// The buffer with the layers and the maximum opacity of each pixel, and its number of 32-bit words per pixel.
+    /// Returns the buffer that holds the layers of blobs and the maximum opacity of each pixel, and the number of
+    /// 32-bit words per pixel in it.
     pub fn layers(&self) -> (vk::Buffer, u32) {
         (self.peel.layers().handle, self.peel.words())
     }

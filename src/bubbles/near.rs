@@ -1,5 +1,5 @@
-//! Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs, where Akinci et al. 2013 draw no
-//! foam.
+//! Pass `near`: whitewater foam cross-fades from sprites to blobs of soap bubbles near the camera. Akinci et al.
+//! 2013 show no foam so near.
 //!
 //! A histogram of the distances of foam particles from the camera gives the distance up to which the buffer of blobs
 //! has room for all of them. Each foam particle nearer than that becomes a blob. Its place in the buffer is
@@ -47,7 +47,7 @@ const _: () =
 /// The pass.
 pub struct Near {
     begin: Pipeline,
-    /// Pipelines of the two dispatches, histogram and entries, for default and for other particle shapes.
+    /// Pipelines `[dispatch][shape]`. Dispatch: 0 histogram, 1 entries. Shape of the particles: 0 default, 1 other.
     goes: [[Pipeline; 2]; 2],
     range: Pipeline,
     chunks: Chunks,
@@ -120,7 +120,8 @@ impl Near {
         }
     }
 
-    /// Runs before any other pass acquires the particles' buffers, which are in the compute-read state afterwards.
+    /// Records pass `near`. It runs before any other pass acquires the buffers of the whitewater particles, and
+    /// leaves them in the compute-read state.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

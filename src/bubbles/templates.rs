@@ -1,9 +1,9 @@
 //! Passes `film`, `impostor` and `core`: data that is precomputed once per renderer (Huszár, Szécsi, Sec. 3.1, 4.2 to
 //! 4.4).
 //!
-//! Reads: in `impostor`, the bubbles of the blobs. Writes: the table of the film's reflectance; the impostors' cube
-//! maps, which hold the distance of a blob's surface from its centre, or the index of the bubble there; the texture
-//! of small bubbles on the core.
+//! Reads: in `impostor`, the bubbles of the blobs. Writes: in `film`, the table of the film's reflectance; in
+//! `impostor`, the cube maps of the blobs (distance of the surface from the centre, or index of the bubble there); in
+//! `core`, the texture of small bubbles on the blob's core.
 
 use crate::gpu::memory::MemoryLocation;
 use ash::vk;
@@ -65,7 +65,7 @@ pub struct Templates {
     impostors: [Pipeline; 2],
     core: Pipeline,
     config: BubbleConfig,
-    /// Sets of the pipelines, in the order of the dispatches; the pool owns them.
+    /// Descriptor sets of the four pipelines, in the order of their dispatches. `_descriptors` owns their pool.
     sets: [vk::DescriptorSet; 4],
     _descriptors: Descriptors,
     /// Reflectance by cosine and thickness.

@@ -62,7 +62,8 @@ impl Device {
     /// Creates the instance and the device.
     ///
     /// # Errors
-    /// No Vulkan loader, no suitable device, or no validation layer; the error says what to install.
+    /// There is no Vulkan loader, no suitable device or, if validation is asked for, no validation layer; the error
+    /// says what to install.
     pub fn new(options: &DeviceOptions) -> Result<Self, Error> {
         // SAFETY: loading the system's Vulkan loader runs its initialisers only.
         let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::Missing {

@@ -50,7 +50,7 @@ impl Headless {
     /// and `turn` rotates it around up, in radians, see [`Equirectangular`].
     ///
     /// # Errors
-    /// A picture above the device's image size limit, no memory; Vulkan errors.
+    /// The picture exceeds the device's limit of image size; there is no memory for it; Vulkan errors.
     pub fn equirectangular(
         &mut self,
         extent: vk::Extent2D,

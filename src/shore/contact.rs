@@ -1,7 +1,8 @@
 //! Pass `contact`: foam on the particles' water around objects in it (Lettier, Foam). It runs after the smoothing,
 //! because it needs the smoothed surface. Foam on the host's own water surface is part of pass `shoreline`.
 //!
-//! Reads: depth, smoothed, scene depth, web, mask. Writes: tiles that may contain foam, foam of their pixels.
+//! Reads: the water's depth, smoothed depth, scene depth, web, mask. Writes: tiles that may contain contact foam,
+//! contact foam of their pixels.
 
 use super::Given;
 use super::settings::ShoreConfig;
@@ -27,7 +28,8 @@ impl Contact {
         Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
     }
 
-    /// Before and after, the water's images are in the state in which fragment shaders sample them.
+    /// Records pass `contact`. Before and after it, the images of the water's depth, unsmoothed and smoothed, are
+    /// in the fragment-sampled state.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

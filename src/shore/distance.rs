@@ -65,8 +65,9 @@ impl Default for ShoreMapConfig {
 pub struct Area {
     /// World up direction, unit length, the same as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
-    /// Centre along the two horizontal axes: x and z for y up. The area is snapped to whole texels, so a map that
-    /// follows a camera keeps its content as long as the camera moves by less than a texel.
+    /// Centre of the map's area along the two horizontal axes (x and z for y up), scene units. The area is snapped
+    /// to whole texels, so a map that follows a camera keeps its content as long as the camera moves by less than a
+    /// texel.
     pub center: [f32; 2],
     /// Side length in scene units, (0, 1e6].
     pub edge: f32,
@@ -82,8 +83,9 @@ pub struct Area {
 pub enum Heights<'a> {
     /// Meshes, rendered from above. Land is wherever any mesh is above the water, including overhangs.
     Meshes(&'a [MapMesh]),
-    /// Heights along [`Area::up`] at the centres of an image's texels. The image covers the snapped area
-    /// ([`Area::corner`]); x runs along the first horizontal axis, y along the second. Any size, only sampled.
+    /// An image of the land's heights along [`Area::up`], in scene units, at the centres of its texels. It covers
+    /// the snapped area ([`Area::corner`]); x runs along the first horizontal axis, y along the second. Its size is
+    /// arbitrary, and it is only sampled.
     Image(HostImage),
 }
 
@@ -117,7 +119,8 @@ pub struct ShoreMapStep<'a> {
 }
 
 impl<'a> ShoreMapStep<'a> {
-    /// A step over the whole area, for meshes whose buffers the CPU wrote before the submission.
+    /// A step over the whole area, for meshes whose buffers the CPU wrote before the submission, so without barriers
+    /// for them.
     pub fn new(slot: Slot, area: Area, heights: Heights<'a>) -> Self {
         let (before, after) = (NOTHING, NOTHING);
         Self { slot, area, heights, changed: None, before, after }
@@ -357,7 +360,8 @@ impl ShoreMap {
         })
     }
 
-    /// Records an update after land or water have changed. It never submits, waits or allocates device memory.
+    /// Records an update of the map of distances, after land or water have changed. It never submits, waits or
+    /// allocates device memory.
     ///
     /// # Errors
     /// [`Error::BadInput`], which names the field, before the first command is recorded. After any other error,

@@ -102,7 +102,8 @@ impl Back {
         Ok(())
     }
 
-    /// The smoothing resources in `into` are in the state in which pass `level` leaves them, before and after.
+    /// Records pass `back`. Before and after it, the smoothing resources in `into` are in the state in which pass
+    /// `level` leaves them.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -91,7 +91,8 @@ fn radius_within(share: f64) -> f64 {
     high
 }
 
-/// Images of the water's surface, in the state in which the fragment shaders of `composite` sample them.
+/// The images of the depth of the water's surface, unsmoothed and smoothed, in the state in which the fragment
+/// shaders of `composite` sample them.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
     pub depth: &'a Image,

@@ -16,13 +16,13 @@ pub struct Vertex {
     pub position: [f32; 3],
     pub normal: [f32; 3],
     pub uv: [f32; 2],
-    /// x: visible fraction of the sky. yzw: RGB irradiance by sunlight that has bounced once or twice, divided by
-    /// the sun's irradiance.
+    /// Baked light at the vertex. x: visible fraction of the sky. yzw: RGB irradiance by sunlight that has
+    /// bounced once or twice, divided by the sun's irradiance.
     pub light: [f32; 4],
-    /// Mean albedo of the surfaces seen over the hemisphere, counting the sky as 0.
+    /// Mean albedo of what the vertex sees over its hemisphere, weighted by the cosine; the sky counts as 0.
     pub around: [f32; 3],
-    /// Distance by which the smooth surface that the facets approximate bulges over them. For the backdrop:
-    /// visible fraction of the sun.
+    /// Distance, in scene units, by which the smooth surface that the facets approximate lies outside them. At
+    /// vertices of the backdrop instead: visible fraction of the sun's disc, 0 to 1.
     pub bulge: f32,
 }
 
@@ -128,7 +128,7 @@ impl Baked {
 pub const GROUND_REACH: f32 = 60.0;
 pub const GROUND_FADE: [f32; 2] = [6.0, 45.0];
 
-/// A mesh in world space. A triangle with a vertex that is not finite is dropped.
+/// Transforms a mesh to world space. A triangle with a vertex that is not finite is dropped. Also sets `bulge`.
 pub fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
     let normal_matrix = mesh.transform.inverse().transpose();
     let mut vertices: Vec<Vertex> = mesh

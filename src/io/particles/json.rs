@@ -7,8 +7,8 @@
 //! Python's `NaN` and `Infinity`, are NaN. Comments, and commas after the last value, are ignored. Houdini's JSON
 //! geometry begins with `"fileversion"` and is refused.
 //!
-//! Several frames are stored as a list of such lists or objects, as objects by name (`{"frame_1": ..}`), or as arrays
-//! with an additional dimension (`{"positions": [[[x, y, z], ..], ..]}`): see `json_frames`.
+//! A file with several frames is a list of such arrays or objects, an object that holds them by name (`{"frame_1":
+//! ..}`), or an object of arrays with one more dimension (`{"positions": [[[x, y, z], ..], ..]}`): see `json_frames`.
 
 use serde_json::{Map, Value};
 
@@ -157,7 +157,7 @@ pub(super) fn comment(text: &[u8]) -> Option<usize> {
     text.starts_with(b"/*").then(|| end(b"*/").map_or(text.len(), |at| at + 4))
 }
 
-/// Whether only white space and comments precede the end of an array or object.
+/// Whether the next character of `text`, after white space and comments, closes an array or object (`]` or `}`).
 fn closes(mut text: &[u8]) -> bool {
     loop {
         text = text.trim_ascii_start();
@@ -201,9 +201,9 @@ fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Converts tables as pandas writes them: a list of column names and a list of rows; columns whose values are
-/// keyed by row name; or rows whose values are keyed by column name. Returns rows; columns stay in `map`, as
-/// arrays.
+/// Converts tables as pandas writes them. Returns the rows of a list of column names and a list of rows, or of rows
+/// whose values are keyed by column name. Columns whose values are keyed by row name become arrays in `map`, and
+/// `None` is returned.
 fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> {
     if let (Some(Value::Array(names)), Some(Value::Array(_))) =
         (map.get("columns"), map.get("data"))

@@ -271,7 +271,8 @@ impl ElementRows {
         Ok(Self { properties, encoding, what, left })
     }
 
-    /// Reads a row into the columns that take its values; false after the last row.
+    /// Reads the next row; `taken` says which of `columns`, if any, takes a property's value. False after the
+    /// last row.
     fn next(
         &mut self,
         text: &mut Text<'_>,

@@ -1,6 +1,6 @@
-//! Whitewater emission for a fluid that has none: spray, foam and bubbles where the water traps air, where its
-//! waves break and where it is fast (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for
-//! particle-based fluids, 2012).
+//! Whitewater emission for a fluid that has none: fast water emits spray, foam and bubbles where it traps air or
+//! where its waves break (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for particle-based
+//! fluids, 2012).
 //!
 //! A step finds the fluid's neighbours with a hashed grid, advances the whitewater particles, and emits new ones.
 //! Sums over neighbours are in fixed point, new particles get their slots in the buffers from a prefix sum, and
@@ -80,8 +80,8 @@ impl Generator {
     /// allocates device memory.
     ///
     /// # Errors
-    /// [`Error::BadInput`], which names the field, before the first command is recorded. After any other error,
-    /// discard the command buffer and call [`abandon`](Self::abandon).
+    /// [`Error::BadInput`], which names the field of `step`, before the first command is recorded. After any other
+    /// error, discard the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
     /// The conditions of [`Renderer::record`](crate::Renderer::record) hold. Steps are submitted in the order in
@@ -203,8 +203,8 @@ impl Generator {
     /// sequence continues from this state as if it had not been interrupted.
     ///
     /// # Safety
-    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4) on,
-    /// and no pending access. The conditions of [`record_step`](Self::record_step) hold, too.
+    /// The buffer `to` has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a multiple of 4)
+    /// on, and no pending access. The conditions of [`record_step`](Self::record_step) hold, too.
     pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
         if std::mem::take(&mut self.fresh) {
             self.passes.record_clear(&self.gpu, cmd);

@@ -70,7 +70,8 @@ fn end(code: i32) -> ! {
     std::process::exit(code)
 }
 
-/// Removes a temporary file if writing failed; after the rename the file no longer exists.
+/// Removes the temporary file with this path when dropped, in case writing failed; after the rename it no longer
+/// exists.
 struct Guard(PathBuf);
 
 impl Guard {
@@ -243,7 +244,8 @@ impl Target<WriteFormat> {
 }
 
 impl Target {
-    /// Parses the name of an output. `sequence` says whether there is more than one frame.
+    /// Target for pictures of this name, possibly with a frame number `%04d`. `sequence`: whether there are several
+    /// frames.
     pub fn new(pattern: &Path, sequence: bool) -> Outcome<Self> {
         let Some(format) = PictureFormat::of(pattern) else {
             return Err(no_such(pattern, ".exr or .png"));

@@ -10,8 +10,8 @@ use crate::failure::{Failure, Outcome};
 #[derive(Clone, Copy)]
 pub struct Turning {
     turntable: Turntable,
-    /// Number of the first frame, and the length of an automatic orbit in frame numbers: from the first frame to one
-    /// step after the last one.
+    /// `first`: number of the first frame. `span`: duration of a full orbit of the camera if the user gives none, in
+    /// frame numbers, from the first frame to one step after the last one.
     first: u64,
     span: f32,
 }

@@ -14,8 +14,8 @@ const COLUMN: f32 = 3.0;
 const NEAR: f32 = 2.0;
 /// Max thickness in spacings of a single layer.
 const LAYER: f32 = 0.6;
-/// Min value of [`Axis::open`] for the lower end to be a floor: the share of the columns of water that touch the
-/// lower end, minus the share that touch the upper end.
+/// Water lies on a floor at the lower end of an axis if [`Axis::open`] is at least this. `open`: the share of the
+/// columns of water along the axis that touch the lower end, minus the share that touch the upper end.
 const OPEN: f32 = 0.35;
 /// Min mean velocity along an axis, relative to the root mean square speed, from which the water counts as moving
 /// along the axis as a whole.
@@ -30,7 +30,8 @@ const SOME: f32 = 0.03;
 #[derive(Clone, Copy, Debug)]
 struct Axis {
     up: Up,
-    /// Share of the columns that touch the lower end, minus the share that touch the upper end.
+    /// Share of the columns of water along the axis that touch the axis' lower end, minus the share that touch its
+    /// upper end.
     open: f32,
     /// Mean velocity along the axis, relative to the root mean square speed.
     moves: f32,
@@ -118,7 +119,8 @@ pub fn find(frames: &[Particles]) -> Option<Found> {
     other(&axes).or_else(by_frames).or_else(usual)
 }
 
-/// The up axis, if the evidence shows that it is z, -y or -z. `axes` is the evidence for y and z, or for one of them.
+/// Returns the up axis if the evidence shows that it is z, -y or -z, else `None`. `axes`: the evidence for y and z,
+/// or for one of them.
 fn other(axes: &[Axis]) -> Option<Found> {
     if let [y, z] = axes {
         if z.lies() && z.open - y.open >= OPEN {
@@ -203,8 +205,9 @@ mod tests {
 
     const SPACING: f32 = 0.05;
 
-    /// Water on a floor, with a surface that slopes down from a wall. `turn` converts coordinates along the dam,
-    /// across it and upwards to those of a file. With `moves` the water has velocities.
+    /// For tests: water on a floor, with a surface that slopes down from a wall. `turn` converts coordinates (along
+    /// the slope, across it, upwards) to those of a file. If `moves` is true, the water has a velocity away from the
+    /// wall and down.
     fn dam(turn: impl Fn([f32; 3]) -> [f32; 3], moves: bool) -> Particles {
         let cells =
             (0..40).flat_map(|x| (0..12).flat_map(move |y| (0..20).map(move |z| (x, y, z))));
@@ -277,7 +280,8 @@ mod tests {
         assert_eq!(is_z(&[]), None);
     }
 
-    /// A dam in every orientation: which up axis its motion and its open side show, and when they leave it open.
+    /// `find` on a dam in every orientation: `clear` with motion, `likely` without; with x up, only y or nothing is
+    /// found.
     #[test]
     fn water_that_hangs_is_turned() {
         let up = |particles: Particles| find(&[particles]).map(|found| (found.up, found.sure));

@@ -77,8 +77,8 @@ pub struct Surroundings {
 
 impl Surroundings {
     /// # Errors
-    /// A sun with an invalid direction or colour, a `haze` or `metre` that is not above 0, `clouds` outside [0,
-    /// 1], a `splashed` that is not finite, an invalid sea.
+    /// The scene has a sun with an invalid direction or colour, a `haze` or `metre` that is not above 0,
+    /// `clouds` outside [0, 1], a `splashed` that is not finite, or an invalid sea.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let SunLight { direction, color } = scene.sun;
         let Some(to_sun) = Vec3::from(direction).try_normalize() else {
@@ -130,7 +130,8 @@ impl Surroundings {
 }
 
 impl Uniforms {
-    /// `far` is the device depth of the far plane, `extent` the size of the picture.
+    /// Returns the block for one picture. `far` is the device depth of the far plane, `extent` the size of the
+    /// picture.
     pub fn new(
         surroundings: &Surroundings,
         sun: &SunView,

@@ -13,7 +13,7 @@ pub struct Liquid {
     index: Option<f32>,
     /// Albedo of thick foam and of thin foam; `None` keeps the library's colours, which are white.
     foam: Option<[[f32; 3]; 2]>,
-    /// Whether it is so viscous that small waves die at once, so that none are drawn.
+    /// Whether the liquid is so viscous that small waves die at once; then none are drawn.
     thick: bool,
 }
 
@@ -115,9 +115,10 @@ impl MediumName {
         whole.thinned(self.share)
     }
 
-    /// Index of refraction, foam colours, and whether the liquid is thick. Clear waters keep the library's index
-    /// and colours. The colours of the others are chosen by eye: bubbles are as white as those of water, but tinted
-    /// by the liquid in their walls; lava has the dark colour of cooled crust.
+    /// Properties of the medium's liquid: index of refraction, foam colours, and whether it is thick (very
+    /// viscous). Clear waters keep the library's index and colours. The colours of the others are chosen by eye:
+    /// bubbles are as white as those of water, but tinted by the liquid in their walls; lava has the dark colour of
+    /// cooled crust.
     pub fn liquid(self) -> Liquid {
         let thick = matches!(self.word, Word::Honey | Word::Lava);
         let of =

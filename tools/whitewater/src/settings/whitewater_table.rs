@@ -46,7 +46,8 @@ table! {
         radii: [f32; 3],
         /// Number of particles that are drawn for each particle of a file, scattered around it.
         copies: u32,
-        /// This key and the next determine which passes are drawn; they are not part of the look.
+        /// The keys `occlusion` and `splat` determine which passes run; they are not part of the
+        /// look.
         occlusion: OcclusionWord,
         splat: SplatWord,
     }

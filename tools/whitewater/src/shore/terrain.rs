@@ -79,7 +79,7 @@ impl Patch {
     }
 }
 
-/// A height field as a mesh, without the cells that are entirely below `bottom`.
+/// Mesh of the height field `height` over `patch`, without the cells that are entirely below `bottom`.
 pub fn field(patch: Patch, bottom: f32, material: Material, height: impl Fn(Vec2) -> f32) -> Mesh {
     let [nx, nz] = patch.cells();
     let all: Vec<f32> = (0..=nz)
