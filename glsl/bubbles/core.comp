@@ -47,7 +47,7 @@ void main() {
     float part = 1.0;
     for (uint octave = 0u; octave < 3u; ++octave) {
         vec4 near = nearest_point(direction * cells, pcg(push.seed + octave));
-        // Round like a bubble, with a bright seam between two bubbles and darkness beside it.
+        // Each cell is round like a bubble, with a bright seam between two bubbles and darkness beside the seam.
         float seam = 1.0 - smoothstep(0.0, 0.18, near.w);
         float round_ = clamp(1.0 - dot(near.xyz, near.xyz), 0.0, 1.0);
         lean += part * 0.6 * near.xyz;

@@ -73,11 +73,12 @@ float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     precise float h = ww * z.y * z.y + gy * (2.0 * slope.y * z.y + gy);
     precise float bend = 2.0 / s.z;
     precise float l = z.xx - bend * z.x * z.x;
-    // Without z_xy the whole term is 0: half of it would bend a plane.
+    // If z_xy is unknown (at silhouettes), the whole mixed term m is 0: its other half alone would bend a plane.
     precise float mixed = z.xy - bend * z.x * z.y;
     precise float m = z.has_xy ? mixed : 0.0;
     precise float n = z.yy - bend * z.y * z.y;
-    // e h - f f as the squared length of the normal: a sum of squares, which cannot cancel to 0.
+    // Determinant e h - f f of the first fundamental form, as the squared length of the normal: a sum of squares,
+    // which cannot cancel to 0.
     precise float nx = gy * z.x;
     precise float ny = gx * z.y;
     precise float nz = gx * gy + gx * slope.y * z.y + gy * slope.x * z.x;

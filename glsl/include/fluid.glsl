@@ -1,4 +1,5 @@
-// A chunk of the host's fluid particles, for the passes that build the neighbour grid. Needs random.glsl.
+// Input of the passes that build the neighbour grid: the host's fluid particles, bound chunk by chunk (in ranges).
+// Needs random.glsl.
 // Reads: positions, velocities, ids, counts. Writes: buckets.
 
 #include "generate_types.glsl"

@@ -7,8 +7,8 @@ layout(set = 0, binding = 1) uniform sampler2D scene_color;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D caustics;
 
-// Max factor by which caustics concentrate sunlight. The sun is not a point, and no real surface is as smooth as the
-// rendered one, so real focused light is spread.
+// Max of the sunlight that caustics focus on a point, relative to the sunlight without water. The sun is not a point,
+// and no real surface is as smooth as the rendered one, so real focused light is spread.
 const float MOST_GATHERED = 3.0;
 
 // Sunlight that arrives at a point after refraction, relative to the sunlight without water.
@@ -19,8 +19,8 @@ float caustics_at(LightTexels t) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
         vec4 thick = texelFetch(light_thickness, texel, 0);
-        // The sun is a disc, so caustics blur with the point's distance, along the light, behind the water of the
-        // texel. Far behind the water the light is uniform.
+        // The sun is a disc, so caustics blur with `far`, the distance along the light from the water above this
+        // texel of the light map to the lit point behind it. Far behind the water, focused light is uniform.
         float far = max(t.depth - thick.z / max(thick.x, 1.0e-9) - 0.5 * thick.x, 0.0);
         float sharp = 1.0 / (1.0 + far / (8.0 * frame.particle.y));
         below += weight * sharp * before_depth(thick, t.depth).x / max(thick.x, 1.0e-9);

@@ -10,13 +10,13 @@ layout(constant_id = 24) const uint SHORE = 0;
 layout(set = 0, binding = 4) uniform sampler2D scene_color;
 layout(set = 0, binding = 31) uniform sampler2D shore_foam;
 
-// Light at a point relative to the light in full sun; `sun` is the visibility of the sun.
+// Light at a point, relative to the light in full sun, if the fraction `sun` of the sunlight arrives there.
 vec3 under(vec3 sun) {
     return mix(frame.shade.rgb, vec3(1.0), sun);
 }
 
-// x: coverage by shoreline foam; y: by contact foam on the host's water surface; z: lost fraction of the sunlight on
-// this foam; w: coverage by contact foam on the particles' water.
+// Overlay foam at a pixel. x: coverage by shoreline foam; y: coverage by contact foam on the host's water surface; z:
+// fraction of the sunlight that both lose to shadows; w: coverage by contact foam on the particles' water.
 vec4 coat_at(vec2 pixel) {
     return filtered(shore_foam, pixel, vec2(0.0), frame.extent.xy);
 }

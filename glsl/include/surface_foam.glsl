@@ -10,9 +10,9 @@ struct FoamSprite {
 
 // Sprites per workgroup of the compute path.
 const uint FOAM_GROUP = 64u;
-// Half-axis of a foam sprite across the motion, in drawn radii. The half-axis of the sprite in the foam's depth
-// shrinks as the particle's foam ends. In the foam's thickness it does not, because there the sprite fades softly
-// towards its edge, and a smaller half-axis would cut it off. (The thesis has 2 to 3.)
+// Half-axis of a foam sprite across the motion, in drawn radii (2 to 3 in the thesis). In the pass for the depth of
+// foam it shrinks as the particle's foam ends. In the pass for the thickness it does not, because there the sprite
+// fades softly towards its edge, and a smaller half-axis would cut it off.
 const float FOAM_AXIS = 2.0;
 // Min half-axis of a foam sprite in texels of the thickness: narrower sprites would flicker between texel centres.
 // Widened sprites are thinner in proportion.

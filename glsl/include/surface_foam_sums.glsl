@@ -1,13 +1,13 @@
 // Words of each texel in the compute path of surface foam, next to each other: two depths, then fixed-point sums of
-// all foam, of the shadowed part of the front layer (with LIT), of all foam times its distance behind the frontmost
-// foam, and of the foam behind the front layer. For most sprites all addends but the first are zero and are not
-// added.
+// all foam, of the shadowed part of the front layer (with LIT), of all foam times a weight from 0 to 1 that grows
+// with its distance behind the frontmost foam, and of the foam behind the front layer. For most sprites all addends
+// but the first are zero and are not added.
 
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;
 
-// FRONT: bits of the depth of the frontmost foam, or of the scene if no foam is before the scene. SCENE: bits of the
-// scene's depth. Bits of positive floats have the same order as the floats.
+// Words of a texel with depths. FRONT: bits of the depth of the frontmost foam, or of the scene if no foam is before
+// the scene. SCENE: bits of the scene's depth. Bits of positive floats have the same order as the floats.
 const uint FRONT = 0u;
 const uint SCENE = 1u;
 const uint ALL = 2u;
@@ -19,7 +19,8 @@ const uint WORDS = 5u + LIT;
 // Max sum, in fixed-point steps: single precision represents all integers up to it. It is a thickness of 4096 to
 // 8192 spacings of foam, because a step is more than 1/4096 and at most 1/2048 of a spacing (`foam_step`).
 const uint FULL = 16777216u;
-// No more is added to a sum above this, which leaves room for 85 thousand invocations that add at the same time.
+// No more is added to a sum that exceeds this. Up to 2^32 there is room for 85 thousand invocations that add at the
+// same time.
 const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 texel) {

@@ -5,12 +5,12 @@
 // Cosine of the angle between the water's normal and the vertical: up to the first value water has no waves, from the
 // second on it has all of them.
 const vec2 LEVEL_WATER = vec2(0.2, 0.7);
-// Width of a pixel on the water, in wavelengths of a wave: up to the first value the wave is complete, from the
-// second on it is absent.
+// Limits between which a wave fades out. They are widths of a pixel on the water, in wavelengths of the wave: up to
+// the first limit the wave is complete, from the second on it is absent.
 const vec2 SMALL_WAVE = vec2(0.2, 0.45);
 
-// Gradient of the height at a point of the world. `pixel` is the width of a pixel on the water; with 0 all waves are
-// complete.
+// Gradient of the waves' height at a point of the world. `pixel` is the width of a pixel on the water in scene units,
+// below which waves fade out; with 0 all waves are complete.
 vec3 wavelet_slope(vec3 world, float pixel) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < frame.wavelets.length(); ++i) {

@@ -28,7 +28,8 @@ layout(push_constant, std430) uniform Push {
 #define MEMBERS 4
 #include "members.glsl"
 
-// Half-axis of the shadow of a particle that is only spray, divided by the radius over which its droplets scatter.
+// Half-axis of the shadow disc of a particle that is only spray, relative to the radius within which the particle's
+// droplets scatter.
 const float SPREAD = 0.6;
 
 layout(location = 0) flat out vec2 centre; // texels
@@ -45,8 +46,8 @@ void main() {
     float spray_share = 0.0;
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + index * push.density_stride];
-        // 0 marks a particle that was just emitted and has no density yet. NaN counts as 0: comparisons with it are
-        // false.
+        // A density of 0 marks a particle that was just emitted and has no density yet. A density of NaN is treated
+        // likewise, because comparisons with NaN are false.
         if (density > 0.0) {
             bulk_share = density < frame.density.x ? 0.0 : 0.5 + 0.5 * bulk(density);
             spray_share = share_of_spray(density);
@@ -61,8 +62,8 @@ void main() {
     float torn = torn_of(spray_share);
     float spray = frame.spray_mist.y * spray_share * torn * torn;
     vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + spray * (1.0 - bulk_share * foam));
-    // Random numbers are computed from the particle's position, so they need no ids and do not depend on the order of
-    // the particles.
+    // The random number for rounding is computed from the particle's position, so it needs no ids and does not depend
+    // on the order of the particles.
     uvec3 bits = floatBitsToUint(position);
     chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     vec3 seen = (frame.to_light * (frame.view * vec4(position, 1.0))).xyz;
@@ -76,7 +77,8 @@ void main() {
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     amount = shares * volume / (axis * axis);
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // One texel wider on each side, so that snapping of vertex positions does not cut the footprint.
+    // The quad is one texel wider than its disc on each side, so that snapping of vertex positions does not cut the
+    // disc.
     centre = seen.xy * frame.light_map.x;
     vec2 ndc = (centre + side * (axis / texel + 1.0)) / frame.light_map.x * 2.0 - 1.0;
     bool there = is_member(index) && shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));

@@ -44,8 +44,8 @@ struct Moments {
     float square; // mean square of the offset from `about`
 };
 
-// Mean and mean square of the position along the light, measured from an integer near the mean. Everything except the
-// final quotients is exact.
+// Moments of a texel's whitewater from its sums w: mean and mean square of the position along the light, measured
+// from an integer near the mean. Everything except the final quotients is exact.
 Moments moments_of(uvec4 w) {
     Moments m;
     m.sum = float(w.x);
@@ -56,7 +56,7 @@ Moments moments_of(uvec4 w) {
     uvec2 square = minus(second, times(first, 2u * about));
     square = plus(square, times(uvec2(w.x, 0u), about * about));
     m.about = int(about);
-    // The magnitude of `off` is below the sum `w.x`, so the low word suffices.
+    // The summed offsets `off` have a magnitude below the summed weights `w.x`, so the low word suffices.
     m.mean = float(int(off.x)) / m.sum;
     m.square = (float(square.y) * 4294967296.0 + float(square.x)) / m.sum;
     return m;

@@ -21,8 +21,8 @@ void main() {
     }
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
     vec2 own = 1.0 / vec2(textureSize(depth, 0));
-    // Least depth difference between the water's front and the scene behind it. The smoothed surface differs from the
-    // front by less than `frame.surface.w`, which is subtracted below.
+    // Least distance in depth, over the tile's pixels, from the front of the particles' water to the scene behind it.
+    // The smoothed surface differs from the front by less than `frame.surface.w`, so this is subtracted.
     vec4 least = vec4(EMPTY);
     for (int i = 0; i < FOURS; ++i) {
         vec2 four = four_of(first, i);

@@ -28,8 +28,8 @@ vec4 vertex_at(uint i) {
 
 void main() {
     uint own = uint(gl_VertexIndex);
-    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw a different
-    // triangle.
+    // If a corner of a triangle is invalid, all three are moved outside the clip volume, so that it is not drawn:
+    // moving only that corner would draw a different triangle.
     bool there = true;
     vec4 vertex = vec4(0.0);
     for (uint k = 0u; k < 3u; ++k) {

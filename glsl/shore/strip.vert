@@ -35,8 +35,8 @@ vec4 vertex_at(uint i) {
 
 void main() {
     uint own = uint(gl_VertexIndex);
-    // A triangle with an invalid corner is dropped as a whole: moving only that corner would draw a different
-    // triangle.
+    // If a corner of a triangle is invalid, all three are moved outside the clip volume, so that it is not drawn:
+    // moving only that corner would draw a different triangle.
     bool there = true;
     vec4 vertex = vec4(0.0);
     for (uint k = 0u; k < 3u; ++k) {
@@ -50,6 +50,7 @@ void main() {
     v = vertex.w;
     eye = (frame.view * vec4(vertex.xyz, 1.0)).xyz;
     vec2 clip = frame.projection.xy * eye.xy + frame.projection.zw * eye.z;
-    // Triangles are clipped only at the near plane; shading compares their depth with the scene's.
+    // In depth, triangles are clipped only at the near plane, not at the far plane; shading compares their depth with
+    // the scene's.
     gl_Position = there ? vec4(clip, -eye.z - frame.depth.z, -eye.z) : vec4(0.0, 0.0, -1.0, 1.0);
 }

@@ -33,7 +33,7 @@ bool can_show(Ellipsoid body) {
     if (span.z < span.x || span.w < span.y) {
         return false;
     }
-    // Wide sprites are kept without a test, which would cost more than it saves.
+    // Sprites over 8 cells wide or high are kept without a test, which would cost more than it saves.
     ivec4 touched = span >> 2;
     if (touched.z - touched.x > 7 || touched.w - touched.y > 7) {
         return true;

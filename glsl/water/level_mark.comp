@@ -8,8 +8,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// For the first level: as `reduce` wrote it. For a coarser level, until its tile is computed: 2 if something in the
-// tile needs it, 1 next to such a tile, otherwise 0.
+// Word of each smoothing tile. For the finest level pass `reduce` wrote it (iterations, coarsest level needed). For a
+// coarser level, until its tile is computed: 2 if something in the tile needs it, 1 next to such a tile, otherwise 0.
 layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 8, std430) buffer Counts { Marked marked; };
 layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };

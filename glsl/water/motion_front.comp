@@ -30,7 +30,8 @@ void main() {
             farthest = z < EMPTY ? max(farthest, z) : farthest;
         }
     }
-    // A second surface must be this far behind: otherwise particles near the first would also be near the second.
+    // A second surface must be 3 drawn radii behind the first: otherwise particles near the first would also be near
+    // the second.
     bool other = nearest < EMPTY && farthest - nearest > 3.0 * frame.particle.x;
     uint at = texel_index(texel);
     fronts[at] = vec2(nearest, other ? farthest : EMPTY);

@@ -90,7 +90,8 @@ pub fn buffers_of(blobs: &Blobs) -> Vec<vk::Buffer> {
     each_once(streams(blobs), blobs.count, None)
 }
 
-/// Bindings and offsets of spheres (balls), rotations (turns) and ids; `None` if a stream ends before the first blob.
+/// Buffer bindings, offsets and strides of the host's streams of spheres (balls), rotations (turns) and ids; `None`
+/// if a stream is too short for one blob.
 pub fn windows(gpu: &Gpu, blobs: &Blobs) -> Option<([Resource; 3], Places)> {
     let balls = Window::new(gpu, &blobs.spheres, 0)?;
     let other = |stream: &Option<Stream>| match stream {
@@ -191,7 +192,8 @@ impl Lists {
         }
     }
 
-    /// The pipelines of the dispatches that are needed: tile lists are built only if the sort uses them.
+    /// The pipelines of the dispatches that are needed: all three to sort by tile lists, only the first for depth
+    /// peeling.
     fn goes(&self) -> &[Pipeline] {
         match self.config.sort {
             BubbleSort::Tiles => &self.goes,
@@ -262,7 +264,8 @@ impl Lists {
         Ok(())
     }
 
-    /// The host's streams and the push constants; `None` if a stream ends before the first blob.
+    /// Bindings of the host's streams, with their numbers, and the push constants; `None` if a stream is too short
+    /// for one blob.
     fn bound(&self, gpu: &Gpu, blobs: &Blobs) -> Option<([(u32, Resource); 3], Push)> {
         let (bound, places) = windows(gpu, blobs)?;
         let room = streams(blobs).map(capacity).fold(self.config.max_blobs, u32::min);

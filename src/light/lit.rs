@@ -1,8 +1,9 @@
 //! Pass `lit`: applies the shadows and caustics of water and foam to the host's scene. The result is written to an
 //! image, which pass `composite` samples for the view through the water, and to the output.
 //!
-//! If the scene is the output image itself, this pass replaces the copy of the scene. Which share of a pixel's light
-//! comes from the sun is unknown, so the share on level ground is used ([`Light`](crate::Light)).
+//! If the host has drawn the scene into the output image itself, the lit image replaces the copy that pass `scene`
+//! would make. Which share of a pixel's light comes from the sun is unknown, so the share on level ground is used
+//! ([`Light`](crate::Light)).
 //! Reads: scene colour and depth, the light's maps, caustics. Writes: lit scene; the whole output.
 
 use ash::vk;
@@ -37,7 +38,8 @@ pub struct Output {
     pub target: vk::Framebuffer,
     /// The area of the view within the image.
     pub area: vk::Rect2D,
-    /// State of the image before the pass (`before`), and the state that `composite` expects after it (`after`).
+    /// State of the output image before pass `lit` (`before`), and the state that `composite` expects after it
+    /// (`after`).
     pub before: Access,
     pub after: Access,
 }

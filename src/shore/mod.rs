@@ -90,7 +90,7 @@ shader::assert_layout!(
     }
 );
 
-/// Mapping from a pixel to the texel of a host image: scale, size, first texel.
+/// Mapping from a pixel to the texel of a host image: texels per pixel and size in texels, then the first texel.
 fn texels(image: &HostImage, frame: vk::Extent2D) -> ([f32; 4], [f32; 2]) {
     let vk::Rect2D { offset, extent } = image.rect;
     let [w, h] = [extent.width as f32, extent.height as f32];
@@ -121,7 +121,8 @@ impl Looks {
         own
     }
 
-    /// Adds one noise for each of the four channels, with a factor each. Noises of equal scale share a look-up.
+    /// Adds a noise for each of the four channels, weighted by amplitude and a factor. Noises of equal scale share a
+    /// look-up.
     fn add_noises(&mut self, noises: [(Noise, f32); 4]) {
         let first = self.count;
         for (channel, (noise, factor)) in noises.iter().enumerate() {
@@ -148,8 +149,8 @@ impl ShoreUniforms {
         looks > 2.0 || layers > 2.0 || kind > 1.5 || mask > 0.5 || way > 2.5 || scene_depth != frame
     }
 
-    /// `edges` are the side lengths of foam texture and noise in texels. Without [`Frame::shore`] the values draw
-    /// nothing.
+    /// The uniform block of a frame. `edges` are the side lengths of foam texture and noise in texels. Without
+    /// [`Frame::shore`] the block draws no foam.
     pub fn new(frame: &Frame<'_>, lens: &Lens, edges: [f32; 2]) -> Self {
         let Settings { shore: look, water, .. } = frame.settings;
         let own = frame.shore.unwrap_or(crate::contract::Shore::new(0.0));
@@ -314,7 +315,8 @@ pub(crate) fn surface_of(shore: &crate::contract::Shore) -> Option<&HostImage> {
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Shore {
-    /// Textures. After a `reconfigure` they are those of the previous renderer, if they still fit.
+    /// Foam texture and noise. After a `reconfigure` those of the previous renderer are kept, if they fit the new
+    /// configuration.
     textures: Arc<Textures>,
     tiles: tiles::Tiles,
     shoreline: shoreline::Shore,
@@ -413,8 +415,9 @@ impl Shore {
         self.shoreline.image()
     }
 
-    /// The buffer of tile lists, the buffer with the arguments of the draw over runs of tiles with foam on the host's
-    /// surface, and two numbers: tiles per row of a frame, and the index in the first buffer at which the runs begin.
+    /// For `composite`, which draws the tiles with foam on the host's surface as runs (neighbouring tiles of a row):
+    /// the buffer of tile lists, the buffer with the arguments of that draw, and two numbers: tiles per row of the
+    /// frame, and the index in the first buffer at which the runs begin.
     pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, [u32; 2]) {
         let [list, arguments, _] = self.tiles.buffers();
         let [across, most] = self.tiles.places(extent);

@@ -1,14 +1,14 @@
 //! Pass `gaps`: for each texel of the thickness the boundary between two layers of water: a depth in the air that
 //! lies between them.
 //!
-//! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its limitation,
-//! Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool.
+//! Two layers are not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its
+//! limitation, Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool.
 //!
 //! In each cell of 8×8 pixels, depth is divided into 256 slices of an eighth of a spacing. They begin at the cell's
-//! nearest sphere and reach 32 spacings. Every sphere marks the slices that it fills; a run of unmarked slices
-//! between marked ones is air. Water beyond the 32 spacings counts as in the last slice, so air there is not found.
-//! Marks need no sorting: a cell is nine words, written with atomics, for any number of particles. A cell without air
-//! copies the air of a cell beside it.
+//! nearest sphere and reach 32 spacings. Every sphere, except small flying drops, marks the slices within 0.8
+//! spacings of its centre; a run of unmarked slices between marked ones is air. Water beyond the 32 spacings counts
+//! as in the last slice, so air there is not found. Marks need no sorting: a cell is nine words, written with
+//! atomics, for any number of particles. A cell without air copies the air of a cell beside it.
 //!
 //! A texel of the thickness chooses the first wide air that lies behind the surface that the texel shows and in front
 //! of a body of water. The four cells around the texel vote with bilinear weights. If a drop flies in front of a
@@ -53,7 +53,8 @@ pub fn sheets_constant(config: &Config) -> (u32, u32) {
     (8, config.sheets)
 }
 
-/// Readers of the boundaries: `back` and `thickness`, `composite` on either path, the host's copy.
+/// Access of the passes that read the boundaries between layers: `back` and `thickness`, and `composite` as a compute
+/// or a fragment shader.
 pub const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
 
 /// The pass.
@@ -67,7 +68,8 @@ pub struct Gaps {
     farthest: Pipeline,
     /// Nearest depths of all cells, then the marks of all cells.
     cells: Buffer,
-    /// Runs of slices with air of every cell: as found, and after cells without air have copied those of a neighbour.
+    /// `found`: the runs of depth slices that are air, for every cell. `spread_out`: the same runs after cells
+    /// without air have copied those of a neighbour.
     found: Buffer,
     spread_out: Buffer,
     /// Boundary of each thickness texel: an eye depth between its two layers; EMPTY where there is only one layer.
@@ -240,7 +242,8 @@ pub fn blocks_buffer(gpu: &Gpu, name: &str, config: &Config) -> Result<Buffer, E
     Buffer::new(gpu, name, size, vk::BufferUsageFlags::STORAGE_BUFFER, MemoryLocation::GpuOnly)
 }
 
-/// Computes the farthest or the nearest boundary of each block, depending on the pipeline (gaps_blocks.comp).
+/// Computes the farthest or the nearest boundary between layers in each block of 16×16 pixels; `pipeline` decides
+/// which (gaps_blocks.comp).
 pub fn dispatch_blocks(
     r: &Recording<'_>,
     pipeline: &Pipeline,

@@ -8,7 +8,7 @@
 //! gradually to an ellipsoid as the sum of its neighbours' weights grows; in the paper the sphere is kept up to a
 //! number of neighbours and then replaced.
 //!
-//! The pass runs once per frame before `cull`, which reads the result instead of the host's positions. The result
+//! Pass `shape` runs once per frame before `cull`, which reads its result instead of the host's positions. The result
 //! does not depend on the view. In an optional last part, particles with few neighbours lose their surface foam and
 //! get a density so low that they are spray.
 //! Reads: positions, surface foam, densities. Writes: the grid, shaped, foam, densities.
@@ -178,7 +178,8 @@ pub fn bytes_bound(config: &Config) -> u64 {
     }
 }
 
-/// Number of descriptor sets of the pass: two, those of the scan, and per chunk two, or three with foam or spray.
+/// Number of descriptor sets of the pass: two, plus those of the prefix sum, plus two per chunk (three with foam or
+/// spray).
 pub fn sets(config: &Config, chunks: u32) -> u32 {
     let each = 2 + u32::from(config.surface_foam || config.spray);
     if is_on(config) { 2 + scan::SETS + each * chunks } else { 0 }
@@ -201,13 +202,14 @@ pub struct Shape {
     /// Particles sorted by bucket, and their number.
     places: Buffer,
     counts: Buffer,
-    /// Offset of each particle from the centre of its neighbours, in the order of `places`.
+    /// Offset of each particle from the centre of its neighbours; particles are in the order of the buffer `places`.
     shifts: Buffer,
     /// Position and shape of each particle, in the host's order.
     pub shaped: Buffer,
     crowd: Pipeline,
-    /// Surface foam of the particles after those with few neighbours have lost theirs, if the renderer draws foam;
-    /// and densities after the last part has lowered some, if it draws spray.
+    /// Outputs of the optional last part. `foam`: the surface foam after particles with few neighbours have lost
+    /// theirs, if the renderer draws foam. `densities`: the densities after those of such particles are lowered, if
+    /// it draws spray.
     foam: Option<Buffer>,
     densities: Option<Buffer>,
     many: u32,
@@ -328,8 +330,8 @@ impl Shape {
         Ok(Particles { positions, before: COMPUTE_READ, ..found })
     }
 
-    /// Returns the particles with surface foam and densities changed where a particle has few neighbours; where the
-    /// settings do not ask for that, with the host's.
+    /// Records the optional last part. Returns the particles with surface foam and densities changed where a particle
+    /// has few neighbours. A stream for which the settings do not ask for that stays the host's.
     fn record_crowd(
         &self,
         r: &Recording<'_>,
@@ -395,8 +397,8 @@ impl Shape {
         Ok(Particles { surface_foam, densities, ..*particles })
     }
 
-    /// Three values: the number of particles, or their maximum if only the GPU knows the number; 1 in that case,
-    /// otherwise 0; the buffer with the number on the GPU, otherwise any buffer, which is not read.
+    /// Values for the shaders: the number of particles, or its maximum if only the GPU knows the number; 1 if only
+    /// the GPU knows it, otherwise 0; the buffer with the number on the GPU, otherwise any buffer, which is not read.
     fn count_of(&self, particles: &Particles, most: u32) -> (u32, u32, Resource) {
         match particles.count {
             Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),

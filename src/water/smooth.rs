@@ -189,8 +189,8 @@ impl Smooth {
         })
     }
 
-    /// Records dispatches that read one image and write the other, in turns. `push` returns the push constants of a
-    /// dispatch and the index of its indirect arguments.
+    /// Records a number of dispatches, each of which reads one smoothing image and writes the other, in turns. `push`
+    /// sets the push constants of a dispatch and returns the index of its indirect arguments.
     fn record_dispatches(
         &self,
         r: &mut Recording<'_>,
@@ -271,7 +271,8 @@ impl Smooth {
     }
 }
 
-/// `Tiles` is by far the fastest on lavapipe; on an H200 `Fused` takes half its time (docs/performance.md).
+/// The default form: on CPUs `Tiles`, by far the fastest on lavapipe; otherwise `Fused`, which takes half the time of
+/// `Tiles` on an H200 (docs/performance.md).
 fn default_form(gpu: &Gpu) -> Smoothing {
     if gpu.is_cpu() { Smoothing::Tiles } else { Smoothing::Fused }
 }

@@ -35,9 +35,9 @@ use crate::gpu::target::Target;
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 48;
 
-/// Access of the compute passes (`reduce`) and the shading passes that read the image.
+/// Access of the passes that read the spray image: the compute pass `reduce` and the shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-/// Last uses in a frame: those of [`AFTER`], or the host's copy of the layer.
+/// Last uses of the spray image in a frame: those of [`AFTER`], or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
 #[repr(C)]
@@ -128,9 +128,9 @@ impl Spray {
         &self.target.image
     }
 
-    /// `shapes` are the shapes of the particles' spray, from pass `shape`; without them spray forms balls. `list` is
-    /// the list of `cull`, whose counts are read. `depth` is the water's depth; before and after, it is in the state
-    /// in which pass `depth` leaves it.
+    /// Records the pass. `shapes` are the shapes of the particles' spray, from pass `shape`; without them spray forms
+    /// balls. `list` is the list of `cull`, whose counts are read. `depth` is the water's depth image; the pass
+    /// leaves it in the state in which it found it, that of pass `depth`.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

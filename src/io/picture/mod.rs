@@ -307,7 +307,8 @@ mod tests {
         }
     }
 
-    /// A pixel that is half covered by a colour keeps that colour and has an opacity of a half.
+    /// A PNG with alpha stores, for a pixel that a colour covers by half, this colour undarkened and an opacity of a
+    /// half.
     #[test]
     fn a_png_keeps_the_share_that_is_covered() {
         let mut layers = Layers::new(2, 1);

@@ -365,12 +365,12 @@ mod tests {
         sum / drawn.data.len() as f32
     }
 
-    /// By Lambert's law a ground of albedo a under an irradiance E has the radiance a E / π. The drawn ground may be
-    /// brighter by two specular reflections. The sky's is 0.04 · (1 - ½), the share of `scene.frag` at roughness 1.
-    /// The sun's is 0.04 plus at most 1e-3 by Schlick, times a distribution of 1/π and a visibility of at most ½ /
-    /// (n·l). The numerical integral has two errors: the edge of the hemisphere, which is softened over a tenth,
-    /// costs a thousandth, and sums over 8² texels a face are within a hundredth of the integral (second differences
-    /// of the cosine over a texel of a quarter, (1/4)²/24, and of the sky's radiance).
+    /// Checks the drawn radiance of a diffuse ground: by Lambert's law, with albedo a and irradiance E, it is a E /
+    /// π. It may be brighter by two specular reflections. The sky's is 0.04 · (1 - ½), the share of `scene.frag` at
+    /// roughness 1. The sun's is 0.04 plus at most 1e-3 by Schlick, times a distribution of 1/π and a visibility of
+    /// at most ½ / (n·l). The irradiance has two numerical errors: the edge of the hemisphere, which is softened over
+    /// a tenth, costs a thousandth, and sums over 8² texels a face are within a hundredth of the integral (second
+    /// differences of the cosine over a texel of a quarter, (1/4)²/24, and of the sky's radiance).
     #[test]
     fn ground_under_a_sun_is_lambert() {
         let folder = tempfile::tempdir().unwrap();
@@ -441,16 +441,17 @@ mod tests {
 
     /// Max relative difference between two computations of the sky in single precision.
     ///
-    /// Altitude is a difference of numbers near 6400 km, whose ulp is 2^-11 km. Its error has two parts. The squares
-    /// under the root have an ulp of 4 km²; three roundings by half an ulp move the root by 3 * 2 / (2 * 6400) km in
-    /// each computation. The root itself is off by half an ulp on the CPU and by 5 on a device (Vulkan: 2 for the
+    /// The altitude along a ray is a root (the distance from the earth's centre) minus the earth's radius: both are
+    /// near 6400 km, where an ulp is 2^-11 km. Its error has two parts. The squares under the root have an ulp of 4
+    /// km²; three roundings by half of that move the root by 3 * 2 / (2 * 6400) km in each of the two computations
+    /// (CPU, device). The root itself is off by half an ulp on the CPU and by 5 on a device (Vulkan: 2 for the
     /// inverse root and 2.5 for the division).
     ///
-    /// The error over the scale height is the relative error of the density of the thinner layer, Mie's. The light
-    /// changes by this error three times: in proportion to the density that scatters it; by the optical depth along
-    /// the view ray, where the factor has a mean of 1 if the ray is thick (for a density exp(-x)); and by the optical
-    /// depth towards the sun, counted twice, because the altitudes towards the sun start with the error of those
-    /// along the view ray.
+    /// The altitude's error divided by the scale height is the relative error of the air's density, largest in the
+    /// thinner layer, Mie's. The light changes by this error three times: in proportion to the density that scatters
+    /// it; by the optical depth along the view ray, where the factor has a mean of 1 if the ray is thick (for a
+    /// density exp(-x)); and by the optical depth towards the sun, counted twice, because the altitudes towards the
+    /// sun start with the error of those along the view ray.
     fn precision(sun: Vec3) -> f32 {
         let ulp = 2.0_f32.powi(-11);
         let altitude = 2.0 * 6.0 / (2.0 * EARTH) + (0.5 + 5.0) * ulp;

@@ -16,8 +16,8 @@ use crate::surface_foam;
 /// not be enough.
 const PROBES: usize = 16;
 
-/// A few frames of the whole sequence, from which the look is found. They do not depend on which range of frames a
-/// run draws.
+/// At most [`PROBES`] frames, spread evenly over the whole sequence, from which the look is found. They do not depend
+/// on which range of frames a run draws.
 pub struct Probes {
     pub frames: Vec<Particles>,
     pub numbers: Vec<u64>,
@@ -128,7 +128,8 @@ impl Probes {
         self.rest_density_of((0, 1))
     }
 
-    /// Rest density of one of several fluids: `fluid` is its index, `count` the number of fluids.
+    /// Rest density of one of several fluids, from its particles in a probed frame: `fluid` is its index, `count` the
+    /// number of fluids.
     pub fn rest_density_of(&self, (fluid, count): (usize, usize)) -> Option<f32> {
         let part = |frame: &'_ Particles| {
             let Range { start, end } = fluids::ranges(frame, count).get(fluid)?.clone();

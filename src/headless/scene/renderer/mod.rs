@@ -57,10 +57,11 @@ pub struct SceneFrame<'a> {
     pub color: &'a Image,
     /// Depth target in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, before and after.
     pub depth: &'a Image,
-    /// Cube map of the visible environment with mips, in SHADER_READ_ONLY_OPTIMAL; its last barrier makes it visible to
-    /// compute and fragment shaders.
+    /// Cube map of the visible environment with mips, in SHADER_READ_ONLY_OPTIMAL. The barrier after its last write
+    /// has made it visible to compute and fragment shaders.
     pub environment: vk::ImageView,
-    /// The same cube map without the sun, for lighting the scene; `None` if `environment` contains no sun.
+    /// Cube map like `environment`, but without the sun, for lighting the scene; `None` if `environment` contains no
+    /// sun.
     pub without_sun: Option<vk::ImageView>,
     /// A sampler that is linear between texels and between mips.
     pub sampler: vk::Sampler,
@@ -134,8 +135,8 @@ impl SceneRenderer {
         Self::with_light(gpu, scene, &baked, color_format, depth_format, antialias)
     }
 
-    /// Like [`SceneRenderer::new`], with the light that was baked for a renderer of the same scene, in
-    /// whichever frame.
+    /// Like [`SceneRenderer::new`], but with light that is already baked: that of a renderer of the same scene,
+    /// whichever frame of the animation it draws.
     ///
     /// # Errors
     /// Those of [`SceneRenderer::new`].

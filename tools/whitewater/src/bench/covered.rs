@@ -19,8 +19,9 @@ pub struct Waterline {
 }
 
 impl Waterline {
-    /// The waterline of a scene's frame. Segments inside other land are kept. They change nothing, because every
-    /// point of the water is nearer to the shore of that land than to them.
+    /// The waterline of a scene's frame: where its meshes cross the height `level`. Segments inside other meshes of
+    /// land are kept. They change nothing, because every point of the water is nearer to the shore of the outer mesh
+    /// than to them.
     pub fn new(scene: &Scene, level: f32, reach: f32) -> Self {
         let mut line = Self { reach, cells: HashMap::new() };
         for (mesh, at) in scene.meshes.iter().zip(transforms(scene, scene.frame)) {
