@@ -21,8 +21,8 @@ const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 /// Columns and rows of the directions over which the sky's light is summed.
 const DIRECTIONS: (usize, usize) = (64, 32);
 
-/// Radiance of the sun's highlight if the brightest channel of the sun at the ground has the irradiance that the
-/// default sky's sun has outside the atmosphere.
+/// Radiance of the sun's highlight on water if the sun's irradiance at the ground is, in its brightest channel, as
+/// large as the default [`Sky::intensity`], the irradiance outside the atmosphere.
 const HIGHLIGHT: Vec3 = Vec3::new(4.0, 3.8, 3.4);
 
 impl Sky {
@@ -32,8 +32,8 @@ impl Sky {
         Self { sun, ..Self::default() }
     }
 
-    /// Irradiance of the sun on a surface that faces it, linear RGB, in the unit of the output: dimmed and
-    /// reddened by the atmosphere, 0 below the horizon.
+    /// Irradiance of the sun on a surface that faces it, linear RGB, in the unit of [`intensity`](Self::intensity):
+    /// dimmed and reddened by the atmosphere, 0 below the horizon.
     pub fn sun_irradiance(&self) -> [f32; 3] {
         // Optical depth of the zenith: coefficients times scale heights; air mass after Kasten and Young 1989.
         const RAYLEIGH: Vec3 = Vec3::new(7.14e-3 * 8.0, 13.21e-3 * 8.0, 32.08e-3 * 8.0);
@@ -46,8 +46,9 @@ impl Sky {
         ((-(RAYLEIGH + MIE) * mass).exp() * self.intensity * risen).to_array()
     }
 
-    /// Irradiance of level ground from the sky without the sun, linear RGB, in the unit of the output. It sums over
-    /// the 1024 directions above the horizon of a grid of 2048, which takes some milliseconds.
+    /// Irradiance that level ground receives from the sky without the sun, linear RGB, in the unit of
+    /// [`intensity`](Self::intensity). It sums over the 1024 directions above the horizon of a grid of 2048, which
+    /// takes some milliseconds.
     pub fn sky_irradiance(&self) -> [f32; 3] {
         let sun = self.local_sun();
         let (width, height) = DIRECTIONS;
@@ -185,8 +186,8 @@ mod tests {
         }
     }
 
-    /// The default light equals that of the default sky, to the 24 bits of a float minus those lost in a sum of 1024
-    /// terms.
+    /// `Light::default` equals the light of the default sky, to the 24 bits of a float minus those lost in a sum of
+    /// 1024 terms.
     #[test]
     fn the_default_light_is_that_of_the_default_sky() {
         let (own, of) = (Light::default(), Light::of(&Sky::default()));

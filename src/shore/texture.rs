@@ -4,7 +4,7 @@
 //! pattern, lines become thinner and thicker as the threshold changes (*Semi-procedural foam shader*, Sec. V).
 //! Filters of picture editors stop at the picture's border; these functions wrap around.
 //!
-//! No transcendental function is used: a seed gives the same texture on every machine.
+//! The textures are computed without transcendental functions: a seed gives the same texture on every machine.
 
 use crate::random::{Random, pcg};
 
@@ -14,10 +14,10 @@ const NOWHERE: i64 = i64::MAX;
 /// Distance from each texel's centre to that of the nearest texel of the pattern, in texels, with the picture
 /// repeating in both directions. Infinite everywhere if the pattern is empty.
 ///
-/// An exact Euclidean distance transform except for the rounding of the square root, in time linear in the number of
-/// texels (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012). The first pass runs along
-/// the columns. The second finds, in each row, the lower envelope of one parabola per column; the row is extended
-/// periodically by half its width on both sides, because the picture repeats.
+/// This Euclidean distance transform is exact except for the rounding of the square root, in time linear in the
+/// number of texels (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012). The first pass
+/// runs along the columns of the pattern. The second finds, in each row, the lower envelope of one parabola per
+/// column; the row is extended periodically by half its width on both sides, because the picture repeats.
 ///
 /// `pattern` is `width` × `height` texels, row by row.
 ///
@@ -115,8 +115,8 @@ const NOISE_CELLS: usize = 4;
 /// second derivative is continuous) with 4, 8, 16 and 32 cells per side, each octave with half the amplitude of
 /// the previous. `edge`² texels, row by row.
 ///
-/// Each channel is normalised to mean 0 and maximum absolute value 1 (a single texel is 0). Except for this
-/// normalisation, a seed gives the same noise at every size.
+/// Each channel of the noise is normalised to mean 0 and maximum absolute value 1 (the only texel of `edge` 1 is 0).
+/// Except for this normalisation, a seed gives the same noise at every size.
 pub fn noise(edge: u32, seed: u32) -> Vec<[f32; 4]> {
     let mut random = Random::new(seed ^ 0x6e6f_6973);
     let octaves: Vec<Lattice<4>> =
@@ -149,7 +149,8 @@ fn centers(edge: u32) -> impl Iterator<Item = [f32; 2]> {
     (0..edge).flat_map(move |y| (0..edge).map(move |x| [center(x), center(y)]))
 }
 
-/// Gradients of N channels at the corners of the cells over the unit square, which is periodic.
+/// Gradients of a noise of N channels at the corners of its cells, `cells` per side of the unit square, which is
+/// periodic.
 struct Lattice<const N: usize> {
     cells: usize,
     gradients: Vec<[[f32; 2]; N]>,
@@ -193,8 +194,8 @@ impl<const N: usize> Lattice<N> {
     }
 }
 
-/// Number of texels per side at which the web is computed. For a smaller web, a web of about this many texels per
-/// side is averaged.
+/// A web with at most half this many texels per side is the average of a finer one with about this many texels per
+/// side.
 const FINE: u32 = 1024;
 
 /// The web: a foam texture as the sea leaves it on a shore. Filaments run between round cells of very different
@@ -202,10 +203,11 @@ const FINE: u32 = 1024;
 /// the same picture at every size. It is meant to cover 5 to 15 m: the largest cells are a fifth of the side length
 /// wide, filaments a five-hundredth.
 ///
-/// Values are an exact [`distance_transform`], inverted: 1 on the filaments, which are a seventh of the area, and 0
-/// farthest from them. In between, values are remapped so that each is equally frequent. The effect of a threshold t
-/// is thus known: of the area outside the filaments, the fraction 1 − t is at t or above. Texels partly on filaments
-/// hold the mean. At 512 texels per side, neighbouring texels differ by less than 0.2, at larger sizes by less.
+/// The web's values are an exact [`distance_transform`] of the filaments, inverted: 1 on filaments, which are a
+/// seventh of the area, and 0 farthest from them. In between, values are remapped so that each is equally frequent.
+/// The effect of a threshold t is thus known: of the area outside the filaments, the fraction 1 − t is at t or above.
+/// Texels partly on filaments hold the mean. At 512 texels per side, neighbouring texels differ by less than 0.2, at
+/// larger sizes by less.
 pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     let share = (FINE / edge.max(1)).max(1) as usize;
     let fine = edge as usize * share;
@@ -256,26 +258,28 @@ const NEXT: f32 = 0.95;
 const TRIES: f32 = 3.0;
 /// Maximum overlap of a core with a larger one, relative to its radius.
 const OVERLAP: f32 = 0.3;
-/// Cells per side and amplitude of the warp of the filaments, coarse and fine.
+/// Cells per side of the noise that bends filaments, and its amplitude relative to the side length: coarse and fine.
 const BENDS: [(usize, f32); 2] = [(6, 0.06), (20, 0.01)];
 /// Width of a filament, and its variation.
 const WIDTH: f32 = 0.0022;
 const WIDTH_VARIES: f32 = 0.6;
-/// Distance from a junction at which filaments begin to thicken, relative to the core's radius.
+/// Filaments thicken where the third-nearest core is less than this farther away than the second-nearest, relative to
+/// the nearest core's radius.
 const FILLET: f32 = 0.8;
-/// Share of filaments that are torn; the radius of the smaller of the two cores from which this share applies (below,
-/// it falls in proportion to the radius); and the distance from a junction at which a torn filament ends, relative to
-/// the smaller radius.
+/// TORN: share of filaments that are torn if the smaller one of their two cells' cores has at least the radius
+/// TORN_RADIUS (below, the share falls in proportion to the radius). TORN_LENGTH: distance from a junction at which a
+/// torn filament ends, relative to the smaller radius.
 const TORN: f32 = 0.35;
 const TORN_RADIUS: f32 = 0.03;
 const TORN_LENGTH: f32 = 0.8;
-/// Distance from a junction within which a filament's properties blend with those of the filaments that it meets,
-/// relative to the core's radius, and the maximum of this distance, relative to the side length.
+/// Distance from a junction within which a filament's properties blend with those of the filaments that meet there.
+/// BLEND: relative to the radius of the cell's core. BLEND_MOST: its maximum, relative to the texture's side length.
 const BLEND: f32 = 0.5;
 const BLEND_MOST: f32 = 0.015;
 /// Tiles per side, each with a list of the cores that affect it.
 const TILES: usize = 64;
-/// Upper bound of the gradient of [`Cells::within`]: the distances contribute 2 or 3, the warp the rest.
+/// Upper bound of the gradient of [`Cells::within`], per side length: the distances to cores contribute 2 or 3, the
+/// warp the rest.
 const STEEP: f32 = 5.0;
 
 /// A disc, relative to the side length.
@@ -345,7 +349,8 @@ impl Cells {
         pattern
     }
 
-    /// Distance of a point from the filaments inside its cell: negative on them, and a lower bound otherwise.
+    /// Negative if a point of the unit square is on a filament of its cell. Otherwise no filament is nearer than the
+    /// value divided by `STEEP`.
     fn within(&self, x: f32, y: f32) -> f32 {
         let bends = [self.bends[0].at(x, y), self.bends[1].at(x, y)];
         let bent = |v: f32, i: usize| {
@@ -416,8 +421,8 @@ impl Cells {
     }
 }
 
-/// The cores that, for any point of a tile, are among the three nearest or hardly farther away than the
-/// second-nearest.
+/// Indices of the cores that, for any point of the tile with this centre, are among the three nearest or hardly
+/// farther away than the second-nearest.
 fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
     let distances: Vec<f32> = cores.iter().map(|core| core.distance(center)).collect();
     let mut nearest = [f32::INFINITY; 3];

@@ -2,10 +2,10 @@
 //! camera that smoothing it at the configured resolution would exceed the cap on iterations. Each pixel shows the
 //! level that its distance selects, or blends two levels.
 //!
-//! Not in the thesis, whose cap leaves near water rough. The next coarser level needs a quarter of the iterations for
-//! the same width. All levels, including those of the back layer (pass `back`), lie beside each other in the
-//! smoothing images. The tile list holds the tiles of all levels, so every form of the smoothing processes all of
-//! them in one dispatch or draw.
+//! The pass `level` is not in the thesis, whose cap leaves near water rough. The next coarser level of the smoothing
+//! needs a quarter of the iterations for the same width. All levels, including those of the back layer (pass `back`),
+//! lie beside each other in the smoothing images. The tile list holds the tiles of all levels, so every form of the
+//! smoothing processes all of them in one dispatch or draw.
 //! Reads: depth, each tile's work. Writes: marks and list of the required tiles, the coarsest required level; for
 //! those tiles both smoothing images, plan, each tile's work.
 
@@ -45,14 +45,14 @@ const FADE: f32 = 0.25;
 /// tile, no coarser level needed.
 pub const NONE_MARKED: [u32; 5] = [0, 1, 1, 0, 0];
 
-/// Number of coarser levels of a configuration. It is 0 unless the rule is [`Rule::ConstantWidth`]: the other rules
-/// keep the thesis' cap.
+/// Number of smoothing levels of a configuration that are coarser than its first. It is 0 unless the rule is
+/// [`Rule::ConstantWidth`]: the other rules keep the thesis' cap on iterations.
 pub fn coarsening(config: &Config) -> u32 {
     if config.rule == Rule::ConstantWidth { config.coarsening } else { 0 }
 }
 
-/// The levels of a configuration in placement order: index in [`SmoothingLevels`], and number of halvings from the
-/// first level.
+/// The smoothing levels of a configuration, finest first, as they are placed in the image: index in
+/// [`SmoothingLevels`], and number of halvings from the first level.
 fn levels(config: &Config) -> impl Iterator<Item = (usize, u32)> {
     let (coarsening, two) = (coarsening(config), config.sheets > 1);
     (0..=MOST_COARSENING).flat_map(move |coarser| {
@@ -64,7 +64,7 @@ fn levels(config: &Config) -> impl Iterator<Item = (usize, u32)> {
     })
 }
 
-/// First texel of each level, and the size of an image that holds all.
+/// Size of an image that holds all levels of the smoothing, and first texel of each in it.
 type Placed = ([u32; 2], [[u32; 2]; 7]);
 
 fn in_rows(sizes: &[(usize, vk::Extent2D)]) -> Placed {
@@ -230,8 +230,8 @@ impl Level {
         })
     }
 
-    /// Before and after, both smoothing images and the plan (iteration count and step of each pixel) are in the state
-    /// in which `reduce` wrote them.
+    /// Records the pass `level`. Before and after it, both smoothing images and the plan (iteration count and step of
+    /// each pixel) are in the state in which `reduce` wrote them.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

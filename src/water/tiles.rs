@@ -44,13 +44,13 @@ struct Push {
 /// The pass.
 pub struct Tiles {
     pipeline: Pipeline,
-    /// For each tile, row by row, the largest iteration count of its texels plus 1, in the low 16 bits; 0 for a tile
-    /// in which nothing has to be smoothed or shaded.
+    /// Work of each tile, row by row. Low 16 bits: the largest iteration count of the tile's texels plus 1, or 0 if
+    /// nothing in it has to be smoothed or shaded. The high bits hold its smoothing levels.
     pub work: Buffer,
     /// Indices of the tiles with work, largest work first.
     pub list: Buffer,
-    /// `[0]`: a draw of all tiles (a strip of four vertices, one instance per tile). `[i]`: the dispatch of iteration
-    /// i, with the number of its tiles in the fourth word.
+    /// Arguments. `[0]`: a draw of all tiles (a strip of four vertices, one instance per tile). `[i]`: the dispatch
+    /// of smoothing iteration i, with the number of its tiles in the fourth word. `[258]`: a dispatch over all tiles.
     pub arguments: Buffer,
     /// Layout of the levels.
     pub atlas: Atlas,

@@ -133,8 +133,8 @@ impl Quads {
         &self.targets.fronts
     }
 
-    /// `thickness` is the barrier that makes the thickness image a colour attachment. `draw` draws all particles with
-    /// the pipeline that it is given.
+    /// Records both draws of quads. `thickness` is the barrier that makes the thickness image a colour attachment.
+    /// `draw` draws all particles with the pipeline that it is given.
     pub fn record(
         &self,
         r: &Recording<'_>,

@@ -11,7 +11,8 @@ crate::contract::with!(WhitewaterConfig, WhitewaterSettings);
 pub struct WhitewaterConfig {
     /// Maximum number of whitewater particles per frame, at least 1.
     pub max_particles: u32,
-    /// Maximum stride in bytes of the buffers with the particles' attributes, a multiple of 4, default 12.
+    /// Maximum stride in bytes, from particle to particle, of the host's buffers with whitewater attributes, a
+    /// multiple of 4, default 12.
     pub max_stride: u32,
     /// Whether frames may give the particles in groups that are culled as a whole
     /// ([`WhitewaterParticles::packets`](crate::WhitewaterParticles::packets)). Default false.
@@ -82,8 +83,8 @@ pub enum WhitewaterSplat {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Occlusion {
-    /// As printed: the number of samples of a sphere is proportional to its volume on the screen, in cubic pixels
-    /// ([`WhitewaterSettings::sample_density`]). All pixels use the same sample positions.
+    /// As in the paper: the number of occlusion samples of a sphere is proportional to its volume on the screen, in
+    /// cubic pixels ([`WhitewaterSettings::sample_density`]). All pixels use the same sample positions.
     Reference,
     /// Each pixel of a 4×4 block evaluates a sixteenth of the samples, and the blur recombines them. A pixel takes
     /// `min(max_samples, 320) / 16` samples per sphere, rounded down to an even number from 2 to 20, whatever the
@@ -97,8 +98,8 @@ pub enum Occlusion {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum Irradiance {
-    /// One look-up per pixel in an irradiance map that is filtered once per environment; the paper calls this the
-    /// faster way. Default.
+    /// The environment's light is one look-up per pixel in an irradiance map, which is filtered once per environment;
+    /// the paper calls this the faster way. Default.
     Prefiltered,
     /// One look-up in the environment for each sample of the first occlusion sphere, in the sample's direction
     /// (Sec. 2.4.2). This needs no occlusion passes: [`WhitewaterSettings::passes`] may be 0.
@@ -108,7 +109,8 @@ pub enum Irradiance {
 /// How particles behind the water's surface are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Submerged {
-    /// The water in front of the particles attenuates their light, as it attenuates everything behind it. Default.
+    /// The water in front of the submerged particles attenuates their light, as it attenuates everything behind it.
+    /// Default.
     Water,
     /// The paper's falloff (Eq. 1 and Sec. 2.2): the thickness of a particle at a distance d behind the surface is
     /// multiplied by `(1 − (d / depth)^n)^m`, which reaches 0 at `depth`. The particles are then composited in front
@@ -127,7 +129,7 @@ pub enum Submerged {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum OcclusionReach {
-    /// In radii of the sphere in which occluders are searched, (0, ∞), default 1.
+    /// Maximum distance, in radii of the sphere in which occluders are searched, (0, ∞), default 1.
     Radii(f32),
     /// In scene units, (0, ∞); the paper: 5 metres.
     Metres(f32),
@@ -137,7 +139,8 @@ pub enum OcclusionReach {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(not(feature = "diagnostics"), allow(dead_code))] // tests and tools alone choose
 pub enum ShadowMixing {
-    /// `light · (1 − shadow)`: never negative, and proportional to the light, whatever the exposure. Default.
+    /// Light that remains: `light · (1 − shadow)`, never negative, and proportional to the light, whatever the
+    /// exposure. Default.
     Scaled,
     /// `max(min(light, 1) − shadow, 0)`, the paper's difference (Sec. 2.5).
     Source,
@@ -156,7 +159,7 @@ pub struct WhitewaterSettings {
     /// Constant ρ_mod of the intensity `ρ^e / (ρ_mod + ρ^e)`, the opacity of foam of a thickness ρ (Sec. 2.3),
     /// (0, 1e6], default 3. The intensity is one half where `ρ^e = ρ_mod`; thickness has no unit.
     pub half_intensity_thickness: f32,
-    /// Exponent e of the intensity `ρ^e / (ρ_mod + ρ^e)`, [0.1, 16], default 1.25.
+    /// Exponent e of the intensity (opacity) of foam, `ρ^e / (ρ_mod + ρ^e)`, [0.1, 16], default 1.25.
     pub exponent: f32,
     /// Number of ambient-occlusion passes, 0 to 8, default 3 (AO_#Passes, Sec. 2.4.1). Each pass samples a larger
     /// sphere around the particle.
@@ -189,7 +192,8 @@ pub struct WhitewaterSettings {
     pub shadow_exponent: f32,
     /// Offset o of the shadow `(s · occlusion)^e + o`, [-1, 1], default -0.05.
     pub shadow_offset: f32,
-    /// Share of the light that remains in full shadow, linear RGB, 0 to 1, default a deep blue (0, 0, 0.2).
+    /// Share of the light that foam in full shadow (occlusion) keeps, linear RGB, 0 to 1, default a deep blue (0, 0,
+    /// 0.2).
     pub shadow_color: [f32; 3],
     /// Albedo, linear RGB, 0 to 1, default 0.9.
     pub albedo: [f32; 3],
@@ -212,7 +216,7 @@ pub struct WhitewaterSettings {
     /// Number of sizes of particles, 1 to 64, default 5 (Sec. 2.1): for variation, each radius is divided by an
     /// integer from 1 to this number, chosen by the particle's id.
     pub sizes: u32,
-    /// Radius of a bubble relative to the other particles, (0, 1], default 0.5 (Sec. 2.1).
+    /// Factor on the radius of bubbles, relative to foam and spray, (0, 1], default 0.5 (Sec. 2.1).
     pub bubble_size: f32,
     /// Radius of the blur of light and shadow, in radii of the first occlusion sphere, [0, 16], default 1.5
     /// (Sec. 2.5). A blur radius of up to 32 pixels uses every texel; a larger one uses evenly spaced texels, at
