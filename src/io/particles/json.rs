@@ -7,8 +7,9 @@
 //! Python's `NaN` and `Infinity`, are NaN. Comments, and commas after the last value, are ignored. Houdini's JSON
 //! geometry begins with `"fileversion"` and is refused.
 //!
-//! A file with several frames is a list of such arrays or objects, an object that holds them by name (`{"frame_1":
-//! ..}`), or an object of arrays with one more dimension (`{"positions": [[[x, y, z], ..], ..]}`): see `json_frames`.
+//! A file with several frames is a list of such arrays or objects, an object that holds them by name
+//! (`{"frame_1": ..}`), or an object of arrays with one more dimension (`{"positions": [[[x, y, z], ..], ..]}`): see
+//! `json_frames`.
 
 use serde_json::{Map, Value};
 
