@@ -15,8 +15,8 @@ use crate::gpu::shader;
 
 /// Radiance of the sun's disc divided by the sun's irradiance: 1 / (solid angle of the disc, in steradians).
 const DISC: f32 = 1.0 / 6.8e-5;
-/// Maximum radiance of the disc in each channel, so that a half float does not overflow. Under a brighter sun
-/// the ratio is smaller than [`DISC`].
+/// Maximum radiance of the sun's disc in each channel, so that a half float does not overflow. Under a brighter
+/// sun the ratio of radiance to irradiance is smaller than [`DISC`].
 const DISC_MOST: f32 = 3.0e4;
 /// Height of a missing ground, far from all objects.
 const NO_GROUND: f32 = -1e9;
