@@ -14,7 +14,8 @@ void main() {
     Seen seen = seen_here();
     uint own = layer_of(blob_index, seen.id);
     uvec2 last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).xy;
-    // Layers at the same depth are ordered by number. If the previous layer is empty, so is this one.
+    // Blobs at the same depth are ordered by their numbers. In a pixel where the previous layer is empty, so is this
+    // one.
     float nearer = uintBitsToFloat(last.x);
     bool behind = last.y != NO_LAYER && (seen.depth > nearer || (seen.depth == nearer && own > last.y));
     if (push.layer > 0u && !behind) {

@@ -1,4 +1,5 @@
-// Cells of the neighbour grid. Needs random.glsl and push constants `cells` (cells per unit of length) and `buckets`.
+// Cells of the neighbour grid, and the buckets of its hash table. Needs random.glsl and push constants `cells` (cells
+// per unit of length) and `buckets`.
 
 ivec3 cell_of(vec3 position) {
     // `precise`, so that all passes compute the same cell.

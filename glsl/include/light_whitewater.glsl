@@ -6,7 +6,8 @@
 const uint WORDS = 4u;
 // Fixed-point steps per thickness of 1.
 const float STEPS = 65536.0;
-// No more is added to a sum above this, so that any number of particles may lie on one spot.
+// Nothing more is added to a texel whose sum of thickness exceeds this, so no sum overflows if many particles lie on
+// one spot.
 const uint FULL = 1u << 28;
 // Value in the fourth word of one carry of the second sum.
 const uint CARRY = 1u << 22;

@@ -1,7 +1,7 @@
 // Light on its way through water (thesis, Eq. 3.5 to 3.7). Needs frame.glsl.
 
-// Rungs of the ladder, a debug view that builds the picture layer by layer from the back. Layers above the selected
-// rung are omitted.
+// Rungs (steps) of the ladder, a debug view that builds the picture layer by layer from the back. Layers above the
+// selected rung are omitted.
 const float BACK_WATER = 1.0;
 const float FOAM_TOO = 2.0;
 const float FRONT_WATER = 3.0;
@@ -12,7 +12,8 @@ const float WHOLE = 4.0;
 // light, scaled by `lit`. w of the result: the water's mean transmittance (with the thesis' medium, the weight of the
 // light from behind).
 vec4 through_medium(vec3 light, vec3 share, float path, vec3 lit) {
-    // One exponential for both media: a CPU driver executes both sides of a branch.
+    // One exponential serves both media (the thesis' and the others), because a CPU driver executes both sides of a
+    // branch.
     bool source = frame.medium_a.w > 0.5;
     vec3 extinction = frame.medium_a.rgb + frame.medium_b.rgb;
     vec4 kept = exp(-(source ? frame.medium_b : vec4(extinction, 0.0)) * path);

@@ -3,20 +3,21 @@
 // 2003). Not in the thesis, where each sprite has its own noise and many overlapping sprites average to a mist. The
 // two coarse octaves are evaluated per sprite, the finest per texel. Needs frame.glsl, gradient_noise.glsl.
 
-// Widths of the cells of the two coarse octaves and of the finest one, relative to the first, and their amplitudes.
+// Widths of the noise cells of the pattern's two coarse octaves and of its finest one, divided by the width of the
+// first octave's cells; and the amplitudes of the three octaves.
 const vec3 OCTAVES = vec3(1.0, 0.53, 0.23);
 const vec3 HEIGHTS = vec3(1.0, 0.7, 1.1);
 // Mean square of the noise.
 const float VARIANCE = 0.073;
-// Max logarithm of the pattern at a sprite's centre, and max change of it from the centre to the rim. With larger
-// values a single sprite would show as a disc.
+// Max logarithm of the pattern (a factor on the amount of foam) at a foam sprite's centre, and max change of this
+// logarithm from the centre to the sprite's rim. With larger values a single sprite would show as a disc.
 const float MOST_PATTERN = 1.0;
 // The pattern repeats after this many cells of the first octave, centred on the world's origin, so that single
 // precision resolves positions within a cell.
 const float WRAP = 65536.0;
 
-// Weight of a pattern with cells of this width in scene units: 0 if a cell is narrower than one texel, 1 if it is
-// wider than two.
+// Weight of a noise whose cells are `cell` scene units wide: 0 if a cell is narrower than one texel (`texel`), 1 if
+// it is wider than two.
 float told_apart(float cell, float texel) {
     return smoothstep(1.0, 2.0, cell / texel);
 }
@@ -30,8 +31,8 @@ vec3 pattern_place(vec3 position, vec3 velocity, uint phase, uint octave) {
     return (place - way + frame.foam_octaves[1u + phase]) / OCTAVES[octave];
 }
 
-// Coarse octaves of the pattern. w: logarithm of the factor on the amount of foam; the factor's mean is 1. xyz:
-// gradient of the logarithm per scene unit.
+// Sum of the two coarse octaves of the pattern at a point. w: logarithm of the factor on the amount of foam; the
+// factor's mean is 1. xyz: gradient of this logarithm per scene unit.
 vec4 coarse_pattern(vec3 position, vec3 velocity, float texel) {
     vec4 sum = vec4(0.0);
     float square = 0.0;

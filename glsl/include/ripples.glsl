@@ -6,7 +6,8 @@ layout(constant_id = 14) const uint NOISE = 0;
 
 layout(set = 0, binding = 20) uniform sampler2D surface_noise;
 
-// Noise of a texel and the depth of its surface; no surface outside the picture.
+// Noise of a texel (x), and the eye depth of the water's surface there (y); outside the picture there is no surface,
+// and the depth is huge.
 vec2 ripple_texel(ivec2 texel) {
     bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(frame.noise_image.xy)));
     texel = clamp(texel, ivec2(0), ivec2(frame.noise_image.xy) - 1);
@@ -23,8 +24,9 @@ float ripple_rise(vec2 before, vec2 here, vec2 after, float threshold) {
     return has_before && has_after ? 0.5 * sum : sum;
 }
 
-// From a texel and its four neighbours: noise and its slope in x and y, times `weight`; w: the weight. All are 0 if
-// the texel does not lie on the surface (x: depth, y: tolerance).
+// What a texel of the noise image adds to the bilinear sum at a pixel. xyz: its noise, and the noise's slope in x and
+// y from its four neighbours, times `weight`; w: `weight`. All are 0 if the texel does not lie on the pixel's surface
+// (`surface`: depth and its tolerance).
 vec4 ripple_part(vec2 here, vec2 left, vec2 right, vec2 above, vec2 below, float weight, vec2 surface) {
     vec2 rise = vec2(ripple_rise(left, here, right, surface.y), ripple_rise(above, here, below, surface.y));
     return abs(here.y - surface.x) <= surface.y ? weight * vec4(here.x, rise, 1.0) : vec4(0.0);

@@ -1,4 +1,5 @@
-// The arithmetic of one pixel and iteration, shared by every form of the smoothing (curvature.glsl).
+// The arithmetic of one smoothing iteration in one pixel (by curvature.glsl), shared by every form
+// of the pass `smooth`.
 // Needs frame.glsl, plan.glsl, level.glsl, curvature.glsl and the constant RULE.
 
 // `pixel` counts from the corner of its level.

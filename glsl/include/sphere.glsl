@@ -27,7 +27,8 @@ float ray_hit(vec3 w, vec3 centre, float radius, float near) {
     return left < 0.0 || t < near ? EMPTY : t;
 }
 
-// Eye depth of the nearest point of the sphere on the ray (slope, -1).
+// Eye depth at which the ray (slope, -1) from the eye first meets the sphere; EMPTY if it misses, or meets it
+// before the depth `near`.
 float sphere_hit(vec2 slope, vec3 centre, float radius, float near) {
     return ray_hit(vec3(slope, -1.0), centre, radius, near);
 }
@@ -38,8 +39,8 @@ vec4 pixel_bounds(vec4 bounds, vec4 slope) {
     return vec4(min(p.xy, p.zw), max(p.xy, p.zw));
 }
 
-// First and last pixel whose centre can lie in the bounds, clamped to the image; empty when
-// last < first. The margin covers rounding.
+// From bounds in pixels (min xy, max xy), the first (xy) and last (zw) pixel whose centre lies in them, clamped to
+// the image; there is none if last < first. The margin covers rounding.
 ivec4 pixel_span(vec4 bounds, vec2 extent) {
     const float margin = 1.0 / 64.0;
     vec4 p = clamp(bounds, vec4(-1.0), extent.xyxy + 1.0);

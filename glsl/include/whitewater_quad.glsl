@@ -1,5 +1,5 @@
-// A whitewater particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, whitewater.glsl,
-// whitewater_words.glsl.
+// Where the ray of a pixel meets a whitewater particle, whose quad covers the pixel. Needs
+// frame.glsl, falloff.glsl, whitewater.glsl, whitewater_words.glsl.
 // Reads: words.
 
 layout(set = 0, binding = 6, std430) readonly buffer Words { uint words[]; };

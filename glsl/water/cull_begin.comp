@@ -8,7 +8,8 @@
 layout(local_size_x = 32) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count; };
-// 256 bytes per chunk, so that each can be bound and used as arguments separately.
+// Counts of all chunks: 256 bytes per chunk, so that the Counts of each chunk can be bound, and used as indirect
+// arguments, separately.
 layout(set = 0, binding = 2, std430) writeonly buffer AllCounts { uint words[]; };
 
 layout(push_constant, std430) uniform Push {

@@ -19,7 +19,8 @@ layout(constant_id = 1) const uint MARKS = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
-// The bits of the nearest depth of every cell, then the marked slices of every cell.
+// First one word per cell: the bits of the nearest particle's depth. Then the words that mark the depth slices with
+// water of every cell.
 layout(set = 0, binding = 3, std430) buffer Cells { uint cells[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;

@@ -10,7 +10,8 @@
 #include "curvature.glsl"
 
 layout(constant_id = 1) const uint RULE = 1;
-// 0: an iteration. 1: counts the pixels that are active in it (no colour writes). 2: copies.
+// What the draw does. 0: an iteration. 1: counts the pixels that are active in an iteration (no colour writes). 2:
+// copies one smoothing image to the other.
 layout(constant_id = 2) const uint TASK = 0;
 
 layout(set = 0, binding = 1) uniform sampler2D source;

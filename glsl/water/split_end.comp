@@ -12,7 +12,7 @@ layout(local_size_x = 1) in;
 layout(set = 0, binding = 1, std430) readonly buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
-// Max number of tiles in the second dimension of a dispatch; the third counts the rows of that many tiles.
+// Max number of tiles along the second dimension (y) of a dispatch; the third (z) counts rows of this many tiles.
 const uint ROW = 64u;
 
 void main() {

@@ -24,7 +24,8 @@ layout(set = 0, binding = 3) uniform sampler2D water_depth;
 
 layout(location = 0) out vec2 optical_depth; // optical depth: all, and the sunlit part
 
-// log(mean(exp(a n))) / a^2 for value noise n, which is this within 0.3 % for amplitudes a up to 2.
+// log(mean(exp(a n))) / a^2 for value noise n with the amplitude a. For a up to 2 it is this constant within 0.3 %;
+// it keeps the mean of the mist's density.
 const float RAISED = 0.0895;
 
 // Random value of a lattice point, -1 to 1. `joined` has the point's coordinates multiplied by primes of xxHash, as in
@@ -86,8 +87,8 @@ void main() {
     if (scene > 0.0 && depth >= scene) {
         discard;
     }
-    // Droplets surround particles that may also be drawn as water, so droplets up to 1.5 spacings behind the water's
-    // surface stay visible, fading with the distance.
+    // Droplets surround particles that may also be drawn as water, which would hide half of them. So droplets behind
+    // the water's surface fade with their distance from it, and vanish at 1.5 particle spacings.
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
     // The falloff is that of the thickness, sqrt(1 - rho^2) exp(-2 rho^2), which is 0 at the sprite's edge, where rho
     // is 1. The thesis' exp(-2 rho^2) is still 0.14 there, which would show the edge.

@@ -24,8 +24,8 @@ void main() {
     vec2 pixel = (centre.xy / -centre.z - frame.slope.zw) / frame.slope.xy;
     vec2 at = pixel / DRIFT_CELL;
     ivec2 last = drift_nodes() - 1;
-    // Sprites more than half a cell outside the grid add to no node. If such a sprite is visible, others lie inside
-    // the grid.
+    // Foam sprites whose centre is more than half a cell outside the grid add to no node. If a part of such a sprite
+    // is visible, other sprites lie inside the grid and give the velocity there.
     if (!(all(greaterThan(at, vec2(-0.5))) && all(lessThan(at, vec2(last) + 0.5)))) {
         return;
     }
