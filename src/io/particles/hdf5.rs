@@ -2,6 +2,7 @@
 //!
 //! The crate hdf5-reader (pure Rust) reads the container; this module finds the arrays.
 //!
+//! These layouts of a file are recognized:
 //! - VTKHDF: group `VTKHDF` of type PolyData or UnstructuredGrid, or of blocks of these. The points of all
 //!   parts and steps are stored in sequence; group `Steps` says where a step begins.
 //! - PySPH: `particles/NAME/arrays`, one array per property; the time is attribute `t` of `solver_data`. If there are
@@ -10,7 +11,7 @@
 //! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and other properties likewise.
 //! - Positions of shape (frames, particles, 3) in any group, or components of shape (frames, particles). Other arrays
 //!   of the group with the same number of frames are attributes of these particles.
-//! - Others: the group, or groups, with an array of positions; several are joined.
+//! - Other files: the group with an array of positions; the particles of several such groups are joined.
 //!
 //! Of an HDF5 file only arrays of the requested frame that have a meaning are read. Memory use is limited by the
 //! file's size.
