@@ -20,7 +20,7 @@ layout(push_constant, std430) uniform Push {
 } push;
 
 // Distance of the surface from the centre in a direction, and the bubble there. If no bubble lies in this direction,
-// the distance is 0 and the bubble is the one nearest to the direction.
+// the distance is 0 and the bubble is the one whose centre is farthest along the direction.
 float outermost(vec3 direction, uint first, out uint id) {
     float best = 0.0;
     float nearest = -2.0;

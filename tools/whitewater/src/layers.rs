@@ -139,7 +139,7 @@ fn nearest(depths: &Picture<f32>, width: usize) -> Picture<usize> {
 }
 
 /// Reads the picture (R, G, B, A) and the wanted layers back from the device. `size` is the size of the output; the
-/// frame was drawn at 1, 2 or 4 times this size and is averaged down to it.
+/// frame was drawn at 1, 2 or 4 times this size, and its pixels are merged to it.
 pub fn collect(
     headless: &mut Headless,
     size: (u32, u32),
