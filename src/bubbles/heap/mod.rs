@@ -455,7 +455,8 @@ impl BlobSimulation {
     }
 
     /// Number of entries in the streams of [`blobs`](Self::blobs): the maximum number of blobs, including the halves
-    /// of split ones. `Config::bubbles` has to allow as many. The spheres of unused entries are all zeros.
+    /// of split ones. `max_blobs` of `Config::bubbles` has to be at least as large. The spheres of unused entries are
+    /// all zeros.
     pub fn count(&self) -> u32 {
         self.count << self.config.max_splits
     }
