@@ -20,8 +20,8 @@ const HORIZON: f32 = 0.7;
 /// Min and max angle of the camera's axis below the horizontal, radians, whatever the field of view is.
 const LEAST_PITCH: f32 = 0.14;
 const MOST_PITCH: f32 = 0.52;
-/// Max angle below the horizontal, in degrees, at which a camera that is found from the particles sees the middle of
-/// the floor.
+/// Max angle below the horizontal, in degrees, of the line from the eye to the middle of the floor. If the camera's
+/// axis points down by more than 6 degrees less than this, the max is 6 degrees more than the axis.
 const HIGHEST: f32 = 27.0;
 /// Max distance of the framed points from the picture's middle, as a part of half its height (`FILLED`) and of half
 /// its width (`WIDTH`).
