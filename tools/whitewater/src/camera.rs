@@ -21,7 +21,7 @@ const HORIZON: f32 = 0.7;
 const LEAST_PITCH: f32 = 0.14;
 const MOST_PITCH: f32 = 0.52;
 /// Max angle below the horizontal, in degrees, of the line from the eye to the middle of the floor. If the camera's
-/// axis points down by more than 6 degrees less than this, the max is 6 degrees more than the axis.
+/// axis points down by more than 21 degrees, the max is 6 degrees more than the axis instead.
 const HIGHEST: f32 = 27.0;
 /// Max distance of the framed points from the picture's middle, as a part of half its height (`FILLED`) and of half
 /// its width (`WIDTH`).

@@ -27,8 +27,8 @@ const FULL: f32 = 0.55;
 pub struct Spout {
     /// Centre of its mouth.
     pub mouth: Vec3,
-    /// Right-handed coordinate axes: horizontal across the jet (to the right if the jet moves towards the eye), upwards
-    /// across it, and along it.
+    /// Right-handed coordinate axes: horizontal across the jet (to the right if the jet moves towards the eye),
+    /// upwards across it, and along it.
     pub frame: Mat3,
     /// Half of the mouth's width and height.
     pub half: Vec2,

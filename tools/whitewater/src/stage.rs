@@ -18,8 +18,8 @@ pub fn read(path: &Path) -> Outcome<Scene> {
     Scene::load(path).map_err(|error| Failure::input(format!("{error}; mend the file")))
 }
 
-/// Materials of the ground, of the inside of a basin and of its walls. The sizes of tiles and blocks are in proportion
-/// to `longest`, the extent of the water.
+/// Materials of the ground, of the inside of a basin and of its walls. The sizes of tiles and blocks are in
+/// proportion to `longest`, the extent of the water.
 fn materials(set: SetArg, longest: f32) -> [Material; 3] {
     let of = material;
     let tiles = |part: f32| Pattern::Tiles { size: round_length(longest / part), band: None };
