@@ -16,8 +16,8 @@ use crate::surface_foam;
 /// not be enough.
 const PROBES: usize = 16;
 
-/// At most [`PROBES`] frames, spread evenly over the whole sequence, from which the look is found. They do not depend
-/// on which range of frames a run draws.
+/// At most `PROBES` (16) frames, spread evenly over the whole sequence, from which the look is found. They do not
+/// depend on which range of frames a run draws.
 pub struct Probes {
     pub frames: Vec<Particles>,
     pub numbers: Vec<u64>,
