@@ -87,7 +87,8 @@ pub fn frame(
     Lens::new(&frame.camera)
 }
 
-/// Validates a host image. The three names are those of its fields `before`, `after` and `rect`, for the error.
+/// Checks an image that the host passes: its layouts `before` and `after`, and whether `rect` lies inside it. The
+/// three strings are the names of these fields in error messages.
 pub fn image([before, after, rect]: [&'static str; 3], image: &HostImage) -> Result<(), Error> {
     if image.before.layout == vk::ImageLayout::UNDEFINED {
         return Err(Error::bad(before, "UNDEFINED: its contents would be lost"));
@@ -261,9 +262,9 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     blobs.ids.map_or(Ok(()), |ids| ids.check("Frame.bubbles.ids", 4, count, most))
 }
 
-/// Validates a particle count and returns it, or 0 if only the GPU knows it. `field` and `offset_field` are the names
-/// of the count and of its buffer offset for the error; `name` and `most` are the configured maximum's name and
-/// value.
+/// Returns a particle count after checking that it is at most `most`. If the count is in a GPU buffer, returns 0
+/// after checking its offset. For error messages, `field` and `offset_field` are the names of the count and of the
+/// offset, `name` that of the configured maximum `most`.
 pub fn count(
     [field, offset_field]: [&'static str; 2],
     count: Count,

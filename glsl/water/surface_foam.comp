@@ -30,7 +30,7 @@ layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 // shared by the workgroup. The number is the upper end of a size class.
 const int SMALL = 1023;
 
-// Number of size classes: two per power of two of the number of texels.
+// Number of classes by which foam sprites are sorted: two for each power of two of a sprite's number of texels.
 const uint CLASSES = 24u;
 
 shared int texels[FOAM_GROUP];

@@ -147,8 +147,9 @@ impl Billboards {
         Ok(())
     }
 
-    /// `count` is the number of blobs, `bound` the resources of the pass. `kept` are layers and depth, which are in the
-    /// compute-write state before and after.
+    /// Records pass `peel` by billboards for `count` blobs with the resources `bound`. `kept` are the buffer of the
+    /// pixels' layers and the image of the blobs' depth, which the pass writes; before and after it they are in the
+    /// compute-write state.
     pub fn record(
         &self,
         r: &Recording<'_>,

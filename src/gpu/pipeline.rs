@@ -41,7 +41,8 @@ pub struct Made {
     pub name: &'static str,
     stages: vk::ShaderStageFlags,
     push_size: u32,
-    /// Deletion queue of a pipeline with one owner; `None` if the context owns the pipeline.
+    /// Queue to which a pipeline with a single owner hands its handles for destruction when it is dropped; `None` if
+    /// the pipeline is shared and the context destroys it.
     yard: Option<Graveyard>,
 }
 
@@ -161,7 +162,8 @@ impl Pipeline {
         Self::tested(gpu, desc, None)
     }
 
-    /// A graphics pipeline, owned by the context, with a depth test and depth writes if `passes` gives a comparison.
+    /// A graphics pipeline, owned by the context. If `passes` gives a comparison, it tests depth with this comparison
+    /// and writes depth; otherwise it does neither.
     pub fn tested(
         gpu: &Gpu,
         desc: &Graphics<'_>,

@@ -44,8 +44,8 @@ pub struct Requirements {
     pub optional_extensions: &'static [&'static CStr],
 }
 
-/// The requirements of the library. Call it before creating the device. [`DeviceSupport::limits`] returns the device
-/// limits that a configuration needs.
+/// Returns the Vulkan version, features and extensions that the library needs or can use. Call this function before
+/// creating the device. The device limits that a configuration needs are returned by [`DeviceSupport::limits`].
 pub fn requirements() -> Requirements {
     Requirements {
         api_version: vk::API_VERSION_1_2,
@@ -105,8 +105,8 @@ pub struct DeviceSupport {
     /// Whether R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT support blending as colour attachments, and the last
     /// two also storing without a format qualifier: needed by surface foam.
     pub foam_floats: bool,
-    /// Whether R8G8B8A8_SNORM (first) and R16G16B16A16_SFLOAT (second) support storing without a format qualifier and
-    /// linear filtering: needed by filtered shadow maps of 8 and of 16 bits.
+    /// First: whether the format R8G8B8A8_SNORM supports both storing without a format qualifier and linear
+    /// filtering, which convolution shadow maps of 8 bits need. Second: the same of R16G16B16A16_SFLOAT for 16 bits.
     pub basis: [bool; 2],
     /// R32G32_SFLOAT supports storing without a format qualifier: needed by motion vectors.
     pub motion_floats: bool,
@@ -119,8 +119,8 @@ pub struct DeviceSupport {
     pub optional: EnabledFeatures,
     /// Limits.
     pub limits: vk::PhysicalDeviceLimits,
-    /// Whether this is a device of Vulkan 1.2 that supports `shaderStorageImageWriteWithoutFormat`, but whose host
-    /// did not enable it.
+    /// Whether the device is used with Vulkan 1.2 and supports `shaderStorageImageWriteWithoutFormat`, but the host
+    /// did not enable it; error messages then recommend enabling it.
     not_enabled: bool,
 }
 
@@ -221,9 +221,9 @@ impl DeviceSupport {
         }
     }
 
-    /// Support on a device whose host creates its instance for this Vulkan version and enables exactly these
-    /// features. Below Vulkan 1.3 formats support storing only with
-    /// [`storage_image_write_without_format`](EnabledFeatures::storage_image_write_without_format).
+    /// Restricts this support to what remains if the host creates its instance for the Vulkan version `api_version`
+    /// and enables exactly the features `enabled`. Below Vulkan 1.3 no format supports storing without a qualifier
+    /// unless [`storage_image_write_without_format`](EnabledFeatures::storage_image_write_without_format) is enabled.
     #[must_use]
     pub fn with_enabled(mut self, api_version: u32, enabled: EnabledFeatures) -> Self {
         self.api_version = self.api_version.min(api_version);
@@ -441,9 +441,10 @@ fn named(extent: vk::Extent2D) -> String {
     format!("{}x{}", extent.width, extent.height)
 }
 
-/// Buffers that grow with the extent and are bound as a whole. For each: the field of the configuration that it
-/// belongs to, its size in bytes, and the remedy for the error message. Tile lists are omitted: with one word per
-/// tile they stay below the limit in images of any size.
+/// The buffers whose size grows with the picture's extent and that are bound as a whole, to be compared with the
+/// device's limit for a binding. For each: the field of the configuration that it belongs to, its size in bytes, and
+/// the remedy for the error message. Lists of tiles are omitted: with one word per tile they stay below the limit in
+/// images of any size.
 fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'static str)> {
     let fewer = "a smaller extent, or a higher Config.thickness_level";
     let sums = (config.thickness_splat.unwrap_or(DEFAULT_SPLAT) == Splat::Compute)

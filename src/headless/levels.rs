@@ -9,7 +9,8 @@ use crate::frame::EMPTY;
 #[derive(Clone, Copy)]
 pub struct Sheet {
     first: usize,
-    /// Number of levels by which `first` is coarser than the first level of the front layer.
+    /// Number of levels (halvings of resolution) by which this layer's first level is coarser than the first level of
+    /// the front layer of water.
     coarser: usize,
 }
 
@@ -66,8 +67,9 @@ pub fn surface(levels: &SmoothingLevels, image: &Picture<f32>, sheet: Sheet) -> 
     })
 }
 
-/// Depth of a level's surface at a texel of the layer's first level, interpolated between the four texels
-/// around it; those whose depth is far from `z` lie on another surface and do not count.
+/// Smoothed depth in the level `level`, interpolated at the centre of the texel `at` of the layer's first level
+/// between the four texels of `level` around it. Those whose depth is far from `z` lie on another surface and do not
+/// count.
 fn smoothed(
     levels: &SmoothingLevels,
     image: &Picture<f32>,
@@ -91,8 +93,8 @@ fn smoothed(
     if weights > 0.0 { z + sum / weights } else { z }
 }
 
-/// The number of smoothing iterations at each texel, from the level that dominates there. `plan` holds the
-/// numbers of all levels.
+/// Picture of the number of smoothing iterations at each texel of the front layer, taken from the level that has the
+/// greater weight there. `plan` is the image of these numbers for all levels.
 pub fn iterations(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,

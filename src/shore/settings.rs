@@ -115,8 +115,8 @@ impl ShoreSettings {
 /// Zero-mean seamless noise over the water's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Amplitude: the noise varies between minus and plus this value. [-1000, 1000], in the unit of the quantity to
-    /// which the noise is added.
+    /// Factor of the noise, which has the mean 0 and the maximum absolute value 1. [-1000, 1000], in the unit of the
+    /// quantity to which the product is added.
     pub amplitude: f32,
     /// Repetitions of the noise texture per scene unit, [0, 100]. The coarsest cells of the noise are a quarter of a
     /// repetition wide.

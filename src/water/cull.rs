@@ -319,8 +319,8 @@ impl Cull {
         })
     }
 
-    /// Begins a list: sets its number of spheres to 0, and its number of particles to `count` or to that in
-    /// `host_count`.
+    /// Records the start of a list: its number of spheres becomes 0, and its number of particles `count` or, with
+    /// `from_gpu`, the number in the buffer `host_count`, at most `count`.
     fn record_begin(
         &self,
         r: &Recording<'_>,

@@ -59,7 +59,8 @@ impl Whitewater {
         self.sprites.record(r, particles, water)
     }
 
-    /// Passes `radiance` and `blur`. `water` holds the water's images, if there may be water.
+    /// Records the passes `radiance` and `blur`, which compute the light on whitewater. `water` holds the depth
+    /// images of the particles' water; `None` if the frame has none.
     pub fn record_radiance(
         &self,
         r: &mut Recording<'_>,

@@ -54,7 +54,8 @@ impl DistanceField {
     /// intersect itself. The time is proportional to the number of points times the number of triangles.
     ///
     /// # Errors
-    /// No triangles, corners that are not finite, more than 1024 points in a row.
+    /// No triangles, corners that are not finite, an `edge` that is not above 0, a negative `margin`, or more than
+    /// 1024 grid points along an axis.
     pub fn of_mesh(triangles: &[[[f32; 3]; 3]], edge: f32, margin: f32) -> Result<Self, Error> {
         let bad = |why: &str| Err(Error::bad("DistanceField", why));
         let corners = || triangles.iter().flatten().map(|c| Vec3::from(*c));

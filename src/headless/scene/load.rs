@@ -75,7 +75,7 @@ impl Scene {
     /// Reads a Wavefront file from memory.
     ///
     /// # Errors
-    /// The error says what was expected, what was found, and in which line.
+    /// The text is no valid Wavefront OBJ: the error says what was expected, what was found, and in which line.
     pub fn parse_obj(bytes: &[u8]) -> Result<Self, String> {
         super::obj::parse(bytes)
     }

@@ -67,8 +67,8 @@ pub struct Motion {
     pub meshes: Vec<usize>,
     /// The frame of the first pose.
     pub first_frame: u64,
-    /// One pose per frame, world space to world space, applied after the meshes' own transforms. Before the
-    /// first and after the last frame the pose is constant.
+    /// One pose per frame: a transform from world space to world space that is applied after each mesh's own
+    /// transform. Before the first frame the first pose holds, after the last frame the last one.
     pub poses: Vec<Mat4>,
 }
 
@@ -100,7 +100,7 @@ pub struct Viewpoint {
 pub struct SunLight {
     /// World direction to the sun; any length but zero.
     pub direction: [f32; 3],
-    /// Irradiance on a surface that faces the sun, linear RGB, [0, ∞), in the unit of the output.
+    /// Irradiance by the sun on a surface that faces it, linear RGB, [0, ∞), in the unit of the output.
     pub color: [f32; 3],
 }
 
@@ -125,8 +125,8 @@ pub struct Ground {
     pub y: f32,
     /// Material.
     pub material: Material,
-    /// Extent along x and z from the centre of the scene's [`bounds`](Scene::bounds), world units, (0, ∞).
-    /// `None`: to the horizon.
+    /// Half the side length of the square ground, world units, (0, ∞): its extent along x and along z to each side of
+    /// the centre of the scene's [`bounds`](Scene::bounds). `None`: it extends to the horizon.
     pub reach: Option<f32>,
 }
 
@@ -139,7 +139,8 @@ pub struct Mesh {
     pub positions: Vec<[f32; 3]>,
     /// A unit normal for each vertex.
     pub normals: Vec<[f32; 3]>,
-    /// A texture coordinate for each vertex (v = 0 on top), or none at all.
+    /// A texture coordinate for each vertex (v = 0 is the texture's top row); empty for a mesh without texture
+    /// coordinates.
     pub uvs: Vec<[f32; 2]>,
     /// Vertex indices, three per triangle.
     pub indices: Vec<u32>,
@@ -184,7 +185,7 @@ pub enum Pattern {
     Tiles {
         /// Edge of a tile.
         size: f32,
-        /// World height of a row of darker tiles, as pools have at the water's level.
+        /// World height of a row of darker tiles, as pools have at the water's level; `None`: no such row.
         band: Option<f32>,
     },
     /// Weathered boards along the mesh's x axis.
@@ -328,7 +329,8 @@ impl Scene {
         motions.find(|motion| motion.meshes.contains(&mesh))
     }
 
-    /// Motion of a mesh to its pose in the frame that is drawn; `None` if it is static.
+    /// Transform that moves the mesh with this index, in world space, to its pose in the frame that is drawn; `None`
+    /// if the mesh is static.
     fn pose(&self, mesh: usize) -> Option<Mat4> {
         self.motion_of(mesh).map(|motion| motion.pose(self.frame))
     }

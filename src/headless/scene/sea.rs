@@ -57,7 +57,7 @@ pub enum Liquid {
     /// Opaque: a dark crust with glowing cracks. It casts no light, except for an estimate of its glow on
     /// surfaces above, from height and slope alone, as if lava were below everywhere.
     Lava {
-        /// Radiance of the hottest parts, linear RGB in the unit of the output, [0, ∞).
+        /// Radiance of the hottest parts of the lava's cracks, linear RGB in the unit of the output, [0, ∞).
         radiance: [f32; 3],
         /// Speed of its flow, world units per second.
         speed: f32,
@@ -127,8 +127,8 @@ impl Sea {
         DVec2::from(self.towards.map(f64::from)).normalize_or(DVec2::X)
     }
 
-    /// The waves at a time in seconds, the longest first: wave number along x and z in radians per world unit,
-    /// amplitude in world units, phase.
+    /// The waves at a time in seconds, the longest first. Each has a wave number along x and one along z in radians
+    /// per world unit, an amplitude in world units, and a phase in radians.
     pub(super) fn waves_at(&self, time: f64) -> [[f32; 4]; WAVES] {
         let longest = TAU / f64::from(self.length);
         let steepest = 0.5 * f64::from(self.waves) * longest;
@@ -151,9 +151,9 @@ impl Sea {
         })
     }
 
-    /// For each wave: x and y multiply the two components of `unrest` in `sea.glsl`, and the sum of the products
-    /// shifts the wave's phase, in radians; shorter waves are shifted more. z is the variance of the slopes of this
-    /// wave and all shorter ones.
+    /// For each wave: the phase is shifted by x · u.x + y · u.y radians, where u is the slow displacement that
+    /// `unrest` in `sea.glsl` gives for each place; shorter waves are shifted more. z is the variance of the slopes
+    /// of this wave and all shorter ones.
     pub(super) fn shifts_of(waves: &[[f32; 4]; WAVES]) -> [[f32; 4]; WAVES] {
         std::array::from_fn(|i| {
             let (more, turn) = (1.0 + 0.35 * i as f32, 2.1 * i as f32);
@@ -163,10 +163,10 @@ impl Sea {
         })
     }
 
-    /// Distance that the lava has flowed, in world units. With a period, this is the distance since the period's
-    /// start; then also the distance of a copy that is a period behind (negative), and the copy's weight, which
-    /// rises from 0 to 1, so that the copy has replaced the flow when the next period starts. `None` without a
-    /// period.
+    /// Returns the distance that the lava has flowed by a time in seconds, in world units; with a period, that since
+    /// the period's start. In the option (`None` without a period) are the distance of a second copy of the flow,
+    /// which is a period behind (so negative), and the weight of this copy. The weight rises from 0 to 1, so that the
+    /// copy has replaced the flow when the next period starts.
     pub(super) fn drift_at(&self, time: f64) -> (f32, Option<[f32; 2]>) {
         let speed = match self.liquid {
             Liquid::Lava { speed, .. } => f64::from(speed),
@@ -188,7 +188,8 @@ impl Sea {
 }
 
 impl Scene {
-    /// The sea at [`Scene::time`], or an error if a value is out of range.
+    /// The scene's sea (`None` without one) after a check of its values and of [`Scene::time`]; an error if one of
+    /// them is out of range.
     pub(super) fn checked_sea(&self) -> Result<Option<&Sea>, Error> {
         let Some(sea) = &self.sea else { return Ok(None) };
         sea.check()?;

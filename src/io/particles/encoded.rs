@@ -54,7 +54,8 @@ impl Encoding {
         }
     }
 
-    /// Number of bytes in the file that hold `bytes` decoded bytes which are encoded on their own.
+    /// Number of bytes that `bytes` bytes take in the file when they are encoded on their own: 4 for each 3 in
+    /// base64, rounded up with padding.
     fn stored(self, bytes: u64) -> u64 {
         if self.base64 { bytes.div_ceil(3).saturating_mul(4) } else { bytes }
     }
@@ -91,8 +92,9 @@ impl Named {
 }
 
 impl<'a> Encoded<'a> {
-    /// Reads the header and checks that it declares as many values as the segment has. `spare` holds sources that may
-    /// be read on instead of opening the file again.
+    /// Opens a binary array: reads its header and checks that it declares as many values as `segment` has. `spare`
+    /// holds sources from an earlier array of the file, which are read on if possible instead of opening the file
+    /// again.
     pub(super) fn open(
         segment: &Segment<'a>,
         encoding: Encoding,
@@ -185,7 +187,8 @@ impl<'a> Encoded<'a> {
     }
 }
 
-/// A contiguous range of the file: raw bytes, or base64 that was encoded in one go.
+/// Reads a contiguous range of the file: raw bytes, or base64 text that was encoded in one go, with padding only at
+/// its end.
 struct Run<'a> {
     source: Source<'a>,
     encoding: Encoding,
@@ -243,8 +246,8 @@ impl<'a> Run<'a> {
         Ok(self)
     }
 
-    /// Whether all decoded bytes were returned. For base64 this means that padding ended the data; raw bytes
-    /// are never decoded ahead.
+    /// Whether no decoded byte waits to be returned. After the header's words in base64 this means that the header
+    /// was encoded separately and ended with padding. It is always true for raw bytes, which are not decoded ahead.
     fn is_ended(&self) -> bool {
         !self.encoding.base64 || self.given == self.decoded.len()
     }
@@ -275,8 +278,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Decodes the next characters. Only the last group of the range may be padded: what follows it is
-    /// another array.
+    /// Decodes the next base64 characters of the range into `decoded`. Only the last four characters of the range may
+    /// have padding (`=`).
     fn decode(&mut self) -> Result<(), ReadError> {
         let count = self.left.min(CHARACTERS);
         self.text.clear();
@@ -295,7 +298,8 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// The error of the characters that were read last, with its position relative to the start of the range.
+    /// Error of a range that is not base64. `error` has a position in the characters that were read last, before
+    /// which `passed` characters of the range were read; the message has the position in the range.
     fn not_base64(&self, passed: u64, error: &DecodeError) -> ReadError {
         let passed = passed as usize;
         let error = match *error {
@@ -349,8 +353,8 @@ struct Blocks<'a> {
     ahead: std::vec::IntoIter<u64>,
     packed: Run<'a>,
     count: u64,
-    /// Number of blocks that were started. Then the size of the current block, and how much of it is still to
-    /// be decompressed.
+    /// `next` is the number of blocks that were started. `size` is the decompressed size of the current block in
+    /// bytes, and `left` is how much of it is still to be decompressed.
     next: u64,
     size: u64,
     left: u64,
@@ -406,8 +410,9 @@ impl Blocks<'_> {
         if found == size { Ok(()) } else { Err(self.short(size, found)) }
     }
 
-    /// Decompresses the next [`UNPACKED`] bytes of a zlib block. The number does not depend on how many are
-    /// asked for, so that an error message is the same however the file is read.
+    /// Decompresses the next [`UNPACKED`] bytes of a zlib block, or its rest, into `unpacked`. The number does not
+    /// depend on how many bytes the caller of `fill` wants, so that an error message is the same whether a file is
+    /// read in parts or whole.
     fn inflate(&mut self) -> Result<(), ReadError> {
         let count = self.left.min(UNPACKED) as usize;
         let inflate = self.inflate.get_or_insert_default();

@@ -10,7 +10,8 @@ use super::names;
 
 /// How the frames of a file are stored.
 enum Frames {
-    /// A list with one entry per frame: a list of particles, or an object with such a list or with arrays.
+    /// A list with one entry per frame. An entry is a list of particles, an object with such a list, or an object
+    /// with an array per attribute.
     List(usize),
     /// Objects or lists by name, ordered by the number in the name.
     Named(Vec<String>),
@@ -20,7 +21,8 @@ enum Frames {
     Behind(String),
 }
 
-/// Whether a value is one frame: a list of positions (lists or objects), or columns of them.
+/// Whether a value is one frame: a list of particles (each a list of numbers, or an object with a position), or an
+/// object with a list of particles or with columns (an array per attribute, such as x, y and z).
 fn is_frame(value: &Value) -> bool {
     match value {
         Value::Array(rows) => rows.first().is_some_and(|row| match row {
@@ -118,7 +120,8 @@ pub(super) fn times(value: &Value) -> Vec<Option<f64>> {
     }
 }
 
-/// If an object with arrays is the only entry of a list, that object; otherwise the value.
+/// If the value is a list whose only entry is an object that is a frame (with arrays of particles' attributes),
+/// returns that object; otherwise returns the value.
 pub(super) fn alone(value: Value) -> Value {
     match value {
         Value::Array(mut list)
@@ -160,8 +163,8 @@ pub(super) fn one(value: Value, index: usize) -> Value {
 /// Max number of arrays of a frame that are located in the text.
 const ARRAYS: usize = 8;
 
-/// Position of a frame in the text: for each of its arrays the byte range of its name and of its value. An entry
-/// without a name is the whole frame.
+/// Position of a frame in the JSON text: for each of its arrays the byte range of the array's name and that of its
+/// value. If the range of the name is empty, the value is the whole frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(in crate::io::particles) struct Part([[u64; 4]; ARRAYS]);
 
@@ -175,7 +178,7 @@ impl Part {
         part
     }
 
-    /// The same position in a text that contains this one from byte `by` on.
+    /// This position in a larger text, in which the text that it refers to begins at byte `by`.
     fn moved(self, by: usize) -> Self {
         let moved = |[a, b, c, d]: [u64; 4]| {
             let at = |x: u64| x + by as u64;
@@ -202,7 +205,8 @@ impl Part {
     }
 }
 
-/// Position of each frame in the text; `None` for a single frame, and if a frame has too many arrays.
+/// Position of each frame in the JSON text, so that one frame can be read alone. `None` if there is a single frame,
+/// or if a frame has more than [`ARRAYS`] arrays.
 pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
     let named = || {
         let name = |(name, part): (Range<usize>, _)| {
@@ -252,8 +256,8 @@ pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
     }
 }
 
-/// Arrays and objects at a nesting level of valid text, which may have comments. For each: the range of the string
-/// before it (in an object, its name), and its own range.
+/// Finds the arrays and objects at a nesting level (0: outermost) of valid JSON text, which may have comments.
+/// Returns for each the byte range of the string before it (in an object, its name), and its own byte range.
 fn held(text: &[u8], level: usize) -> Vec<(Range<usize>, Range<usize>)> {
     let mut all = Vec::new();
     let (mut depth, mut begin) = (0_usize, 0);

@@ -22,10 +22,11 @@ pub(super) struct Header {
     /// Bytes per element.
     pub(super) size: u64,
     pub(super) fortran: bool,
-    /// The shape; if there are more than two dimensions, those of size 1 are removed.
+    /// The extents of the array; if it has more than two dimensions, those of size 1 are removed until two are left.
     pub(super) shape: Vec<u64>,
     pub(super) descr: String,
-    /// The frame to read, if the array holds several; the shape is that of one frame.
+    /// Which frame to read, if the array holds several frames; `shape` is then that of one frame, without the
+    /// dimension of the frames.
     pub(super) frame: Option<One>,
 }
 
@@ -36,11 +37,13 @@ pub(super) struct One {
     pub(super) count: u64,
 }
 
-/// Min number of columns for which an array with 2 or 3 rows is taken as transposed particles.
+/// Min number of columns from which on an array with 2 or 3 rows is taken as transposed: one column per particle
+/// instead of one row.
 pub(super) const WIDE: u64 = 8;
 
 impl Header {
-    /// Number of frames in an array of positions, or of one component of them; `None` for one frame.
+    /// Number of frames in an array that holds positions or, with `component`, one coordinate of them; `None` if the
+    /// array has no dimension for frames, so is one frame.
     pub(super) fn frames(&self, component: bool) -> Option<u64> {
         match *self.shape.as_slice() {
             [frames, _, 2 | 3 | 6] if !self.structured => Some(frames),
@@ -50,7 +53,9 @@ impl Header {
         }
     }
 
-    /// Whether the array has an entry for each of `count` frames. `vector` says that its name is that of a vector.
+    /// Whether the first dimension of the array counts `count` frames. `vector` says that the array's name is that of
+    /// a vector, so that an array of `count` rows and 2, 3 or 6 columns has one vector per particle, not an entry per
+    /// frame.
     fn has_frames(&self, count: u64, vector: bool) -> bool {
         match *self.shape.as_slice() {
             [frames, _, _] => frames == count && !self.structured,
@@ -61,7 +66,8 @@ impl Header {
         }
     }
 
-    /// The array restricted to one frame, if it has several; otherwise it is shared by all frames.
+    /// Restricts the array to the frame `frame` if the array has an entry for each frame. Otherwise it is unchanged,
+    /// because all frames share it.
     pub(super) fn of_frame(mut self, frame: Option<One>, vector: bool) -> Self {
         if let Some(one) = frame.filter(|one| self.has_frames(one.count, vector)) {
             self.shape.remove(0);
@@ -71,7 +77,8 @@ impl Header {
     }
 }
 
-/// Every `count`th element, from `index` on: a frame of an array in Fortran order.
+/// Every `count`th element of `size` bytes, from element `index` on. In an array in Fortran order, whose first
+/// dimension varies fastest, these are the elements of frame `index` of `count`.
 pub(super) fn every(raw: &[u8], size: u64, one: One) -> Vec<u8> {
     let size = usize::try_from(size).unwrap_or(usize::MAX).max(1);
     let count = usize::try_from(one.count).unwrap_or(usize::MAX).max(1);

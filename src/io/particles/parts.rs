@@ -56,7 +56,8 @@ impl Parts<'static> {
     /// Default number of particles per part.
     pub const USUAL: usize = 1 << 17;
 
-    /// Opens a file for parts of `most` particles; the last may have fewer. 0 counts as 1.
+    /// Opens a file to return its particles in parts of `most` particles each; the last part may have fewer. A `most`
+    /// of 0 counts as 1.
     ///
     /// # Errors
     /// Those of [`read`](super::read).
@@ -64,10 +65,10 @@ impl Parts<'static> {
         Self::open_with(path, most, |_| {})
     }
 
-    /// Opens a file as [`open`](Self::open) does, and calls `show` with each part as soon as the first pass has
-    /// read it, so that a scan over all particles needs no extra pass. A part that is shown may have `ids` and
-    /// `kinds` that are dropped later, and that the returned parts lack. A file that cannot be read in parts is
-    /// shown as one part.
+    /// Opens a file as [`open`](Self::open) does, and calls `show` with each part as soon as the first pass over the
+    /// file has read it, so that a scan over all particles needs no extra pass. A part that is passed to `show` may
+    /// have `ids` and `kinds` that are dropped later, and that the parts which the iterator returns lack. A file that
+    /// cannot be read in parts is shown as one part.
     ///
     /// # Errors
     /// Those of [`read`](super::read). Some parts may have been shown before the error.
@@ -210,13 +211,14 @@ impl<'a> Parts<'a> {
         self.total
     }
 
-    /// What holds for all particles. An optional vector is `Some`, but empty, if every part has it. Attributes
-    /// and warnings are those of the whole file; the parts list none.
+    /// What is known about all particles of the file, as a value without particles. An optional vector (velocities,
+    /// ids and so on) is `Some`, but empty, if every part has it. Attributes and warnings of the file are only here;
+    /// the parts list none.
     pub fn about(&self) -> &Particles {
         &self.about
     }
 
-    /// Whether all particles are in memory, because the file is small or cannot be read in parts.
+    /// Whether all particles are in memory, because they fit in one part or the file cannot be read in parts.
     pub fn in_memory(&self) -> bool {
         matches!(self.rest, Rest::Memory(..))
     }
@@ -253,8 +255,8 @@ impl<'a> Parts<'a> {
 impl Iterator for Parts<'_> {
     type Item = Result<Particles, ReadError>;
 
-    /// The next part. An error occurs only if the file has changed since it was opened; after an error no part
-    /// follows.
+    /// The next part. An error occurs only if the file has changed, or can no longer be read, since it was opened;
+    /// after an error no part follows.
     fn next(&mut self) -> Option<Self::Item> {
         let part = self.part().map_err(|error| {
             self.rest = Rest::Failed;
@@ -295,7 +297,8 @@ fn slice(all: &Particles, range: Range<usize>) -> Particles {
     }
 }
 
-/// Plans how to read the particles of a file; `None` if it cannot be read in parts.
+/// Detects the format of a file and plans how to read its particles in parts; `None` if this format can only be read
+/// as a whole.
 pub(super) fn plan<'a>(
     input: &Input<'a>,
     hint: Extension,
@@ -362,7 +365,8 @@ pub(super) fn plan<'a>(
     }))
 }
 
-/// A plan for rows of equal length, or for several arrays of a zip file that are read side by side.
+/// Makes the plan by which particles are read that lie in rows of equal length: one row per particle in one file, or
+/// in several arrays of a zip file, whose rows are read side by side.
 fn of_rows<'a>(
     input: &Input<'a>,
     rows: Vec<(Piece, Rows)>,

@@ -83,10 +83,10 @@ pub fn aces(c: [f32; 3]) -> [f32; 3] {
     times(OUT, c).map(|v| v.clamp(0.0, 1.0))
 }
 
-/// Troy Sobotka's AgX, with Benjamin Wrensch's polynomial for its curve: a film curve that turns bright colours
-/// pale on the way to white, where [`aces`] and clipping keep them saturated. Its range is sixteen and a half
-/// stops, four of them above white. Light is multiplied by 2 before the curve, and the curve's value is raised
-/// to the power 1.35 (as in AgX's "punchy" look), so that lit white is nearly white on the screen.
+/// Troy Sobotka's AgX, with Benjamin Wrensch's polynomial for its curve: a film curve that turns bright colours pale
+/// on the way to white, where [`aces`] and clipping keep them saturated. The curve covers sixteen and a half stops,
+/// four of them above 1. Light is multiplied by 2 before the curve, and the curve's value is raised to the power 1.35
+/// (as in AgX's "punchy" look), so that lit white is nearly white on the screen.
 pub fn agx(c: [f32; 3]) -> [f32; 3] {
     const IN: [[f32; 3]; 3] = [
         [0.842_479_06, 0.078_433_6, 0.079_223_745],
@@ -145,8 +145,8 @@ mod tests {
         assert!(neutral([f32::INFINITY; 3]).iter().all(|v| *v > 0.99 && *v <= 1.0));
     }
 
-    /// Film curves are monotonic and stay within the range. Grey stays grey; mid grey and white stay about as bright. A
-    /// bright colour becomes pale instead of saturated.
+    /// The film curves ACES and AgX are monotonic, and their values stay from 0 to 1. Grey stays grey; mid grey and
+    /// lit white stay about as bright. With AgX a bright cyan becomes pale instead of saturated.
     #[test]
     fn film_curves_rise_to_white() {
         for (tone, mid, white) in [(Tone::Aces, 0.2..0.26, 0.7), (Tone::Agx, 0.17..0.3, 0.55)] {

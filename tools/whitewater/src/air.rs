@@ -4,14 +4,16 @@ use glam::Vec3;
 
 use crate::cells::Cells;
 
-/// Sum of the weights of neighbours in a body of water: the integral of 1 - q/2 over the ball of q up to 2 spacings.
+/// Sum of the weights of a particle's neighbours inside a body of water: the integral of 1 - q/2 over the ball of
+/// radius 2, where q is the distance in particle spacings.
 const WHOLE: f32 = 8.0 * std::f32::consts::PI / 3.0;
 
-/// The trapped-air potential of each particle (Ihmsen et al. 2012, Eq. 2): the mean speed at which its neighbours
-/// approach it, in scene units a second. It is `Σ |v_ij| (1 - v_ij·x_ij) (1 - |x_ij| / h)`, with unit vectors in the
-/// scalar product and h of two spacings, over the sum of the weights inside a body of water. So it is 0 in water at
-/// rest, in water that flows, turns or falls as a whole, and for lone particles. Particles with a non-finite position
-/// or velocity have 0 and are no one's neighbour.
+/// The trapped-air potential of each particle (Ihmsen et al. 2012, Eq. 2) in scene units a second: the weighted mean
+/// of its neighbours' relative speeds, counted twice for a neighbour that approaches head-on, once for one that
+/// passes, and not for one that recedes. It is `Σ |v_ij| (1 - v_ij·x_ij) (1 - |x_ij| / h)`, with unit vectors in the
+/// scalar product and h of two spacings, over the sum of the weights inside a body of water. So it is 0 in water that
+/// rests or moves as a whole without turning, and for lone particles. Particles with a non-finite position or
+/// velocity have 0 and are no one's neighbour.
 pub fn trapped(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) -> Vec<f32> {
     let reach = 2.0 * spacing;
     let velocity = |i: usize| Vec3::from(velocities[i]);
@@ -32,8 +34,8 @@ pub fn trapped(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) ->
     speeds
 }
 
-/// One neighbour's term of the sum. `apart` points from the neighbour to the particle, `relative` is the particle's
-/// velocity less the neighbour's, and `reach` is h.
+/// One neighbour's term of the sum that is a particle's trapped-air potential: x_ij is `apart`, which points from the
+/// neighbour to the particle, v_ij is `relative`, the particle's velocity less the neighbour's, and h is `reach`.
 fn approach(apart: Vec3, relative: Vec3, reach: f32) -> f32 {
     let (squared, speed) = (apart.length_squared(), relative.length());
     // The particle itself is among the neighbours.
@@ -52,7 +54,8 @@ mod tests {
 
     type Flow = fn(Vec3) -> Vec3;
 
-    /// A block of 20 layers of 20 by 20 particles with these velocities, and their potentials.
+    /// Returns the positions of a block of 20 layers of 20 by 20 particles, and their trapped-air potentials if they
+    /// move with `velocity`, which is a function of the position.
     fn block(velocity: impl Fn(Vec3) -> Vec3) -> (Vec<[f32; 3]>, Vec<f32>) {
         let at = |i: u16| [i % 20, i / 20 % 20, i / 400].map(|i| SPACING * (f32::from(i) - 9.5));
         let positions: Vec<_> = (0..8000).map(at).collect();
@@ -75,8 +78,8 @@ mod tests {
         }
     }
 
-    /// Two layers that collide at 2 metres a second trap air where they meet; layers that part trap none. The expected
-    /// value is the sum over the lattice.
+    /// Two layers of particles that collide at 2 scene units a second trap air where they meet; layers that part trap
+    /// much less. The expected potential is the sum over the neighbours on the particles' lattice.
     #[test]
     fn layers_that_meet_trap_air_where_they_meet() {
         let towards = |sign: f32| move |p: Vec3| Vec3::new(0.0, -sign * p.y.signum(), 0.0);
@@ -106,7 +109,8 @@ mod tests {
         assert!(layer(&part, 0.025) < 0.35 * layer(&meet, 0.025));
     }
 
-    /// Neither the order of the particles nor invalid ones among them change the result.
+    /// The trapped-air potentials of valid particles change neither with the order of the particles nor if invalid
+    /// ones (NaN, infinite or far away) are among them.
     #[test]
     fn odd_particles_change_nothing() {
         let flow = |p: Vec3| Vec3::new((40.0 * p.y).sin(), (30.0 * p.z).cos(), p.x);

@@ -54,7 +54,9 @@ pub fn is_of_velocities(path: &Path) -> bool {
         .is_some_and(|stem| word(stem, &VELOCITIES).is_some() && word(stem, &POSITIONS).is_none())
 }
 
-/// Adds velocities from the file beside the positions. If each file holds several frames, `step` selects one.
+/// If the particles of the position file `path` have no velocities, adds those of the velocity file beside it, such
+/// as `v_0001.npy` beside `x_0001.npy`. If each file holds several frames, `step` selects one. What does not fit
+/// becomes a warning.
 pub fn add(particles: &mut Particles, path: &Path, step: Option<Step>) {
     if particles.velocities.is_some() {
         return;

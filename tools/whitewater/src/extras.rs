@@ -54,7 +54,8 @@ const MOST: usize = 16;
 /// Share of duplicate positions from which on duplicates are dropped.
 const DOUBLED: f64 = 0.05;
 
-/// A comparison that an attribute has to satisfy for a particle to be drawn.
+/// A comparison of an attribute with a number, such as `Type=3`, that selects the particles to draw (`--where`) or
+/// those of a fluid (`--fluid`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condition {
     name: String,
@@ -138,8 +139,9 @@ impl Condition {
     }
 }
 
-/// Reads a frame with these attributes: those that conditions and fluids compare, those that distinguish phases,
-/// those whose names mean radii, and the one that the argument `radius` names.
+/// Reads the particles of a frame with these additional attributes: those that the comparisons of `--where`
+/// (`conditions`) and of `--fluid` (`fluids`) use, those whose names mean phases or radii, and the one named
+/// `radius`.
 pub fn read(
     frame: &Frame,
     conditions: &[Condition],
@@ -238,8 +240,8 @@ pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
     all.filter_map(|extra| Some((extra.name.as_str(), whole(&extra.values)?))).collect()
 }
 
-/// Messages about attributes that distinguish phases but are used by no condition and no `--fluid`, so that all
-/// phases are drawn as one water.
+/// Messages about attributes that distinguish phases but are used by no `--where` and no `--fluid`, or hold words
+/// instead of numbers, so that all phases are drawn as one water.
 pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) -> Vec<String> {
     let mut known = conditions.iter().map(Condition::name).chain(fluids.names());
     let mut asked = |name: &str| known.any(|known| same_name(known, name));
@@ -269,8 +271,8 @@ pub fn told(particles: &Particles, conditions: &[Condition], fluids: &Fluids) ->
     several.map(line).chain(text).collect()
 }
 
-/// The attribute's value for the phase that moves fastest on average, or, without velocities, for the phase with the
-/// most particles.
+/// The value of a phase attribute that probably means the liquid: that of the phase with the greatest mean squared
+/// speed, or, without velocities, that of the phase with the most particles.
 fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i64 {
     let speed = |value: i64| -> f32 {
         let (Some(velocities), Some(extra)) = (&particles.velocities, find(particles, name)) else {
@@ -286,8 +288,8 @@ fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i
     most.map_or(0, |(_, _, value)| value)
 }
 
-/// If many particles share positions, keeps one at each position. Returns the number of dropped
-/// particles.
+/// If more than 5 % of the particles are at the position of an earlier one, drops these. Returns the number of
+/// dropped particles.
 pub fn without_copies(particles: &mut Particles) -> usize {
     let mut known = HashSet::with_capacity(particles.positions.len());
     // 0 and -0 are the same position.

@@ -96,7 +96,8 @@ pub struct Fluids {
 }
 
 impl Fluids {
-    /// Adds the files of fluids to the frames of the inputs. Also returns messages for the user.
+    /// Adds the files that `--fluid` names to the frames of the inputs with the same numbers. Returns the fluids, and
+    /// messages about frames without such a file.
     pub fn find(args: &[FluidArg], frames: &mut [Frame]) -> Outcome<(Self, Vec<String>)> {
         let (mut files, mut said) = (HashMap::new(), Vec::new());
         for (i, arg) in args.iter().enumerate() {
@@ -144,8 +145,8 @@ impl Fluids {
         if self.args.is_empty() { 1 } else { self.args.len() + 1 }
     }
 
-    /// Number of fluids that are drawn. The inputs are one of them unless an argument is a comparison; then particles
-    /// that match no comparison are not drawn.
+    /// Number of fluids that are drawn: one for each `--fluid`, and one for all other particles of the inputs. If a
+    /// `--fluid` is a comparison (`Type=2:honey`), the other particles are not drawn and do not count.
     pub fn drawn(&self) -> usize {
         self.args.len() + usize::from(self.conditions().next().is_none())
     }
@@ -162,7 +163,8 @@ impl Fluids {
         })
     }
 
-    /// Stores the index of a file's fluid as an attribute of its particles, before the frame's files are joined.
+    /// Stores the index of the fluid that the file `path` belongs to as an attribute of its particles, and makes
+    /// their ids unique among the fluids, before the frame's files are joined.
     pub fn mark(&self, path: &Path, particles: &mut Particles) {
         if self.args.is_empty() {
             return;
@@ -239,8 +241,9 @@ impl Fluids {
         (first..self.count()).filter(|_| self.count() > 1).filter(empty).map(line).collect()
     }
 
-    /// Settings of all fluids; empty if there is one. `all` is the look without `--fluid`,
-    /// `densities` the rest density of each fluid if the files have it.
+    /// Returns the settings of each fluid, that of the inputs first; empty without `--fluid`. `all` is the look of
+    /// the inputs, which each `--fluid` modifies; `densities` are the rest densities of the fluids, if the files have
+    /// them.
     pub fn settings(&self, all: &Settings, densities: &[Option<f32>]) -> Outcome<Vec<Settings>> {
         let rest = |fluid: usize| {
             let mut own = all.clone();
@@ -281,8 +284,8 @@ fn range(frames: &[Frame]) -> String {
     }
 }
 
-/// Reorders particles by indices. A particle whose index is missing in `order` is dropped, and one whose index is
-/// repeated is duplicated.
+/// Rearranges all arrays of the particles: place i gets the particle with the index `order[i]`. A particle whose
+/// index is missing in `order` is dropped, and one whose index is repeated is duplicated.
 pub fn reorder(particles: &mut Particles, order: &[usize]) {
     fn of<T: Copy>(list: &mut Vec<T>, order: &[usize]) {
         *list = order.iter().map(|i| list[*i]).collect();
@@ -306,7 +309,8 @@ pub fn ranges(particles: &Particles, count: usize) -> Vec<Range<u32>> {
     (0..count).map(|fluid| at(fluid)..at(fluid + 1)).collect()
 }
 
-/// Range of the first fluid that has particles; `None` if there is only one fluid.
+/// Index range of the particles of the first fluid that has any, where `count` is the number of fluids; `None` if
+/// there is only one fluid or no particle.
 pub fn first(particles: &Particles, count: usize) -> Option<Range<u32>> {
     let several = if count < 2 { Vec::new() } else { ranges(particles, count) };
     several.into_iter().find(|range| !range.is_empty())
@@ -318,8 +322,9 @@ pub struct Liquids<'a> {
 }
 
 impl<'a> Liquids<'a> {
-    /// The liquid `one`, or the liquids of `several` with the ranges of their particles. All get the times of foam
-    /// and waves from `one`.
+    /// The liquids to draw: if `several` has fewer than two settings, all particles with the settings `one`;
+    /// otherwise each of `several` with the range of its particles. All get the animation times of foam and waves
+    /// from `one`.
     pub fn new(one: &'a Settings, several: &[Settings], particles: &Particles) -> Self {
         if several.len() < 2 {
             let all = 0..particles.positions.len() as u32;
@@ -337,8 +342,9 @@ impl<'a> Liquids<'a> {
         if all.is_empty() { Self { all: vec![(Cow::Borrowed(one), 0..0)] } } else { Self { all } }
     }
 
-    /// Draws a frame. With several liquids it returns the combined picture, while the layers (depth, thickness and so
-    /// on) on the device are those of the first liquid.
+    /// Draws a frame. With one liquid the picture stays on the device, and `None` is returned. With several liquids
+    /// the combined picture is returned, while the layers (depth, thickness and so on) on the device are those of the
+    /// first liquid.
     pub fn draw(
         &self,
         headless: &mut Headless,

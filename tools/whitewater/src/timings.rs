@@ -26,8 +26,8 @@ struct Record {
     adapter: String,
     driver: String,
     steps: Vec<Step>,
-    /// For each frame: its number, the start of its submission (microseconds since the measurements began), and its
-    /// passes.
+    /// For each frame: its number, the start of the step of this program that submitted it (microseconds since the
+    /// measurements began), and its passes on the GPU.
     frames: Vec<(u64, f64, Vec<Timing>)>,
 }
 
@@ -75,8 +75,8 @@ impl Times {
         self.record().began.elapsed().as_secs_f64() * 1.0e6
     }
 
-    /// Records the passes of a frame or of a simulation step. They start with the step of the program that was
-    /// recorded last.
+    /// Records the measured GPU passes of a frame or of a simulation step. Their common start is taken as that of the
+    /// step of this program that was recorded last.
     pub fn passes(&self, frame: u64, passes: Vec<Timing>) {
         if passes.is_empty() {
             return;

@@ -1,4 +1,5 @@
-//! Draws the sky: one triangle at the far plane; below the horizon the sea.
+//! Draws the sky, and below the horizon the sea if the scene has one: one triangle at the far plane, behind all
+//! meshes.
 //! Reads: environment, irradiance, uniforms.
 
 use ash::vk;

@@ -6,7 +6,8 @@ use whitewater::water::{Convolution, Shadows, Splat};
 
 use super::Drawn;
 
-/// Minimum bytes of a pass, by the name of its shader; `None` for a pass that is not listed here.
+/// Minimum number of bytes that a pass has to read and write in memory for the frame `drawn`; `None` for a pass that
+/// is not listed here.
 pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
     let pixels = |level: u32| {
         let size = |n: u32| u64::from(n.div_ceil(1 << level));

@@ -11,7 +11,7 @@ use crate::shore::ShoreScene;
 use crate::shore::strip::{self, Reach};
 use crate::shore::terrain::{self, Patch, number};
 
-/// Camera position in metres at scale 1: the picture shows nothing but sea and islands.
+/// Camera position in metres at scale 1, chosen so that the picture shows nothing but sea and islands.
 const EYE: Vec3 = Vec3::new(0.0, 46.0, 62.0);
 const TARGET: Vec3 = Vec3::new(0.0, 0.0, -22.0);
 const FOV: f32 = 36.0;
@@ -65,8 +65,9 @@ fn camera(scale: f32) -> CameraFile {
     }
 }
 
-/// Scale of islands and camera distance at which water within `reach` of a shore fills the share `cover` of the
-/// picture.
+/// Finds by bisection the factor of all lengths, of the islands and of the camera position, at which water within
+/// `reach` (metres) of a shore fills the share `cover` of a picture of `size` pixels. An error if `cover` is more
+/// than the share of water.
 fn scale(islands: &[(Vec2, f32)], size: (u32, u32), cover: f64, reach: f32) -> Outcome<f32> {
     /// Number of rays along x and along y.
     const RAYS: usize = 256;

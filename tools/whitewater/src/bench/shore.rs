@@ -24,7 +24,7 @@ use crate::settings::SettingsFile;
 use crate::settings::shore::By;
 use crate::shore::{ShoreScene, Shores, Which, changed, scene_of};
 
-/// Time of the drawn frame in seconds, so that moving objects are under way.
+/// Time in seconds at which shoreline and contact foam are drawn, so that they have moved from their state at time 0.
 const TIME: f64 = 5.0;
 const SIZE: (u32, u32) = (1280, 720);
 /// Default of `--cover`.
@@ -167,12 +167,14 @@ struct Setting {
     level: Option<f32>,
     /// Whether particles of water surround the objects.
     water: bool,
-    /// Bounds in x and z (min, max) of a part of the land that moves, or could move.
+    /// Bounds in x and z (min, max) of a part of the land that moves, or could move, for the measurement of an update
+    /// of the distance map in one part; `None` if there is none.
     part: Option<[[f32; 2]; 2]>,
     exposure: f32,
 }
 
-/// The scene as a path draws it; `None` if the path does not apply to it.
+/// Makes the scene, camera and settings of a combination (`case`) of scenery and drawing path; `None` if the path
+/// does not apply to the scenery.
 fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option<Setting>> {
     let Case { scenery, cover, extent, path } = case;
     let size = (extent.width, extent.height);
@@ -490,8 +492,9 @@ fn covered(headless: &mut Headless, setting: &Setting) -> Outcome<Option<f64>> {
     band(&headless.scene_depth()?, &setting.camera, level, &line).map(Some)
 }
 
-/// Times of updates of the distance map to the shore: of the whole map ("map"), without a change in it ("map again"),
-/// and after a change in one part ("map in part").
+/// Measures GPU times in milliseconds of updates of the map of distances to the shore: of the whole map ("map"),
+/// without a change in it ("map again"), and after a change in one part ("map in part"). Empty if the foam uses no
+/// map.
 fn maps(
     headless: &mut Headless,
     args: &BenchArgs,
