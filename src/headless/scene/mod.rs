@@ -44,13 +44,15 @@ pub struct Scene {
     /// is visible there. They cast no shadow on [`meshes`](Self::meshes) or water and reflect no light to them.
     /// [`bounds`](Self::bounds), shadow map and ground ignore them. They are static.
     pub backdrop: Vec<Mesh>,
-    /// Distance over which air reduces the contrast of [`ground`](Self::ground) and
-    /// [`backdrop`](Self::backdrop) to 1/e, towards the environment's colour at the horizon. World units, (0,
-    /// ∞). `None`, the default: clear air. Meshes are always in clear air.
+    /// Distance over which air reduces the contrast of [`ground`](Self::ground), [`backdrop`](Self::backdrop) and
+    /// [`sea`](Self::sea) to 1/e, towards the environment's colour at the horizon; in a scene with a sea of water,
+    /// that of green, while red fades less and blue more. World units, (0, ∞). `None`, the default: clear air. Meshes
+    /// are always in clear air.
     pub haze: Option<f32>,
     /// Strength, [0, 1], default 0, of three additions to the visible sky: thin high clouds, a bright band of haze
-    /// over the horizon, and bluer air above that band. The [`sea`](Self::sea) reflects the band. Reflections in the
-    /// particles' water and the lighting ignore all three.
+    /// over the horizon, and bluer air above that band. The [`sea`](Self::sea) reflects all three (the clouds as
+    /// their mean opacity), meshes only the band. The clouds light meshes a little and soften the sun's shadows on
+    /// them. Reflections in the particles' water and its lighting ignore all three.
     pub clouds: f32,
     /// Rectangle, `[[min x, min z], [max x, max z]]`, of a basin whose water has splashed: stone and paving round
     /// it are damp in patches. `None`, the default: all is dry.

@@ -206,7 +206,7 @@ impl Part {
 }
 
 /// Position of each frame in the JSON text, so that one frame can be read alone. `None` if there is a single frame,
-/// or if a frame has more than [`ARRAYS`] arrays.
+/// or if a frame has more than `ARRAYS` arrays.
 pub(super) fn parts(value: &Value, text: &[u8]) -> Option<Vec<Part>> {
     let named = || {
         let name = |(name, part): (Range<usize>, _)| {
