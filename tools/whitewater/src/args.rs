@@ -361,10 +361,9 @@ pub struct DrawArgs {
     /// 'auto' needs velocities. Foam forms where the water traps air, that is, where neighbouring particles move
     /// towards each other, and in sequences also where it is fast: on at most 5 % of the particles of the up to 16
     /// frames that are read to find the threshold, and on none in water that rests, flows or falls as a whole or is
-    /// slower than 1 m/s. If
-    /// particles have ids, at most 30 % of the particles of such a frame carry foam at a time. A number for WHEN is
-    /// the threshold of the Weber number that each particle's own speed gives. If particles have ids, foam forms and
-    /// decays over time; earlier frames are read for that.
+    /// slower than 1 m/s. If particles have ids, at most 30 % of the particles of such a frame carry foam at a time. A
+    /// number for WHEN is the threshold of the Weber number that each particle's own speed gives. If particles have
+    /// ids, foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,
     /// The former name of --surface-foam
