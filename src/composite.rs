@@ -1,9 +1,10 @@
 //! Pass `composite`: combines the layers of all techniques and writes the output. (The only other pass that writes it
 //! is `lit`.)
 //!
-//! Pass `composite` shades only the screen tiles with water, foam, spray, whitewater particles or bubble foam, and in
-//! them only pixels that show one of these. Two paths shade alike: a render pass that draws one instance per tile,
-//! and a compute shader that stores to the output. The shading follows the thesis, Sec. 3.2.3 and 4.9;
+//! Pass `composite` first draws the foam on the host's own water surface, in the tiles that may have it
+//! (glsl/shore/coat.*). Then it shades the screen tiles with water, foam, spray, whitewater particles or bubble foam,
+//! and in them only pixels that show one of these. Two paths shade alike: a render pass that draws one instance per
+//! tile, and a compute shader that stores to the output. The shading follows the thesis, Sec. 3.2.3 and 4.9;
 //! glsl/include/shade.glsl states the differences.
 
 use ash::vk;

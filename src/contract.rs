@@ -737,7 +737,8 @@ pub struct Shore {
     /// size and is only sampled. With `None` the foam texture, tiled over the world, takes its place.
     pub mask: Option<HostImage>,
     /// Depth bias in scene units, [0, 1000], default 0: scene geometry that lies at most this far in front of the
-    /// water's surface is treated as behind it. Increase it if the scene's depth contains the water's surface.
+    /// water's surface is treated as behind it, so it does not hide shoreline and contact foam. Increase it if the
+    /// scene's depth contains the water's surface.
     pub bias: f32,
 }
 

@@ -60,7 +60,8 @@ pub struct Renderer {
     retired: RetireList,
     /// False after a resize failed half-way.
     whole: bool,
-    /// Whether the set-up was recorded, which fills the resources that are read before they are written.
+    /// Whether the host has called `record_setup`, which fills resources that are read before they are written. Frames
+    /// are refused before.
     set_up: bool,
     /// Whether an environment was recorded after it.
     surrounded: bool,

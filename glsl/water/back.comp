@@ -53,7 +53,7 @@ ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     ivec2 most = ivec2(frame.extent.xy) - 1;
     ivec4 touched = ivec4(min(box.xy * edge + (edge >> 1), most), min(box.zw * edge + (edge >> 1), most)) >> BLOCK_BITS;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two nested loops, because lavapipe 22.3 loses the result of a `do`-`while` loop that has only one iteration.
+    // Two nested loops: a single `do`-`while` loop that runs only once would lose `part` with lavapipe 22.3.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-body.sphere.z >= blocks[y * columns + x]) {

@@ -56,8 +56,8 @@ float units(float radius) {
     return UNITS * grown * grown;
 }
 
-// Returns the sprite of particle `index` at the particle's full size. The thickness that it adds is scaled by the
-// fraction of the particle that is water.
+// Returns the sprite of particle `index`, in the size that it has without foam. The thickness that it adds is scaled
+// by the fraction of the particle that is water.
 Sprite sprite_of(uint index) {
     Ellipsoid body = ellipsoid_in(visible, index);
     float water = FOAM == 1u ? shares[index] : 1.0;
@@ -146,7 +146,7 @@ ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of a block's texels
     ivec4 touched = box >> bits;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two nested loops, because lavapipe 22.3 loses the result of a `do`-`while` loop that has only one iteration.
+    // Two nested loops: a single `do`-`while` loop that runs only once would lose `part` with lavapipe 22.3.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-sprite.centre.z < blocks[y * columns + x] + frame.particle.y) {

@@ -145,8 +145,8 @@ void main() {
         }
     }
     vec2 parts = sum.z > 0.0 ? sum.xy / sum.z : vec2(0.0);
-    // The open direction: the sum of the vectors to the samples, each weighted by the mean occlusion of all minus its
-    // own.
+    // The open direction: the weighted sum of the vectors to the samples, each times the mean occlusion of all minus
+    // its own, plus a little of the direction to the eye.
     vec3 open = parts.y * whole - dark + vec3(0.0, 0.0, max(TO_EYE * sum.z, 1.0e-6));
     float told = told_of(0.5 * with.w * frame.extent.y);
     vec3 facing = mix(mat3(frame.world) * normalize(open), with.xyz, told);

@@ -433,7 +433,8 @@ impl Medium {
     /// Pure water: absorption by Pope and Fry (Applied Optics 36, 1997, Table 3), scattering by Morel (1974, fresh
     /// water). Colourless in a glass, blue over ten metres.
     pub const CLEAR: Self = Self::turbid([0.264, 0.0565, 0.0101], [0.000_94, 0.001_47, 0.003_04]);
-    /// A pool: absorbs about four times as much as pure water, so that a metre is visibly blue-green. Chosen by eye.
+    /// A pool: absorbs four times as much red and green as pure water and eleven times as much blue, so that a metre is
+    /// visibly blue-green. Chosen by eye.
     pub const POOL: Self =
         Self::Physical { absorption: [1.1, 0.24, 0.11], scattering: [0.014, 0.03, 0.04] };
     /// A lake, green: 3 mg/m³ of chlorophyll, by the sources of [`OCEAN`](Self::OCEAN), and dissolved organic matter,

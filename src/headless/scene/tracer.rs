@@ -1,6 +1,6 @@
-//! Bakes indirect light by rays from each vertex: visibility of the sky, sunlight that has bounced once or
-//! twice off other surfaces, and the albedo of the surroundings. Deterministic: every vertex uses the same
-//! directions.
+//! Bakes indirect light by rays from each vertex: visibility of the sky, sunlight that has bounced once or twice off
+//! other surfaces, and the albedo of the surroundings. The backdrop gets one bounce only, and far away few rays or
+//! none. Deterministic: the directions are fixed, only turned to each vertex's normal.
 
 use std::collections::HashMap;
 

@@ -202,9 +202,9 @@ fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// Converts tables as pandas writes them. Returns the rows of a list of column names and a list of rows, or of rows
-/// whose values are keyed by column name. Columns whose values are keyed by row name become arrays in `map`, and
-/// `None` is returned.
+/// Converts tables as pandas writes them. Returns rows as objects if the table is a list of column names and a list of
+/// rows, or rows keyed by row name. Otherwise returns `None`; columns whose values are keyed by row name then have
+/// become arrays in `map`.
 fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> {
     if let (Some(Value::Array(names)), Some(Value::Array(_))) =
         (map.get("columns"), map.get("data"))

@@ -12,7 +12,7 @@ use crate::failure::{Failure, Outcome};
 use crate::fluids::Fluids;
 use crate::radii::{DIAMETERS, RADII, UNSURE};
 
-/// Names of attributes that distinguish phases, or walls from water.
+/// Names of attributes that distinguish several fluids (phases), or walls from water.
 const PHASES: [&str; 34] = [
     "type",
     "mk",
@@ -232,8 +232,8 @@ fn list(words: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// Attributes that distinguish phases: their names, their values, and the number of particles with
-/// each.
+/// Attributes with one of the names [`PHASES`] and at most [`MOST`] different values, all integers: their names, their
+/// values, and the number of particles with each.
 pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
     let phase = |extra: &&Extra| PHASES.iter().any(|name| same_name(&extra.name, name));
     let all = particles.extras.iter().filter(phase);

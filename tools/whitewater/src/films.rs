@@ -7,9 +7,9 @@ use crate::cells::Cells;
 
 /// Min number of neighbours of a particle in a film.
 const NEIGHBOURS: usize = 6;
-/// Max ratio of the smallest to the middle variance of the neighbours' positions. Flying sheets are rarely so flat:
-/// of the particles with 0.4 to 0.65 of the rest density, 2 % are below this ratio in a splash crown and in jets, and
-/// 64 % in a film that runs over a floor.
+/// In a film the ratio of the smallest to the middle variance of the neighbours' positions is below this. Flying sheets
+/// are rarely so flat: of the particles with 0.4 to 0.65 of the rest density, 2 % are below it in a splash crown and in
+/// jets, and 64 % in a film that runs over a floor.
 const FLAT: f32 = 0.02;
 /// Min ratio of the middle to the largest variance of the neighbours' positions; with a lower ratio the neighbours
 /// form a thread, not a film.

@@ -119,7 +119,7 @@ pub fn waves_of_caches(water: &mut WaterSettings, spacing: f32, bounds: &Bounds)
 /// blue.
 const SMALL: f32 = 2.0;
 /// Part of a pool's colour that comes from the water itself; the rest comes from blue tiles.
-const BLUE_TILES: f32 = 0.45;
+const OWN_BLUE: f32 = 0.45;
 /// Width in metres above which the water is clearer than nature, so that its ground is visible. Natural water of that
 /// depth is dark, and few solvers' units are metres.
 const LARGE: f32 = 10.0;
@@ -212,7 +212,7 @@ pub fn look(
         if wide < SMALL {
             settings.water.medium = Medium::CLEAR;
         } else if args.scene.is_none() && args.set.unwrap_or_default() == SetArg::Pool {
-            settings.water.medium = settings.water.medium.thinned(BLUE_TILES);
+            settings.water.medium = settings.water.medium.thinned(OWN_BLUE);
         }
         if wide > LARGE && file.water.medium.is_none() {
             settings.water.medium = settings.water.medium.thinned(LARGE / wide);

@@ -314,7 +314,8 @@ impl<F> Target<F> {
     }
 }
 
-/// Splits a name at its only `%d` or `%04d`: the text before, the width, the text after.
+/// Splits a name at its only `%d` or `%0Nd` (N at most 20): the text before, the width (0 for `%d`), the text after.
+/// `None` for any other use of `%`, or none.
 fn number_field(name: &str) -> Option<(&str, usize, &str)> {
     let (before, rest) = name.split_once('%')?;
     let (spec, after) = rest.split_once('d')?;

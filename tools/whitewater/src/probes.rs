@@ -77,8 +77,8 @@ impl Probes {
     }
 
     /// A message about what missing attributes mean for foam: if no probed frame has velocities (those that were
-    /// found from the positions count), or if the files have velocities but no ids. The caller asks for it only if
-    /// foam is wanted.
+    /// found from the positions count), or if several files have velocities of their own but no ids. The caller asks
+    /// for it only if foam is wanted.
     pub fn missing(&self, files: usize) -> Option<String> {
         let velocities = self.frames.iter().any(|frame| frame.velocities.is_some());
         let Has { velocities: own, ids, .. } = self.own;

@@ -55,8 +55,8 @@ pub struct Reader<'a> {
     last: Option<Known>,
     /// Whether any velocities were estimated.
     pub found_velocities: bool,
-    /// The attributes (velocities, ids, densities) that some frame of the sequence has. A frame that lacks one of
-    /// them gets a warning.
+    /// The attributes (velocities, ids, densities) that some of the probed frames have, at most 16 of the sequence. A
+    /// frame that lacks one of them gets a warning.
     pub expected: Has,
     /// Attributes of the frames read so far.
     pub seen: Has,
