@@ -1,4 +1,5 @@
-// Spray as droplets around a particle (thesis Sec. 4.9.5 draws one sprite per particle). Needs frame.glsl, density.glsl.
+// Spray as droplets around a particle (thesis Sec. 4.9.5 draws one sprite per particle).
+// Needs frame.glsl, density.glsl.
 
 struct SpraySprite {
     vec4 centre;   // eye-space position; fraction of the particle that is spray

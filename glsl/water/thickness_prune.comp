@@ -22,10 +22,10 @@ void main() {
     }
     uint at = uint(p.y) * uint(frame.thick_extent.x) + uint(p.x);
     vec4 blended = imageLoad(sheets, p);
-    // A thickness of water that the fixed point of the compute path would round to zero does not count as water on
-    // this raster path either.
-    float step = frame.particle.w / UNITS;
-    vec2 sums = mix(blended.xy, vec2(0.0), lessThan(blended.xy, vec2(0.5 * step)));
+    // Less than half a fixed-point step counts as no water. The compute path rounds each sprite, so its sums can differ
+    // from these by a few steps.
+    float unit = frame.particle.w / UNITS;
+    vec2 sums = mix(blended.xy, vec2(0.0), lessThan(blended.xy, vec2(0.5 * unit)));
     float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(p) + 0.5) * frame.thick_extent.z), 0).x);
     float found = boundaries[at];
     bool two = keeps_boundary(found, sums.x, sums.y, scene);

@@ -121,9 +121,10 @@ impl Thickness {
                     config,
                 )?;
                 let framebuffer = Self::framebuffer(gpu, pass, &image, sheets.as_ref())?;
-                let prune = shader::WATER_THICKNESS_PRUNE_COMP;
-                let prune = sheets.as_ref().map(|_| Pipeline::compute(gpu, prune, &[]));
-                Path::Raster { points, quads, pass, framebuffer, prune: prune.transpose()? }
+                let prune = (config.sheets > 1)
+                    .then(|| Pipeline::compute(gpu, shader::WATER_THICKNESS_PRUNE_COMP, &[]))
+                    .transpose()?;
+                Path::Raster { points, quads, pass, framebuffer, prune }
             }
             Splat::Compute => Path::Compute {
                 small: compute(shader::WATER_THICKNESS_COMP, 0, 0)?,
@@ -264,14 +265,14 @@ impl Thickness {
                 draw_sprites(r, list, points, quads, &[(7, foam), (11, boundaries)])?;
                 gpu.end_pass(cmd);
                 if let (Some(prune), Some(sheets), Some(gaps)) = (prune, &self.sheets, gaps) {
-                    let kept = gaps.boundaries.handle;
+                    let handle = gaps.boundaries.handle;
                     gpu.barriers(
                         cmd,
                         &[
                             access::image(&self.image, COLOR_ATTACHMENT, COMPUTE_SAMPLED),
                             access::image(sheets, COLOR_ATTACHMENT, COMPUTE_READ_WRITE),
                         ],
-                        &[buffer(kept, gaps::READ, COMPUTE_READ_WRITE)],
+                        &[buffer(handle, gaps::READ, COMPUTE_READ_WRITE)],
                     );
                     r.descriptors.bind(
                         gpu,
@@ -286,13 +287,15 @@ impl Thickness {
                         ],
                     )?;
                     r.dispatch_over(reduced(r.extent, self.level), prune.local_size);
+                    // The image is only read again; its barrier makes the next frame, which waits for fragment
+                    // shaders, wait for this dispatch too.
                     gpu.barriers(
                         cmd,
                         &[
                             access::image(&self.image, COMPUTE_SAMPLED, FRAGMENT_SAMPLED),
                             access::image(sheets, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED),
                         ],
-                        &[buffer(kept, COMPUTE_READ_WRITE, gaps::READ)],
+                        &[buffer(handle, COMPUTE_READ_WRITE, gaps::READ)],
                     );
                 } else {
                     gpu.barriers(cmd, &hand(COLOR_ATTACHMENT, FRAGMENT_SAMPLED), &[]);
@@ -335,8 +338,8 @@ impl Thickness {
                 )?;
                 r.dispatch_over(reduced(r.extent, self.level), resolve.local_size);
                 if let (Some(apart), Some(sheets), Some(gaps)) = (apart, &self.sheets, gaps) {
-                    let kept = gaps.boundaries.handle;
-                    gpu.barriers(cmd, &[], &[buffer(kept, gaps::READ, COMPUTE_READ_WRITE)]);
+                    let handle = gaps.boundaries.handle;
+                    gpu.barriers(cmd, &[], &[buffer(handle, gaps::READ, COMPUTE_READ_WRITE)]);
                     r.descriptors.bind(
                         gpu,
                         cmd,
@@ -350,7 +353,7 @@ impl Thickness {
                         ],
                     )?;
                     r.dispatch_over(reduced(r.extent, self.level), apart.resolve.local_size);
-                    gpu.barriers(cmd, &[], &[buffer(kept, COMPUTE_READ_WRITE, gaps::READ)]);
+                    gpu.barriers(cmd, &[], &[buffer(handle, COMPUTE_READ_WRITE, gaps::READ)]);
                 }
                 gpu.barriers(cmd, &hand(COMPUTE_WRITE, FRAGMENT_SAMPLED), &[]);
             }

@@ -519,12 +519,12 @@ fn large_droplets_reach_into_the_picture() {
     let size = extent(120, 90);
     let mut rig = Rig::new(&gpu, &spraying(size));
     let (spacing, depth) = (0.4, 2.0);
-    // The mean half-axis of a droplet, and the left plane of the view. A droplet with a half-axis
-    // of half its depth is not drawn.
+    // The mean half-axis of a droplet, and the angle to the left plane of the view. The largest
+    // half-axis is less than half of the depth, because larger droplets would not be drawn.
     let mean = 3.0 * 0.656 * spacing / (0.6 * 0.513 * 64.0_f32).sqrt();
     let edge = (30.0_f32.to_radians().tan() * 120.0 / 90.0).atan();
     let beside = |i: u16| {
-        // From the distance of 1.5 over the root of 0.3 to nearly the largest half-axis.
+        // From 2.8 mean half-axes to nearly the largest half-axis, (0.2 + 2.135) / √0.3 = 4.26.
         let (row, away) = (f32::from(i % 10), 2.8 + 0.1 * f32::from(i / 10));
         [-depth * edge.tan() - mean * away / edge.cos(), 0.2 * (row - 4.5), depth]
     };

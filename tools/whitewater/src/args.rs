@@ -296,8 +296,9 @@ pub struct DrawArgs {
     /// scattering, {absorption = [r, g, b], scattering = [r, g, b]} for single scattering. Keys of [surface_foam]
     /// also set which water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach
     /// a particle (default), or 'speed', the particle's own (default with --look thesis, and if threshold, air or a
-    /// number for --surface-foam is given). With 'air', turbulence times the particle's own speed counts too (default
-    /// 0.12 in sequences, 0 in single frames). weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
+    /// number for --surface-foam is given). With 'air' the speed is √(a² + e²): a is that of the approach, e is
+    /// turbulence (0 to 1, default 0.12 in sequences, 0 in single frames) times the particle's speed relative to the
+    /// frame's mean velocity. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
     /// (as --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units
     /// per second, y up); seed = 0.
     #[arg(long, value_name = "FILE")]
@@ -360,9 +361,9 @@ pub struct DrawArgs {
     ///
     /// 'auto' needs velocities. Foam forms where the water traps air, that is, where neighbouring particles move
     /// towards each other, and in sequences also where it is fast: on at most 5 % of the particles of the up to 16
-    /// frames that are read to find the threshold, and on none in water that rests, flows or falls as a whole or is
-    /// slower than 1 m/s. If particles have ids, at most 30 % of the particles of such a frame carry foam at a time. A
-    /// number for WHEN is the threshold of the Weber number that each particle's own speed gives. If particles have
+    /// frames that are read to find the threshold. Water that rests, flows or falls as a whole does not foam, and none
+    /// does if in each of these frames nearly all water moves within 1 m/s of the median velocity. If particles have
+    /// ids, at most 30 % of the particles of such a frame carry foam at a time. A number for WHEN is the threshold of the Weber number that each particle's own speed gives. If particles have
     /// ids, foam forms and decays over time; earlier frames are read for that.
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub surface_foam: Option<Foaming>,
@@ -376,7 +377,7 @@ pub struct DrawArgs {
     /// of table [spray] set the limits. few_neighbours = [FEW, MANY] [default: 3, 7.5]: if the sum of the neighbours'
     /// weights is at most FEW, the particle is spray; from MANY on its density alone decides. all_spray_density,
     /// full_water_density and no_spray_density are the limits of density, as fractions of the rest density [default:
-    /// 0.44, 0.66, 0.7]. With 'none' these particles are drawn as drops of water.
+    /// 0.44, 0.6, 0.63]. With 'none' these particles are drawn as drops of water.
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Surface noise of the baseline (van der Laan et al. 2009), for comparison: none, surface (normals), or

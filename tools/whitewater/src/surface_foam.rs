@@ -19,10 +19,10 @@ const MOST: f64 = 0.3;
 /// water has after this fall. Particles of calm water tremble at half that speed, so that water at rest, and water
 /// that flows or falls as a whole, stays clear.
 const FALL: f32 = 0.125;
-/// Default of [`SurfaceFoamTable::turbulence`] in sequences: the speed of the eddies that particles do not resolve, divided
-/// by the speed of the water relative to the frame's mean velocity. For jets from nozzles this ratio is 0.003 to 0.08
-/// (Ervine et al. 1980); the value here is chosen by eye: a free jet is glassy at its mouth, and whiter the faster it
-/// falls. In single frames the default is 0, because otherwise the front of a smooth surge would be white.
+/// Default of [`SurfaceFoamTable::turbulence`] in sequences: the speed of the eddies that particles do not resolve,
+/// divided by the speed of the water relative to the frame's mean velocity. For jets from nozzles this ratio is 0.003
+/// to 0.08 (Ervine et al. 1980); the value here is chosen by eye: a free jet is glassy at its mouth, and whiter the
+/// faster it falls. In single frames the default is 0, because otherwise the front of a smooth surge would be white.
 pub const TURBULENCE: f32 = 0.12;
 /// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
@@ -50,27 +50,31 @@ pub fn settings(
 ) -> Option<WeberSettings> {
     let spacing = settings.water.spacing;
     let mut foam = table.formation(&settings.water);
-    let mut floor = 0.0;
-    if wanted == Foaming::Auto && table.threshold.is_none() {
-        let flows: Vec<_> = frames.iter().filter_map(Flow::of).collect();
-        if flows.iter().all(|flow| flow.fast < ONSET) {
-            return None;
-        }
-        // Water that moves with the surrounding water does not foam, however fast both are.
-        let flow = Flow::together(&flows);
-        if table.air.is_none() && flow.mean.length() > UNIFORM * flow.deviation {
-            foam.air = flow.mean.to_array();
-        }
-        floor = foam.scale * foam.rest_density * ONSET * ONSET;
+    let flows: Vec<_> = frames.iter().filter_map(Flow::of).collect();
+    let found = wanted == Foaming::Auto && table.threshold.is_none();
+    if found && flows.iter().all(|flow| flow.fast < ONSET) {
+        return None;
     }
-    let mut driven = Vec::new();
-    if by == FoamBy::Air {
-        // The speed is relative to neighbours, so the wind does not matter.
-        foam.air = [0.0; 3];
-        floor = foam.scale * foam.rest_density * 2.0 * GRAVITY * FALL * spacing;
-        let turbulence = table.turbulence.unwrap_or(0.0);
-        driven = frames.iter().map(|frame| self::driven(frame, spacing, turbulence)).collect();
-    }
+    let number = |squared: f32| foam.scale * foam.rest_density * squared;
+    let (driven, floor): (Vec<Particles>, _) = match by {
+        FoamBy::Speed if found => {
+            // Water that moves with the surrounding water does not foam, however fast both are.
+            let flow = Flow::together(&flows);
+            let floor = number(ONSET * ONSET);
+            if table.air.is_none() && flow.median.length() > UNIFORM * flow.deviation {
+                foam.air = flow.median.to_array();
+            }
+            (Vec::new(), floor)
+        }
+        FoamBy::Speed => (Vec::new(), 0.0),
+        FoamBy::Air => {
+            let floor = number(2.0 * GRAVITY * FALL * spacing);
+            // The speed is relative to neighbours or the mean velocity, so the wind does not matter.
+            foam.air = [0.0; 3];
+            let turbulence = table.turbulence.unwrap_or(0.0);
+            (frames.iter().map(|frame| driven(frame, spacing, turbulence)).collect(), floor)
+        }
+    };
     let frames = if by == FoamBy::Air { &driven } else { frames };
     let wanted = match (wanted, table.threshold) {
         (Foaming::Auto, Some(threshold)) => Foaming::From(threshold),
@@ -102,8 +106,8 @@ pub fn settings(
 /// Motion of the water in a frame.
 #[derive(Clone, Copy, Debug)]
 struct Flow {
-    mean: Vec3,
-    /// Distance of the particles' velocities from `mean`: its median, and as `fast` its quantile at 1 - [`STIRRED`].
+    median: Vec3,
+    /// Distance of the particles' velocities from `median`: its median, and as `fast` its quantile at 1 - [`STIRRED`].
     deviation: f32,
     fast: f32,
 }
@@ -114,19 +118,19 @@ impl Flow {
         let velocities: Vec<Vec3> = velocities.filter(|v| v.is_finite()).collect();
         // The median of each component, which a few stray particles do not change.
         let middle = |axis: usize| quantile(velocities.iter().map(|v| v[axis]).collect(), 0.5);
-        let mean = Vec3::new(middle(0)?, middle(1)?, middle(2)?);
-        let off: Vec<f32> = velocities.iter().map(|v| v.distance(mean)).collect();
+        let median = Vec3::new(middle(0)?, middle(1)?, middle(2)?);
+        let off: Vec<f32> = velocities.iter().map(|v| v.distance(median)).collect();
         let fast = quantile(off.clone(), 1.0 - STIRRED)?;
-        Some(Self { mean, deviation: quantile(off, 0.5)?, fast })
+        Some(Self { median, deviation: quantile(off, 0.5)?, fast })
     }
 
     /// Combines frames; each may flow in another direction.
     fn together(flows: &[Self]) -> Self {
         let share = (flows.len().max(1) as f32).recip();
-        let mean = flows.iter().map(|flow| flow.mean * share).sum();
-        let off = |flow: &Self| flow.deviation.max(flow.mean.distance(mean));
+        let median = flows.iter().map(|flow| flow.median * share).sum();
+        let off = |flow: &Self| flow.deviation.max(flow.median.distance(median));
         let deviation = flows.iter().map(off).fold(0.0, f32::max);
-        Self { mean, deviation, fast: flows.iter().map(|flow| flow.fast).fold(0.0, f32::max) }
+        Self { median, deviation, fast: flows.iter().map(|flow| flow.fast).fold(0.0, f32::max) }
     }
 }
 

@@ -92,6 +92,10 @@ impl SettingsFile {
         if let Some(name) = args.medium {
             water.medium = Some(water::MediumTable::Named(name));
         }
+        if let Some(other) = file.surface_foam.turbulence.filter(|t| !(0.0..=1.0).contains(t)) {
+            let why = format!("[surface_foam] turbulence: expected 0 to 1, found {other}");
+            return Err(Failure::input(why));
+        }
         Ok(Self { look: args.look.or(file.look), water, ..file })
     }
 

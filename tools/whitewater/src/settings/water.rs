@@ -262,8 +262,8 @@ table! {
         /// This key and the following ones are not part of the look; they set which water foams. `by` selects the
         /// speed in the Weber number.
         by: FoamBy,
-        /// Speed of the eddies that particles do not resolve, relative to the water's speed. It adds to the speed at
-        /// which neighbours approach.
+        /// Speed of the eddies that particles do not resolve, divided by the particle's speed relative to the frame's
+        /// mean velocity, 0 to 1; only with `by` of air. Default 0.12 in sequences, 0 in single frames.
         turbulence: f32,
         /// Unit of the Weber number.
         weber: Weber,
@@ -324,7 +324,7 @@ impl SurfaceFoamTable {
     }
 
     /// Returns the complete table: the look from `look`; threshold, lifetime, air and seed from `found` or, without
-    /// it, from this table; `by` and `weber` from this table. What the table lacks is the default.
+    /// it, from this table; `by`, `turbulence` and `weber` from this table. What the table lacks is the default.
     pub fn all(&self, look: &SurfaceFoamSettings, found: Option<&WeberSettings>) -> Self {
         let said = self.formation(&WaterSettings::default());
         // The other values are found, or follow from the spacing.

@@ -85,6 +85,37 @@ fn parts_of_a_sequence_fit_together() {
     folder.run("render f_*.ply -o c.png --frames 5-3").fails(2, &["5-3"]);
 }
 
+/// A fast jet beside water at rest, where no neighbours approach each other: it foams in a sequence,
+/// and not in a single frame.
+#[test]
+fn fast_jets_foam_in_sequences() {
+    let folder = Folder::new();
+    for frame in 1..=2 {
+        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
+        for i in 0..1000_u16 {
+            let [x, y, z] = [i % 10, i / 10 % 10, i / 100].map(|i| 0.05 * f32::from(i));
+            let (aside, fall) = if i < 980 { (0.0, 0.0) } else { (2.0, -9.0) };
+            rows += &format!("{},{y},{z},0,{fall},0,{i}\n", x + aside);
+        }
+        folder.text(&format!("f_{frame}.csv"), &rows);
+    }
+    let run = |what: &str| {
+        folder.run(&format!("render {what} {SMALL} --fps 4 --overwrite")).ok().stderr()
+    };
+    let said = run("f_*.csv -o a_%d.png");
+    assert!(said.contains("surface foam from Weber number of trapped air"), "{said}");
+    let said = run("f_1.csv -o a.png");
+    assert!(said.contains("no foam: the water is calm"), "{said}");
+    folder.text("still.toml", "[surface_foam]\nturbulence = 0.0\n");
+    let said = run("f_*.csv -o a_%d.png --settings still.toml");
+    assert!(!said.contains("surface foam from"), "{said}");
+    folder.text("wild.toml", "[surface_foam]\nturbulence = 5.0\n");
+    let wild = "-o a.png --settings wild.toml --overwrite";
+    let why = "[surface_foam] turbulence: expected 0 to 1, found 5";
+    folder.run(&format!("render f_1.csv {SMALL} {wild}")).fails(3, &[why]);
+    folder.run(&format!("demo --size 32x18 {wild}")).fails(3, &[why]);
+}
+
 /// Water that is fast from the second frame on: foam needs time to form, and stays when the water is slow again. The
 /// frames that are drawn make no difference to it.
 #[test]
