@@ -297,7 +297,7 @@ pub struct DrawArgs {
     /// also set which water foams. by is the speed in the Weber number: 'air', the speed at which neighbours approach
     /// a particle (default), or 'speed', the particle's own (default with --look thesis, and if threshold, air or a
     /// number for --surface-foam is given). With 'air' the speed is √(a² + e²): a is that of the approach, e is
-    /// turbulence (0 to 1, default 0.12 in sequences, 0 in single frames) times the particle's speed relative to the
+    /// turbulence (0 to 1, default 0.17 in sequences, 0 in single frames) times the particle's speed relative to the
     /// frame's mean velocity. weber = 'full' (SI units) or 'reduced' (per spacing, default); threshold
     /// (as --surface-foam); lifetime = 1.0 (mean seconds until foam has decayed); air = [0, 0, 0] (wind, scene units
     /// per second, y up); seed = 0.
@@ -374,7 +374,7 @@ pub struct DrawArgs {
     /// particles]
     ///
     /// Whether a particle is spray depends on its density (from the files, or estimated) and on its neighbours. Keys
-    /// of table [spray] set the limits. few_neighbours = [FEW, MANY] [default: 3, 7.5]: if the sum of the neighbours'
+    /// of table [spray] set the limits. few_neighbours = [FEW, MANY] [default: 3.5, 9]: if the sum of the neighbours'
     /// weights is at most FEW, the particle is spray; from MANY on its density alone decides. all_spray_density,
     /// full_water_density and no_spray_density are the limits of density, as fractions of the rest density [default:
     /// 0.44, 0.6, 0.63]. With 'none' these particles are drawn as drops of water.

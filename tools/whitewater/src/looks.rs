@@ -60,7 +60,7 @@ pub const LONE: f32 = 0.35;
 /// their motion, by their differences in speed over a third of the time of a fall through a spacing. Mist comes from
 /// fast water: its share grows with the Weber number, the square of the speed, up to 6 m/s.
 pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
-    let mist = 0.5 * (speed / 6.0).min(1.0).powi(2);
+    let mist = 0.65 * (speed / 6.0).min(1.0).powi(2);
     *spray = spray.with(|it| {
         [it.all_spray_density, it.full_water_density, it.no_spray_density] = SPRAY_DENSITIES;
         it.opacity = 0.95;
@@ -72,7 +72,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.mist_size = 2.0;
         it.mist_contrast = 2.0;
         it.strand_ratio = 6.0;
-        it.few_neighbours = [3.0, 7.5];
+        it.few_neighbours = [3.5, 9.0];
         it.exposure = 0.001;
         it.shade = 2.5 + 48.0 * mist;
         it.scattering = 0.6;

@@ -23,7 +23,7 @@ const FALL: f32 = 0.125;
 /// divided by the speed of the water relative to the frame's mean velocity. For jets from nozzles this ratio is 0.003
 /// to 0.08 (Ervine et al. 1980); the value here is chosen by eye: a free jet is glassy at its mouth, and whiter the
 /// faster it falls. In single frames the default is 0, because otherwise the front of a smooth surge would be white.
-pub const TURBULENCE: f32 = 0.12;
+pub const TURBULENCE: f32 = 0.17;
 /// Gravity, m/s².
 const GRAVITY: f32 = 9.81;
 /// Speed relative to its surroundings, m/s, from which water entrains air. A plunging jet does from 0.8 m/s (rough) to
