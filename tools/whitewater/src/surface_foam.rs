@@ -391,7 +391,7 @@ mod tests {
             Some(foams.collect::<Vec<_>>())
         };
         assert_eq!(of(9.0), Some((4000..4096).collect()), "all of the jet and nothing else");
-        assert_eq!(of(1.5), None);
+        assert_eq!(of(1.2), None);
     }
 
     /// Test of foam by speed: water that trembles weakly, flows as a whole or is slower than 1 m/s does not foam.
