@@ -9,6 +9,7 @@ use whitewater::headless::Whitewater;
 use whitewater::water::{Kernels, Splat, SpraySettings};
 
 use crate::reference::smoothstep;
+use crate::reference::spray::SIZES;
 use crate::shape::of_spray;
 use crate::support::device::Gpu;
 use crate::support::limits::{Claims, claim};
@@ -80,8 +81,9 @@ fn kept(name: &str, wanted: f64, sum: impl FnMut(f32) -> f64) {
     assert!(parts.iter().all(|part| (part - 1.0).abs() < LOSS), "{name}: {parts:.3?}");
 }
 
-/// Mean square of the droplets' sizes, which are 0.2 + 2.135 u⁶ with u uniform.
-const SQUARES: f64 = 0.04 + 0.4 * 2.135 / 7.0 + 2.135 * 2.135 / 13.0;
+/// Mean square of the droplets' sizes a + b u⁶ with u uniform.
+const SQUARES: f64 =
+    SIZES[0] * SIZES[0] + 2.0 * SIZES[0] * SIZES[1] / 7.0 + SIZES[1] * SIZES[1] / 13.0;
 /// Integral of a sprite's kernel over the unit disc, divided by pi.
 const KERNEL: f64 = 0.340_003;
 

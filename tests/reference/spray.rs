@@ -44,6 +44,8 @@ const FADE: f64 = 1.5;
 const TRIGONOMETRY: f64 = 1.0 / 2048.0;
 /// Mean square of the sizes of many droplets, times the mean fraction that is drawn.
 const SQUARES: f64 = 0.513 * 0.6;
+/// Half-axis of the smallest of many droplets, and how much larger the largest is.
+pub const SIZES: [f64; 2] = [0.2, 2.135];
 /// Fraction of the droplets and the mist of a particle that is only spray.
 const LEAST_TORN: f64 = 0.3;
 /// First of a particle's random numbers for its spindle.
@@ -248,7 +250,7 @@ impl Settings {
         let squares = if many { SQUARES * f64::from(self.droplets) } else { 1.0 };
         // Radius 2u, products 3u, root 9u, quotient 5u; the size has three products and a sum.
         let whole = off(self.size * RADIUS * self.spacing / squares.sqrt(), 19.0);
-        let size = if many { off(0.2 + 2.135 * u.powi(6), 9.0) } else { exact(1.0) };
+        let size = if many { off(SIZES[0] + SIZES[1] * u.powi(6), 9.0) } else { exact(1.0) };
         (size * whole, optical_depth(self.opacity))
     }
 }
@@ -1116,7 +1118,8 @@ mod tests {
             let e2 = e2 / e2.length();
             let mut e1 = normal.cross(e2);
             let many = if n > 1 { 0.6 * 0.513 * n as f32 } else { 1.0 };
-            let g = if n > 1 { (0.2 + 2.135 * u[3].powi(6)) / torn.sqrt() } else { 1.0 };
+            let [least, range] = SIZES.map(|size| size as f32);
+            let g = if n > 1 { (least + range * u[3].powi(6)) / torn.sqrt() } else { 1.0 };
             let mist = n > 1 && k == 0;
             let h = g * settings.size as f32 * 0.656 * s / many.sqrt();
             let [taken, wide] = settings.mist.map(|v| v as f32);

@@ -124,10 +124,12 @@ fn single_precision(shot: &Shot) -> Image<Cell> {
     }
     let airs = |depths: &Vec<f32>| {
         let nearest = depths.iter().copied().fold(f32::INFINITY, f32::min);
-        let slice = |z: f32| ((z - nearest) / (0.125 * s)).floor().clamp(0.0, 255.0) as usize;
-        let mut marks = [false; 256];
+        let [slice, reach] = [sheets::SLICE, sheets::REACH].map(|part| part as f32 * s);
+        let last = sheets::SLICES - 1;
+        let slice = |z: f32| ((z - nearest) / slice).floor().clamp(0.0, last as f32) as usize;
+        let mut marks = [false; sheets::SLICES];
         for z in depths {
-            marks[slice(z - 0.8 * s)..=slice(z + 0.8 * s)].fill(true);
+            marks[slice(z - reach)..=slice(z + reach)].fill(true);
         }
         let airs = sheets::airs_of(&marks);
         let spacing = f64::from(s);

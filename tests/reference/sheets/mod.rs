@@ -45,11 +45,11 @@ pub const TILE: usize = 16;
 /// Pixels by which the box of a projection is grown.
 pub const GROWN: f64 = 1.0 / 64.0;
 /// Depth before and behind its centre that a sphere marks, in spacings.
-const REACH: f64 = 0.8;
+pub const REACH: f64 = 0.8;
 /// Distance beside its box in which a sphere counts, in spacings; half a cell is subtracted.
 const BESIDE: f64 = 0.35;
 /// Depth of a slice, in spacings.
-const SLICE: f64 = 0.125;
+pub const SLICE: f64 = 0.125;
 /// Spheres with a radius below this, in spacings, are drops, which mark nothing: 0.6 drawn radii.
 const DROP: f64 = 0.6 * 0.656;
 /// Max number of air gaps of a cell.
