@@ -50,8 +50,8 @@ pub fn settings(
 ) -> Option<WeberSettings> {
     let spacing = settings.water.spacing;
     let mut foam = table.formation(&settings.water);
-    let flows: Vec<_> = frames.iter().filter_map(Flow::of).collect();
     let found = wanted == Foaming::Auto && table.threshold.is_none();
+    let flows: Vec<_> = frames.iter().filter(|_| found).filter_map(Flow::of).collect();
     if found && flows.iter().all(|flow| flow.fast < ONSET) {
         return None;
     }
@@ -144,7 +144,11 @@ pub fn drive(particles: &Particles, spacing: f32, turbulence: f32) -> Option<Vec
     let known = || velocities.iter().map(|v| Vec3::from(*v)).filter(|v| v.is_finite());
     let mean = known().map(|v| v.as_dvec3()).sum::<DVec3>() / known().count().max(1) as f64;
     let approach = air::trapped(&particles.positions, velocities, spacing);
-    let eddies = |v: &[f32; 3]| turbulence * (Vec3::from(*v) - mean.as_vec3()).length();
+    // As in `air::trapped`, particles with a non-finite velocity have 0.
+    let eddies = |v: &[f32; 3]| {
+        let relative = Vec3::from(*v) - mean.as_vec3();
+        if relative.is_finite() { turbulence * relative.length() } else { 0.0 }
+    };
     let each = approach.into_iter().zip(velocities);
     Some(each.map(|(speed, v)| [speed.hypot(eddies(v)), 0.0, 0.0]).collect())
 }
@@ -392,6 +396,10 @@ mod tests {
         };
         assert_eq!(of(9.0), Some((4000..4096).collect()), "all of the jet and nothing else");
         assert_eq!(of(1.2), None);
+        frame.velocities.as_mut().unwrap()[7] = [f32::NAN; 3];
+        let found = drive(&frame, look.water.spacing, TURBULENCE).unwrap();
+        assert_eq!(found[7], [0.0; 3], "a particle without a valid velocity");
+        assert!(found.iter().all(|[speed, ..]| speed.is_finite()));
     }
 
     /// Test of foam by speed: water that trembles weakly, flows as a whole or is slower than 1 m/s does not foam.
