@@ -265,28 +265,16 @@ impl Thickness {
                 draw_sprites(r, list, points, quads, &[(7, foam), (11, boundaries)])?;
                 gpu.end_pass(cmd);
                 if let (Some(prune), Some(sheets), Some(gaps)) = (prune, &self.sheets, gaps) {
-                    let handle = gaps.boundaries.handle;
                     gpu.barriers(
                         cmd,
                         &[
                             access::image(&self.image, COLOR_ATTACHMENT, COMPUTE_SAMPLED),
                             access::image(sheets, COLOR_ATTACHMENT, COMPUTE_READ_WRITE),
                         ],
-                        &[buffer(handle, gaps::READ, COMPUTE_READ_WRITE)],
+                        &[],
                     );
-                    r.descriptors.bind(
-                        gpu,
-                        cmd,
-                        prune,
-                        &[
-                            (0, r.uniforms),
-                            (2, Resource::storage(sheets)),
-                            (3, r.scene_depth),
-                            (4, Resource::Sampled(self.image.view, gpu.samplers.nearest)),
-                            (11, boundaries),
-                        ],
-                    )?;
-                    r.dispatch_over(reduced(r.extent, self.level), prune.local_size);
+                    let all = Resource::Sampled(self.image.view, gpu.samplers.nearest);
+                    self.finish_sheets(r, prune, sheets, gaps, (4, all))?;
                     // The image is only read again; its barrier makes the next frame, which waits for fragment
                     // shaders, wait for this dispatch too.
                     gpu.barriers(
@@ -295,7 +283,7 @@ impl Thickness {
                             access::image(&self.image, COMPUTE_SAMPLED, FRAGMENT_SAMPLED),
                             access::image(sheets, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED),
                         ],
-                        &[buffer(handle, COMPUTE_READ_WRITE, gaps::READ)],
+                        &[],
                     );
                 } else {
                     gpu.barriers(cmd, &hand(COLOR_ATTACHMENT, FRAGMENT_SAMPLED), &[]);
@@ -338,27 +326,38 @@ impl Thickness {
                 )?;
                 r.dispatch_over(reduced(r.extent, self.level), resolve.local_size);
                 if let (Some(apart), Some(sheets), Some(gaps)) = (apart, &self.sheets, gaps) {
-                    let handle = gaps.boundaries.handle;
-                    gpu.barriers(cmd, &[], &[buffer(handle, gaps::READ, COMPUTE_READ_WRITE)]);
-                    r.descriptors.bind(
-                        gpu,
-                        cmd,
-                        &apart.resolve,
-                        &[
-                            (0, r.uniforms),
-                            (1, Resource::buffer(sums)),
-                            (2, Resource::storage(sheets)),
-                            (3, r.scene_depth),
-                            (11, boundaries),
-                        ],
-                    )?;
-                    r.dispatch_over(reduced(r.extent, self.level), apart.resolve.local_size);
-                    gpu.barriers(cmd, &[], &[buffer(handle, COMPUTE_READ_WRITE, gaps::READ)]);
+                    let sums = (1, Resource::buffer(sums));
+                    self.finish_sheets(r, &apart.resolve, sheets, gaps, sums)?;
                 }
                 gpu.barriers(cmd, &hand(COMPUTE_WRITE, FRAGMENT_SAMPLED), &[]);
             }
         }
         r.end(scope);
+        Ok(())
+    }
+
+    /// Completes the thickness of each layer from `input`, a binding and what it reads, and removes the boundaries in
+    /// texels whose water is all of one layer.
+    fn finish_sheets(
+        &self,
+        r: &mut Recording<'_>,
+        pipeline: &Pipeline,
+        sheets: &Image,
+        gaps: &Gaps,
+        input: (u32, Resource),
+    ) -> Result<(), Error> {
+        let (gpu, cmd, boundaries) = (r.gpu, r.cmd, gaps.boundaries.handle);
+        gpu.barriers(cmd, &[], &[buffer(boundaries, gaps::READ, COMPUTE_READ_WRITE)]);
+        let bound = [
+            (0, r.uniforms),
+            (2, Resource::storage(sheets)),
+            (3, r.scene_depth),
+            (11, Resource::buffer(&gaps.boundaries)),
+            input,
+        ];
+        r.descriptors.bind(gpu, cmd, pipeline, &bound)?;
+        r.dispatch_over(reduced(r.extent, self.level), pipeline.local_size);
+        gpu.barriers(cmd, &[], &[buffer(boundaries, COMPUTE_READ_WRITE, gaps::READ)]);
         Ok(())
     }
 
