@@ -623,7 +623,7 @@ fn spray_cloud(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
 }
 
 fn spray_mist(spray: &SpraySettings) -> [f32; 4] {
-    [spray.mist_contrast, spray.shade, spray.scattering, spray.relief]
+    [spray.clumps, spray.shade, spray.scattering, spray.relief]
 }
 
 fn spray_color(spray: &SpraySettings, light: &Light) -> [f32; 4] {

@@ -4,7 +4,7 @@
 // ellipsoid that pass `shape` has fitted to the neighbours. The first droplet of a particle is mist, the projection
 // of that ellipsoid lengthened by its motion.
 // Reads: sprites, inputs of sunlight.glsl. Writes: the quad's corners, its optical depth and visibility of the sun, and
-// the scale of the noise in mist.
+// what the clumps in mist depend on.
 
 #include "frame.glsl"
 #include "random.glsl"
@@ -15,6 +15,9 @@
 #include "sunlight.glsl"
 #include "axes.glsl"
 #include "spray.glsl"
+#include "gradient_noise.glsl"
+#include "pattern.glsl"
+#include "clumps.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer Sprites { SpraySprite sprites[]; };
 
@@ -25,8 +28,8 @@ layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out vec2 amount; // optical depth at its centre; visibility of the sun
 layout(location = 5) flat out int aside;   // distance in pixels to water beside it
 layout(location = 6) flat out uint chance; // random bits
-layout(location = 7) flat out vec3 grain;  // cells of the mist's noise per half-axis; number of octaves
-layout(location = 8) flat out vec2 turn;   // cosine and sine from the noise's axes to the half-axes
+layout(location = 7) flat out vec3 drift;  // velocity in the world
+layout(location = 8) flat out vec4 source; // the particle's centre in the world; 1: clumps per pixel (mist)
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
@@ -46,8 +49,8 @@ const float ROUND = 1.0e-3;
 // A spray particle's mist fades in between these two sums of its neighbours' weights, so that two or three particles
 // alone are drops without mist.
 const vec2 CROWD = vec2(1.0, 6.0);
-// Maximum number of octaves of the mist's noise.
-const float OCTAVES = 5.0;
+// Number of octaves of the clumps at a droplet. Finer ones would change the droplets as noise does.
+const uint DROPLET_OCTAVES = 3u;
 // Distance at which water is looked up, in drawn radii.
 const float ASIDE = 1.5;
 
@@ -136,20 +139,21 @@ void main() {
     float crowd = smoothstep(CROWD.x, CROWD.y, uintBitsToFloat(sprite.shape.w));
     float thick = mist ? frame.spray_cloud.x * torn * torn * torn * crowd : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
+    drift = mat3(frame.world) * sprite.velocity.xyz;
+    bool clumpy = several && frame.spray_mist.x > 0.0;
+    source = vec4((frame.world * vec4(sprite.centre.xyz, 1.0)).xyz, mist && clumpy ? 1.0 : 0.0);
+    bool drawn = float(gl_InstanceIndex % droplets) < kept;
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
+    for (bool go = drawn && !mist && clumpy; go; go = false) {
+        vec3 point = (frame.world * vec4(centre, 1.0)).xyz;
+        amount.x *= clumps_at(point, source.xyz, drift, pixel, DROPLET_OCTAVES);
+    }
     // Visibility of the sun from a droplet. The three colour channels are averaged to one value, because around spray
     // there is more white foam than coloured water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     float direct = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
     amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z);
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
-    // Cells of the mist's noise are one drawn particle radius wide, and longer by the streak. The number of octaves
-    // is such that cells of the finest octave are at least a pixel wide.
-    vec2 cell = frame.particle.x + abs(vec2(dot(motion, e1), dot(motion, e2))) * frame.spray.w;
-    float octaves = frame.spray_mist.x > 0.0 ? clamp(log2(min(cell.x, cell.y) / pixel), 0.0, OCTAVES) : 0.0;
-    grain = vec3(axes / cell, mist ? octaves : 0.0);
-    // The noise in mist is lengthened along the particle's streak, but its axes stay those of the view, because the
-    // streak of a particle that hardly moves has a random direction that changes from frame to frame.
-    turn = vec2(dot(e1, level), dot(e1, upright));
     along = e1 / axes.x;
     across = e2 / axes.y;
 
@@ -157,7 +161,6 @@ void main() {
     // The quad is one pixel wider than the droplet's ellipse on each side, so that the snapping of vertices to the
     // rasteriser's grid does not cut the ellipse.
     vec3 at = centre + corner.x * e1 * (axes.x + pixel) + corner.y * e2 * (axes.y + pixel);
-    bool drawn = float(gl_InstanceIndex % droplets) < kept;
     bool whole = drawn && depth > 2.0 * (axes.x + pixel) && depth > frame.depth.z;
     vec2 place = (at.xy / -at.z - frame.slope.zw) / frame.slope.xy;
     // Moved off the screen if it comes too near.

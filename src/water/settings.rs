@@ -833,11 +833,14 @@ pub struct SpraySettings {
     pub mist: f32,
     /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
-    /// Strength of the streaks and clumps in the mist, [0, 2], default 0 = smooth. Octaves of noise, from a drawn
-    /// radius down to the pixel, are added to the natural logarithm of the mist's optical depth. This is the
-    /// amplitude of the fine octaves; the three coarsest have 1/4, 1/2 and 3/4 of it. The noise moves with the
-    /// particle. It changes the mean optical depth by at most 4 %.
-    pub mist_contrast: f32,
+    /// Strength of the clumps and strands of several droplets and their mist, [0, 3], default 0 = even. The natural
+    /// logarithm of the optical depth gets a gradient noise of five octaves in mist and three at droplets, each with
+    /// this amplitude (root mean square 0.27 of it), from cells of three spacings down to the pixel; it is at most 3.
+    /// Up to an amplitude of 2 the noise changes the mean optical depth by at most 2 %. Neighbours share the noise,
+    /// which moves with them and restarts with [`SurfaceFoamSettings::pattern_period`] and
+    /// [`time`](SurfaceFoamSettings::time). Its cells are longer along the motion, up to 4 times, by twice the
+    /// distance over which [`stretch`](Self::stretch) spreads the droplets.
+    pub clumps: f32,
     /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
     /// fill, [1, 8], default 1: a ball. Above 1 the ellipsoid is fitted to the particle's neighbours, as the
     /// ellipsoid of its water is, so that torn water is strands and sheets of droplets, and groups of two or three
@@ -887,7 +890,7 @@ impl Default for SpraySettings {
             stretch: 0.0,
             mist: 0.05,
             mist_size: 0.5,
-            mist_contrast: 0.0,
+            clumps: 0.0,
             strand_ratio: 1.0,
             few_neighbours: [0.0; 2],
             exposure: 1.0 / 250.0,
@@ -913,7 +916,7 @@ impl SpraySettings {
         stretch: 0.0,
         mist: 0.0,
         mist_size: 0.5,
-        mist_contrast: 0.0,
+        clumps: 0.0,
         strand_ratio: 1.0,
         few_neighbours: [0.0; 2],
         exposure: 1.0 / 60.0,
@@ -937,7 +940,7 @@ impl SpraySettings {
         range("Settings.spray.stretch", self.stretch, 0.0, 1.0)?;
         range("Settings.spray.mist", self.mist, 0.0, 1.0 - f32::EPSILON)?;
         range("Settings.spray.mist_size", self.mist_size, 1.0e-6, 8.0)?;
-        range("Settings.spray.mist_contrast", self.mist_contrast, 0.0, 2.0)?;
+        range("Settings.spray.clumps", self.clumps, 0.0, 3.0)?;
         range("Settings.spray.strand_ratio", self.strand_ratio, 1.0, 8.0)?;
         let [few, many] = self.few_neighbours;
         range("Settings.spray.few_neighbours", few, 0.0, 64.0)?;

@@ -157,7 +157,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("spray.stretch", |s| s.spray.stretch = 0.05),
         ("spray.mist", |s| s.spray.mist = 0.3),
         ("spray.mist_size", |s| s.spray.mist_size = 1.0),
-        ("spray.mist_contrast", |s| (s.spray.mist, s.spray.mist_contrast) = (0.05, 1.5)),
+        ("spray.clumps", |s| s.spray.clumps = 1.5),
         ("spray.shade", |s| s.spray.shade = 4.0),
         ("spray.scattering", |s| s.spray.scattering = 0.5),
         ("spray.relief", |s| s.spray.relief = 1.0),

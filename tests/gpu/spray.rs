@@ -22,7 +22,7 @@ use crate::support::host::Data;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
 use crate::support::rounded::{exact, off};
 use crate::support::scenes::{self, LENSES, Lens, Random};
-use crate::surface_foam::nearly;
+use crate::surface_foam::{nearly, pattern};
 
 const STORAGE: ash::vk::BufferUsageFlags = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
 
@@ -60,6 +60,9 @@ impl Sprayed {
             _ => random.between(550.0, 900.0),
         });
         shot.densities = Some(densities.collect());
+        // Both phases of the clumps have weight.
+        let foam = &mut shot.settings.surface_foam;
+        (foam.time, foam.pattern_period) = (0.3, 0.25);
         // Droplets are enlarged, because in this small picture default ones would cover too few
         // pixels.
         shot.settings.spray.size = 1.5;
@@ -121,7 +124,8 @@ impl Sprayed {
             spread: f64::from(look.scatter_radius),
             stretch: f64::from(look.stretch),
             mist: [f64::from(look.mist), f64::from(look.mist_size)],
-            contrast: f64::from(look.mist_contrast),
+            clumps: f64::from(look.clumps),
+            pattern: pattern(&self.shot.settings.surface_foam),
             densities: [all, none],
             shutter: f64::from(look.exposure),
             scattering: f64::from(look.scattering),
@@ -235,11 +239,11 @@ fn spray_of_all_settings_is_the_twins() {
         ("stretch-1", |look| look.stretch = 1.0),
         ("no mist", |look| look.mist = 0.0),
         ("mist-0.9", |look| (look.mist, look.mist_size) = (0.9, 2.0)),
-        ("mist-clumps", |look| (look.mist, look.mist_contrast) = (0.5, 1.0)),
-        ("mist-clumps-2", |look| (look.mist, look.mist_size, look.mist_contrast) = (0.3, 8.0, 2.0)),
-        ("mist-streaks", |look| {
-            (look.mist, look.mist_size, look.mist_contrast) = (0.9, 3.0, 2.0);
-            look.exposure = 0.3;
+        ("clumps", |look| (look.mist, look.clumps) = (0.5, 1.0)),
+        ("clumps-3", |look| (look.mist, look.mist_size, look.clumps) = (0.3, 8.0, 3.0)),
+        ("strands", |look| {
+            (look.mist, look.mist_size, look.clumps) = (0.9, 3.0, 2.0);
+            (look.exposure, look.stretch) = (0.3, 0.02);
         }),
         ("shutter-0", |look| look.exposure = 0.0),
         ("shutter-1", |look| look.exposure = 1.0),
@@ -658,13 +662,13 @@ fn shaped_spray_is_the_twins() {
     let size = extent(97, 61);
     let mut rig = Rig::new(&gpu, &shaped(size));
     for lens in LENSES {
-        for (droplets, fastest, strand_ratio, contrast) in
+        for (droplets, fastest, strand_ratio, clumps) in
             [(16, 30.0, 6.0, 0.0), (16, 0.0, 8.0, 2.0), (24, 90.0, 2.0, 1.0), (1, 30.0, 6.0, 0.0)]
         {
             let mut case = torn(size, lens, fastest);
             let look = case.look();
             (look.droplets, look.strand_ratio) = (droplets, strand_ratio);
-            (look.mist_contrast, look.exposure) = (contrast, 0.02);
+            (look.clumps, look.exposure) = (clumps, 0.02);
             let name = format!("spray-shaped-{lens:?}-{droplets}-{fastest}");
             let drawn = case.draw(&mut rig);
             let (_, covered) = case.check(&name, &drawn);
@@ -693,7 +697,7 @@ fn round_spray_is_as_without_shapes() {
     let mut random = Random(2);
     let densities = case.shot.densities.as_mut().expect("densities");
     densities.iter_mut().for_each(|d| *d = random.between(1.0, 600.0));
-    case.look().mist_contrast = 1.0;
+    case.look().clumps = 1.0;
     let long = case.draw(&mut ellipsoids);
     let round = case.draw(&mut spheres);
     assert!(of(&long).data != of(&round).data, "strands show");

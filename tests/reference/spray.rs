@@ -14,9 +14,12 @@
 
 use super::classify;
 use super::shape::norm;
-use super::surface_foam::{LooseEllipse, Off, pixels, ray_off, scene_depth};
+use super::surface_foam::{
+    LooseEllipse, Off, Pattern, Phase, TOLD_APART, VARIANCE, WRAP, noise, noise_reach,
+    noise_rounding, noise_slope, pixels, ray_off, scene_depth,
+};
 use super::thickness::kernel;
-use super::{Image, View, smoothstep, whole_steps};
+use super::{Image, View, smoothstep};
 use crate::support::rounded::{self, Rounded, exact, off};
 use crate::support::tolerance::{Between, U};
 use glam::{DMat3, DVec2, DVec3};
@@ -68,10 +71,20 @@ const LEAST_SINE: f64 = 0.43;
 const RELIEF: (f64, u32, f64) = (1.0 / 360.0, 5, 0.3);
 /// Fraction by which relief reduces the sky's light.
 const RELIEF_OF_SKY: f64 = 0.19;
-/// Max number of octaves of the noise in mist.
-const OCTAVES: u32 = 5;
-/// `ln mean(exp(a n)) / a²` of the noise n.
-const RAISED: f64 = 0.0895;
+/// Clumps: the cell width of the coarsest octave in spacings, the ratio of the cell widths of
+/// successive octaves, and their number in mist and at a droplet.
+const CLUMP: f64 = 3.0;
+const FINER: f64 = 2.03;
+const OCTAVES: [u32; 2] = [5, 3];
+/// Excess of a cell's length over its width, relative to the way of the droplets along their
+/// motion; the max ratio of length to width; the factor on the excess from octave to octave.
+const STRAND_LENGTH: f64 = 4.0;
+const MOST_STRAND: f64 = 4.0;
+const ROUNDER: f64 = 0.75;
+/// Cells are lengthened from the centre of a block this many cells wide.
+const BLOCK: f64 = 5.0;
+/// Max logarithm of the density.
+const MOST_CLUMP: f64 = 3.0;
 
 /// How the contributions of droplets are summed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -171,8 +184,10 @@ pub struct Settings {
     pub stretch: f64,
     /// Mist: the opacity at its middle, and its half-axis in spacings.
     pub mist: [f64; 2],
-    /// Amplitude of an octave of the logarithm of the mist's density.
-    pub contrast: f64,
+    /// Amplitude of an octave of the logarithm of the density.
+    pub clumps: f64,
+    /// The pattern of the foam, whose phases the clumps have.
+    pub pattern: Pattern,
     /// Fractions of the rest density: up to the first, the particle is only spray; from the second
     /// on, it has none.
     pub densities: [f64; 2],
@@ -272,63 +287,89 @@ struct Droplet {
     amount: Rounded,
     /// Distance in pixels at which water is also looked up; two values if rounding decides.
     aside: [isize; 2],
-    /// Noise of the mist, if it has any.
-    grain: Option<Grain>,
-    /// Cosine and sine of the motion's angle in the plane of the ellipse.
-    turn: [Rounded; 2],
+    /// Clumps of mist, with the particle's centre and velocity in world space.
+    clumps: Option<(Clumps, (Off, Off))>,
     /// Whether the droplet is drawn.
     drawn: More,
 }
 
-/// Noise that makes mist clumpy.
+/// The clumps of a droplet or of mist.
 #[derive(Clone, Copy, Debug)]
-struct Grain {
-    /// Noise cells per half-axis.
-    cells: [Rounded; 2],
-    /// Cosine and sine of the angle from the noise's axes to the half-axes.
-    turn: [Rounded; 2],
-    octaves: Rounded,
-    contrast: f64,
-    /// The particle's random bits.
-    bits: u32,
+pub struct Clumps {
+    /// Amplitude of an octave of the logarithm of the density.
+    pub strength: f64,
+    /// Seconds by which droplets are moved along their motion at most.
+    pub stretch: f64,
+    /// Rest spacing of the particles in world units.
+    pub spacing: f64,
+    /// The two phases of the noise, as of the foam's pattern.
+    pub phases: [Phase; 2],
+    /// Octaves from this number on are left out.
+    pub octaves: u32,
 }
 
-impl Grain {
-    /// Density relative to its mean, at a position in half-axes.
-    fn at(&self, place: [Rounded; 2]) -> Rounded {
-        let begin = [self.bits % 65536, self.bits / 65536].map(|n| exact(f64::from(n) / 65536.0));
-        let [x, y] = [0, 1].map(|i| place[i] * self.cells[i]);
-        let [c, s] = self.turn;
-        let mut at = [x * c - y * s + begin[0], x * s + y * c + begin[1]];
-        let mut sum = exact(0.0);
-        for k in 0..OCTAVES {
-            let part = (self.octaves - exact(f64::from(k))).clamp(0.0, 1.0);
-            let of_octave = [0.25, 0.5, 0.75].get(k as usize).map_or(1.0, |&weight| weight);
-            let amplitude = off(self.contrast * of_octave, 1.0) * part;
-            let noise = value_noise(at, self.bits.wrapping_add(k.wrapping_mul(0xC2B2_AE3D)));
-            sum = sum + amplitude * (noise - off(RAISED, 1.0) * amplitude);
-            at = at.map(|x| exact(2.0) * x);
+impl Clumps {
+    /// Density relative to its mean at a point of a particle with this centre and velocity, all in
+    /// world space. `pixel`: width of a pixel there.
+    pub fn at(&self, point: Off, (centre, velocity): (Off, Off), pixel: Rounded) -> Rounded {
+        let width = CLUMP * self.spacing;
+        // The width errs by 2u, a quotient by 6u of it.
+        let over = |v: Off| Off { v: v.v / width, e: v.e / width + 8.0 * U * v.v.length() / width };
+        let minus = |a: Off, b: Off| {
+            let v = a.v - b.v;
+            Off { v, e: a.e + b.e + U * v.length() }
+        };
+        let speed = velocity.length();
+        let along = if speed.v > 0.0 { velocity.normalize() } else { velocity };
+        let longer = off(STRAND_LENGTH * self.stretch / width, 8.0) * speed;
+        let mut excess = longer.clamp(0.0, MOST_STRAND - 1.0);
+        let (middle, apart) = (over(centre), over(minus(point, centre)));
+        let wrapped = middle.v - WRAP * (middle.v / WRAP + 0.5).floor();
+        let middle = Off { v: wrapped, ..middle };
+        let mut places = self.phases.map(|phase| {
+            let way = over(Off {
+                v: velocity.v * phase.carried,
+                e: velocity.e * phase.carried.abs()
+                    + 4.0 * U * (velocity.v * phase.carried).length(),
+            });
+            let begun = minus(middle, way);
+            let cell = (begun.v / BLOCK).floor();
+            let block = BLOCK * (cell + 0.5);
+            let rim = (begun.v - block).abs().max_element();
+            let off = Off {
+                v: begun.v - block + apart.v,
+                e: begun.e + apart.e + 3.0 * U * (begun.v.length() + apart.v.length()),
+            };
+            // At the rim of a block, rounding may select the next block.
+            let other = rim + begun.e + U * begun.v.length() >= 0.5 * BLOCK;
+            (off, block + phase.began, other)
+        });
+        let (mut sum, mut finer) = (exact(0.0), 1.0);
+        for _ in 0..self.octaves {
+            let (from, to) = TOLD_APART;
+            let told = rounded::smoothstep(exact(from), exact(to), off(width / finer, 8.0) / pixel);
+            let share = excess / (exact(1.0) + excess);
+            for (phase, (off, block, other)) in self.phases.iter().zip(&mut places) {
+                let height = exact(self.strength) * self::off(phase.part, 2.0) * told;
+                let on = off.dot(along) * share;
+                let v = finer * (*block + off.v - on.v * along.v);
+                let terms = block.length() + off.v.length() + on.v.abs();
+                let e = off.e + on.e + (on.v.abs() + on.e) * (along.e + 2.0 * U) + 4.0 * U * terms;
+                // Three sums and up to five products with the ratio.
+                let apart = 3.0_f64.sqrt() * (finer * e + 6.0 * U * v.length());
+                let near = noise_slope() * apart + noise_rounding();
+                let all = 2.0 * noise_reach();
+                let e = if *other { all } else { near.min(all) };
+                let noise = Rounded { v: noise(v), e };
+                sum = sum + height * (noise - exact(0.5 * VARIANCE) * height);
+            }
+            finer *= FINER;
+            excess = excess * exact(ROUNDER);
         }
-        sum.exp()
+        let most = |v: f64| v.min(MOST_CLUMP);
+        let (v, high, low) = (most(sum.v), most(sum.v + sum.e), most(sum.v - sum.e));
+        Rounded { v, e: (high - v).max(v - low) }.exp()
     }
-}
-
-/// Smooth noise between random lattice values of -1 to 1. Its slope is at most 1.5 times their max
-/// difference of 2.
-fn value_noise(at: [Rounded; 2], salt: u32) -> Rounded {
-    let cell = at.map(|x| x.v.floor());
-    let fade = [0, 1].map(|i| smoothstep(0.0, 1.0, at[i].v - cell[i]));
-    let number = |x: i32, y: i32| {
-        let [x, y] = [cell[0] as i32 + x, cell[1] as i32 + y].map(|n| n as u32);
-        let joined = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ salt;
-        let bits = (joined ^ (joined >> 15)).wrapping_mul(0x27D4_EB2F);
-        let bits = bits ^ (bits >> 13);
-        f64::from(bits >> 8) / 8_388_608.0 - 1.0
-    };
-    let row = |y| number(0, y) * (1.0 - fade[0]) + number(1, y) * fade[0];
-    let v = row(0) * (1.0 - fade[1]) + row(1) * fade[1];
-    // The fraction is exact, the fade has three products and two sums, each mix three operations.
-    Rounded { v, e: (3.0 * (at[0].e + at[1].e)).min(2.0) + 24.0 * U }
 }
 
 /// All droplets of a particle.
@@ -340,6 +381,20 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
     // 1 - share errs as much as the share.
     let torn = at_least(exact(4.0) * (exact(1.0) - share), off(LEAST_TORN, 1.0));
     let torn = if settings.droplets > 1 { torn.clamp(0.0, 1.0) } else { exact(1.0) };
+    // The shader transforms centres and velocities back from eye space.
+    let back = view.view.inverse();
+    let eye = back.w_axis.truncate().length();
+    let to_world = |p: Off| Off { v: back.transform_point3(p.v), e: p.e + back_error(p.v, eye) };
+    let v = Off::direction(view.view.transform_vector3(particle.velocity));
+    let moving = (to_world(c), Off { v: particle.velocity, e: 2.0 * v.e });
+    let phases = settings.pattern.phases();
+    let clumps = |kind: usize| Clumps {
+        strength: settings.clumps,
+        stretch: settings.stretch,
+        spacing: settings.spacing,
+        phases,
+        octaves: OCTAVES[kind],
+    };
     let all = (0..settings.droplets).map(|k| {
         let random = |n| f64::from(classify::random(SEED, n, particle.id));
         let u = |j| random(5 * k + j);
@@ -347,7 +402,6 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
         let own = |j| random(SPINDLE + j);
         let spindle =
             many.then(|| (direction(own(0), own(1)), off((1.0 + 5.0 * own(2)) / 6.0, 3.0)));
-        let v = Off::direction(view.view.transform_vector3(particle.velocity));
         let apart = off((2.0 * u(4) - 1.0) * settings.stretch, 3.0);
         let at = Off {
             v: c.v + apart.v * v.v,
@@ -360,7 +414,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             h = h * (exact(1.0) / torn.sqrt());
         }
         let mist = (many && k == 0).then_some(&particle.shape);
-        let (mut one, pixel, streaks) = droplet(p, v, (h, thick, mist), view, settings);
+        let (mut one, pixel) = droplet(p, v, (h, thick, mist), view, settings);
         let twice = exact(2.0) * (one.ellipse.a + pixel);
         let kept = if many {
             exact(0.5) + torn * off((0.2 + 0.8 * own(3)) * f64::from(settings.droplets), 3.0)
@@ -374,27 +428,22 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
         if many && k == 0 {
             let crowd = smoothstep(CROWD.0, CROWD.1, particle.crowd);
             one.amount = share * torn * torn * torn * Rounded { v: crowd, e: 8.0 * U } * one.amount;
-            let radius = off(RADIUS * settings.spacing, 3.0);
-            let [along, across] = streaks.map(|streak| radius + streak);
-            let cells = [one.ellipse.a / along, one.ellipse.b / across];
-            let least = if along.v < across.v { along } else { across };
-            // If the two are nearly equal, either may be the smaller.
-            let least = Rounded { e: along.e.max(across.e), ..least };
-            let octaves = (least / pixel).log2().clamp(0.0, f64::from(OCTAVES));
-            let bits = whole_steps::chance(particle.id, 0);
-            one.grain = (settings.contrast > 0.0).then_some(Grain {
-                cells,
-                turn: one.turn,
-                octaves,
-                contrast: settings.contrast,
-                bits,
-            });
+            one.clumps = (settings.clumps > 0.0).then_some((clumps(0), moving));
+        } else if many && settings.clumps > 0.0 {
+            let point = to_world(one.ellipse.center);
+            one.amount = share * one.amount * clumps(1).at(point, moving, pixel);
         } else {
             one.amount = share * one.amount;
         }
         one
     });
     all.filter(|one| one.drawn.maybe).collect()
+}
+
+/// Error of a point transformed from eye space to the world by a matrix in single precision, whose
+/// entries err as the inverse does.
+fn back_error(v: DVec3, eye: f64) -> f64 {
+    16.0 * U * (3.0_f64.sqrt() * v.length() + eye)
 }
 
 /// A direction from two random numbers. Its components err by the root, by sine, cosine and their
@@ -451,8 +500,7 @@ fn squares(shape: &DMat3) -> Rounded {
 }
 
 /// A droplet at position p with velocity v, half-axis h and optical depth; for mist also its shape.
-/// Returns also the world width of a pixel, and the motion along the droplet's axes during the
-/// exposure.
+/// Returns also the world width of a pixel.
 ///
 /// An error of the motion m across the view turns the axes in their plane, by any angle if m is
 /// nearly 0. They do not leave the plane, so a circle stays a circle.
@@ -462,7 +510,7 @@ fn droplet(
     (h, thick, mist): (Rounded, Rounded, Option<&DMat3>),
     view: &View,
     settings: &Settings,
-) -> (Droplet, Rounded, [Rounded; 2]) {
+) -> (Droplet, Rounded) {
     let n = p.normalize();
     let along = v.dot(n);
     let m = v.v - along.v * n.v;
@@ -502,15 +550,7 @@ fn droplet(
             _ => {}
         }
     }
-    // Two axes with errors of 24 ulp each, their product, and the angle.
-    let turned = [level, upright]
-        .map(|axis| Rounded { v: e1.v.dot(axis), e: 28.0 * U + e1.e + turn.min(2.0) });
     let e2 = e1.cross(n);
-    let streaks = [e1, e2].map(|axis| {
-        let by = m.dot(Off { e: axis.e + turn.min(2.0), ..axis });
-        Rounded { v: by.v.abs(), ..by } * off(settings.shutter, 1.0)
-    });
-
     let pixel = depth_of(p) * off(view.c_x().max(view.c_y()), 2.0);
     let least = off(LEAST, 1.0) * pixel;
     let [a, b] = axes.map(|half| at_least(half, least));
@@ -519,7 +559,7 @@ fn droplet(
     let drawn = More { is: true, surely: true, maybe: true };
     let radii = off(ASIDE * RADIUS * settings.spacing, 4.0) / pixel + exact(0.5);
     let aside = [radii.v - radii.e, radii.v + radii.e].map(|n| (n as isize).clamp(1, 64));
-    (Droplet { ellipse, amount, aside, grain: None, turn: turned, drawn }, pixel, streaks)
+    (Droplet { ellipse, amount, aside, clumps: None, drawn }, pixel)
 }
 
 /// The projection of mist: the covariance `C = h^2 P S^2 P^T + s s^T` in the plane across the view.
@@ -650,7 +690,16 @@ pub fn spray_in_sun(
             });
             let apart = (before[0].v - before[1].v).abs();
             let before = Rounded { e: before[0].e.max(before[1].e) + apart, ..before[0] };
-            let clumps = one.grain.map_or(exact(1.0), |grain| grain.at([hit.x, hit.y]));
+            let ray = ray_off(view, x, y);
+            let clumps = one.clumps.map_or(exact(1.0), |(clumps, moving)| {
+                let at =
+                    Off { v: ray.v * hit.k.v, e: ray.v.length() * (hit.k.e + 4.0 * U * hit.k.v) };
+                let point = Off {
+                    v: back.transform_point3(at.v),
+                    e: at.e + ray.e * hit.k.v + back_error(at.v, eye),
+                };
+                clumps.at(point, moving, hit.k * off(view.c_x().max(view.c_y()), 2.0))
+            });
             let (top, q) = (before * one.amount * clumps, hit.rho_squared);
             if one.drawn.is && q.v <= 1.0 && hit.k.v >= near && hit.k.v < hidden {
                 *depth.at_mut(x, y) += top.v * kernel(q.v);
@@ -784,7 +833,8 @@ mod tests {
             spread: 0.0,
             stretch: 0.0,
             mist: [0.1, 0.4],
-            contrast: 0.0,
+            clumps: 0.0,
+            pattern: Pattern { strength: 0.0, size: 1.0, period: 0.25, time: 0.3 },
             densities: [0.6, 0.85],
             shutter: 1.0 / 60.0,
             scattering: 0.0,
@@ -964,32 +1014,77 @@ mod tests {
         assert!((of(&even, &even.map(|x| 0.25 * x), 3) - 0.25).abs() < 1e-7);
     }
 
-    /// Clumpy mist has the same mean as smooth mist: within 4 % up to a contrast of 2, plus the
-    /// sampling error of 40000 particles.
+    /// Clumps at points of a particle with a velocity.
+    fn clumps(velocity: DVec3, strength: f64) -> impl Fn(DVec3, DVec3) -> f64 {
+        let phases = settings().pattern.phases();
+        let held = |v| Off { v, e: 0.0 };
+        let clumps = Clumps { strength, stretch: 0.1, spacing: 0.5, phases, octaves: OCTAVES[0] };
+        move |point, centre| clumps.at(held(point), (held(centre), held(velocity)), exact(1.0e-3)).v
+    }
+
+    /// Clumpy spray has the same mean as even spray: within 2 % up to an amplitude of 2, plus the
+    /// sampling error of 40000 points. A Gaussian logarithm with the same variance varies more.
     #[test]
     fn clumps_keep_the_mean() {
-        for (contrast, octaves) in [(0.5, 5.0), (2.0, 1.0), (1.7, 2.5), (2.0, 5.0)] {
-            let all = (0..40_000_u32).map(|id| {
-                let bits = whole_steps::chance(id, 0);
-                let cells = [exact(7.0), exact(5.0)];
-                let turn = [exact(0.6), exact(0.8)];
-                Grain { cells, turn, octaves: exact(octaves), contrast, bits }.at([exact(0.3); 2]).v
+        let mut random = Random(3);
+        for strength in [0.5, 1.0, 2.0] {
+            let density = clumps(DVec3::new(3.0, 1.0, 0.0), strength);
+            let all = (0..40_000).map(|_| {
+                let mut of = || f64::from(random.between(-900.0, 900.0));
+                let point = DVec3::new(of(), of(), of());
+                density(point, point)
             });
             let all: Vec<f64> = all.collect();
             let mean = all.iter().sum::<f64>() / all.len() as f64;
             let square = all.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / all.len() as f64;
             let chance = 4.0 * (square / all.len() as f64).sqrt();
-            assert!((mean - 1.0).abs() < 0.04 + chance, "{contrast}, {octaves}: {mean}");
-            assert!(square > 0.03, "{contrast}, {octaves}: {square}");
+            assert!((mean - 1.0).abs() < 0.02 + chance, "{strength}: {mean}");
+            let most = (5.0 * VARIANCE * strength * strength).exp() - 1.0;
+            assert!((0.5 * most..1.05 * most).contains(&square), "{strength}: {square} of {most}");
         }
     }
 
-    /// Mist that hardly moves is the same for every direction of motion, so a direction that
+    /// Particles of one block share their clumps; those of another block have others.
+    #[test]
+    fn neighbours_share_their_clumps() {
+        let density = clumps(DVec3::new(3.0, 1.0, 0.0), 2.0);
+        // Blocks are 7.5 m wide. The velocity moves them by up to a quarter of a metre.
+        let point = DVec3::new(3.6, 3.9, 3.7);
+        let own = density(point, point);
+        for near in [DVec3::X, DVec3::new(-0.6, 0.4, 0.9)] {
+            assert!((density(point, point + near) / own - 1.0).abs() < 1e-9, "{near}");
+        }
+        assert!((density(point, point + 7.5 * DVec3::X) / own - 1.0).abs() > 1e-3);
+    }
+
+    /// Along the motion densities stay similar farther than across it, and equally far without
+    /// motion: mean change of the logarithm over a fifteenth of the coarsest cell,
+    /// about half of the finest.
+    #[test]
+    fn clumps_are_longer_along_the_motion() {
+        let change = |velocity: DVec3, step: DVec3| {
+            let density = clumps(velocity, 1.0);
+            let mut random = Random(5);
+            let all = (0..4000).map(|_| {
+                let mut of = || f64::from(random.between(-90.0, 90.0));
+                let point = DVec3::new(of(), of(), of());
+                (density(point + 0.1 * step, point) / density(point, point)).ln().powi(2)
+            });
+            (all.sum::<f64>() / 4000.0).sqrt()
+        };
+        let fast = 20.0 * DVec3::X;
+        let ratio = change(fast, DVec3::X) / change(fast, DVec3::Y);
+        assert!(ratio < 0.75, "{ratio}");
+        let still = change(DVec3::ZERO, DVec3::X) / change(DVec3::ZERO, DVec3::Y);
+        assert!((still - 1.0).abs() < 0.1, "{still}");
+    }
+
+    /// Spray that hardly moves is the same for every direction of motion, so a direction that
     /// changes between frames does not make it flicker.
     #[test]
     fn clumps_do_not_turn_with_the_motion() {
         let base = settings();
-        let look = Settings { droplets: 64, mist: [0.9, 2.0], contrast: 2.0, ..base };
+        let look = Settings { droplets: 64, mist: [0.9, 2.0], clumps: 2.0, ..base };
         let view = view(DVec2::splat(3.0), DVec2::ZERO, 101, 101);
         let image = |velocity: DVec3| {
             let one = Particle { velocity, density: 700.0, ..particle([0.2, -0.1, -9.0]) };
@@ -1151,6 +1246,38 @@ mod tests {
             let crowd = step(1.0, 6.0, particle.crowd as f32);
             let misty = if mist { torn * torn * torn * crowd } else { 1.0 };
             let amount = share * misty * -(1.0 - taken).ln() * h * h / (a * b);
+            let back = to_eye.inverse();
+            let centre = back.transform_point3(c);
+            let drift = back.transform_vector3(v);
+            let clumps = |at: Vec3, octaves: u32, pixel: f32| {
+                if settings.clumps == 0.0 || n == 1 {
+                    return 1.0;
+                }
+                let wide = 3.0 * s;
+                let on = if drift == Vec3::ZERO { drift } else { drift / drift.length() };
+                let far = back.transform_point3(at) - centre;
+                let mut sum = 0.0_f32;
+                for phase in settings.pattern.phases() {
+                    let begun = centre / wide - drift * phase.carried as f32 / wide;
+                    let block = 5.0 * ((begun / 5.0).floor() + 0.5);
+                    let off = begun - block + far / wide;
+                    let way = drift.length() * settings.stretch as f32;
+                    let mut longer = 1.0 + (4.0 * way / wide).min(3.0);
+                    let mut finer = 1.0_f32;
+                    for _ in 0..octaves {
+                        let told = step(1.0, 2.0, wide / finer / pixel);
+                        let height = settings.clumps as f32 * phase.part as f32 * told;
+                        let round = off + off.dot(on) * (1.0 / longer - 1.0) * on;
+                        let at = finer * (round + block + phase.began as f32);
+                        let noise = noise(at.as_dvec3()) as f32;
+                        sum += height * noise - 0.5 * 0.073 * height * height;
+                        finer *= 2.03;
+                        longer = 1.0 + 0.75 * (longer - 1.0);
+                    }
+                }
+                sum.min(3.0).exp()
+            };
+            let amount = if mist { amount } else { amount * clumps(p, 3, pixel) };
             if -p.z <= (2.0 * (a + pixel)).max(near) {
                 continue;
             }
@@ -1167,7 +1294,9 @@ mod tests {
                 let radii = 1.5 * (0.656 * s) / pixel + 0.5;
                 let water = body(water, (x, y), (radii as isize).clamp(1, 64)) as f32;
                 let before = 1.0 - step(0.0, 1.5 * s, t - water);
-                let value = before * amount * (1.0 - q).max(0.0).sqrt() * (-2.0 * q).exp();
+                let pixel = t * scale.abs().max_element();
+                let dense = if mist { clumps(w * t, 5, pixel) } else { 1.0 };
+                let value = before * amount * dense * (1.0 - q).max(0.0).sqrt() * (-2.0 * q).exp();
                 let pixel = sum.at_mut(x, y);
                 *pixel = half::f16::from_f32(pixel.to_f32() + value);
             }
@@ -1182,10 +1311,15 @@ mod tests {
         let scene =
             Image::from_fn(37, 26, |x, y| if (x / 9 + y / 5) % 2 == 0 { 7.0 } else { EMPTY });
         let water = Image::from_fn(37, 26, |x, _| if x < 12 { 5.0 } else { EMPTY });
-        let (mut sure, mut seen, mut widths) = (0, 0, Vec::new());
-        for (eye, droplets, size, shutter) in
-            [(2.0, 1, 2.0, 0.02), (50.0, 16, 4.0, 0.02), (0.0, 5, 0.5, 0.2), (1.0, 64, 8.0, 0.0)]
-        {
+        // Without clumps, and with them.
+        let (mut sure, mut seen, mut widths) = (0, 0, [Vec::new(), Vec::new()]);
+        for (eye, droplets, size, shutter) in [
+            (2.0, 1, 2.0, 0.02),
+            (50.0, 16, 4.0, 0.02),
+            (0.0, 5, 0.5, 0.2),
+            (1.0, 64, 8.0, 0.0),
+            (2.0, 17, 4.0, 0.02),
+        ] {
             let eye = Mat4::from_translation(eye * Vec3::new(1.0, -0.7, 0.3));
             let view = View { view: (turned * eye).as_dmat4(), ..full };
             let back = view.view.inverse();
@@ -1202,6 +1336,7 @@ mod tests {
                 opacity,
                 shutter,
                 densities,
+                clumps: f64::from(u8::from(droplets == 17)),
                 ..settings()
             };
             let mut r = Random(u64::from(droplets));
@@ -1238,13 +1373,15 @@ mod tests {
                     seen += usize::from(single.data[i].to_f32() > 0.0);
                     if low > 0.0 {
                         sure += 1;
-                        widths.push((high - low) / (high + low) / f64::from(*n));
+                        widths[usize::from(droplets == 17)]
+                            .push((high - low) / (high + low) / f64::from(*n));
                     }
                 }
             }
         }
-        widths.sort_by(f64::total_cmp);
+        widths.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
+        let [even, clumpy] = widths.map(|all| all[all.len() / 2]);
         assert!(sure > 4000 && seen < sure + sure / 10, "{sure} of {seen} pixels are sure");
-        assert!(widths[sure / 2] < 2e-3, "{}", widths[sure / 2]);
+        assert!(even < 2e-3 && clumpy < 2e-2, "{even} {clumpy}");
     }
 }

@@ -5,7 +5,7 @@ mod picture;
 mod source;
 
 use glam::DVec3;
-use whitewater::water::{Shading, Splat};
+use whitewater::water::{Shading, Splat, SurfaceFoamSettings};
 use whitewater::{Config, Particles};
 
 use crate::depth::spheres;
@@ -113,14 +113,19 @@ impl Foamy {
             front_depth: f64::from(look.front_depth),
             noise: f64::from(look.noise),
             noise_rate: f64::from(look.noise_rate),
-            pattern: (look.pattern > 0.0).then(|| Pattern {
-                strength: f64::from(look.pattern),
-                size: f64::from(look.pattern_size),
-                period: f64::from(look.pattern_period),
-                time: look.time,
-            }),
+            pattern: (look.pattern > 0.0).then(|| pattern(look)),
             step: f64::from(spacing).log2().floor().exp2() / 2048.0,
         }
+    }
+}
+
+/// The pattern that moves with the foam, as the twin takes it.
+pub fn pattern(look: &SurfaceFoamSettings) -> Pattern {
+    Pattern {
+        strength: f64::from(look.pattern),
+        size: f64::from(look.pattern_size),
+        period: f64::from(look.pattern_period),
+        time: look.time,
     }
 }
 

@@ -34,7 +34,7 @@ pub use layers::{depth, seen, thickness};
 pub use loose::LooseEllipse;
 pub use noise::{noise, noise_reach, noise_rounding, noise_slope, origin};
 pub use off::{Off, ray_off};
-pub use pattern::Pattern;
+pub use pattern::{Pattern, Phase, VARIANCE, WRAP};
 pub use texels::{pixels, scene_depth};
 
 /// Drawn radius of a whole particle, in spacings.
@@ -56,7 +56,7 @@ const CELLS: f64 = 1.6;
 /// Min half-axis of a thickness sprite in texels, along both axes.
 const LEAST_AXIS: f64 = 1.5;
 /// Texels per cell between which the noise appears.
-const TOLD_APART: (f64, f64) = (1.0, 2.0);
+pub const TOLD_APART: (f64, f64) = (1.0, 2.0);
 /// The particles' noises begin within this many cells.
 const SPREAD: f64 = 64.0;
 

@@ -35,7 +35,7 @@ const CURVATURE: f64 = 27.0;
 /// 1; products with fades, 20u of a sum of 6.5; their sums, 16u.
 const SLOPE_ROUNDING: f64 = 256.0 * U;
 /// Positions repeat after this many widths of the first octave, centred at the origin.
-const WRAP: f64 = 65_536.0;
+pub const WRAP: f64 = 65_536.0;
 
 /// Settings of the pattern.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -70,7 +70,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.stretch = (0.4 * (spacing / 9.81).sqrt()).min(1.0);
         it.mist = mist;
         it.mist_size = 2.0;
-        it.mist_contrast = 2.0;
+        it.clumps = 2.0;
         it.strand_ratio = 6.0;
         it.few_neighbours = [3.5, 9.0];
         it.exposure = 0.001;

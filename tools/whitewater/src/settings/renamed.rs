@@ -9,6 +9,7 @@ pub const RENAMED: &[(&str, &str, &str)] = &[
     ("spray", "densities", "all_spray_density, full_water_density and no_spray_density"),
     ("spray", "spread", "scatter_radius"),
     ("spray", "shutter", "exposure"),
+    ("spray", "mist_contrast", "clumps"),
     ("whitewater", "half", "half_intensity_thickness"),
     ("whitewater", "search", "search_radius and search_radius_step"),
     ("whitewater", "density", "sample_density"),

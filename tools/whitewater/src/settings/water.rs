@@ -356,7 +356,7 @@ table! {
         stretch: f32,
         mist: f32,
         mist_size: f32,
-        mist_contrast: f32,
+        clumps: f32,
         strand_ratio: f32,
         few_neighbours: [f32; 2],
         shade: f32,

@@ -1,0 +1,54 @@
+// Clumps and strands of spray: a noise in world space, by which all droplets and all mist at a place are denser or
+// thinner together. (If each particle had its own noise, many overlapping particles would average to cotton.) The noise
+// moves with the spray and restarts as in pattern.glsl. Its cells are longer along the motion, so that fast spray
+// flies in strands. Not in the thesis. Needs frame.glsl, gradient_noise.glsl, pattern.glsl.
+
+// Width of the cells of the coarsest octave in spacings; number of octaves; ratio of the widths of two successive
+// octaves. It is not 2, because then the lattices, on which the noise is 0, would coincide.
+const float CLUMP = 3.0;
+const uint CLUMP_OCTAVES = 5u;
+const float FINER = 2.03;
+// Length by which a cell of the coarsest octave exceeds its width, relative to the distance by which droplets are
+// moved along their motion at most (`SpraySettings::stretch`); the max ratio of length to width; and the ratio by
+// which this excess over 1 decreases from octave to octave. (Equally long cells of all octaves look like feathers.)
+const float STRAND_LENGTH = 4.0;
+const float MOST_STRAND = 4.0;
+const float ROUNDER = 0.75;
+// Cells are lengthened from the centre of a cubic block, this many cells of the coarsest octave wide. From a centre far
+// away, small differences in the direction of motion would displace the noise of neighbours by many cells.
+const float BLOCK = 5.0;
+// Max logarithm of the density.
+const float MOST_CLUMP = 3.0;
+
+// Density of spray at a point, relative to its mean. The point belongs to a particle with the centre `particle` and
+// the velocity `velocity`. Octaves with cells narrower than `pixel`, and all from number `octaves` on, are left out.
+float clumps_at(vec3 point, vec3 particle, vec3 velocity, float pixel, uint octaves) {
+    float coarsest = CLUMP * frame.particle.y;
+    float speed = length(velocity);
+    vec3 along = speed > 0.0 ? velocity / speed : vec3(0.0);
+    float longer = min(STRAND_LENGTH * frame.spray_cloud.z * speed / coarsest, MOST_STRAND - 1.0);
+    vec3 centre = particle / coarsest;
+    vec3 apart = (point - particle) / coarsest;
+    centre -= WRAP * floor(centre / WRAP + 0.5);
+    float sum = 0.0;
+    for (uint phase = 0u; phase < 2u; ++phase) {
+        float part = frame.foam_phases[phase];
+        vec3 way = velocity * (frame.foam_pattern.w * frame.foam_phases[2u + phase] / coarsest);
+        vec3 began = centre - way;
+        vec3 block = BLOCK * (floor(began / BLOCK) + 0.5);
+        vec3 off = began - block + apart;
+        float on = dot(off, along);
+        block += frame.foam_octaves[1u + phase];
+        float finer = 1.0;
+        float excess = longer;
+        for (uint k = 0u; k < octaves && part * told_apart(coarsest / finer, pixel) > 0.0; ++k) {
+            float height = part * frame.spray_mist.x * told_apart(coarsest / finer, pixel);
+            vec3 at = finer * (block + off - along * (on * excess / (1.0 + excess)));
+            // Half of the variance of the logarithm is subtracted, which keeps the mean.
+            sum += height * (gradient_noise(at) - 0.5 * VARIANCE * height);
+            finer *= FINER;
+            excess *= ROUNDER;
+        }
+    }
+    return exp(min(sum, MOST_CLUMP));
+}
