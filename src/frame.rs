@@ -619,7 +619,7 @@ fn spray_shape(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
 }
 
 fn spray_cloud(spray: &SpraySettings, water: &WaterSettings) -> [f32; 4] {
-    [-(1.0 - spray.mist).ln(), spray.mist_size * water.spacing, spray.stretch, 0.0]
+    [-(1.0 - spray.mist).ln(), spray.mist_size * water.spacing, spray.stretch, spray.glints]
 }
 
 fn spray_mist(spray: &SpraySettings) -> [f32; 4] {

@@ -835,7 +835,7 @@ const int RELIEF_OCTAVES = 5;
 const float RELIEF_THIN = 0.3;
 const float RELIEF_OF_SKY = 0.19;
 
-// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the sunlit part of it. Spray is darker where the
+// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the sunlit part of it, and more with glints. Spray is darker where the
 // spray next to it on the screen, in the sun's direction, is denser, and brighter where that spray is thinner.
 vec3 light_of_spray(vec2 pixel, vec2 droplets) {
     float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
@@ -849,9 +849,10 @@ vec3 light_of_spray(vec2 pixel, vec2 droplets) {
             denser += log(RELIEF_THIN + texelFetch(spray, there, 0).x);
         }
         denser = denser / float(RELIEF_OCTAVES) - log(RELIEF_THIN + droplets.x);
-        lit = clamp(lit * exp(-relief * denser), 0.0, 1.0);
+        // Only glints are brighter than 1.
+        lit = clamp(lit * exp(-relief * denser), 0.0, max(lit, 1.0));
     }
-    return under(vec3(lit)) * (1.0 - RELIEF_OF_SKY * relief * (1.0 - lit));
+    return under(vec3(lit)) * (1.0 - RELIEF_OF_SKY * relief * max(1.0 - lit, 0.0));
 }
 
 // All layers at a pixel that shows water, foam or spray. Spray lies over the other layers, except that bubble foam

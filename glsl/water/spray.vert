@@ -25,7 +25,7 @@ layout(location = 0) flat out vec3 centre;
 layout(location = 1) flat out vec3 along;  // divided by its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
-layout(location = 4) flat out vec2 amount; // optical depth at its centre; visibility of the sun
+layout(location = 4) flat out vec2 amount; // optical depth at its centre; visibility of the sun, with its glint
 layout(location = 5) flat out int aside;   // distance in pixels to water beside it
 layout(location = 6) flat out uint chance; // random bits
 layout(location = 7) flat out vec3 drift;  // velocity in the world
@@ -40,6 +40,9 @@ const uint SPINDLE = 4096u;
 // ellipsoid, and in between a mix.
 const float BALL = 3.0;
 const float FLAT = 3.6;
+// Of this many droplets one glints: it mirrors the sun towards the eye. First counter of the random numbers for that.
+const float GLINT_ONE_OF = 32.0;
+const uint GLINT = 8192u;
 // Size of the ellipsoid that the droplets of a particle fill: the square root of the sum of its squared half-axes,
 // divided by the scatter radius (the radius of the ball that droplets fill otherwise).
 const float STRAND = 0.7;
@@ -152,7 +155,9 @@ void main() {
     // there is more white foam than coloured water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     float direct = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
-    amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z);
+    bool glints = several && !mist
+        && GLINT_ONE_OF * uniform_of(PLACE, id, GLINT + gl_InstanceIndex % droplets) < 1.0;
+    amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z) * (glints ? 1.0 + frame.spray_cloud.w : 1.0);
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
     along = e1 / axes.x;
     across = e2 / axes.y;

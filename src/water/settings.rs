@@ -872,6 +872,9 @@ pub struct SpraySettings {
     /// direction of the sun, up to a 22nd of the picture's height away, is denser, and brighter where that is
     /// thinner. This shows shadows that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
     pub relief: f32,
+    /// Sunlight that a droplet that glints sends to the eye in addition, relative to the sunlight on a white droplet,
+    /// [0, 64], default 0. One in 32 droplets glints, if a particle has several.
+    pub glints: f32,
     /// Whether the light of spray is added to the light from behind (the thesis), without dimming it. Default false:
     /// spray is composited over what is behind.
     pub additive: bool,
@@ -898,6 +901,7 @@ impl Default for SpraySettings {
             shade: 0.5,
             scattering: 0.0,
             relief: 0.0,
+            glints: 0.0,
             additive: false,
         }
     }
@@ -924,6 +928,7 @@ impl SpraySettings {
         shade: 0.5,
         scattering: 0.0,
         relief: 0.0,
+        glints: 0.0,
         additive: true,
     };
 
@@ -948,6 +953,7 @@ impl SpraySettings {
         range("Settings.spray.shade", self.shade, 0.0, 64.0)?;
         range("Settings.spray.scattering", self.scattering, 0.0, 1.0)?;
         range("Settings.spray.relief", self.relief, 0.0, 4.0)?;
+        range("Settings.spray.glints", self.glints, 0.0, 64.0)?;
         range("Settings.spray.exposure", self.exposure, 0.0, 1.0)?;
         for color in self.color {
             range("Settings.spray.color", color, 0.0, 1.0)?;

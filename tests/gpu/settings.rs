@@ -102,7 +102,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 65] = [
+    let changes: [Change; 66] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -161,6 +161,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
         ("spray.shade", |s| s.spray.shade = 4.0),
         ("spray.scattering", |s| s.spray.scattering = 0.5),
         ("spray.relief", |s| s.spray.relief = 1.0),
+        ("spray.glints", |s| s.spray.glints = 8.0),
         ("spray.exposure", |s| s.spray.exposure = 0.1),
         ("spray.color", |s| s.spray.color = [0.5; 3]),
         ("spray.additive", |s| s.spray.additive = true),

@@ -129,6 +129,7 @@ impl Sprayed {
             densities: [all, none],
             shutter: f64::from(look.exposure),
             scattering: f64::from(look.scattering),
+            glints: f64::from(look.glints),
             sums: Sums::SINGLE,
         }
     }
@@ -334,7 +335,7 @@ fn spray_lies_over_the_scene() {
             (0.99, true, 4.0),
         ] {
             (case.look().opacity, case.look().additive) = (opacity, additive);
-            case.look().relief = relief;
+            (case.look().relief, case.look().glints) = (relief, 8.0 * relief);
             case.look().mist = 0.1 * opacity;
             let drawn = case.draw(&mut rig);
             let name = format!("spray-over-{shading:?}-{opacity}-{additive}-{relief}");
@@ -578,7 +579,7 @@ fn each_droplet_has_its_own_sun() {
         [(Lens::Standard, 16, 0.0), (Lens::OffAxis, 40, 0.6), (Lens::Reversed, 1, 1.0)]
     {
         let mut case = Sprayed::new(size, lens, 20.0);
-        case.look().scattering = scattering;
+        (case.look().scattering, case.look().glints) = (scattering, 24.0);
         (case.look().droplets, case.look().scatter_radius) = (droplets, 8.0);
         let middle = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
         let sun = Vec3::new(0.5, 0.8, 0.3).normalize();

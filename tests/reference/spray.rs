@@ -53,6 +53,9 @@ pub const SIZES: [f64; 2] = [0.2, 2.135];
 const LEAST_TORN: f64 = 0.3;
 /// First of a particle's random numbers for its spindle.
 const SPINDLE: u32 = 4096;
+/// Of this many droplets one glints; first of a particle's random numbers for that.
+const GLINT_ONE_OF: f64 = 32.0;
+const GLINT: u32 = 8192;
 /// Sum of the squared half-axes at which droplets begin to leave the spindle for the ellipsoid, and
 /// at which they fill it.
 const FLAT: [f64; 2] = [3.0, 3.6];
@@ -195,6 +198,8 @@ pub struct Settings {
     pub shutter: f64,
     /// Fraction of the sunlight that is scattered, of which the fourth root is taken.
     pub scattering: f64,
+    /// Sunlight that a glint adds, relative to that on a white droplet.
+    pub glints: f64,
     /// How the contributions are summed.
     pub sums: Sums,
 }
@@ -287,6 +292,8 @@ struct Droplet {
     amount: Rounded,
     /// Distance in pixels at which water is also looked up; two values if rounding decides.
     aside: [isize; 2],
+    /// Whether it mirrors the sun.
+    glints: bool,
     /// Clumps of mist, with the particle's centre and velocity in world space.
     clumps: Option<(Clumps, (Off, Off))>,
     /// Whether the droplet is drawn.
@@ -425,6 +432,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             .and(more(kept, exact(f64::from(k))))
             .and(more(depth, twice))
             .and(more(depth, near));
+        one.glints = many && k > 0 && GLINT_ONE_OF * random(GLINT + k) < 1.0;
         if many && k == 0 {
             let crowd = smoothstep(CROWD.0, CROWD.1, particle.crowd);
             one.amount = share * torn * torn * torn * Rounded { v: crowd, e: 8.0 * U } * one.amount;
@@ -559,7 +567,7 @@ fn droplet(
     let drawn = More { is: true, surely: true, maybe: true };
     let radii = off(ASIDE * RADIUS * settings.spacing, 4.0) / pixel + exact(0.5);
     let aside = [radii.v - radii.e, radii.v + radii.e].map(|n| (n as isize).clamp(1, 64));
-    (Droplet { ellipse, amount, aside, clumps: None, drawn }, pixel)
+    (Droplet { ellipse, amount, aside, glints: false, clumps: None, drawn }, pixel)
 }
 
 /// The projection of mist: the covariance `C = h^2 P S^2 P^T + s s^T` in the plane across the view.
@@ -679,6 +687,8 @@ pub fn spray_in_sun(
         let share = sun(particle, p, center.e + 24.0 * U * (p.length() + 2.0 * eye));
         // Three products with a rounded third, and their sum.
         let share = scattered(share * off(1.0, 4.0), settings.scattering);
+        let glint = if one.glints { off(1.0 + settings.glints, 2.0) } else { exact(1.0) };
+        let share = share * glint;
         for (x, y) in pixels(view, one.ellipse.center.v, one.ellipse.reach()) {
             let hidden = scene_depth(scene.at(x, y));
             let hit = one.ellipse.meet(ray_off(view, x, y), near, hidden);
@@ -793,7 +803,11 @@ impl Relief {
         }
         let denser = sum / exact(f64::from(octaves)) - ln(thin + exact(own));
         let factor = (-(off(self.strength, 1.0) * denser)).exp();
-        (part * factor).clamp(0.0, 1.0)
+        let (lit, most) = (part * factor, at_least(part, exact(1.0)));
+        // Far enough above its maximum, the value is the maximum.
+        let above = lit.v - lit.e > most.v + most.e;
+        let e = if above { most.e } else { lit.e.max(most.e) };
+        Rounded { v: lit.v.min(most.v), e }
     }
 
     /// Light with relief, divided by the sun's; `sky`: the sky's light divided by the sun's.
@@ -801,7 +815,7 @@ impl Relief {
         let sky = off(sky, 5.0);
         let under = rounded::mix(sky, exact(1.0), lit);
         let dull = off(RELIEF_OF_SKY, 1.0) * off(self.strength, 1.0);
-        under * (exact(1.0) - dull * (exact(1.0) - lit))
+        under * (exact(1.0) - dull * (exact(1.0) - lit).clamp(0.0, 1.0))
     }
 }
 
@@ -838,6 +852,7 @@ mod tests {
             densities: [0.6, 0.85],
             shutter: 1.0 / 60.0,
             scattering: 0.0,
+            glints: 0.0,
             sums: Sums { step: 0.0, ..Sums::HALF },
         }
     }

@@ -183,6 +183,8 @@ fn spoils() -> Vec<Spoil> {
         ("scattering", "Settings.spray.scattering", |g| g.settings.spray.scattering = 1.1),
         ("no scattering", "Settings.spray.scattering", |g| g.settings.spray.scattering = f32::NAN),
         ("relief", "Settings.spray.relief", |g| g.settings.spray.relief = 4.5),
+        ("clumps", "Settings.spray.clumps", |g| g.settings.spray.clumps = 3.5),
+        ("glints", "Settings.spray.glints", |g| g.settings.spray.glints = -1.0),
         ("no relief", "Settings.spray.relief", |g| g.settings.spray.relief = -0.1),
         ("shutter", "Settings.spray.exposure", |g| g.settings.spray.exposure = -1.0),
         ("weight", "Settings.noise.weight", |g| g.settings.noise.weight = f32::NAN),

@@ -362,6 +362,7 @@ table! {
         shade: f32,
         scattering: f32,
         relief: f32,
+        glints: f32,
         exposure: f32,
         color: [f32; 3],
         additive: bool,
