@@ -10,6 +10,10 @@
 // through, because water in the air has ripples finer than its particles. With weight 1, every crown of a splash and
 // every drop would have saturated blots.
 const float BENT = 0.5;
+// Factor on BENT (the weight of bent light) for light that the far surface reflects back into the sheet. Such a ray
+// meets the water again, in a direction that is not known. With factor 1 the rims of sheets were ribbons in the colour
+// of the zenith.
+const float BENT_BACK = 0.3;
 // Factor on BENT (the weight of bent light) for a sheet, a layer of water, in front of more water, because many bent
 // rays hit the water behind instead of the sky.
 const float BENT_BEFORE = 0.5;
@@ -165,7 +169,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers,
     float sky = bent * (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
     met.share *= bent;
     vec3 back = mat3(frame.world) * inward;
-    float back_sky = bent * smoothstep(-0.3, 0.0, dot(back, frame.up.xyz));
+    float back_sky = BENT_BACK * bent * smoothstep(-0.3, 0.0, dot(back, frame.up.xyz));
     // `air` is the weight of the refraction at the far surface of the water. It is 0 for a thin film, whose two
     // surfaces are parallel, and for water that touches the scene and so has no air behind it.
     float air = (1.0 - sheet.wet) * smoothstep(0.0, frame.particle.x, sheet.thick);

@@ -77,7 +77,7 @@ pub fn spray_of_caches(spray: &mut SpraySettings, spacing: f32, speed: f32) {
         it.shade = 2.5 + 48.0 * mist;
         it.scattering = 0.6;
         it.relief = 2.5;
-        it.glints = 24.0;
+        it.glints = 12.0;
     });
 }
 
