@@ -6,7 +6,7 @@
 // Width of the cells of the coarsest octave in spacings; number of octaves; ratio of the widths of two successive
 // octaves. It is not 2, because then the lattices, on which the noise is 0, would coincide.
 const float CLUMP = 3.0;
-const uint CLUMP_OCTAVES = 5u;
+const uint CLUMP_OCTAVES = 7u;
 const float FINER = 2.03;
 // Length by which a cell of the coarsest octave exceeds its width, relative to the distance by which droplets are
 // moved along their motion at most (`SpraySettings::stretch`); the max ratio of length to width; and the ratio by

@@ -43,6 +43,8 @@ const float FLAT = 3.6;
 // Of this many droplets one glints: it mirrors the sun towards the eye. First counter of the random numbers for that.
 const float GLINT_ONE_OF = 32.0;
 const uint GLINT = 8192u;
+// First counter of the random numbers by which droplets are left out in thin spray.
+const uint KEPT = 12288u;
 // Size of the ellipsoid that the droplets of a particle fill: the square root of the sum of its squared half-axes,
 // divided by the scatter radius (the radius of the ball that droplets fill otherwise).
 const float STRAND = 0.7;
@@ -149,7 +151,10 @@ void main() {
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     for (bool go = drawn && !mist && clumpy; go; go = false) {
         vec3 point = (frame.world * vec4(centre, 1.0)).xyz;
-        amount.x *= clumps_at(point, source.xyz, drift, pixel, DROPLET_OCTAVES);
+        float density = clumps_at(point, source.xyz, drift, pixel, DROPLET_OCTAVES);
+        // Where spray is thinner there are fewer droplets, and where it is denser they are more opaque.
+        drawn = uniform_of(PLACE, id, KEPT + gl_InstanceIndex % droplets) < density;
+        amount.x *= max(density, 1.0);
     }
     // Visibility of the sun from a droplet. The three colour channels are averaged to one value, because around spray
     // there is more white foam than coloured water.

@@ -834,9 +834,10 @@ pub struct SpraySettings {
     /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
     /// Strength of the clumps and strands of several droplets and their mist, [0, 3], default 0 = even. The natural
-    /// logarithm of the optical depth gets a gradient noise of five octaves in mist and three at droplets, each with
+    /// logarithm of the density is a gradient noise of up to seven octaves in mist and three at droplets, each with
     /// this amplitude (root mean square 0.27 of it), from cells of three spacings down to the pixel; it is at most 3.
-    /// Up to an amplitude of 2 the noise changes the mean optical depth by at most 2 %. Neighbours share the noise,
+    /// The optical depth of mist is multiplied by the density. Where it is below 1, a droplet is drawn with this
+    /// probability; above 1, its optical depth is multiplied. Neighbours share the noise,
     /// which moves with them and restarts with [`SurfaceFoamSettings::pattern_period`] and
     /// [`time`](SurfaceFoamSettings::time). Its cells are longer along the motion, up to 4 times, by twice the
     /// distance over which [`stretch`](Self::stretch) spreads the droplets.

@@ -56,6 +56,8 @@ const SPINDLE: u32 = 4096;
 /// Of this many droplets one glints; first of a particle's random numbers for that.
 const GLINT_ONE_OF: f64 = 32.0;
 const GLINT: u32 = 8192;
+/// First of a particle's random numbers by which droplets are left out where spray is thin.
+const KEPT: u32 = 12288;
 /// Sum of the squared half-axes at which droplets begin to leave the spindle for the ellipsoid, and
 /// at which they fill it.
 const FLAT: [f64; 2] = [3.0, 3.6];
@@ -78,7 +80,7 @@ const RELIEF_OF_SKY: f64 = 0.19;
 /// successive octaves, and their number in mist and at a droplet.
 const CLUMP: f64 = 3.0;
 const FINER: f64 = 2.03;
-const OCTAVES: [u32; 2] = [5, 3];
+const OCTAVES: [u32; 2] = [7, 3];
 /// Excess of a cell's length over its width, relative to the way of the droplets along their
 /// motion; the max ratio of length to width; the factor on the excess from octave to octave.
 const STRAND_LENGTH: f64 = 4.0;
@@ -439,7 +441,9 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             one.clumps = (settings.clumps > 0.0).then_some((clumps(0), moving));
         } else if many && settings.clumps > 0.0 {
             let point = to_world(one.ellipse.center);
-            one.amount = share * one.amount * clumps(1).at(point, moving, pixel);
+            let density = clumps(1).at(point, moving, pixel);
+            one.drawn = one.drawn.and(more(density, exact(random(KEPT + k))));
+            one.amount = share * one.amount * at_least(density, exact(1.0));
         } else {
             one.amount = share * one.amount;
         }
@@ -1054,7 +1058,7 @@ mod tests {
             let square = all.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / all.len() as f64;
             let chance = 4.0 * (square / all.len() as f64).sqrt();
             assert!((mean - 1.0).abs() < 0.02 + chance, "{strength}: {mean}");
-            let most = (5.0 * VARIANCE * strength * strength).exp() - 1.0;
+            let most = (f64::from(OCTAVES[0]) * VARIANCE * strength * strength).exp() - 1.0;
             assert!((0.5 * most..1.05 * most).contains(&square), "{strength}: {square} of {most}");
         }
     }
@@ -1073,8 +1077,7 @@ mod tests {
     }
 
     /// Along the motion densities stay similar farther than across it, and equally far without
-    /// motion: mean change of the logarithm over a fifteenth of the coarsest cell,
-    /// about half of the finest.
+    /// motion: mean change of the logarithm over half of the finest cell.
     #[test]
     fn clumps_are_longer_along_the_motion() {
         let change = |velocity: DVec3, step: DVec3| {
@@ -1083,7 +1086,7 @@ mod tests {
             let all = (0..4000).map(|_| {
                 let mut of = || f64::from(random.between(-90.0, 90.0));
                 let point = DVec3::new(of(), of(), of());
-                (density(point + 0.1 * step, point) / density(point, point)).ln().powi(2)
+                (density(point + 0.01 * step, point) / density(point, point)).ln().powi(2)
             });
             (all.sum::<f64>() / 4000.0).sqrt()
         };
@@ -1292,7 +1295,11 @@ mod tests {
                 }
                 sum.min(3.0).exp()
             };
-            let amount = if mist { amount } else { amount * clumps(p, 3, pixel) };
+            let density = if mist { 1.0 } else { clumps(p, 3, pixel) };
+            if settings.clumps > 0.0 && !mist && random(12288 + k) >= density {
+                continue;
+            }
+            let amount = amount * density.max(1.0);
             if -p.z <= (2.0 * (a + pixel)).max(near) {
                 continue;
             }
@@ -1310,7 +1317,7 @@ mod tests {
                 let water = body(water, (x, y), (radii as isize).clamp(1, 64)) as f32;
                 let before = 1.0 - step(0.0, 1.5 * s, t - water);
                 let pixel = t * scale.abs().max_element();
-                let dense = if mist { clumps(w * t, 5, pixel) } else { 1.0 };
+                let dense = if mist { clumps(w * t, 7, pixel) } else { 1.0 };
                 let value = before * amount * dense * (1.0 - q).max(0.0).sqrt() * (-2.0 * q).exp();
                 let pixel = sum.at_mut(x, y);
                 *pixel = half::f16::from_f32(pixel.to_f32() + value);
