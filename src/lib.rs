@@ -130,7 +130,7 @@
 //! | foam: depth, thickness and its sums, water in front of it (`surface_foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
 //! | foam: its sunlit part (`surface_foam` with `light_map_size` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | foam: sprites and shares (`surface_foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |
-//! | spray: optical depth and its sunlit part (`spray`) | 8 w h | 7.0 MiB | 15.8 MiB |
+//! | spray: optical depth, and the same weighted by sunlight (`spray`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
 //! | spray: sprites (`spray`) | 48 n | 3.0 MiB for 65 536 | 480 MB for 10 million |
 //! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |

@@ -1,6 +1,6 @@
-// Clumps and strands of spray: a noise in world space, by which all droplets and all mist at a place are denser or
-// thinner together. (If each particle had its own noise, many overlapping particles would average to cotton.) The noise
-// moves with the spray and restarts as in pattern.glsl. Its cells are longer along the motion, so that fast spray
+// Clumps and strands of spray: a noise in world space that particles share if they are near each other and move alike.
+// (If each particle had its own noise, many overlapping particles would average to cotton.) The noise moves with the
+// spray and restarts as in pattern.glsl. Its cells are longer along the motion, so that fast spray
 // flies in strands. Not in the thesis. Needs frame.glsl, gradient_noise.glsl, pattern.glsl.
 
 // Width of the cells of the coarsest octave in spacings; number of octaves; ratio of the widths of two successive
@@ -9,14 +9,15 @@ const float CLUMP = 3.0;
 const uint CLUMP_OCTAVES = 7u;
 const float FINER = 2.03;
 // Length by which a cell of the coarsest octave exceeds its width, relative to the distance by which droplets are
-// moved along their motion at most (`SpraySettings::stretch`); the max ratio of length to width; and the ratio by
-// which this excess over 1 decreases from octave to octave. (Equally long cells of all octaves look like feathers.)
+// moved along their motion at most (`SpraySettings::stretch`); the max ratio of length to width; and the factor on
+// this ratio minus 1 from octave to octave. (Equally long cells of all octaves look like feathers.)
 const float STRAND_LENGTH = 4.0;
 const float MOST_STRAND = 4.0;
 const float ROUNDER = 0.75;
 // Cells are lengthened from the centre of a cubic block, this many cells of the coarsest octave wide. From a centre far
-// away, small differences in the direction of motion would displace the noise of neighbours by many cells.
-const float BLOCK = 5.0;
+// away, small differences in the direction of motion would displace the noise of neighbours by many cells. Cells near
+// a block's border are not lengthened, because the noise would jump there from one block to the next.
+const float BLOCK = 8.0;
 // Max logarithm of the density.
 const float MOST_CLUMP = 3.0;
 
@@ -37,17 +38,19 @@ float clumps_at(vec3 point, vec3 particle, vec3 velocity, float pixel, uint octa
         vec3 began = centre - way;
         vec3 block = BLOCK * (floor(began / BLOCK) + 0.5);
         vec3 off = began - block + apart;
+        vec3 rim = abs(began - block) * (2.0 / BLOCK);
+        float excess = longer * (1.0 - smoothstep(0.8, 1.0, max(rim.x, max(rim.y, rim.z))));
         float on = dot(off, along);
         block += frame.foam_octaves[1u + phase];
         float finer = 1.0;
-        float excess = longer;
-        for (uint k = 0u; k < octaves && part * told_apart(coarsest / finer, pixel) > 0.0; ++k) {
-            float height = part * frame.spray_mist.x * told_apart(coarsest / finer, pixel);
+        float height = part * frame.spray_mist.x * told_apart(coarsest, pixel);
+        for (uint k = 0u; k < octaves && height > 0.0; ++k) {
             vec3 at = finer * (block + off - along * (on * excess / (1.0 + excess)));
             // Half of the variance of the logarithm is subtracted, which keeps the mean.
             sum += height * (gradient_noise(at) - 0.5 * VARIANCE * height);
             finer *= FINER;
             excess *= ROUNDER;
+            height = part * frame.spray_mist.x * told_apart(coarsest / finer, pixel);
         }
     }
     return exp(min(sum, MOST_CLUMP));

@@ -834,10 +834,15 @@ const float RELIEF_NEAR = 1.0 / 360.0;
 const int RELIEF_OCTAVES = 5;
 const float RELIEF_THIN = 0.3;
 const float RELIEF_OF_SKY = 0.19;
+// Largest half float.
+const float MOST_HALF = 65504.0;
 
-// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the sunlit part of it, and more with glints. Spray is darker where the
-// spray next to it on the screen, in the sun's direction, is denser, and brighter where that spray is thinner.
+// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the same weighted by sunlight
+// (spray.frag). Spray is darker where the spray next to it on the screen, in the sun's direction, is denser, and
+// brighter where that spray is thinner.
 vec3 light_of_spray(vec2 pixel, vec2 droplets) {
+    // Half floats can overflow to infinity.
+    droplets = min(droplets, MOST_HALF);
     float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
     float relief = frame.spray_mist.w;
     for (bool go = relief > 0.0 && droplets.x > 0.0; go; go = false) {
@@ -846,10 +851,10 @@ vec3 light_of_spray(vec2 pixel, vec2 droplets) {
         float denser = 0.0;
         for (int i = 0; i < RELIEF_OCTAVES; ++i) {
             ivec2 there = clamp(ivec2(pixel + to * float(1 << i)), ivec2(0), ivec2(frame.extent.xy) - 1);
-            denser += log(RELIEF_THIN + texelFetch(spray, there, 0).x);
+            denser += log(RELIEF_THIN + min(texelFetch(spray, there, 0).x, MOST_HALF));
         }
         denser = denser / float(RELIEF_OCTAVES) - log(RELIEF_THIN + droplets.x);
-        // Only glints are brighter than 1.
+        // Relief brightens spray up to full sunlight; only glints are brighter.
         lit = clamp(lit * exp(-relief * denser), 0.0, max(lit, 1.0));
     }
     return under(vec3(lit)) * (1.0 - RELIEF_OF_SKY * relief * max(1.0 - lit, 0.0));

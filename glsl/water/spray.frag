@@ -20,12 +20,13 @@ layout(location = 8) flat in vec4 source;
 // 1: sums in single precision, 0: in half precision.
 layout(constant_id = 34) const uint SINGLE = 1;
 // Fixed-point steps per optical depth of 1. Sums up to 64 are exact in any order, with half floats sums up to 4.
+// Larger sums, as of glints, depend on the order by rounding errors.
 const float STEPS = SINGLE == 1u ? 262144.0 : 512.0;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 
-layout(location = 0) out vec2 optical_depth; // optical depth: all, and the sunlit part
+layout(location = 0) out vec2 optical_depth; // x: optical depth; y: the same weighted by sunlight, which is above 1 for glints
 
 void main() {
     vec2 place;

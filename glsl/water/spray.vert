@@ -25,7 +25,7 @@ layout(location = 0) flat out vec3 centre;
 layout(location = 1) flat out vec3 along;  // divided by its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
-layout(location = 4) flat out vec2 amount; // optical depth at its centre; visibility of the sun, with its glint
+layout(location = 4) flat out vec2 amount; // optical depth at its centre; sunlight: visibility of the sun, more if it glints
 layout(location = 5) flat out int aside;   // distance in pixels to water beside it
 layout(location = 6) flat out uint chance; // random bits
 layout(location = 7) flat out vec3 drift;  // velocity in the world
@@ -40,11 +40,13 @@ const uint SPINDLE = 4096u;
 // ellipsoid, and in between a mix.
 const float BALL = 3.0;
 const float FLAT = 3.6;
-// Of this many droplets one glints: it mirrors the sun towards the eye. First counter of the random numbers for that.
+// One droplet in this many glints: it mirrors the sun towards the eye. First counter of the random numbers for that.
 const float GLINT_ONE_OF = 32.0;
 const uint GLINT = 8192u;
 // First counter of the random numbers by which droplets are left out in thin spray.
 const uint KEPT = 12288u;
+// Range of densities over which such a droplet fades.
+const float FADE = 0.2;
 // Size of the ellipsoid that the droplets of a particle fill: the square root of the sum of its squared half-axes,
 // divided by the scatter radius (the radius of the ball that droplets fill otherwise).
 const float STRAND = 0.7;
@@ -54,7 +56,7 @@ const float ROUND = 1.0e-3;
 // A spray particle's mist fades in between these two sums of its neighbours' weights, so that two or three particles
 // alone are drops without mist.
 const vec2 CROWD = vec2(1.0, 6.0);
-// Number of octaves of the clumps at a droplet. Finer ones would change the droplets as noise does.
+// Number of octaves of the clumps at a droplet. Finer ones would only make single droplets differ.
 const uint DROPLET_OCTAVES = 3u;
 // Distance at which water is looked up, in drawn radii.
 const float ASIDE = 1.5;
@@ -152,9 +154,11 @@ void main() {
     for (bool go = drawn && !mist && clumpy; go; go = false) {
         vec3 point = (frame.world * vec4(centre, 1.0)).xyz;
         float density = clumps_at(point, source.xyz, drift, pixel, DROPLET_OCTAVES);
-        // Where spray is thinner there are fewer droplets, and where it is denser they are more opaque.
-        drawn = uniform_of(PLACE, id, KEPT + gl_InstanceIndex % droplets) < density;
-        amount.x *= max(density, 1.0);
+        // Where spray is thinner there are fewer droplets, and where it is denser they are more opaque. A droplet
+        // fades as the density passes its random number.
+        float own = uniform_of(PLACE, id, KEPT + gl_InstanceIndex % droplets);
+        amount.x *= max(density, 1.0) * clamp((density - own) / FADE + 0.5, 0.0, 1.0);
+        drawn = amount.x > 0.0;
     }
     // Visibility of the sun from a droplet. The three colour channels are averaged to one value, because around spray
     // there is more white foam than coloured water.

@@ -615,7 +615,8 @@ impl WeberSettings {
     }
 }
 
-/// Appearance of surface foam. No effect without [`Config::surface_foam`](crate::Config).
+/// Appearance of surface foam. No effect without [`Config::surface_foam`](crate::Config), except that
+/// [`pattern_period`](Self::pattern_period) and [`time`](Self::time) also apply to [`SpraySettings::clumps`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SurfaceFoamSettings {
@@ -652,7 +653,7 @@ pub struct SurfaceFoamSettings {
     /// Size of the largest clumps, spacings, (0, 1e3], default 3.
     pub pattern_size: f32,
     /// Time after which a clump that the foam's motion has stretched has been replaced by a new one, seconds,
-    /// (0, 1e3], default 1.
+    /// (0, 1e3], default 1. Also the period of [`SpraySettings::clumps`].
     pub pattern_period: f32,
     /// How much thin foam is torn into threads with clear holes between them, [0, 1]. The holes close where foam is
     /// thick. With 0, the default, thin foam is an even veil. Threads cover as much area as the veil would. Not in
@@ -668,8 +669,9 @@ pub struct SurfaceFoamSettings {
     /// Albedo of water with bubbles, linear RGB, 0 to 1, default 0.30, 0.62, 0.66: bubbles scatter all colours, and
     /// the water around them absorbs red.
     pub aerated_color: [f32; 3],
-    /// Time of the frame in seconds, which moves the clumps and the lace with the foam. Default 0. If it stays
-    /// constant, they stay in place and foam moves through them.
+    /// Time of the frame in seconds, which moves the clumps and the lace with the foam, and
+    /// [`SpraySettings::clumps`] with the spray. Default 0. If it stays constant, they stay in place, and foam and
+    /// spray move through them.
     pub time: f64,
     /// Foam thinner than this fades out, because thin veils look like steam. Scene units, [0, ∞), default one
     /// spacing, 0 = off. Not in the thesis.
@@ -833,14 +835,17 @@ pub struct SpraySettings {
     pub mist: f32,
     /// Half-axis of the mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,
-    /// Strength of the clumps and strands of several droplets and their mist, [0, 3], default 0 = even. The natural
-    /// logarithm of the density is a gradient noise of up to seven octaves in mist and three at droplets, each with
-    /// this amplitude (root mean square 0.27 of it), from cells of three spacings down to the pixel; it is at most 3.
-    /// The optical depth of mist is multiplied by the density. Where it is below 1, a droplet is drawn with this
-    /// probability; above 1, its optical depth is multiplied. Neighbours share the noise,
-    /// which moves with them and restarts with [`SurfaceFoamSettings::pattern_period`] and
-    /// [`time`](SurfaceFoamSettings::time). Its cells are longer along the motion, up to 4 times, by twice the
-    /// distance over which [`stretch`](Self::stretch) spreads the droplets.
+    /// How strongly the droplets and mist of all particles gather in clumps and strands, [0, 3], default 0 = even. No
+    /// effect if [`droplets`](Self::droplets) is 1. The natural logarithm of the density is a sum of octaves of
+    /// gradient noise: seven for mist, three for droplets. This is the amplitude of each octave, whose root mean
+    /// square is 0.27 of it. The coarsest cells are three spacings wide, those of each further octave about half as
+    /// wide; octaves with cells narrower than a pixel are left out. The logarithm is limited to 3. The density
+    /// multiplies the optical depth of mist. Below 1 it reduces the number of droplets, above 1 it multiplies their
+    /// optical depth. Particles that are near each other and move alike share the noise. It moves with them and
+    /// restarts as the pattern of foam does ([`SurfaceFoamSettings::pattern_period`], [`SurfaceFoamSettings::time`]).
+    /// The coarsest cells are longer along the motion than across it: by twice the length over which
+    /// [`stretch`](Self::stretch) spreads the droplets, and up to 4 times as long as wide. Finer cells are less
+    /// elongated.
     pub clumps: f32,
     /// Maximum ratio of the longest to the shortest half-axis of the ellipsoid that a particle's droplets and mist
     /// fill, [1, 8], default 1: a ball. Above 1 the ellipsoid is fitted to the particle's neighbours, as the
@@ -873,8 +878,9 @@ pub struct SpraySettings {
     /// direction of the sun, up to a 22nd of the picture's height away, is denser, and brighter where that is
     /// thinner. This shows shadows that are too fine for a light map. Skylight is dimmed with the sunlight, but less.
     pub relief: f32,
-    /// Sunlight that a droplet that glints sends to the eye in addition, relative to the sunlight on a white droplet,
-    /// [0, 64], default 0. One in 32 droplets glints, if a particle has several.
+    /// Light that a glinting droplet sends to the eye in addition, relative to the sunlight that it scatters,
+    /// [0, 64], default 0. Each droplet glints with a probability of 1/32, fixed by the particle's id. None does if
+    /// [`droplets`](Self::droplets) is 1.
     pub glints: f32,
     /// Whether the light of spray is added to the light from behind (the thesis), without dimming it. Default false:
     /// spray is composited over what is behind.

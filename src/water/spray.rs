@@ -4,13 +4,13 @@
 //! A particle's density says which fraction of the particle is spray. This fraction is drawn as droplets around the
 //! particle. Each droplet is a sprite that faces the camera and is stretched along its motion; `composite` lays the
 //! droplets over everything else. The thesis adds one sprite per particle to the picture, which shows as a disc near
-//! the camera. The sum of the optical depths does not depend on their order, because each droplet adds a whole number
-//! of fixed-point steps. A distant droplet is widened to 1.4 pixels, and its optical depth is lower in proportion.
+//! the camera. A sum of optical depths up to 64 (4 with RG16F) does not depend on their order, because each droplet adds
+//! a whole number of fixed-point steps. A distant droplet is widened to 1.4 pixels, and its optical depth is lower in proportion.
 //! The steps are so fine that it still adds several; fractions of a step are rounded at random
 //! (glsl/include/whole_steps.glsl).
 //! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray, RG32F (or RG16F with
 //! coarser steps, if the device cannot blend RG32F): optical depth of the droplets in front of scene and water, and
-//! the sunlit part of it.
+//! the same weighted by sunlight.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -123,7 +123,7 @@ impl Spray {
         self.target.resize(gpu, &desc(gpu, config), retired)
     }
 
-    /// Optical depth of the droplets, and of their sunlit part.
+    /// Optical depth of the droplets, and the same weighted by sunlight.
     pub fn image(&self) -> &Image {
         &self.target.image
     }

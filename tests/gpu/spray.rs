@@ -244,7 +244,7 @@ fn spray_of_all_settings_is_the_twins() {
         ("clumps-3", |look| (look.mist, look.mist_size, look.clumps) = (0.3, 8.0, 3.0)),
         ("strands", |look| {
             (look.mist, look.mist_size, look.clumps) = (0.9, 3.0, 2.0);
-            (look.exposure, look.stretch) = (0.3, 0.02);
+            (look.exposure, look.stretch) = (0.3, 0.2);
         }),
         ("shutter-0", |look| look.exposure = 0.0),
         ("shutter-1", |look| look.exposure = 1.0),
@@ -286,6 +286,14 @@ fn spray_of_all_settings_is_the_twins() {
             densities[90..].fill(300.0);
             let drawn = case.draw(&mut rig);
             let (_, covered) = case.check(&format!("spray-{name}-{near}"), &drawn);
+            if case.look().clumps > 0.0 {
+                let mut even = case.clone();
+                even.look().clumps = 0.0;
+                let other = fails(|| {
+                    even.check("planted-even", &drawn);
+                });
+                assert!(other, "{name}: as if spray were even");
+            }
             // Even at the smallest droplet size, mist is drawn.
             assert!(covered > 0, "{name}");
         }
