@@ -1,23 +1,29 @@
 // Clumps and strands of spray: a noise in world space that particles share if they are near each other and move alike.
 // (If each particle had its own noise, many overlapping particles would average to cotton.) The noise moves with the
-// spray and restarts as in pattern.glsl. Its cells are longer along the motion, so that fast spray
-// flies in strands. Not in the thesis. Needs frame.glsl, gradient_noise.glsl, pattern.glsl.
+// spray and restarts as in pattern.glsl. Its cells are longer along the motion, so that fast spray flies in strands.
+// Not in the thesis. Needs frame.glsl, gradient_noise.glsl, pattern.glsl.
 
-// Width of the cells of the coarsest octave in spacings; number of octaves; ratio of the widths of two successive
-// octaves. It is not 2, because then the lattices, on which the noise is 0, would coincide.
+// Width of the coarsest octave's cells in spacings.
 const float CLUMP = 3.0;
+// Number of octaves.
 const uint CLUMP_OCTAVES = 7u;
+// Ratio of the cell widths of two successive octaves. With 2 the lattices, on which the noise is 0, would coincide.
 const float FINER = 2.03;
-// Length by which a cell of the coarsest octave exceeds its width, relative to the distance by which droplets are
-// moved along their motion at most (`SpraySettings::stretch`); the max ratio of length to width; and the factor on
-// this ratio minus 1 from octave to octave. (Equally long cells of all octaves look like feathers.)
+// A cell of the coarsest octave is longer than wide by this many times the farthest way that droplets are moved along
+// their motion (`SpraySettings::stretch`).
 const float STRAND_LENGTH = 4.0;
+// Max ratio of a cell's length to its width.
 const float MOST_STRAND = 4.0;
+// Each octave's cells are rounder than the next coarser ones: the ratio of length to width, minus 1, is multiplied by
+// this. (If the cells of all octaves are equally long, spray looks like feathers.)
 const float ROUNDER = 0.75;
-// Cells are lengthened from the centre of a cubic block, this many cells of the coarsest octave wide. From a centre far
-// away, small differences in the direction of motion would displace the noise of neighbours by many cells. Cells near
-// a block's border are not lengthened, because the noise would jump there from one block to the next.
+// Width of a block in cells of the coarsest octave. Space is divided into cubic blocks, and cells are lengthened from
+// the centre of their block. From a centre far away, small differences in the direction of motion would displace the
+// noise of neighbours by many cells.
 const float BLOCK = 8.0;
+// At a block's border cells are not lengthened, because the noise would jump there from one block to the next. The
+// lengthening begins to decrease at this part of the way from the centre to the border.
+const float INNER = 0.8;
 // Max logarithm of the density.
 const float MOST_CLUMP = 3.0;
 
@@ -39,7 +45,7 @@ float clumps_at(vec3 point, vec3 particle, vec3 velocity, float pixel, uint octa
         vec3 block = BLOCK * (floor(began / BLOCK) + 0.5);
         vec3 off = began - block + apart;
         vec3 rim = abs(began - block) * (2.0 / BLOCK);
-        float excess = longer * (1.0 - smoothstep(0.8, 1.0, max(rim.x, max(rim.y, rim.z))));
+        float excess = longer * (1.0 - smoothstep(INNER, 1.0, max(rim.x, max(rim.y, rim.z))));
         float on = dot(off, along);
         block += frame.foam_octaves[1u + phase];
         float finer = 1.0;

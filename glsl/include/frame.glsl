@@ -39,7 +39,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak
     vec4 foam_aerated; // radiance of water with bubbles under foam; its opacity over the foam's
     vec4 spray_color;   // radiance; w: 1 = added
-    vec4 spray_cloud;   // optical depth and half-axis of mist; seconds of motion that droplets are spread over; sunlight that a glint adds
+    vec4 spray_cloud;   // optical depth and half-axis of mist; seconds that droplets are spread over; sunlight of a glint
     vec4 spray_mist;    // amplitude of the clumps; extinction for sunlight over foam's; scattering; relief
     mat4 shadow;        // eye -> the host's shadow map: place in it 0 to 1, depth
     mat4 to_light;      // eye -> the light's maps: place in them 0 to 1, distance along the light in scene units

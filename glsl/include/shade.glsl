@@ -837,11 +837,11 @@ const float RELIEF_OF_SKY = 0.19;
 // Largest half float.
 const float MOST_HALF = 65504.0;
 
-// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the same weighted by sunlight
-// (spray.frag). Spray is darker where the spray next to it on the screen, in the sun's direction, is denser, and
-// brighter where that spray is thinner.
+// Radiance of spray of albedo 1. `droplets`: x the optical depth, y the same weighted by sunlight (spray.frag). Spray is
+// darker where the spray next to it on the screen, in the sun's direction, is denser, and brighter where that spray is
+// thinner.
 vec3 light_of_spray(vec2 pixel, vec2 droplets) {
-    // Half floats can overflow to infinity.
+    // Half floats may have overflowed to infinity, which would give NaN.
     droplets = min(droplets, MOST_HALF);
     float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
     float relief = frame.spray_mist.w;

@@ -25,7 +25,7 @@ layout(location = 0) flat out vec3 centre;
 layout(location = 1) flat out vec3 along;  // divided by its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
-layout(location = 4) flat out vec2 amount; // optical depth at its centre; sunlight: visibility of the sun, more if it glints
+layout(location = 4) flat out vec2 amount; // optical depth at its centre; sunlight: visibility of the sun, and glint
 layout(location = 5) flat out int aside;   // distance in pixels to water beside it
 layout(location = 6) flat out uint chance; // random bits
 layout(location = 7) flat out vec3 drift;  // velocity in the world
@@ -40,8 +40,9 @@ const uint SPINDLE = 4096u;
 // ellipsoid, and in between a mix.
 const float BALL = 3.0;
 const float FLAT = 3.6;
-// One droplet in this many glints: it mirrors the sun towards the eye. First counter of the random numbers for that.
+// One droplet in this many glints: it mirrors the sun towards the eye.
 const float GLINT_ONE_OF = 32.0;
+// First counter of the random numbers that select glinting droplets.
 const uint GLINT = 8192u;
 // First counter of the random numbers by which droplets are left out in thin spray.
 const uint KEPT = 12288u;
@@ -90,7 +91,8 @@ void main() {
     uint droplets = uint(frame.density.w);
     SpraySprite sprite = sprites[gl_InstanceIndex / droplets];
     uint id = floatBitsToUint(sprite.velocity.w);
-    uint number = 5u * (gl_InstanceIndex % droplets);
+    uint droplet = gl_InstanceIndex % droplets;
+    uint number = 5u * droplet;
     chance = chance_of(id, number);
     bool several = droplets > 1u;
     // The droplets of a particle are distributed uniformly in a ball. If there are several, the ball is squeezed to a
@@ -114,7 +116,7 @@ void main() {
     float rare = uniform_of(PLACE, id, number + 3u);
     rare *= rare * rare;
     float size = several ? (SMALLEST_DROPLET + DROPLET_RANGE * rare * rare) * inversesqrt(torn) : 1.0;
-    bool mist = several && gl_InstanceIndex % droplets == 0u;
+    bool mist = several && droplet == 0u;
 
     // In world space, so that it does not turn with the camera.
     float along_motion = 2.0 * uniform_of(PLACE, id, number + 4u) - 1.0;
@@ -149,14 +151,14 @@ void main() {
     drift = mat3(frame.world) * sprite.velocity.xyz;
     bool clumpy = several && frame.spray_mist.x > 0.0;
     source = vec4((frame.world * vec4(sprite.centre.xyz, 1.0)).xyz, mist && clumpy ? 1.0 : 0.0);
-    bool drawn = float(gl_InstanceIndex % droplets) < kept;
+    bool drawn = float(droplet) < kept;
     // A loop instead of a branch, for CPU drivers (docs/performance.md).
     for (bool go = drawn && !mist && clumpy; go; go = false) {
         vec3 point = (frame.world * vec4(centre, 1.0)).xyz;
         float density = clumps_at(point, source.xyz, drift, pixel, DROPLET_OCTAVES);
         // Where spray is thinner there are fewer droplets, and where it is denser they are more opaque. A droplet
         // fades as the density passes its random number.
-        float own = uniform_of(PLACE, id, KEPT + gl_InstanceIndex % droplets);
+        float own = uniform_of(PLACE, id, KEPT + droplet);
         amount.x *= max(density, 1.0) * clamp((density - own) / FADE + 0.5, 0.0, 1.0);
         drawn = amount.x > 0.0;
     }
@@ -164,8 +166,7 @@ void main() {
     // there is more white foam than coloured water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     float direct = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
-    bool glints = several && !mist
-        && GLINT_ONE_OF * uniform_of(PLACE, id, GLINT + gl_InstanceIndex % droplets) < 1.0;
+    bool glints = several && !mist && GLINT_ONE_OF * uniform_of(PLACE, id, GLINT + droplet) < 1.0;
     amount.y = mix(direct, sqrt(sqrt(direct)), frame.spray_mist.z) * (glints ? 1.0 + frame.spray_cloud.w : 1.0);
     aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
     along = e1 / axes.x;

@@ -355,6 +355,30 @@ fn spray_lies_over_the_scene() {
     }
 }
 
+/// Sums of glints above the largest half float, which a device that blends half floats cannot hold,
+/// count as that number.
+#[test]
+fn spray_with_too_many_glints_is_finite() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::lit(&gpu, &spraying(size), 1);
+    let mut case = Sprayed::new(size, Lens::Standard, 0.0);
+    case.shot.densities.as_mut().expect("densities").fill(100.0);
+    let place = scenes::world(&case.shot.camera, &[[0.0, 0.0, 4.0]])[0];
+    case.shot.positions.fill(place);
+    let look = case.look();
+    (look.droplets, look.scatter_radius, look.size) = (64, 0.1, 4.0);
+    (look.opacity, look.glints) = (1.0 - f32::EPSILON, 64.0);
+    for relief in [0.0, 1.5] {
+        case.look().relief = relief;
+        let drawn = case.draw(&mut rig);
+        let lit = drawn.lit_spray.as_ref().expect("a frame with spray");
+        let most = lit.data.iter().fold(0.0_f32, |a, b| a.max(*b));
+        assert!(most > 70_000.0, "{most}");
+        case.check_over(&format!("spray-glints-{relief}"), &drawn, &case.shot.color);
+    }
+}
+
 /// Spray of opacity 0 is invisible. The test draws it over water and foam, and then checks that
 /// visible spray lies over that picture.
 #[test]

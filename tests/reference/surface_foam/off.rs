@@ -27,6 +27,14 @@ impl Off {
         Self { v, e: 3.0 * 3.0_f64.sqrt() * U * v.length() }
     }
 
+    /// This point of eye space transformed to the world. The matrix's entries err as its inverse
+    /// does.
+    pub fn to_world(self, view: &View) -> Self {
+        let back = view.view.inverse();
+        let terms = 3.0_f64.sqrt() * self.v.length() + back.w_axis.truncate().length();
+        Self { v: back.transform_point3(self.v), e: self.e + 16.0 * U * terms }
+    }
+
     /// The whole error may lie across the vector and rotate it. The sum of squares adds 3u/2, the
     /// root by `1 / inversesqrt` 9u, the quotient 5u.
     pub fn normalize(self) -> Self {

@@ -172,9 +172,7 @@ impl Pattern {
 
         // The finest octave, at the hit. Its centre is transformed to eye space and back.
         let which = usize::try_from(pcg(sprite.id) >> 31).expect("a bit");
-        let away = to_world.w_axis.truncate().length();
-        let back = 16.0 * U * (3.0_f64.sqrt() * sprite.center.length() + away);
-        let from = Off { v: point, e: ellipse.center.e + back };
+        let from = Off { v: sprite.center, e: ellipse.center.e }.to_world(view);
         let moved = Off { v: velocity, e: 3.0 * turned * velocity.length() };
         let place = self.place(from, moved, &phases[which], 2, spacing);
         let cell = OCTAVES[2].0 * self.size * spacing;
